@@ -1,0 +1,2 @@
+//! The program `embate`.
+fn main() {}

@@ -1,0 +1,7 @@
+//! Formats that embate reads and writes, one a file.
+
+pub mod gmsh;
+pub mod model_file;
+pub mod picture;
+pub mod results;
+pub mod vtu;

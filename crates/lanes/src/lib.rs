@@ -1,0 +1,1 @@
+//! Vector lanes with equal bits on every instruction set.

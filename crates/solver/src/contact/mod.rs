@@ -1,0 +1,3 @@
+//! Contact: search -> project -> law -> forces.
+
+pub mod search;

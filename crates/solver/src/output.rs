@@ -1,0 +1,186 @@
+//! What a run can show: the cells once, a frame per output time, a row of the history, the summary at the end.
+//! Values only, no formats; goes to the writers of `embate-files`.
+
+/// Shape of a cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CellKind {
+    /// Three-node triangle, counter-clockwise.
+    Triangle,
+    /// Four-node quadrilateral, counter-clockwise.
+    Quadrilateral,
+}
+
+/// The cells of all parts; does not change during a run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Cells {
+    /// Node indices of all cells, one after the other.
+    pub nodes: Vec<u32>,
+    /// Where each cell's nodes start in `nodes`, and the total at the end: `cells + 1` values.
+    pub offsets: Vec<u32>,
+    /// Shape of each cell.
+    pub kinds: Vec<CellKind>,
+    /// Part index of each cell.
+    pub parts: Vec<u32>,
+    /// Name of each part.
+    pub part_names: Vec<String>,
+}
+
+impl Cells {
+    /// Number of cells.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.kinds.len()
+    }
+    /// Whether there is no cell.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.kinds.is_empty()
+    }
+    /// Node indices of cell `index`.
+    #[must_use]
+    pub fn cell(&self, index: usize) -> &[u32] {
+        &self.nodes[self.offsets[index] as usize..self.offsets[index + 1] as usize]
+    }
+}
+
+/// Where the values of a field live.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Location {
+    /// One value (or tuple) per node.
+    Node,
+    /// One value (or tuple) per cell.
+    Cell,
+}
+
+/// Description of a field: the same for all its frames.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FieldKind {
+    /// Name in files, `plastic_strain` for example.
+    pub name: &'static str,
+    /// Nodes or cells.
+    pub location: Location,
+    /// Names of the components; empty for a scalar.
+    pub components: &'static [&'static str],
+    /// SI unit, `Pa` for example; empty for a pure number.
+    pub unit: &'static str,
+    /// One line: what it is.
+    pub doc: &'static str,
+}
+
+impl FieldKind {
+    /// Values per node or cell.
+    #[must_use]
+    pub fn width(&self) -> usize {
+        self.components.len().max(1)
+    }
+}
+
+/// A field at one time: `width` values per node or cell, one node or cell after the other.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Field {
+    /// What it is.
+    pub kind: &'static FieldKind,
+    /// The values.
+    pub values: Vec<f64>,
+}
+
+/// The state at one output time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frame<const D: usize> {
+    /// Time, s.
+    pub time: f64,
+    /// Step number.
+    pub step: u64,
+    /// Current node positions, m.
+    pub positions: Vec<[f64; D]>,
+    /// Fields in the order of [`FIELDS`].
+    pub fields: Vec<Field>,
+}
+
+/// Components of a plane vector.
+const VECTOR: &[&str] = &["x", "y"];
+/// Components of a stress in the plane, out-of-plane normal stress included.
+const STRESS: &[&str] = &["xx", "yy", "zz", "xy"];
+
+/// Every field that can be written.
+pub static FIELDS: &[FieldKind] = &[
+    FieldKind { name: "displacement", location: Location::Node, components: VECTOR, unit: "m", doc: "current minus initial position" },
+    FieldKind { name: "velocity", location: Location::Node, components: VECTOR, unit: "m/s", doc: "velocity at the frame's time" },
+    FieldKind {
+        name: "contact_force",
+        location: Location::Node,
+        components: VECTOR,
+        unit: "N/m",
+        doc: "sum of the contact and wall forces on the node, per metre of depth",
+    },
+    FieldKind {
+        name: "stress",
+        location: Location::Cell,
+        components: STRESS,
+        unit: "Pa",
+        doc: "Cauchy stress, mean over the element's points",
+    },
+    FieldKind {
+        name: "von_mises",
+        location: Location::Cell,
+        components: &[],
+        unit: "Pa",
+        doc: "equivalent stress √(3/2 s:s) of the mean stress",
+    },
+    FieldKind { name: "pressure", location: Location::Cell, components: &[], unit: "Pa", doc: "minus a third of the stress trace" },
+    FieldKind {
+        name: "plastic_strain",
+        location: Location::Cell,
+        components: &[],
+        unit: "",
+        doc: "equivalent plastic strain, mean over the element's points",
+    },
+    FieldKind {
+        name: "energy_density",
+        location: Location::Cell,
+        components: &[],
+        unit: "J/m^3",
+        doc: "stored elastic energy per initial volume",
+    },
+];
+
+/// Position of a field in [`FIELDS`] by name.
+#[must_use]
+pub fn field_kind(name: &str) -> Option<&'static FieldKind> {
+    FIELDS.iter().find(|kind| kind.name == name)
+}
+
+/// Result figures of a run, in the order in which they are written; see `docs/output.md` for the meaning of each.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Summary {
+    /// Number of elements.
+    pub elements: usize,
+    /// Number of nodes.
+    pub nodes: usize,
+    /// Steps done.
+    pub steps: u64,
+    /// Time reached, s.
+    pub time_end: f64,
+    /// Smallest time step taken, s.
+    pub stable_time_step_min: f64,
+    /// What governed that step.
+    pub stable_time_step_governor: String,
+    /// Largest |stores − works| so far as a fraction of the largest total energy.
+    pub energy_drift: f64,
+    /// Largest |change of kinetic energy − sum of works| as a fraction of the largest total energy.
+    pub ledger_residual: f64,
+    /// Change of linear momentum over Σ m|v|; `None` where walls, supports or loads act.
+    pub momentum_drift_linear: Option<f64>,
+    /// Change of angular momentum over Σ m|x||v|; `None` where walls, supports or loads act.
+    pub momentum_drift_angular: Option<f64>,
+    /// Deepest penetration seen in any contact or wall, m.
+    pub penetration_max: f64,
+    /// Hash of positions and velocities at the end, hexadecimal.
+    pub state_hash: String,
+    /// Threads used.
+    pub threads: usize,
+    /// Instruction set used.
+    pub simd: String,
+    /// Things the user should know, each said once.
+    pub warnings: Vec<String>,
+}

@@ -1,0 +1,124 @@
+//! What a number means: its dimension, the range it may lie in, and the description that the input
+//! reader, the JSON schema, `embate list` and the documentation are made from.
+
+use std::fmt;
+
+/// Physical dimension as integer exponents of kilogram, metre, second and kelvin. Values are SI `f64`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Dimension {
+    /// Exponent of mass (kg).
+    pub mass: i8,
+    /// Exponent of length (m).
+    pub length: i8,
+    /// Exponent of time (s).
+    pub time: i8,
+    /// Exponent of temperature (K).
+    pub temperature: i8,
+}
+
+impl Dimension {
+    const fn new(mass: i8, length: i8, time: i8) -> Self {
+        Self { mass, length, time, temperature: 0 }
+    }
+    /// A pure number (also angles: the reader turns degrees into radians).
+    pub const NONE: Self = Self::new(0, 0, 0);
+    /// m.
+    pub const LENGTH: Self = Self::new(0, 1, 0);
+    /// s.
+    pub const TIME: Self = Self::new(0, 0, 1);
+    /// m/s.
+    pub const VELOCITY: Self = Self::new(0, 1, -1);
+    /// m/s².
+    pub const ACCELERATION: Self = Self::new(0, 1, -2);
+    /// kg/m³.
+    pub const DENSITY: Self = Self::new(1, -3, 0);
+    /// Pa = N/m²; also a stiffness per metre of depth (N/m/m).
+    pub const PRESSURE: Self = Self::new(1, -1, -2);
+    /// Pa/m = N/m³: pressure per penetration.
+    pub const PRESSURE_PER_LENGTH: Self = Self::new(1, -2, -2);
+
+    /// The SI unit in plain text, `kg/m^3` for example; empty for a pure number.
+    #[must_use]
+    pub fn unit(self) -> String {
+        match self {
+            Self::NONE => return String::new(),
+            Self::PRESSURE => return "Pa".into(),
+            Self::PRESSURE_PER_LENGTH => return "Pa/m".into(),
+            _ => {}
+        }
+        let power = |(name, exponent): &(&str, i8)| match exponent.abs() {
+            1 => (*name).to_string(),
+            p => format!("{name}^{p}"),
+        };
+        let all = [("kg", self.mass), ("m", self.length), ("s", self.time), ("K", self.temperature)];
+        let above: Vec<_> = all.iter().filter(|(_, e)| *e > 0).map(power).collect();
+        let below: Vec<_> = all.iter().filter(|(_, e)| *e < 0).map(power).collect();
+        let above = if above.is_empty() { "1".to_string() } else { above.join(" ") };
+        if below.is_empty() { above } else { format!("{above}/{}", below.join("/")) }
+    }
+}
+
+impl fmt::Display for Dimension {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.unit())
+    }
+}
+
+/// The values that are allowed; every range excludes NaN and the infinities.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Range {
+    /// Any finite number.
+    Finite,
+    /// Greater than zero.
+    Positive,
+    /// Zero or greater.
+    NotNegative,
+    /// `low < value < high`.
+    Between(f64, f64),
+    /// `low < value <= high`.
+    UpTo(f64, f64),
+}
+
+impl Range {
+    /// Whether `value` is finite and lies in the range.
+    #[must_use]
+    pub fn contains(self, value: f64) -> bool {
+        value.is_finite()
+            && match self {
+                Self::Finite => true,
+                Self::Positive => value > 0.0,
+                Self::NotNegative => value >= 0.0,
+                Self::Between(low, high) => low < value && value < high,
+                Self::UpTo(low, high) => low < value && value <= high,
+            }
+    }
+}
+
+impl fmt::Display for Range {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Finite => f.write_str("a finite number"),
+            Self::Positive => f.write_str("greater than 0"),
+            Self::NotNegative => f.write_str("0 or greater"),
+            Self::Between(low, high) => write!(f, "between {low} and {high}, both excluded"),
+            Self::UpTo(low, high) => write!(f, "greater than {low} and at most {high}"),
+        }
+    }
+}
+
+/// One parameter of a material law, an element or a contact law, described once for input, lists and documentation.
+#[derive(Clone, Copy, Debug)]
+pub struct Parameter {
+    /// Key in the model file.
+    pub name: &'static str,
+    /// Symbol as in the equations of the documentation.
+    pub symbol: &'static str,
+    /// Physical dimension.
+    pub dimension: Dimension,
+    /// Allowed values (SI).
+    pub range: Range,
+    /// Value when the key is left out; `None`: the key is required.
+    pub default: Option<f64>,
+    /// One line: what it is.
+    pub doc: &'static str,
+}

@@ -1,1 +1,22 @@
-//! Vector lanes with equal bits on every instruction set.
+//! Vector lanes: one kernel text, generic over [`Lane`], gives the same bits with scalar code, AVX2 and AVX-512.
+//!
+//! The same bits come from using only operations that IEEE 754 rounds correctly (`+ - * /`, `sqrt`), comparisons, selections
+//! and bit patterns; multiply and add are never fused. `exp`, `ln` and `cbrt` are built from them ([`math`]), because the platform's differ.
+//!
+//! This crate holds the only unsafe code of embate. Storage is in batches of [`BATCH`] values; a lane type takes a batch in
+//! `BATCH / WIDTH` parts. [`Level`] chooses the instruction set at run time; [`Indices`] is checked once so that gathers need not be.
+
+mod dispatch;
+mod gather;
+mod lane;
+pub mod math;
+mod scalar;
+#[cfg(target_arch = "x86_64")]
+mod x86;
+
+pub use dispatch::{Kernel, Level};
+pub use gather::Indices;
+pub use lane::{BATCH, Batch, Lane};
+
+#[cfg(test)]
+mod tests;

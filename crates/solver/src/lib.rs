@@ -2,12 +2,14 @@
 //!
 //! The contents are listed in the order in which the data walks through them.
 
-pub mod contact;
-pub mod element;
 pub mod error;
-pub mod material;
-pub mod mesh;
-pub mod model;
-pub mod output;
 pub mod quantity;
+pub mod tensor;
+pub mod model;
+pub mod mesh;
+pub mod material;
+pub mod element;
+pub mod block;
+pub mod contact;
+pub mod output;
 pub mod simulation;

@@ -1,4 +1,13 @@
-//! Element registry.
+//! Elements as declared facts plus two functions: the map from nodal vectors to natural gradients, and its transpose.
+//!
+//! Everything else (strain, internal force, volume) follows in the block. To add an element: one file, one line in [`elements!`].
+
+mod quad4;
+
+pub use quad4::{Quad4, Quad4Full};
+
+use crate::tensor::{Dim, Matrix, Space};
+use embate_lanes::Lane;
 
 /// An element as the registry describes it.
 #[derive(Clone, Copy, Debug)]
@@ -13,8 +22,60 @@ pub struct ElementKind {
     pub nodes: usize,
 }
 
+/// An element of dimension `D` with `N` nodes and `P` quadrature points. The functions must be `#[inline(always)]`.
+pub trait Element<const D: usize, const N: usize, const P: usize>: Copy + Send + Sync + 'static
+where
+    Dim<D>: Space<D>,
+{
+    /// Name and source.
+    const KIND: ElementKind;
+    /// Natural coordinates of the points.
+    const POINTS: [[f64; D]; P];
+    /// Weights of the points.
+    const WEIGHTS: [f64; P];
+    /// Natural coordinates of the nodes.
+    const NODES: [[f64; D]; N];
+    /// Whether the dilatation is averaged over the element (B-bar), which keeps plastic flow and rubber from locking.
+    const MEAN_DILATATION: bool;
+
+    /// Shape functions at natural coordinates.
+    fn shape(natural: [f64; D]) -> [f64; N];
+    /// Gradient of a nodal vector with respect to the natural coordinates, at every point: `out[p][i][k]` = Σ_a u_a,i ∂N_a/∂ξ_k.
+    fn gradients<L: Lane>(nodal: &[[L; D]; N]) -> [Matrix<L, D>; P];
+    /// The transpose of [`Element::gradients`]: `out[a][i]` = Σ_p Σ_k flux_p,ik ∂N_a/∂ξ_k.
+    fn divergence<L: Lane>(flux: &[Matrix<L, D>; P]) -> [[L; D]; N];
+    /// Square of the length that divides the volume to give the element's thickness in the stable step: the longest side or diagonal.
+    fn extent_squared<L: Lane>(nodal: &[[L; D]; N]) -> L;
+}
+
+/// Someone who does something with every element's type.
+pub trait ElementVisitor {
+    /// What comes out.
+    type Output;
+    /// The work for an element of the plane.
+    fn visit<E: Element<2, N, P>, const N: usize, const P: usize>(self) -> Self::Output;
+}
+
+/// The registry: one line per element, with its nodes and points.
+macro_rules! elements {
+    ($($element:ident: $nodes:literal nodes, $points:literal points),* $(,)?) => {
+        /// Every element, in the order in which it is listed.
+        pub const ELEMENTS: &[ElementKind] = &[$(<$element as Element<2, $nodes, $points>>::KIND),*];
+
+        /// Calls `visitor` with the element called `name`; `None` when there is none.
+        pub fn with_element<V: ElementVisitor>(name: &str, visitor: V) -> Option<V::Output> {
+            match name {
+                $(n if n == <$element as Element<2, $nodes, $points>>::KIND.name => Some(visitor.visit::<$element, $nodes, $points>()),)*
+                _ => None,
+            }
+        }
+    };
+}
+
+elements!(Quad4: 4 nodes, 4 points, Quad4Full: 4 nodes, 4 points);
+
 /// Every element.
 #[must_use]
 pub fn registry() -> Vec<ElementKind> {
-    Vec::new()
+    ELEMENTS.to_vec()
 }

@@ -1,0 +1,40 @@
+//! Node indices of batches, checked once against their bound so that the gathers in kernels need no check per index.
+
+use crate::BATCH;
+
+/// Rows of [`BATCH`] indices, all below [`Indices::bound`].
+#[derive(Clone, Debug, Default)]
+pub struct Indices {
+    rows: Box<[[u32; BATCH]]>,
+    bound: usize,
+}
+
+impl Indices {
+    /// Takes rows of indices and finds their bound.
+    #[must_use]
+    pub fn new(rows: Vec<[u32; BATCH]>) -> Self {
+        let bound = rows.iter().flatten().map(|&index| index as usize + 1).max().unwrap_or(0);
+        Self { rows: rows.into_boxed_slice(), bound }
+    }
+
+    /// One more than the largest index: the shortest list of points that may be gathered from.
+    #[must_use]
+    pub fn bound(&self) -> usize {
+        self.bound
+    }
+
+    /// The indices of a row.
+    #[inline(always)]
+    #[must_use]
+    pub fn row(&self, row: usize) -> &[u32; BATCH] {
+        &self.rows[row]
+    }
+
+    /// The indices of a row from `at` on, after the checks that make unchecked reads of `points` sound:
+    /// there are `width` of them, and every one is a valid index of `points`.
+    #[inline(always)]
+    pub(crate) fn checked<T>(&self, points: &[T], row: usize, at: usize, width: usize) -> &[u32] {
+        assert!(points.len() >= self.bound, "fewer points than the indices need");
+        &self.rows[row][at..at + width]
+    }
+}

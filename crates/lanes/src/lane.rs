@@ -1,0 +1,77 @@
+//! The trait that every lane type fulfils, and the batch that it loads from.
+
+use crate::Indices;
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
+
+/// Values in a batch: the unit of storage, a multiple of every lane width.
+pub const BATCH: usize = 8;
+
+/// A batch of values, aligned to a cache line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C, align(64))]
+pub struct Batch(pub [f64; BATCH]);
+
+impl Batch {
+    /// Eight equal values.
+    #[must_use]
+    pub const fn splat(value: f64) -> Self {
+        Self([value; BATCH])
+    }
+}
+
+impl Default for Batch {
+    fn default() -> Self {
+        Self::splat(0.0)
+    }
+}
+
+/// `WIDTH` values that go through a kernel together.
+///
+/// Every method is inlined into the kernel, which [`crate::Level::run`] compiles once per instruction set.
+pub trait Lane:
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + AddAssign
+    + Send
+    + Sync
+    + 'static
+{
+    /// Values per lane: 1, 4 or 8.
+    const WIDTH: usize;
+    /// Result of a comparison, one truth value per lane.
+    type Mask: Copy;
+
+    /// `WIDTH` equal values.
+    fn splat(value: f64) -> Self;
+    /// The `WIDTH` values of `batch` that begin at `at` (a multiple of `WIDTH`, else it panics).
+    fn load(batch: &Batch, at: usize) -> Self;
+    /// Writes the values to `batch` from `at` on (a multiple of `WIDTH`, else it panics).
+    fn store(self, batch: &mut Batch, at: usize);
+    /// Components of the points `points[indices[row][at..at + WIDTH]]`. Panics when `points` is shorter than
+    /// the bound of `indices`.
+    fn gather<const D: usize>(points: &[[f64; D]], indices: &Indices, row: usize, at: usize) -> [Self; D];
+
+    /// Square root, correctly rounded.
+    fn sqrt(self) -> Self;
+    /// Absolute value.
+    fn abs(self) -> Self;
+    /// `self` where `self < other`, else `other`.
+    fn min(self, other: Self) -> Self;
+    /// `self` where `self > other`, else `other`.
+    fn max(self, other: Self) -> Self;
+    /// `self < other`; false where either is NaN.
+    fn less(self, other: Self) -> Self::Mask;
+    /// `yes` where the mask is true, else `no`.
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+    /// Whether the mask is true anywhere.
+    fn any(mask: Self::Mask) -> bool;
+
+    /// Mantissa in [1, 2) and exponent of positive normal numbers: `self = mantissa 2^exponent`.
+    fn split(self) -> (Self, Self);
+    /// 2 to the power of `self`, which must hold whole numbers from -1022 to 1023.
+    fn power_of_two(self) -> Self;
+}

@@ -1,0 +1,63 @@
+//! `f64` as a lane of width one: the reference that the others must equal to the bit.
+
+use crate::{Batch, Indices, Lane};
+
+impl Lane for f64 {
+    const WIDTH: usize = 1;
+    type Mask = bool;
+
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        value
+    }
+    #[inline(always)]
+    fn load(batch: &Batch, at: usize) -> Self {
+        batch.0[at]
+    }
+    #[inline(always)]
+    fn store(self, batch: &mut Batch, at: usize) {
+        batch.0[at] = self;
+    }
+    #[inline(always)]
+    fn gather<const D: usize>(points: &[[f64; D]], indices: &Indices, row: usize, at: usize) -> [Self; D] {
+        points[indices.row(row)[at] as usize]
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        f64::sqrt(self)
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        f64::abs(self)
+    }
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        if self < other { self } else { other }
+    }
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        if self > other { self } else { other }
+    }
+    #[inline(always)]
+    fn less(self, other: Self) -> bool {
+        self < other
+    }
+    #[inline(always)]
+    fn select(mask: bool, yes: Self, no: Self) -> Self {
+        if mask { yes } else { no }
+    }
+    #[inline(always)]
+    fn any(mask: bool) -> bool {
+        mask
+    }
+    #[inline(always)]
+    fn split(self) -> (Self, Self) {
+        let bits = self.to_bits();
+        let mantissa = f64::from_bits(bits & 0x000F_FFFF_FFFF_FFFF | 0x3FF0_0000_0000_0000);
+        (mantissa, f64::from_bits((bits >> 52) | 0x4330_0000_0000_0000) - (4_503_599_627_370_496.0 + 1023.0))
+    }
+    #[inline(always)]
+    fn power_of_two(self) -> Self {
+        f64::from_bits((self + (4_503_599_627_370_496.0 + 1023.0)).to_bits() << 52)
+    }
+}

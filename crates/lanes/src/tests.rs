@@ -1,0 +1,140 @@
+//! Every instruction set of this machine against the scalar reference, to the bit; `ln`, `exp`, `cbrt` against the platform's.
+
+use crate::*;
+
+/// Numbers that provoke: zeros, signs, tiny, huge, and a deterministic spread.
+fn numbers() -> Vec<f64> {
+    let mut list =
+        vec![0.0, -0.0, 1.0, -1.0, 0.5, 2.0, 1e-300, 1e300, -1e-17, 3.0, std::f64::consts::SQRT_2, f64::INFINITY, f64::NAN, 0.1, 7.0, 1e-3];
+    let mut state = 1u64;
+    while list.len() < 512 {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        let mantissa = (state >> 11) as f64 / (1u64 << 53) as f64 - 0.5;
+        list.push(mantissa * 10f64.powi(((state >> 3) % 40) as i32 - 20));
+    }
+    list
+}
+
+struct EveryOperation<'a>(&'a [Batch], &'a [Batch]);
+
+impl Kernel for EveryOperation<'_> {
+    type Output = Vec<u64>;
+    #[inline(always)]
+    fn run<L: Lane>(self) -> Vec<u64> {
+        let mut results = Vec::new();
+        for (a, b) in self.0.iter().zip(self.1) {
+            let mut out = [Batch::default(); 13];
+            for at in (0..BATCH).step_by(L::WIDTH) {
+                let (x, y) = (L::load(a, at), L::load(b, at));
+                let positive = x.abs().max(L::splat(1e-300)).min(L::splat(1e300));
+                let less = x.less(y);
+                let all = [
+                    x + y,
+                    x - y,
+                    x * y,
+                    x / y,
+                    -x,
+                    positive.sqrt(),
+                    x.abs(),
+                    x.min(y),
+                    x.max(y),
+                    L::select(less, x, y),
+                    math::ln(positive),
+                    math::exp(y),
+                    math::cbrt(positive),
+                ];
+                for (value, slot) in all.into_iter().zip(&mut out) {
+                    value.store(slot, at);
+                }
+            }
+            // The sign and payload of a NaN are not defined by IEEE 754; everything else is.
+            results.extend(out.iter().flat_map(|batch| batch.0).map(|v| if v.is_nan() { f64::NAN.to_bits() } else { v.to_bits() }));
+        }
+        results
+    }
+}
+
+fn batches(list: &[f64]) -> Vec<Batch> {
+    list.chunks_exact(BATCH).map(|chunk| Batch(chunk.try_into().unwrap())).collect()
+}
+
+#[test]
+fn every_operation_gives_the_same_bits_on_every_level() {
+    let a = numbers();
+    let mut b = a.clone();
+    b.rotate_left(5);
+    let (a, b) = (batches(&a), batches(&b));
+    let reference = Level::SCALAR.run(EveryOperation(&a, &b));
+    for level in Level::available() {
+        assert_eq!(reference, level.run(EveryOperation(&a, &b)), "{}", level.name());
+    }
+}
+
+struct Gather<'a, const D: usize>(&'a [[f64; D]], &'a Indices, usize);
+
+impl<const D: usize> Kernel for Gather<'_, D> {
+    type Output = Vec<f64>;
+    #[inline(always)]
+    fn run<L: Lane>(self) -> Vec<f64> {
+        let mut results = Vec::new();
+        for row in 0..self.2 {
+            let mut out = [Batch::default(); D];
+            for at in (0..BATCH).step_by(L::WIDTH) {
+                for (component, slot) in L::gather(self.0, self.1, row, at).into_iter().zip(&mut out) {
+                    component.store(slot, at);
+                }
+            }
+            results.extend(out.iter().flat_map(|batch| batch.0));
+        }
+        results
+    }
+}
+
+fn gathers<const D: usize>() {
+    let points: Vec<[f64; D]> = (0..100).map(|i| std::array::from_fn(|d| (i * 10 + d) as f64)).collect();
+    let rows: Vec<[u32; BATCH]> = (0..20).map(|r| std::array::from_fn(|k| ((r * 37 + k * 11) % 100) as u32)).collect();
+    let expected: Vec<f64> = rows.iter().flat_map(|row| (0..D).flat_map(|d| row.map(|i| points[i as usize][d]))).collect();
+    let indices = Indices::new(rows);
+    for level in Level::available() {
+        assert_eq!(expected, level.run(Gather(&points, &indices, 20)), "{}", level.name());
+    }
+}
+
+#[test]
+fn gathers_find_the_right_points_in_the_plane_and_in_space() {
+    gathers::<2>();
+    gathers::<3>();
+}
+
+#[test]
+fn a_gather_from_too_few_points_is_refused_on_every_level() {
+    let indices = Indices::new(vec![[9; BATCH]]);
+    for level in Level::available() {
+        let refused = std::panic::catch_unwind(|| level.run(Gather(&[[0.0; 2]; 9], &indices, 1)));
+        assert!(refused.is_err(), "{}", level.name());
+    }
+}
+
+#[test]
+fn transcendental_functions_are_accurate() {
+    for i in 1..20_000 {
+        let x = 0.001 * f64::from(i);
+        assert!((math::ln(x) - x.ln()).abs() <= 4e-16 * x.ln().abs().max(1e-3) + 1e-18, "ln {x}");
+        let y = x - 10.0;
+        assert!((math::exp(y) / y.exp() - 1.0).abs() <= 5e-16, "exp {y}");
+        assert!((math::cbrt(x) / x.cbrt() - 1.0).abs() <= 5e-16, "cbrt {x}");
+    }
+    assert_eq!(math::ln(1.0f64).to_bits(), 0.0f64.to_bits());
+    assert_eq!(math::exp(0.0f64), 1.0);
+    assert_eq!(math::cbrt(1.0f64), 1.0);
+}
+
+#[test]
+fn levels_are_found_by_name() {
+    assert_eq!(Level::named("scalar"), Some(Level::SCALAR));
+    assert_eq!(Level::named("abacus"), None);
+    for level in Level::available() {
+        assert_eq!(Level::named(level.name()), Some(level));
+        assert!(Level::NAMES.contains(&level.name()));
+    }
+}

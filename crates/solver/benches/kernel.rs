@@ -1,0 +1,61 @@
+//! Element kernels: million element-steps per second on one core, per element, law and instruction set, beside the scalar lane in the same run.
+//!
+//! `cargo bench -p embate-solver --bench kernel`
+
+use embate_lanes::{Batch, Level};
+use embate_solver::block::{Block, BlockInput, Motion, make};
+use embate_solver::model::Material;
+use std::time::Instant;
+
+/// A square of `n` × `n` elements in a swirling, stretching motion that yields.
+fn patch(n: usize) -> (Vec<[f64; 2]>, Vec<[f64; 2]>, Vec<u32>) {
+    let node = |i: usize, j: usize| (j * (n + 1) + i) as u32;
+    let positions: Vec<[f64; 2]> = (0..(n + 1) * (n + 1)).map(|k| [(k % (n + 1)) as f64 * 1e-3, (k / (n + 1)) as f64 * 1e-3]).collect();
+    let velocities = positions.iter().map(|[x, y]| [100.0 * y + 20.0 * x, -80.0 * x + 5.0 * y]).collect();
+    let quads = (0..n * n).flat_map(|k| {
+        let (i, j) = (k % n, k / n);
+        [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)]
+    });
+    (positions, velocities, quads.collect())
+}
+
+fn rate(block: &mut dyn Block<2>, positions: &[[f64; 2]], velocities: &[[f64; 2]], level: Level) -> f64 {
+    let mut corners = vec![Batch::default(); block.corner_batches()];
+    let motion = Motion { positions, velocities, time_step: 1e-7 };
+    let mut best = f64::INFINITY;
+    for _ in 0..9 {
+        let repeats = (2_000_000 / block.elements()).max(1);
+        let start = Instant::now();
+        for _ in 0..repeats {
+            std::hint::black_box(block.advance(&motion, level, &mut corners, false));
+        }
+        best = best.min(start.elapsed().as_secs_f64() / (repeats * block.elements()) as f64);
+    }
+    1e-6 / best
+}
+
+fn main() {
+    println!("million element-steps per second, one core, best of 9 (ratio to scalar)");
+    for (elements, n) in [("in cache, 1,024 elements", 32), ("out of cache, 1,048,576 elements", 1024)] {
+        println!("{elements}");
+        let (positions, velocities, connectivity) = patch(n);
+        for element in ["quad4", "quad4_full"] {
+            for law in ["elastic", "j2", "neo_hookean"] {
+                let parameters = [("density", 7800.0), ("young", 2e11), ("poisson", 0.3), ("yield", 1e8), ("hardening", 5e10)];
+                let material = Material { law: law.into(), parameters: parameters.iter().map(|(k, v)| ((*k).to_string(), *v)).collect() };
+                let input = BlockInput { element, material: &material, connectivity: &connectivity, positions: &positions };
+                let mut line = format!("  {element:<11} {law:<12}");
+                let mut scalar = 0.0;
+                for level in Level::available() {
+                    let mut block = make(&input).expect("registered names");
+                    let rate = rate(block.as_mut(), &positions, &velocities, level);
+                    if level == Level::SCALAR {
+                        scalar = rate;
+                    }
+                    line += &format!("  {} {rate:6.1} ({:.2})", level.name(), rate / scalar);
+                }
+                println!("{line}");
+            }
+        }
+    }
+}

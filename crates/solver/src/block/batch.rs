@@ -1,0 +1,23 @@
+//! Storage of a block: batches of eight elements, each quantity of a batch side by side.
+
+use embate_lanes::{BATCH, Batch};
+
+/// What belongs to a batch of eight elements and does not depend on the law's number of values.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct ElementBatch {
+    /// Mass of each element; of a filled-up lane that of its original.
+    pub(crate) mass: Batch,
+    /// 1 for an element, 0 for a lane that only fills the batch up.
+    pub(crate) live: Batch,
+    /// Stored elastic energy of each element, J/m.
+    pub(crate) stored: Batch,
+    /// Dissipated energy of each element, J/m.
+    pub(crate) dissipated: Batch,
+    /// Square of each element's stable step, s².
+    pub(crate) time_step_squared: Batch,
+}
+
+/// Splits `items` elements into batches, the last filled up with copies of the last element.
+pub(crate) fn element_of(batch: usize, lane: usize, items: usize) -> usize {
+    (batch * BATCH + lane).min(items - 1)
+}

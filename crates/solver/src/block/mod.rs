@@ -1,0 +1,93 @@
+//! A block is one element kind times one material: it gathers node motion, updates strain and stress, and leaves corner forces.
+//!
+//! Element and material are compiled together ([`kernel`]) and erased once, as `Box<dyn Block>`: one virtual call per block
+//! and step. State lives in batches of eight ([`batch`]). Corner forces go to the assembly, which sums them in fixed order.
+
+mod batch;
+mod kernel;
+mod make;
+
+pub use make::{BlockInput, make};
+
+use embate_lanes::{Batch, Level};
+
+/// Node motion that a block gathers from: end of step positions and the velocities that led there.
+#[derive(Clone, Copy, Debug)]
+pub struct Motion<'a, const D: usize> {
+    /// Positions at the end of the step, m.
+    pub positions: &'a [[f64; D]],
+    /// Velocities of the step, m/s: x_new = x_old + `time_step` v.
+    pub velocities: &'a [[f64; D]],
+    /// Step, s; zero for the first evaluation.
+    pub time_step: f64,
+}
+
+/// What a block (or a chunk of it) tells after a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Report {
+    /// Smallest square of an element's stable step, s².
+    pub time_step_squared: f64,
+    /// Smallest Jacobian determinant; not positive: an element is inverted.
+    pub determinant: f64,
+    /// Stored elastic energy, J/m.
+    pub stored: f64,
+    /// Energy dissipated so far, J/m.
+    pub dissipated: f64,
+}
+
+impl Report {
+    /// The neutral element of [`Report::join`].
+    pub const NOTHING: Self = Self { time_step_squared: f64::INFINITY, determinant: f64::INFINITY, stored: 0.0, dissipated: 0.0 };
+
+    /// Both together; energies are summed in call order.
+    #[must_use]
+    pub fn join(self, other: Self) -> Self {
+        Self {
+            time_step_squared: self.time_step_squared.min(other.time_step_squared),
+            determinant: self.determinant.min(other.determinant),
+            stored: self.stored + other.stored,
+            dissipated: self.dissipated + other.dissipated,
+        }
+    }
+}
+
+/// Mean state of an element for output.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ElementState {
+    /// Cauchy stress xx yy zz xy (yz zx), mean over the points, Pa.
+    pub stress: [f64; 6],
+    /// Equivalent plastic strain, mean over the points.
+    pub plastic_strain: f64,
+    /// Stored elastic energy per initial volume, J/m³.
+    pub energy_density: f64,
+}
+
+/// Elements of one kind and one material.
+pub trait Block<const D: usize>: Send + Sync {
+    /// Number of elements.
+    fn elements(&self) -> usize;
+    /// Length of the corner force buffer in batches: see [`corner_slot`].
+    fn corner_batches(&self) -> usize;
+    /// Advances all points to the end of the step and writes the corner forces (that pull on the nodes, N/m in the plane).
+    /// The result does not depend on `level` or on the number of threads that the current rayon pool has.
+    fn advance(&mut self, motion: &Motion<'_, D>, level: Level, corners: &mut [Batch], parallel: bool) -> Report;
+    /// Mass of an element, kg/m in the plane.
+    fn mass(&self, element: usize) -> f64;
+    /// Share of corner `corner` in the mass of `element` (row sum of the consistent mass), kg/m in the plane.
+    fn corner_mass(&self, element: usize, corner: usize) -> f64;
+    /// Square of an element's stable step, s², in the state of the last [`Block::advance`].
+    fn time_step_squared(&self, element: usize) -> f64;
+    /// Mean state of an element.
+    fn state(&self, element: usize) -> ElementState;
+    /// P-wave modulus K + 4µ/3 at rest, Pa: stiffness of the material under a contact surface.
+    fn wave_modulus(&self) -> f64;
+    /// Whether the law has a plastic strain.
+    fn is_plastic(&self) -> bool;
+}
+
+/// Where a corner force lies: batch index of its first component; the components of a corner follow each other.
+#[must_use]
+pub fn corner_slot<const D: usize>(nodes_per_element: usize, element: usize, corner: usize) -> (usize, usize) {
+    let (batch, lane) = (element / embate_lanes::BATCH, element % embate_lanes::BATCH);
+    ((batch * nodes_per_element + corner) * D, lane)
+}

@@ -1,0 +1,84 @@
+//! J2 (von Mises) plasticity with linear isotropic hardening, rate form, radial return.
+//!
+//! Trial stress as in `elastic`; q = √(3/2 s:s). Where q > σ_y(ε_p) = σ_y0 + H ε_p:
+//! Δε_p = (q_trial − σ_y(ε_p)) / (3µ + H), s ← s (1 − 3µ Δε_p / q_trial), dissipation per volume q Δε_p.
+//! H is the plastic modulus dσ_y/dε_p, not the tangent modulus E_t = E H / (E + H).
+//! Source: Wilkins, Methods in Computational Physics 3 (1964); Simo and Hughes, Computational Inelasticity (1998), box 3.2.
+
+use super::{DENSITY, Family, Kinematics, Law, LawKind, POISSON, Parameters, Response, YOUNG, bulk_and_shear};
+use crate::quantity::{Dimension, Parameter, Range};
+use crate::tensor::SymmetricTensor;
+use embate_lanes::Lane;
+
+/// The law with its moduli.
+#[derive(Clone, Copy, Debug)]
+pub struct J2 {
+    bulk: f64,
+    shear: f64,
+    yield_stress: f64,
+    hardening: f64,
+}
+
+impl Law for J2 {
+    const KIND: LawKind = LawKind {
+        name: "j2",
+        doc: "elasto-plasticity after von Mises with linear isotropic hardening",
+        source: "Simo and Hughes, Computational Inelasticity (1998), box 3.2",
+        parameters: &[
+            DENSITY,
+            YOUNG,
+            POISSON,
+            Parameter {
+                name: "yield",
+                symbol: "σ_y",
+                dimension: Dimension::PRESSURE,
+                range: Range::Positive,
+                default: None,
+                doc: "initial yield stress",
+            },
+            Parameter {
+                name: "hardening",
+                symbol: "H",
+                dimension: Dimension::PRESSURE,
+                range: Range::NotNegative,
+                default: Some(0.0),
+                doc: "plastic modulus dσ_y/dε_p (not the tangent modulus)",
+            },
+        ],
+    };
+    const FAMILY: Family = Family::Rate;
+    /// Equivalent plastic strain.
+    type State<L: Lane> = [L; 1];
+    const PLASTIC_STRAIN: Option<usize> = Some(0);
+
+    fn new(parameters: &Parameters<'_>) -> Self {
+        let [bulk, shear] = bulk_and_shear(parameters);
+        Self { bulk, shear, yield_stress: parameters.value("yield"), hardening: parameters.value("hardening") }
+    }
+
+    #[inline(always)]
+    fn update<L: Lane, T: SymmetricTensor<L>>(&self, kinematics: &Kinematics<L, T>, state: &mut [L; 1]) -> Response<L, T> {
+        let (bulk, shear, zero) = (L::splat(self.bulk), L::splat(self.shear), L::splat(0.0));
+        let strain = kinematics.strain_increment;
+        let mean = kinematics.stress_rotated.trace() * L::splat(1.0 / 3.0) + bulk * strain.trace();
+        let trial = kinematics.stress_rotated.deviator().plus(strain.deviator().times(shear + shear));
+        let square = trial.contract(trial) * L::splat(1.5);
+        let flow = L::splat(self.yield_stress) + L::splat(self.hardening) * state[0];
+        let yields = (flow * flow).less(square);
+        let (mut deviator, mut dissipated) = (trial, zero);
+        if L::any(yields) {
+            let q = square.sqrt();
+            let step = L::select(yields, (q - flow) * L::splat(1.0 / (3.0 * self.shear + self.hardening)), zero);
+            let factor = L::select(yields, L::splat(1.0) - L::splat(3.0 * self.shear) * step / q, L::splat(1.0));
+            deviator = trial.times(factor);
+            state[0] = state[0] + step;
+            // q at the end of the step is the new flow stress.
+            dissipated = (flow + L::splat(self.hardening) * step) * step;
+        }
+        Response { stress: deviator.plus(T::isotropic(mean)), stored: zero, dissipated, bulk, shear }
+    }
+
+    fn stiffness(&self) -> [f64; 2] {
+        [self.bulk, self.shear]
+    }
+}

@@ -1,8 +1,13 @@
 //! The loop: steps, events, the end. Made from a model; speaks to an [`Observer`].
 
-use crate::error::Error;
-use crate::model::Model;
+use crate::build;
+use crate::error::{Error, Fault};
+use crate::model::{Cadence, Model};
 use crate::output::{Cells, Frame, Summary};
+use crate::record::{Momentum, Recorded};
+use crate::step::{Governor, System};
+use embate_lanes::Level;
+use std::collections::BTreeSet;
 
 /// How a simulation is run; changes no result.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -93,70 +98,283 @@ pub struct Overview {
 }
 
 /// A simulation: a model made ready to step.
-pub struct Simulation {}
+pub struct Simulation {
+    pub(crate) system: System,
+    pub(crate) recorded: Recorded,
+    pub(crate) momentum: Option<Momentum>,
+    pub(crate) time_step_min: f64,
+    pub(crate) governor_min: String,
+    pub(crate) threads: usize,
+    pub(crate) warnings: BTreeSet<String>,
+    pub(crate) initial_penetrations: Vec<String>,
+    history: Cadence,
+    fields: Cadence,
+    max_steps: u64,
+    pool: Option<rayon::ThreadPool>,
+}
+
+/// Steps between two calls of [`Observer::progress`].
+const PROGRESS: u64 = 256;
+/// Penetrations deeper than this fraction of the model's size are told at the start.
+const TOLD_DEPTH: f64 = 1e-9;
 
 impl Simulation {
-    /// Makes a model ready.
+    /// Makes a model ready: everything at time zero is known, velocities are those of the first half step.
     ///
     /// # Errors
-    /// [`Error::Model`] with all faults.
-    pub fn new(_model: &Model, _options: &Options) -> Result<Self, Error> {
-        Err(Error::Model(Vec::new()))
+    /// [`Error::Model`] with all faults; the errors of a step, if the very first forces fail.
+    pub fn new(model: &Model, options: &Options) -> Result<Self, Error> {
+        let level = match &options.simd {
+            None => Level::best(),
+            Some(name) => Level::named(name).ok_or_else(|| {
+                let has: Vec<_> = Level::available().iter().map(|level| level.name()).collect();
+                Error::Model(vec![Fault::new("", format!("instruction set \"{name}\" is not available here"), format!("this machine has {}", has.join(", ")))])
+            })?,
+        };
+        let threads = match options.threads {
+            0 => std::thread::available_parallelism().map_or(1, usize::from),
+            threads => threads,
+        };
+        let mut system = build::system(model, level, threads).map_err(Error::Model)?;
+        let recorded = Recorded::new(model, &system).map_err(Error::Model)?;
+        let pool = if system.parallel { rayon::ThreadPoolBuilder::new().num_threads(threads).build().ok() } else { None };
+        system.parallel = pool.is_some();
+        let mut simulation = Self {
+            momentum: None,
+            recorded,
+            time_step_min: f64::INFINITY,
+            governor_min: String::new(),
+            threads: if pool.is_some() { threads } else { 1 },
+            warnings: BTreeSet::new(),
+            initial_penetrations: Vec::new(),
+            history: model.output.history,
+            fields: model.output.fields,
+            max_steps: model.run.max_steps.unwrap_or(u64::MAX),
+            pool,
+            system,
+        };
+        simulation.within_pool(System::start)?;
+        simulation.momentum = Momentum::new(&simulation.system);
+        simulation.note_step();
+        simulation.tell_initial_penetrations();
+        Ok(simulation)
     }
-    /// Names of the history's columns; the first is `time`.
+
+    /// Runs `work` on the system inside the thread pool, so that parallel loops in it start without a detour.
+    fn within_pool(&mut self, work: impl FnOnce(&mut System) -> Result<(), Error> + Send) -> Result<(), Error> {
+        let system = &mut self.system;
+        match &self.pool {
+            Some(pool) => pool.install(|| work(system)),
+            None => work(system),
+        }
+    }
+
+    fn tell_initial_penetrations(&mut self) {
+        let size = self.system.positions.iter().flatten().fold(0.0f64, |size, x| size.max(x.abs()));
+        for contact in &self.system.contacts {
+            for (node, depth) in contact.penetrations().filter(|&(_, depth)| depth > TOLD_DEPTH * size) {
+                let [x, y] = self.system.positions[node as usize];
+                self.initial_penetrations.push(format!("contact \"{}\": the node at ({x:.6e}, {y:.6e}) m is {depth:.3e} m inside at the start", contact.name));
+            }
+        }
+        if !self.initial_penetrations.is_empty() {
+            let count = self.initial_penetrations.len();
+            self.warnings.insert(format!("{count} node(s) penetrate at the start and will be pushed out: `embate check` lists them"));
+        }
+    }
+
+    /// Time reached, s.
     #[must_use]
-    pub fn history_columns(&self) -> Vec<String> {
-        Vec::new()
+    pub fn time(&self) -> f64 {
+        self.system.time
     }
+
+    /// Steps done.
+    #[must_use]
+    pub fn steps(&self) -> u64 {
+        self.system.step
+    }
+
+    /// Steps until `time` is reached (never beyond the end), at most `steps` of them.
+    ///
+    /// # Errors
+    /// Those of a step.
+    pub fn advance(&mut self, time: f64, steps: u64) -> Result<(), Error> {
+        let last = self.system.step.saturating_add(steps).min(self.max_steps);
+        let mut least = self.time_step_min;
+        let mut governors = Vec::new();
+        let result = self.within_pool(|system| {
+            while system.time < time && system.time < system.limits.end && system.step < last {
+                system.step()?;
+                // Who governs is found by a search: only when the step falls noticeably.
+                if system.time_step < 0.999 * least && system.governor != Governor::Schedule {
+                    governors.push(system.governor_name(system.governor));
+                    least = system.time_step;
+                }
+            }
+            Ok(())
+        });
+        if let Some(governor) = governors.pop() {
+            self.governor_min = governor;
+            self.time_step_min = least;
+        }
+        result
+    }
+
+    fn note_step(&mut self) {
+        if self.system.time_step < self.time_step_min {
+            self.time_step_min = self.system.time_step;
+            self.governor_min = self.system.governor_name(self.system.governor);
+        }
+    }
+
+    /// Runs to the end, telling `observer` of rows, frames and progress.
+    ///
+    /// # Errors
+    /// Any [`Error`]; the last state has been given to the observer before.
+    pub fn run(&mut self, observer: &mut dyn Observer) -> Result<(), Error> {
+        let output = |error: ObserverError| Error::Output(error.to_string());
+        let end = self.system.limits.end;
+        let (mut rows, mut frames) = (Clock::new(self.history, end), Clock::new(self.fields, end));
+        let mut last_row = f64::NEG_INFINITY;
+        let mut last_frame = None;
+        loop {
+            let time = self.system.time;
+            let over = time >= end || self.system.step >= self.max_steps;
+            if (rows.due(time) || over) && time > last_row {
+                self.note_momentum();
+                observer.row(&self.history_row()).map_err(output)?;
+                last_row = time;
+            }
+            if (frames.due(time) || over) && last_frame != Some(self.system.step) {
+                observer.frame(&self.frame()).map_err(output)?;
+                last_frame = Some(self.system.step);
+            }
+            if over {
+                return Ok(());
+            }
+            let governor = self.system.governor_name(self.system.governor);
+            let progress =
+                Progress { step: self.system.step, time, end, time_step: self.system.time_step, governor: &governor, energy_drift: self.system.ledger.drift() };
+            if observer.progress(&progress) == Control::Stop {
+                if last_frame != Some(self.system.step) {
+                    observer.frame(&self.frame()).map_err(output)?;
+                }
+                return Ok(());
+            }
+            if let Err(error) = self.advance(rows.next().min(frames.next()), PROGRESS) {
+                // The state of the failure is what the user needs to see.
+                if self.system.time > last_row {
+                    observer.row(&self.history_row()).map_err(output)?;
+                }
+                observer.frame(&self.frame()).map_err(output)?;
+                return Err(error);
+            }
+        }
+    }
+
+    fn note_momentum(&mut self) {
+        if let Some(momentum) = &mut self.momentum {
+            momentum.note(&self.system);
+        }
+    }
+
     /// The cells of all parts.
     #[must_use]
     pub fn cells(&self) -> Cells {
-        Cells::default()
+        crate::record::cells(&self.system)
     }
+
     /// The state now.
     #[must_use]
     pub fn frame(&self) -> Frame<2> {
-        Frame { time: 0.0, step: 0, positions: Vec::new(), fields: Vec::new() }
+        self.recorded.frame(&self.system)
     }
+
+    /// Names of the history's columns; the first is `time`.
+    #[must_use]
+    pub fn history_columns(&self) -> Vec<String> {
+        self.recorded.columns(&self.system)
+    }
+
+    /// Values of the history's columns now.
+    #[must_use]
+    pub fn history_row(&self) -> Vec<f64> {
+        self.recorded.row(&self.system)
+    }
+
     /// Parts, masses, step, penetrations.
     #[must_use]
     pub fn overview(&self) -> Overview {
+        let system = &self.system;
+        let part = |(part, block): (&crate::mesh::PartMesh, &Box<dyn crate::block::Block<2>>)| PartOverview {
+            name: part.name.clone(),
+            elements: block.elements(),
+            nodes: part.nodes.len(),
+            mass: (0..block.elements()).map(|element| block.mass(element)).sum(),
+            stable_time_step: (0..block.elements()).map(|element| block.time_step_squared(element)).fold(f64::INFINITY, f64::min).sqrt(),
+        };
         Overview {
-            parts: vec![],
-            stable_time_step: 0.0,
-            governor: String::new(),
-            steps_expected: 0,
-            initial_penetrations: vec![],
-            probes: vec![],
-            warnings: vec![],
+            parts: system.mesh.parts.iter().zip(&system.blocks).map(part).collect(),
+            stable_time_step: system.time_step,
+            governor: system.governor_name(system.governor),
+            steps_expected: (system.limits.end / system.time_step).ceil() as u64,
+            initial_penetrations: self.initial_penetrations.clone(),
+            probes: self.recorded.probe_lines(),
+            warnings: self.warnings.iter().cloned().collect(),
         }
     }
-    /// Runs to the end.
-    ///
-    /// # Errors
-    /// Any [`Error`]; the last good state has been given to the observer before.
-    pub fn run(&mut self, _observer: &mut dyn Observer) -> Result<(), Error> {
-        Ok(())
-    }
+
     /// Figures of the run so far (valid after a failure too).
     #[must_use]
     pub fn summary(&self) -> Summary {
+        let system = &self.system;
         Summary {
-            elements: 0,
-            nodes: 0,
-            steps: 0,
-            time_end: 0.0,
-            stable_time_step_min: 0.0,
-            stable_time_step_governor: String::new(),
-            energy_drift: 0.0,
-            ledger_residual: 0.0,
-            momentum_drift_linear: None,
-            momentum_drift_angular: None,
-            penetration_max: 0.0,
-            state_hash: String::new(),
-            threads: 1,
-            simd: String::new(),
-            warnings: vec![],
+            elements: system.blocks.iter().map(|block| block.elements()).sum(),
+            nodes: system.positions.len(),
+            steps: system.step,
+            time_end: system.time,
+            stable_time_step_min: self.time_step_min,
+            stable_time_step_governor: self.governor_min.clone(),
+            energy_drift: system.ledger.drift(),
+            ledger_residual: system.ledger.residual(),
+            momentum_drift_linear: self.momentum.as_ref().map(Momentum::linear),
+            momentum_drift_angular: self.momentum.as_ref().map(Momentum::angular),
+            penetration_max: system.penetration_max,
+            state_hash: crate::record::state_hash(system),
+            threads: self.threads,
+            simd: system.level.name().to_string(),
+            warnings: self.warnings.iter().cloned().collect(),
         }
+    }
+}
+
+/// Output times k × interval.
+struct Clock {
+    interval: f64,
+    next: u64,
+}
+
+impl Clock {
+    fn new(cadence: Cadence, end: f64) -> Self {
+        let interval = match cadence {
+            Cadence::Count(count) => end / count.max(1) as f64,
+            Cadence::Interval(interval) => interval,
+        };
+        Self { interval, next: 0 }
+    }
+
+    fn next(&self) -> f64 {
+        self.next as f64 * self.interval
+    }
+
+    /// Whether an output time has been reached; moves on to the one after `time`.
+    fn due(&mut self, time: f64) -> bool {
+        // A time that is met but for round-off counts.
+        let due = time >= self.next() * (1.0 - 1e-12);
+        if due {
+            self.next = ((time * (1.0 + 1e-12)) / self.interval).floor() as u64 + 1;
+        }
+        due
     }
 }

@@ -1,3 +1,271 @@
-//! Contact: search -> project -> law -> forces.
+//! Contact: search -> project -> law -> forces, each pass of each contact on the same configuration.
+//!
+//! Sees surfaces, positions and stiffnesses; knows nothing of elements and materials. Forces go to the nodes, spring stiffness to the stable
+//! step, works and energies to the ledger. Order is fixed: passes, then slave nodes ascending; so results do not depend on the search.
 
 pub mod search;
+pub mod projection;
+pub mod law;
+
+use crate::mesh::surface::NONE;
+use crate::model::{Formulation, Penalty};
+use crate::time::stable::Springs;
+use projection::node_segment::{Projection, Target, Vector};
+use search::{Pair, Query, Search};
+
+/// A contact between two surfaces.
+pub struct Contact {
+    /// Name.
+    pub name: String,
+    /// Force of the second surface on the first, N/m.
+    pub resultant: Vector,
+    /// Energy of its springs, J/m.
+    pub energy: f64,
+    /// Deepest penetration in the last evaluation, m.
+    pub penetration: f64,
+    targets: [Target; 2],
+    passes: Vec<Pass>,
+    reach: Reach,
+}
+
+/// One pass: nodes of one surface against the other.
+struct Pass {
+    slave: usize,
+    /// Spring stiffness of each slave node, N/m per metre of depth.
+    stiffness: Vec<f64>,
+    /// Segment through which each slave node came in; [`NONE`] while it is outside.
+    memory: Vec<u32>,
+    /// Candidates of slave `i`: `candidates[starts[i]..starts[i + 1]]`.
+    starts: Vec<u32>,
+    candidates: Vec<u32>,
+    active: Vec<Active>,
+}
+
+/// A spring that pushes.
+#[derive(Clone, Copy, Debug)]
+struct Active {
+    slave: u32,
+    target: [u32; 2],
+    weights: [f64; 2],
+    /// On the slave node, N/m.
+    force: Vector,
+    gap: f64,
+}
+
+/// When the global search must run again.
+struct Reach {
+    search: Box<dyn Search<2>>,
+    pairs: Vec<Pair>,
+    /// All nodes of both surfaces.
+    nodes: Vec<u32>,
+    /// Their positions at the last search; empty before the first.
+    positions: Vec<Vector>,
+    /// Pairs within this distance were found, m.
+    skin: f64,
+}
+
+/// Positions at both ends of a step.
+#[derive(Clone, Copy, Debug)]
+pub struct Sweep<'a> {
+    /// At the beginning, m.
+    pub old: &'a [Vector],
+    /// At the end, m: the configuration on which all forces are evaluated.
+    pub new: &'a [Vector],
+}
+
+/// What a contact is made from.
+pub struct ContactInput {
+    /// Name.
+    pub name: String,
+    /// The two surfaces.
+    pub targets: [Target; 2],
+    /// Pressure stiffness κ of the elements under each segment of each surface, Pa/m.
+    pub pressure_stiffness: [Vec<f64>; 2],
+    /// Double or single pass.
+    pub formulation: Formulation,
+    /// Stiffness.
+    pub penalty: Penalty,
+    /// Global search.
+    pub search: Box<dyn Search<2>>,
+}
+
+/// Skin as a fraction of the mean segment length: how far bodies may move before the next global search.
+const SKIN: f64 = 0.25;
+
+impl Contact {
+    /// Makes a contact ready; `positions` are the initial ones.
+    #[must_use]
+    pub fn new(input: ContactInput, positions: &[Vector]) -> Self {
+        let slaves: &[usize] = match input.formulation {
+            Formulation::DoublePass => &[0, 1],
+            Formulation::SinglePass { slave: 0 } => &[0],
+            Formulation::SinglePass { .. } => &[1],
+        };
+        let softest = |surface: usize| input.pressure_stiffness[surface].iter().copied().fold(f64::INFINITY, f64::min);
+        let pass = |&slave: &usize| {
+            let surface = &input.targets[slave].surface;
+            let nodes = node_stiffness(surface, &input.pressure_stiffness[slave], positions);
+            let stiffness = |&(length, own): &(f64, f64)| law::penalty::stiffness(input.penalty, length, own, softest(1 - slave), slaves.len());
+            Pass {
+                slave,
+                stiffness: nodes.iter().map(stiffness).collect(),
+                memory: vec![NONE; surface.nodes.len()],
+                starts: vec![0; surface.nodes.len() + 1],
+                candidates: Vec::new(),
+                active: Vec::new(),
+            }
+        };
+        let passes = slaves.iter().map(pass).collect();
+        let mut nodes: Vec<u32> = input.targets.iter().flat_map(|target| target.surface.nodes.iter().copied()).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        let lengths = input.targets.iter().flat_map(|target| target.surface.segments.iter()).map(|&segment| length(segment, positions));
+        let count = input.targets.iter().map(|target| target.surface.segments.len()).sum::<usize>().max(1);
+        let skin = SKIN * lengths.sum::<f64>() / count as f64;
+        let reach = Reach { search: input.search, pairs: Vec::new(), nodes, positions: Vec::new(), skin };
+        Self { name: input.name, resultant: [0.0; 2], energy: 0.0, penetration: 0.0, targets: input.targets, passes, reach }
+    }
+
+    /// Finds all contacts of the step and adds their forces to `forces` and their springs, also of those that are near, to `springs`.
+    pub fn evaluate(&mut self, sweep: Sweep<'_>, forces: &mut [Vector], springs: &mut Springs) {
+        if self.reach.is_left(sweep.new) {
+            self.search(sweep);
+        }
+        (self.resultant, self.energy, self.penetration) = ([0.0; 2], 0.0, 0.0);
+        for pass in &mut self.passes {
+            let target = &self.targets[1 - pass.slave];
+            let nodes = &self.targets[pass.slave].surface.nodes;
+            pass.active.clear();
+            for (i, &node) in nodes.iter().enumerate() {
+                let Some(projection) = pass.locate(i, node, target, sweep) else { continue };
+                let segment = target.surface.segments[projection.segment as usize];
+                let stiffness = pass.stiffness[i];
+                if projection.gap <= near(node, segment, sweep) {
+                    springs.add_pair(node, segment, projection.weights, stiffness);
+                }
+                if projection.gap < 0.0 {
+                    let force = projection.normal.map(|n| -projection.gap * stiffness * n);
+                    pass.active.push(Active { slave: node, target: segment, weights: projection.weights, force, gap: projection.gap });
+                    self.energy += 0.5 * stiffness * projection.gap * projection.gap;
+                    self.penetration = self.penetration.max(-projection.gap);
+                    let sign = if pass.slave == 0 { 1.0 } else { -1.0 };
+                    for d in 0..2 {
+                        self.resultant[d] += sign * force[d];
+                        forces[node as usize][d] += force[d];
+                        forces[segment[0] as usize][d] -= projection.weights[0] * force[d];
+                        forces[segment[1] as usize][d] -= projection.weights[1] * force[d];
+                    }
+                }
+            }
+        }
+    }
+
+    /// Power of the contact forces with node velocities `mean(node)`, W/m.
+    pub fn power(&self, mean: impl Fn(usize) -> Vector) -> f64 {
+        let of = |active: &Active| {
+            let [v, a, b] = [active.slave, active.target[0], active.target[1]].map(|node| mean(node as usize));
+            (0..2).map(|d| active.force[d] * (v[d] - active.weights[0] * a[d] - active.weights[1] * b[d])).sum::<f64>()
+        };
+        self.passes.iter().flat_map(|pass| &pass.active).map(of).sum()
+    }
+
+    /// Slave nodes that are inside now, with their depth, m.
+    pub fn penetrations(&self) -> impl Iterator<Item = (u32, f64)> {
+        self.passes.iter().flat_map(|pass| pass.active.iter().map(|active| (active.slave, -active.gap)))
+    }
+
+    fn search(&mut self, sweep: Sweep<'_>) {
+        for pass in &mut self.passes {
+            let target = &self.targets[1 - pass.slave].surface;
+            let slaves = &self.targets[pass.slave].surface.nodes;
+            let query = Query { positions_old: sweep.old, positions_new: sweep.new, slaves, facets: &target.segments, reach: self.reach.skin };
+            self.reach.search.pairs(&query, &mut self.reach.pairs);
+            pass.candidates.clear();
+            pass.candidates.extend(self.reach.pairs.iter().map(|pair| pair.facet));
+            pass.starts.fill(0);
+            for pair in &self.reach.pairs {
+                pass.starts[pair.slave as usize + 1] += 1;
+            }
+            for i in 1..pass.starts.len() {
+                pass.starts[i] += pass.starts[i - 1];
+            }
+        }
+        self.reach.positions.clear();
+        self.reach.positions.extend(self.reach.nodes.iter().map(|&node| sweep.new[node as usize]));
+    }
+}
+
+impl Pass {
+    /// Where slave `i` lies: on the chain that it came in through while it is inside, else by crossing and nearest feature of its candidates.
+    fn locate(&mut self, i: usize, node: u32, target: &Target, sweep: Sweep<'_>) -> Option<Projection> {
+        let (x_old, x) = (sweep.old[node as usize], sweep.new[node as usize]);
+        if self.memory[i] != NONE {
+            let projection = target.follow(x, self.memory[i], sweep.new);
+            if let Some(inside) = projection.filter(|projection| projection.gap < 0.0) {
+                self.memory[i] = inside.segment;
+                return projection;
+            }
+            self.memory[i] = NONE;
+        }
+        let candidates = &self.candidates[self.starts[i] as usize..self.starts[i + 1] as usize];
+        if candidates.is_empty() {
+            return None;
+        }
+        let entered = candidates
+            .iter()
+            .filter_map(|&segment| Some((target.crossing(x_old, x, segment, sweep.old, sweep.new)?, segment)))
+            .reduce(|first, other| if other.0 < first.0 { other } else { first });
+        let projection = match entered {
+            Some((_, segment)) => target.follow(x, segment, sweep.new),
+            None => target.nearest(x, candidates, sweep.new),
+        }?;
+        if projection.gap < 0.0 {
+            self.memory[i] = projection.segment;
+        }
+        Some(projection)
+    }
+}
+
+impl Reach {
+    /// Whether some node has moved by more than half the skin since the last search (or there was none).
+    fn is_left(&self, positions: &[Vector]) -> bool {
+        let limit = 0.25 * self.skin * self.skin;
+        self.positions.is_empty()
+            || self.nodes.iter().zip(&self.positions).any(|(&node, from)| {
+                let x = positions[node as usize];
+                let moved = [x[0] - from[0], x[1] - from[1]];
+                // NaN counts as moved
+                !(moved[0] * moved[0] + moved[1] * moved[1] <= limit)
+            })
+    }
+}
+
+/// Gap below which a pair will soon touch: a few times the motion of the step.
+fn near(node: u32, segment: [u32; 2], sweep: Sweep<'_>) -> f64 {
+    let moved = |node: u32| {
+        let (a, b) = (sweep.old[node as usize], sweep.new[node as usize]);
+        (b[0] - a[0]).abs() + (b[1] - a[1]).abs()
+    };
+    4.0 * (moved(node) + moved(segment[0]).max(moved(segment[1])))
+}
+
+fn length(segment: [u32; 2], positions: &[Vector]) -> f64 {
+    let [a, b] = segment.map(|node| positions[node as usize]);
+    ((b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2)).sqrt()
+}
+
+/// Tributary length (m) and mean pressure stiffness (Pa/m) of each node of a surface, in the order of its nodes.
+#[must_use]
+pub fn node_stiffness(surface: &crate::mesh::surface::Surface, pressure_stiffness: &[f64], positions: &[Vector]) -> Vec<(f64, f64)> {
+    let mut sums = vec![(0.0, 0.0); surface.nodes.len()];
+    for (&segment, &stiffness) in surface.segments.iter().zip(pressure_stiffness) {
+        let half = 0.5 * length(segment, positions);
+        for node in segment {
+            if let Ok(at) = surface.nodes.binary_search(&node) {
+                sums[at].0 += half;
+                sums[at].1 += half * stiffness;
+            }
+        }
+    }
+    sums.into_iter().map(|(length, weighted)| (length, weighted / length)).collect()
+}

@@ -1,0 +1,79 @@
+//! Who is to blame: names elements, nodes and contacts with their places, for errors, progress and the summary. Called rarely.
+
+use crate::error::Error;
+use crate::step::{Governor, System};
+
+impl System {
+    /// Who sets the time step, in words.
+    pub(crate) fn governor_name(&self, governor: Governor) -> String {
+        match governor {
+            Governor::Element(squared) => self.element_with_step(squared),
+            Governor::Spring(node) => {
+                let [x, y] = self.positions[node as usize];
+                format!("contact at node {node} ({x:.6e}, {y:.6e})")
+            }
+            Governor::Schedule => "growth limit or end of the run".into(),
+        }
+    }
+
+    fn element_with_step(&self, squared: f64) -> String {
+        for (part, block) in self.mesh.parts.iter().zip(&self.blocks) {
+            // NaN equals nothing, so a block whose step is NaN is found by its own failure to compare.
+            if let Some(element) = (0..block.elements()).find(|&element| block.time_step_squared(element).total_cmp(&squared).is_eq()) {
+                let [x, y] = self.centre(part, element);
+                return format!("element {element} of part \"{}\" ({x:.6e}, {y:.6e})", part.name);
+            }
+        }
+        "an element".into()
+    }
+
+    fn centre(&self, part: &crate::mesh::PartMesh, element: usize) -> [f64; 2] {
+        let n = part.nodes_per_element;
+        let nodes = &part.connectivity[element * n..(element + 1) * n];
+        let sum = nodes.iter().fold([0.0; 2], |s: [f64; 2], &node| {
+            let x = self.positions[node as usize];
+            [s[0] + x[0], s[1] + x[1]]
+        });
+        [sum[0] / n as f64, sum[1] / n as f64]
+    }
+
+    /// The element that is most inside out. The Jacobian of a quadrilateral is smallest in a corner.
+    pub(crate) fn inverted(&self) -> Error {
+        let mut worst = (f64::INFINITY, 0, 0);
+        for (p, part) in self.mesh.parts.iter().enumerate() {
+            let n = part.nodes_per_element;
+            for (element, cell) in part.connectivity.chunks_exact(n).enumerate() {
+                let x = |corner: usize| self.positions[cell[corner % n] as usize];
+                for c in 0..n {
+                    let (a, b, d) = (x(c), x(c + 1), x(c + n - 1));
+                    let jacobian = (b[0] - a[0]) * (d[1] - a[1]) - (b[1] - a[1]) * (d[0] - a[0]);
+                    if jacobian < worst.0 {
+                        worst = (jacobian, p, element);
+                    }
+                }
+            }
+        }
+        let part = &self.mesh.parts[worst.1];
+        let at = self.centre(part, worst.2).to_vec();
+        Error::Inverted { part: part.name.clone(), element: worst.2, at, time: self.time, step: self.step }
+    }
+
+    pub(crate) fn collapsed(&self, time_step: f64, governor: Governor) -> Error {
+        if time_step.is_nan() {
+            return self.not_finite();
+        }
+        Error::Collapsed { time_step, limit: self.limits.step, governor: self.governor_name(governor), time: self.time, step: self.step }
+    }
+
+    pub(crate) fn not_finite(&self) -> Error {
+        let bad = (0..self.positions.len()).find(|&node| !self.positions[node].iter().chain(&self.velocities[node]).all(|v| v.is_finite()));
+        let (what, place) = match bad {
+            Some(node) => {
+                let [x, y] = self.positions_old[node];
+                ("the motion of a node".to_string(), format!("node {node}, last seen at ({x:.6e}, {y:.6e})"))
+            }
+            None => ("an energy".to_string(), "no node is affected yet".to_string()),
+        };
+        Error::NotFinite { what, place, time: self.time, step: self.step }
+    }
+}

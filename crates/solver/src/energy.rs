@@ -1,0 +1,133 @@
+//! The ledger: what every force took and gave (an identity that must close), and what is found in the stores (the energy drift).
+//!
+//! Momentum update times mean velocity: Δ ½Σ m|v^{n+1/2}|² = Σ_k ½(dt^n + dt^{n-1}) f_k^n · v̄^n for every kind k of force. The residual of this
+//! sum is round-off or a bug. The drift compares energies at the whole step n: kinetic energy ½ Σ m v^{n-1/2}·v^{n+1/2} (which makes the sum exactly
+//! constant for linear springs and a constant step), stored, dissipated and contact spring energy, less what came from outside.
+
+/// Works of one step by kind of force, J/m; each is force times mean velocity times ½(dt + dt_old).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Works {
+    /// Internal forces.
+    pub internal: f64,
+    /// Contacts.
+    pub contact: f64,
+    /// Walls.
+    pub wall: f64,
+    /// Gravity.
+    pub gravity: f64,
+    /// Reactions of prescribed motion and symmetry.
+    pub constraint: f64,
+}
+
+impl Works {
+    /// Everything.
+    #[must_use]
+    pub fn total(&self) -> f64 {
+        self.internal + self.contact + self.wall + self.gravity + self.constraint
+    }
+    /// What comes from outside the model: it changes the sum of the stores.
+    #[must_use]
+    pub fn external(&self) -> f64 {
+        self.gravity + self.constraint
+    }
+    fn add(&mut self, other: &Self) {
+        self.internal += other.internal;
+        self.contact += other.contact;
+        self.wall += other.wall;
+        self.gravity += other.gravity;
+        self.constraint += other.constraint;
+    }
+}
+
+/// Energies at a whole step, J/m.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Stores {
+    /// ½ Σ m v^{n-1/2}·v^{n+1/2}.
+    pub kinetic: f64,
+    /// Stored elastic energy of the elements.
+    pub elastic: f64,
+    /// Dissipated by the material.
+    pub plastic: f64,
+    /// Springs of contacts and walls.
+    pub contact: f64,
+}
+
+impl Stores {
+    /// Sum of all stores.
+    #[must_use]
+    pub fn total(&self) -> f64 {
+        self.kinetic + self.elastic + self.plastic + self.contact
+    }
+}
+
+/// The books of a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Ledger {
+    /// Kinetic energy at the start, J/m.
+    kinetic_start: f64,
+    /// Sum of the stores at the start less the work done until then, J/m.
+    total_start: Option<f64>,
+    /// Works from the start to the last half step, J/m.
+    pub works: Works,
+    /// External work until the last whole step, J/m.
+    pub external: f64,
+    /// Stores at the last whole step.
+    pub stores: Stores,
+    /// Largest total energy so far, J/m.
+    pub largest: f64,
+    /// Largest residual of the identity so far, J/m.
+    residual: f64,
+    /// Largest drift so far, J/m.
+    drift: f64,
+}
+
+/// What the momentum update of one step tells the ledger.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Entry {
+    /// ½ Σ m|v^{n+1/2}|², J/m.
+    pub kinetic_half: f64,
+    /// Works of the update from v^{n-1/2} to v^{n+1/2}.
+    pub works: Works,
+    /// Part of the update that lies before the whole step: dt^{n-1} / (dt^{n-1} + dt^n).
+    pub before: f64,
+    /// Stores at the whole step n, kinetic energy as ½ Σ m v^{n-1/2}·v^{n+1/2}.
+    pub stores: Stores,
+}
+
+impl Ledger {
+    /// Books that begin with `kinetic` energy, J/m.
+    #[must_use]
+    pub fn new(kinetic: f64) -> Self {
+        Self { kinetic_start: kinetic, largest: kinetic, ..Self::default() }
+    }
+
+    /// Books a step.
+    pub fn enter(&mut self, entry: &Entry) {
+        self.external = self.works.external() + entry.before * entry.works.external();
+        self.works.add(&entry.works);
+        self.stores = entry.stores;
+        // Unequal steps: v^{n-1/2} and v^{n+1/2} lie at unequal distances from n; the shift is ½ (dt^n − dt^{n-1})/(dt^n + dt^{n-1}) ΣW.
+        self.stores.kinetic -= (0.5 - entry.before) * entry.works.total();
+        self.largest = self.largest.max(self.stores.total().abs());
+        let start = *self.total_start.get_or_insert(self.stores.total() - self.external);
+        // NaN must not hide behind max: it is caught before, by the kinetic energy.
+        self.residual = self.residual.max((entry.kinetic_half - self.kinetic_start - self.works.total()).abs());
+        self.drift = self.drift.max((self.stores.total() - self.external - start).abs());
+    }
+
+    /// Largest |change of kinetic energy − sum of works| over the largest total energy.
+    #[must_use]
+    pub fn residual(&self) -> f64 {
+        self.fraction(self.residual)
+    }
+
+    /// Largest |stores − external work − start| over the largest total energy.
+    #[must_use]
+    pub fn drift(&self) -> f64 {
+        self.fraction(self.drift)
+    }
+
+    fn fraction(&self, value: f64) -> f64 {
+        if self.largest > 0.0 { value / self.largest } else { 0.0 }
+    }
+}

@@ -1,0 +1,170 @@
+//! Prescribed motion by direction: symmetry lines, fixed and driven nodes. After the free update the velocity is set along each direction;
+//! the impulse that this takes is the reaction, and its work goes to the ledger.
+
+use crate::error::Fault;
+use crate::mesh::Mesh;
+use crate::model::{Model, Symmetry};
+
+/// Prescribed directions of one node, orthonormal.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Held<const D: usize> {
+    /// Unit direction and prescribed velocity along it, m/s.
+    directions: Vec<([f64; D], f64)>,
+}
+
+impl<const D: usize> Held<D> {
+    /// Adds a direction; `Err` holds the velocity that the earlier directions already prescribe along it.
+    fn add(&mut self, direction: [f64; D], velocity: f64) -> Result<(), f64> {
+        let (mut rest, mut speed) = (direction, velocity);
+        for (held, held_speed) in &self.directions {
+            let along: f64 = (0..D).map(|d| held[d] * direction[d]).sum();
+            speed -= along * held_speed;
+            for d in 0..D {
+                rest[d] -= along * held[d];
+            }
+        }
+        let length = (0..D).map(|d| rest[d] * rest[d]).sum::<f64>().sqrt();
+        if length > 1e-9 {
+            self.directions.push((rest.map(|r| r / length), speed / length));
+            Ok(())
+        } else if speed.abs() <= 1e-9 * velocity.abs() {
+            Ok(())
+        } else {
+            Err(velocity - speed)
+        }
+    }
+
+    /// The velocity with the prescribed components.
+    #[inline]
+    #[must_use]
+    pub fn apply(&self, mut velocity: [f64; D]) -> [f64; D] {
+        for (direction, speed) in &self.directions {
+            let change = speed - (0..D).map(|d| velocity[d] * direction[d]).sum::<f64>();
+            for d in 0..D {
+                velocity[d] += change * direction[d];
+            }
+        }
+        velocity
+    }
+}
+
+/// All nodes with prescribed motion.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Constraints<const D: usize> {
+    /// Index into `held` per node; `u32::MAX`: free. Empty when nothing is held.
+    index: Vec<u32>,
+    held: Vec<Held<D>>,
+    /// Symmetry normals of each node on a symmetry line, (node, normal), ascending.
+    pub mirrors: Vec<(u32, [f64; D])>,
+}
+
+/// Nodes nearer to a symmetry line than this fraction of the model's size lie on it.
+const ON_LINE: f64 = 1e-9;
+
+impl Constraints<2> {
+    /// From the symmetries and constraints of a model.
+    ///
+    /// # Errors
+    /// Names without nodes, symmetry lines that hold no node, velocities that contradict each other on a node.
+    pub fn new(model: &Model, mesh: &Mesh<2>) -> Result<Self, Vec<Fault>> {
+        let mut result = Self::default();
+        let mut faults = Vec::new();
+        if model.symmetries.is_empty() && model.constraints.is_empty() {
+            return Ok(result);
+        }
+        result.index = vec![u32::MAX; mesh.positions.len()];
+        for (i, symmetry) in model.symmetries.iter().enumerate() {
+            let path = format!("symmetry[{i}]");
+            let Some(normal) = unit(symmetry.normal) else { continue };
+            let nodes = on_line(symmetry, normal, mesh);
+            if nodes.is_empty() {
+                faults.push(Fault::new(&path, "no node lies on this symmetry line", "move the line or the bodies; nodes must lie on it within 1e-9 of the model's size"));
+            }
+            for node in nodes {
+                result.mirrors.push((node, normal));
+                result.hold(node, normal, 0.0, &path, mesh, &mut faults);
+            }
+        }
+        result.mirrors.sort_by_key(|&(node, _)| node);
+        for (i, constraint) in model.constraints.iter().enumerate() {
+            let path = format!("constraint[{i}]");
+            let Some(nodes) = mesh.nodes(&constraint.on) else {
+                faults.push(Fault::new(format!("{path}.on"), format!("there is nothing called \"{}\"", constraint.on), "name a part, a side as part.side, or a group"));
+                continue;
+            };
+            for node in nodes {
+                for (d, velocity) in constraint.velocity.iter().enumerate() {
+                    if let Some(velocity) = *velocity {
+                        let mut direction = [0.0; 2];
+                        direction[d] = 1.0;
+                        result.hold(node, direction, velocity, &path, mesh, &mut faults);
+                    }
+                }
+            }
+        }
+        faults.dedup();
+        if faults.is_empty() { Ok(result) } else { Err(faults) }
+    }
+
+    fn hold(&mut self, node: u32, direction: [f64; 2], velocity: f64, path: &str, mesh: &Mesh<2>, faults: &mut Vec<Fault>) {
+        let slot = &mut self.index[node as usize];
+        if *slot == u32::MAX {
+            *slot = self.held.len() as u32;
+            self.held.push(Held::default());
+        }
+        if let Err(earlier) = self.held[*slot as usize].add(direction, velocity) {
+            let [x, y] = mesh.positions[node as usize];
+            let message = format!("the node at ({x:.6e}, {y:.6e}) shall move at {velocity} m/s, but another condition already gives it {earlier} m/s there");
+            if faults.len() < 20 {
+                faults.push(Fault::new(path, message, "take the node out of one of the two"));
+            }
+        }
+    }
+}
+
+impl<const D: usize> Constraints<D> {
+    /// What holds `node`, if anything.
+    #[inline]
+    #[must_use]
+    pub fn of(&self, node: usize) -> Option<&Held<D>> {
+        self.held.get(*self.index.get(node)? as usize)
+    }
+
+    /// Whether no node is held.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.held.is_empty()
+    }
+
+    /// Normals of the symmetry lines that `node` lies on.
+    pub fn mirror_normals(&self, node: u32) -> impl Iterator<Item = [f64; D]> {
+        let start = self.mirrors.partition_point(|&(n, _)| n < node);
+        self.mirrors[start..].iter().take_while(move |&&(n, _)| n == node).map(|&(_, normal)| normal)
+    }
+
+    /// Whether both nodes lie on the same symmetry line.
+    #[must_use]
+    pub fn is_mirror(&self, segment: [u32; 2]) -> bool {
+        self.mirror_normals(segment[0]).any(|a| self.mirror_normals(segment[1]).any(|b| (0..D).all(|d| a[d] == b[d])))
+    }
+}
+
+fn on_line(symmetry: &Symmetry, normal: [f64; 2], mesh: &Mesh<2>) -> Vec<u32> {
+    let size = mesh.positions.iter().flatten().chain(&symmetry.point).fold(0.0f64, |size, x| size.max(x.abs()));
+    let near = |&node: &u32| {
+        let x = mesh.positions[node as usize];
+        ((x[0] - symmetry.point[0]) * normal[0] + (x[1] - symmetry.point[1]) * normal[1]).abs() <= ON_LINE * size
+    };
+    let parts = mesh.parts.iter().filter(|part| symmetry.parts.is_empty() || symmetry.parts.contains(&part.name));
+    let mut nodes: Vec<u32> = parts.flat_map(|part| part.nodes.iter().copied()).filter(near).collect();
+    nodes.sort_unstable();
+    nodes.dedup();
+    nodes
+}
+
+/// Unit vector; `None` for a vector without direction.
+#[must_use]
+pub fn unit(v: [f64; 2]) -> Option<[f64; 2]> {
+    let length = (v[0] * v[0] + v[1] * v[1]).sqrt();
+    (length > 0.0 && length.is_finite()).then(|| [v[0] / length, v[1] / length])
+}

@@ -1,0 +1,241 @@
+//! What is recorded of a system: frames, history rows, momentum, the state hash. Values only; formats are elsewhere.
+
+use crate::error::Fault;
+use crate::model::{Model, ProbeAt};
+use crate::output::{CellKind, Cells, FIELDS, Field, FieldKind, Frame};
+use crate::step::{System, Vector};
+
+/// Fields and probes of a model, resolved to nodes.
+pub(crate) struct Recorded {
+    fields: Vec<&'static FieldKind>,
+    probes: Vec<Probe>,
+}
+
+struct Probe {
+    name: String,
+    /// Nodes and their weights, which sum to one.
+    nodes: Vec<(u32, f64)>,
+    /// What `embate check` tells of it.
+    line: String,
+}
+
+impl Recorded {
+    pub(crate) fn new(model: &Model, system: &System) -> Result<Self, Vec<Fault>> {
+        let has_plastic = system.blocks.iter().any(|block| block.is_plastic());
+        let has_contact = !system.contacts.is_empty() || !system.walls.is_empty();
+        let wanted = |kind: &&FieldKind| {
+            let include = &model.output.include;
+            let named = include.iter().any(|name| name == kind.name) || model.output.picture_field == kind.name;
+            let sensible = (kind.name != "plastic_strain" || has_plastic) && (kind.name != "contact_force" || has_contact);
+            // Pictures fall back on these two.
+            let pictured = model.output.pictures && (kind.name == "von_mises" || (kind.name == "plastic_strain" && has_plastic));
+            named || pictured || (include.is_empty() && sensible)
+        };
+        let fields = FIELDS.iter().filter(wanted).collect();
+        let (mut probes, mut faults) = (Vec::new(), Vec::new());
+        for (i, probe) in model.probes.iter().enumerate() {
+            match resolve(&probe.at, system) {
+                Ok((nodes, line)) => probes.push(Probe { name: probe.name.clone(), nodes, line: format!("{}: {line}", probe.name) }),
+                Err(message) => faults.push(Fault::new(format!("probe[{i}]"), message, "name a part, a side as part.side, or a group")),
+            }
+        }
+        if faults.is_empty() { Ok(Self { fields, probes }) } else { Err(faults) }
+    }
+
+    pub(crate) fn probe_lines(&self) -> Vec<String> {
+        self.probes.iter().map(|probe| probe.line.clone()).collect()
+    }
+
+    pub(crate) fn columns(&self, system: &System) -> Vec<String> {
+        let mut columns: Vec<String> = ["time", "time_step"].map(String::from).to_vec();
+        columns.extend(["kinetic", "internal", "plastic", "contact", "external", "total"].iter().map(|name| format!("energy.{name}")));
+        for part in &system.mesh.parts {
+            columns.extend(["kinetic", "internal", "plastic"].iter().map(|name| format!("energy.{name}[{}]", part.name)));
+        }
+        let both = |kind: &str, name: &str| ["force_x", "force_y", "energy", "penetration"].map(|value| format!("{kind}.{value}[{name}]"));
+        columns.extend(system.contacts.iter().flat_map(|contact| both("contact", &contact.name)));
+        columns.extend(system.walls.iter().flat_map(|wall| both("wall", &wall.name)));
+        columns.extend(self.probes.iter().flat_map(|probe| ["x", "y", "vx", "vy"].map(|value| format!("{}.{value}", probe.name))));
+        columns
+    }
+
+    pub(crate) fn row(&self, system: &System) -> Vec<f64> {
+        let (stores, external) = (system.ledger.stores, system.ledger.external);
+        let mut row = vec![system.time, system.time_step, stores.kinetic, stores.elastic + stores.plastic, stores.plastic, stores.contact, external];
+        row.push(stores.total() - external);
+        for ((part, block), report) in system.mesh.parts.iter().zip(&system.blocks).zip(&system.reports) {
+            let n = part.nodes_per_element;
+            let corner = |(k, &node): (usize, &u32)| {
+                let (a, b) = (system.velocities_old[node as usize], system.velocities[node as usize]);
+                0.5 * block.corner_mass(k / n, k % n) * (a[0] * b[0] + a[1] * b[1])
+            };
+            row.extend([part.connectivity.iter().enumerate().map(corner).sum(), report.stored + report.dissipated, report.dissipated]);
+        }
+        for contact in &system.contacts {
+            row.extend([contact.resultant[0], contact.resultant[1], contact.energy, contact.penetration]);
+        }
+        for wall in &system.walls {
+            row.extend([wall.resultant[0], wall.resultant[1], wall.energy, wall.penetration]);
+        }
+        for probe in &self.probes {
+            let mean = |value: &dyn Fn(usize) -> Vector| {
+                probe.nodes.iter().fold([0.0; 2], |sum: Vector, &(node, weight)| {
+                    let v = value(node as usize);
+                    [sum[0] + weight * v[0], sum[1] + weight * v[1]]
+                })
+            };
+            row.extend(mean(&|node| system.positions[node]));
+            row.extend(mean(&|node| velocity(system, node)));
+        }
+        row
+    }
+
+    pub(crate) fn frame(&self, system: &System) -> Frame<2> {
+        let fields = self.fields.iter().map(|&kind| Field { kind, values: values(kind.name, system) }).collect();
+        Frame { time: system.time, step: system.step, positions: system.positions.clone(), fields }
+    }
+}
+
+/// Velocity at the whole step, m/s.
+fn velocity(system: &System, node: usize) -> Vector {
+    let (a, b) = (system.velocities_old[node], system.velocities[node]);
+    [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])]
+}
+
+/// Values of one of [`FIELDS`].
+fn values(name: &str, system: &System) -> Vec<f64> {
+    let nodes = 0..system.positions.len();
+    let states = || system.blocks.iter().flat_map(|block| (0..block.elements()).map(|element| block.state(element)));
+    match name {
+        "displacement" => nodes.flat_map(|n| [0, 1].map(|d| system.positions[n][d] - system.mesh.positions[n][d])).collect(),
+        "velocity" => nodes.flat_map(|n| velocity(system, n)).collect(),
+        "contact_force" => system.contact_forces.iter().flatten().copied().collect(),
+        "stress" => states().flat_map(|state| [state.stress[0], state.stress[1], state.stress[2], state.stress[3]]).collect(),
+        "von_mises" => states().map(|state| von_mises(&state.stress)).collect(),
+        "pressure" => states().map(|state| -(state.stress[0] + state.stress[1] + state.stress[2]) / 3.0).collect(),
+        "plastic_strain" => states().map(|state| state.plastic_strain).collect(),
+        "energy_density" => states().map(|state| state.energy_density).collect(),
+        _ => Vec::new(),
+    }
+}
+
+fn von_mises(s: &[f64; 6]) -> f64 {
+    let differences = (s[0] - s[1]).powi(2) + (s[1] - s[2]).powi(2) + (s[2] - s[0]).powi(2);
+    (0.5 * differences + 3.0 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5])).sqrt()
+}
+
+fn resolve(at: &ProbeAt, system: &System) -> Result<(Vec<(u32, f64)>, String), String> {
+    let part_of = |name: &str| system.mesh.parts.iter().find(|part| part.name == name).ok_or_else(|| format!("there is no part \"{name}\""));
+    let place = |node: u32| {
+        let [x, y] = system.positions[node as usize];
+        format!("({x:.6e}, {y:.6e}) m")
+    };
+    match at {
+        ProbeAt::Point { part, point } => {
+            let distance = |node: &u32| {
+                let x = system.positions[*node as usize];
+                ((x[0] - point[0]).powi(2) + (x[1] - point[1]).powi(2)).sqrt()
+            };
+            let nodes = &part_of(part)?.nodes;
+            let nearest = nodes.iter().copied().reduce(|best, node| if distance(&node) < distance(&best) { node } else { best });
+            let node = nearest.ok_or_else(|| format!("part \"{part}\" has no nodes"))?;
+            Ok((vec![(node, 1.0)], format!("node of \"{part}\" at {}, {:.3e} m from the wanted point", place(node), distance(&node))))
+        }
+        ProbeAt::Node { part, node } => {
+            let nodes = &part_of(part)?.nodes;
+            let index = *nodes.get(*node).ok_or_else(|| format!("part \"{part}\" has {} nodes, numbered from 0", nodes.len()))?;
+            Ok((vec![(index, 1.0)], format!("node {node} of \"{part}\" at {}", place(index))))
+        }
+        ProbeAt::Set { set } => {
+            let nodes = system.mesh.nodes(set).filter(|nodes| !nodes.is_empty()).ok_or_else(|| format!("there is nothing called \"{set}\""))?;
+            let total: f64 = nodes.iter().map(|&node| system.mass[node as usize]).sum();
+            let line = format!("mass-weighted mean of {} nodes of \"{set}\"", nodes.len());
+            Ok((nodes.into_iter().map(|node| (node, system.mass[node as usize] / total)).collect(), line))
+        }
+    }
+}
+
+/// The cells of all parts.
+pub(crate) fn cells(system: &System) -> Cells {
+    let mut cells = Cells { offsets: vec![0], ..Cells::default() };
+    for (index, part) in system.mesh.parts.iter().enumerate() {
+        cells.part_names.push(part.name.clone());
+        for cell in part.connectivity.chunks_exact(part.nodes_per_element) {
+            cells.nodes.extend(cell);
+            cells.offsets.push(cells.nodes.len() as u32);
+            cells.kinds.push(if cell.len() == 3 { CellKind::Triangle } else { CellKind::Quadrilateral });
+            cells.parts.push(index as u32);
+        }
+    }
+    cells
+}
+
+/// FNV-1a hash (64 bit) of the bits of all positions and velocities v^{n+1/2}, node by node; hexadecimal.
+pub(crate) fn state_hash(system: &System) -> String {
+    let mut hash = 0xcbf2_9ce4_8422_2325u64;
+    for value in system.positions.iter().chain(&system.velocities).flatten() {
+        for byte in value.to_bits().to_le_bytes() {
+            hash = (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
+        }
+    }
+    format!("{hash:016x}")
+}
+
+/// Linear and angular momentum of a model on which nothing acts from outside.
+pub(crate) struct Momentum {
+    start: Moments,
+    drift: [f64; 2],
+}
+
+#[derive(Clone, Copy, Default)]
+struct Moments {
+    linear: Vector,
+    angular: f64,
+    /// Σ m|v| and Σ m|x||v|: what the drifts are measured against.
+    scale: [f64; 2],
+}
+
+impl Momentum {
+    /// `None` where walls, supports or loads act.
+    pub(crate) fn new(system: &System) -> Option<Self> {
+        let isolated = system.walls.is_empty() && system.constraints.is_empty() && system.gravity.is_empty();
+        // Forces at time zero have acted half a step already; both momenta are kept by them as well.
+        isolated.then(|| Self { start: Moments::of(system), drift: [0.0; 2] })
+    }
+
+    pub(crate) fn note(&mut self, system: &System) {
+        let now = Moments::of(system);
+        let change = [now.linear[0] - self.start.linear[0], now.linear[1] - self.start.linear[1]];
+        let linear = (change[0] * change[0] + change[1] * change[1]).sqrt();
+        let angular = (now.angular - self.start.angular).abs();
+        for (drift, (change, scales)) in self.drift.iter_mut().zip([(linear, [self.start.scale[0], now.scale[0]]), (angular, [self.start.scale[1], now.scale[1]])]) {
+            let scale = scales[0].max(scales[1]);
+            if scale > 0.0 {
+                *drift = drift.max(change / scale);
+            }
+        }
+    }
+
+    pub(crate) fn linear(&self) -> f64 {
+        self.drift[0]
+    }
+
+    pub(crate) fn angular(&self) -> f64 {
+        self.drift[1]
+    }
+}
+
+impl Moments {
+    /// Σ m v^{n+1/2} and Σ m x^n × v^{n+1/2}: the latter is the one that central differences keep exactly.
+    fn of(system: &System) -> Self {
+        let mut sum = Self::default();
+        for ((&m, x), v) in system.mass.iter().zip(&system.positions).zip(&system.velocities) {
+            sum.linear = [sum.linear[0] + m * v[0], sum.linear[1] + m * v[1]];
+            sum.angular += m * (x[0] * v[1] - x[1] * v[0]);
+            let speed = m * (v[0] * v[0] + v[1] * v[1]).sqrt();
+            sum.scale[0] += speed;
+            sum.scale[1] += speed * (x[0] * x[0] + x[1] * x[1]).sqrt();
+        }
+        sum
+    }
+}

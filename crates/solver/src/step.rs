@@ -1,0 +1,314 @@
+//! One step of the central difference method, in the order of the textbook box.
+//!
+//! The state between two steps is x^n, v^{n+1/2} and the step dt^n that leads to x^{n+1}; forces have been evaluated at x^n. Everything that
+//! is shared by threads is cut in chunks that come from the mesh, and sums are joined in chunk order: the same bits for any number of threads.
+
+use crate::assembly::Assembly;
+use crate::block::{Block, Motion, Report};
+use crate::contact::{Contact, Sweep};
+use crate::energy::{Entry, Ledger, Stores, Works};
+use crate::error::Error;
+use crate::load::constraint::Constraints;
+use crate::load::wall::Wall;
+use crate::mesh::Mesh;
+use crate::time::stable::{SpringBound, Springs};
+use embate_lanes::{Batch, Level};
+use rayon::prelude::*;
+
+/// A vector of the plane.
+pub type Vector = [f64; 2];
+
+/// Nodes that one task updates.
+const CHUNK: usize = 1024;
+/// A step grows by at most this factor from one to the next: a step that jumps pumps energy.
+const GROWTH: f64 = 1.05;
+
+/// Limits and fractions of a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// End time, s.
+    pub end: f64,
+    /// Fraction of the stable step.
+    pub safety: f64,
+    /// Largest energy drift, fraction.
+    pub energy: f64,
+    /// Smallest time step, s.
+    pub step: f64,
+}
+
+/// Who sets the time step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Governor {
+    /// An element of the block whose smallest squared step this is.
+    Element(f64),
+    /// The springs on a node.
+    Spring(u32),
+    /// The end of the run, or growth from a smaller step.
+    Schedule,
+}
+
+/// Bodies, what acts on them, and their state.
+pub struct System {
+    pub(crate) mesh: Mesh<2>,
+    pub(crate) blocks: Vec<Box<dyn Block<2>>>,
+    pub(crate) assembly: Assembly<2>,
+    pub(crate) mass: Vec<f64>,
+    pub(crate) contacts: Vec<Contact>,
+    pub(crate) walls: Vec<Wall>,
+    pub(crate) constraints: Constraints<2>,
+    /// Acceleration of every node by gravity, m/s²; empty without.
+    pub(crate) gravity: Vec<Vector>,
+    pub(crate) limits: Limits,
+    pub(crate) level: Level,
+    pub(crate) parallel: bool,
+
+    pub(crate) step: u64,
+    pub(crate) time: f64,
+    /// Step that led to the current positions, s.
+    pub(crate) time_step_old: f64,
+    /// Step that will lead to the next positions, s.
+    pub(crate) time_step: f64,
+    pub(crate) governor: Governor,
+    pub(crate) positions: Vec<Vector>,
+    pub(crate) positions_old: Vec<Vector>,
+    /// v^{n+1/2}.
+    pub(crate) velocities: Vec<Vector>,
+    /// v^{n-1/2}.
+    pub(crate) velocities_old: Vec<Vector>,
+    /// Contact and wall forces at x^n, N/m.
+    pub(crate) contact_forces: Vec<Vector>,
+    pub(crate) corners: Vec<Batch>,
+    pub(crate) springs: Springs,
+    pub(crate) reports: Vec<Report>,
+    pub(crate) sums: Vec<NodeSums>,
+    pub(crate) ledger: Ledger,
+    pub(crate) penetration_max: f64,
+}
+
+/// Sums over the nodes of a chunk.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct NodeSums {
+    kinetic_half: f64,
+    kinetic: f64,
+    internal: f64,
+    gravity: f64,
+    constraint: f64,
+}
+
+impl System {
+    /// One step: x, forces, stable step, v, ledger.
+    ///
+    /// # Errors
+    /// An inverted element, a collapsed step, a value that is not finite, too much energy drift.
+    pub fn step(&mut self) -> Result<(), Error> {
+        self.move_nodes();
+        self.evaluate_forces();
+        let time_step = self.stable_step()?;
+        self.accelerate(time_step);
+        self.close_books(time_step)
+    }
+
+    /// Forces and velocities at time zero: v^{1/2} = v⁰ + ½ dt⁰ a⁰.
+    ///
+    /// # Errors
+    /// As [`System::step`].
+    pub fn start(&mut self) -> Result<(), Error> {
+        for (node, velocity) in self.velocities.iter_mut().enumerate() {
+            if let Some(held) = self.constraints.of(node) {
+                *velocity = held.apply(*velocity);
+            }
+        }
+        let kinetic = |(m, v): (&f64, &Vector)| 0.5 * m * (v[0] * v[0] + v[1] * v[1]);
+        self.ledger = Ledger::new(self.mass.iter().zip(&self.velocities).map(kinetic).sum());
+        self.positions_old.clone_from(&self.positions);
+        self.evaluate_forces();
+        let time_step = self.stable_step()?;
+        if self.limits.step <= 0.0 {
+            self.limits.step = 1e-3 * time_step;
+        }
+        self.accelerate(time_step);
+        self.close_books(time_step)
+    }
+
+    /// x^{n+1} = x^n + dt^n v^{n+1/2}.
+    fn move_nodes(&mut self) {
+        std::mem::swap(&mut self.positions, &mut self.positions_old);
+        let dt = self.time_step;
+        let update = |((x, x_old), v): ((&mut Vector, &Vector), &Vector)| *x = [x_old[0] + dt * v[0], x_old[1] + dt * v[1]];
+        if self.parallel {
+            let chunks = self.positions.par_chunks_mut(CHUNK).zip(self.positions_old.par_chunks(CHUNK)).zip(self.velocities.par_chunks(CHUNK));
+            chunks.for_each(|((x, x_old), v)| x.iter_mut().zip(x_old).zip(v).for_each(update));
+        } else {
+            self.positions.iter_mut().zip(&self.positions_old).zip(&self.velocities).for_each(update);
+        }
+        self.time_step_old = dt;
+        self.time += dt;
+        self.step += 1;
+    }
+
+    /// Internal, contact and wall forces at x^n.
+    fn evaluate_forces(&mut self) {
+        let motion = Motion { positions: &self.positions, velocities: &self.velocities, time_step: self.time_step_old };
+        let mut rest = &mut self.corners[..];
+        for (block, report) in self.blocks.iter_mut().zip(&mut self.reports) {
+            let (corners, others) = rest.split_at_mut(block.corner_batches());
+            *report = block.advance(&motion, self.level, corners, self.parallel);
+            rest = others;
+        }
+        if self.contacts.is_empty() && self.walls.is_empty() {
+            return;
+        }
+        self.contact_forces.fill([0.0; 2]);
+        let sweep = Sweep { old: &self.positions_old, new: &self.positions };
+        for contact in &mut self.contacts {
+            contact.evaluate(sweep, &mut self.contact_forces, &mut self.springs);
+            self.penetration_max = self.penetration_max.max(contact.penetration);
+        }
+        for wall in &mut self.walls {
+            wall.evaluate(&self.positions_old, &self.positions, &mut self.contact_forces, &mut self.springs);
+            self.penetration_max = self.penetration_max.max(wall.penetration);
+        }
+    }
+
+    /// The next step from the elements, the springs, growth and the end.
+    fn stable_step(&mut self) -> Result<f64, Error> {
+        let blocks = self.reports.iter().fold(Report::NOTHING, |sum, &report| sum.join(report));
+        if blocks.determinant <= 0.0 {
+            return Err(self.inverted());
+        }
+        let elements = self.limits.safety * blocks.time_step_squared.sqrt();
+        let (assembly, all) = (&self.assembly, &self.blocks);
+        let behind = |node: u32| {
+            let stiffness = |corner: &crate::assembly::Corner| {
+                let (block, element) = (&all[corner.block as usize], corner.element as usize);
+                4.0 / block.time_step_squared(element) * block.corner_mass(element, corner.corner as usize)
+            };
+            assembly.corners(node as usize).iter().map(stiffness).sum()
+        };
+        let SpringBound { time_step: springs, node } = self.springs.take_bound(self.limits.safety, &self.mass, behind);
+        let (mut time_step, mut governor) = (elements, Governor::Element(blocks.time_step_squared));
+        if springs < time_step {
+            (time_step, governor) = (springs, Governor::Spring(node));
+        }
+        if time_step < self.limits.step || time_step.is_nan() {
+            return Err(self.collapsed(time_step, governor));
+        }
+        if self.step > 0 && time_step > GROWTH * self.time_step_old {
+            (time_step, governor) = (GROWTH * self.time_step_old, Governor::Schedule);
+        }
+        let left = self.limits.end - self.time;
+        if left > 0.0 && left < 2.0 * time_step {
+            // The end is met exactly, by two equal steps rather than a long and a tiny one.
+            (time_step, governor) = if left <= time_step { (left, Governor::Schedule) } else { (0.5 * left, Governor::Schedule) };
+        }
+        self.governor = governor;
+        Ok(time_step)
+    }
+
+    /// v^{n+1/2} = v^{n-1/2} + ½ (dt^n + dt^{n-1}) f^n / m, then prescribed motion; sums for the ledger.
+    fn accelerate(&mut self, time_step: f64) {
+        std::mem::swap(&mut self.velocities, &mut self.velocities_old);
+        let dt = 0.5 * (time_step + self.time_step_old);
+        let nodes = Nodes {
+            dt,
+            assembly: &self.assembly,
+            corners: &self.corners,
+            contact_forces: &self.contact_forces,
+            gravity: &self.gravity,
+            mass: &self.mass,
+            constraints: &self.constraints,
+            velocities_old: &self.velocities_old,
+        };
+        let chunk = |(index, (velocities, sums)): (usize, (&mut [Vector], &mut NodeSums))| *sums = nodes.update(index * CHUNK, velocities);
+        if self.parallel {
+            self.velocities.par_chunks_mut(CHUNK).zip(self.sums.par_iter_mut()).enumerate().for_each(chunk);
+        } else {
+            self.velocities.chunks_mut(CHUNK).zip(self.sums.iter_mut()).enumerate().for_each(chunk);
+        }
+        self.time_step = time_step;
+    }
+
+    /// Enters the step in the ledger and checks that the run is still worth going on.
+    fn close_books(&mut self, time_step: f64) -> Result<(), Error> {
+        let mut sum = NodeSums::default();
+        for part in &self.sums {
+            sum.kinetic_half += part.kinetic_half;
+            sum.kinetic += part.kinetic;
+            sum.internal += part.internal;
+            sum.gravity += part.gravity;
+            sum.constraint += part.constraint;
+        }
+        let dt = 0.5 * (time_step + self.time_step_old);
+        let mean = |node: usize| {
+            let (a, b) = (self.velocities_old[node], self.velocities[node]);
+            [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])]
+        };
+        let blocks = self.reports.iter().fold(Report::NOTHING, |sum, &report| sum.join(report));
+        let works = Works {
+            internal: sum.internal,
+            contact: dt * self.contacts.iter().map(|contact| contact.power(mean)).sum::<f64>(),
+            wall: dt * self.walls.iter().map(|wall| wall.power(mean)).sum::<f64>(),
+            gravity: sum.gravity,
+            constraint: sum.constraint,
+        };
+        let springs = self.contacts.iter().map(|contact| contact.energy).sum::<f64>() + self.walls.iter().map(|wall| wall.energy).sum::<f64>();
+        let stores = Stores { kinetic: sum.kinetic, elastic: blocks.stored, plastic: blocks.dissipated, contact: springs };
+        if !(sum.kinetic_half.is_finite() && stores.total().is_finite()) {
+            return Err(self.not_finite());
+        }
+        let before = self.time_step_old / (self.time_step_old + time_step);
+        self.ledger.enter(&Entry { kinetic_half: sum.kinetic_half, works, before, stores });
+        let drift = self.ledger.drift();
+        if drift > self.limits.energy {
+            return Err(Error::EnergyDrift { drift, limit: self.limits.energy, time: self.time, step: self.step });
+        }
+        Ok(())
+    }
+}
+
+/// What the velocity update reads.
+struct Nodes<'a> {
+    dt: f64,
+    assembly: &'a Assembly<2>,
+    corners: &'a [Batch],
+    contact_forces: &'a [Vector],
+    gravity: &'a [Vector],
+    mass: &'a [f64],
+    constraints: &'a Constraints<2>,
+    velocities_old: &'a [Vector],
+}
+
+impl Nodes<'_> {
+    /// Updates the velocities of the nodes from `first` on and sums their works.
+    fn update(&self, first: usize, velocities: &mut [Vector]) -> NodeSums {
+        let mut sums = NodeSums::default();
+        for (i, v) in velocities.iter_mut().enumerate() {
+            let node = first + i;
+            let (m, old, contact) = (self.mass[node], self.velocities_old[node], self.contact_forces[node]);
+            let internal = self.assembly.force(node, self.corners);
+            let scale = self.dt / m;
+            *v = [old[0] + scale * (internal[0] + contact[0]), old[1] + scale * (internal[1] + contact[1])];
+            let g = self.gravity.get(node).copied();
+            if let Some(g) = g {
+                *v = [v[0] + self.dt * g[0], v[1] + self.dt * g[1]];
+            }
+            let mut reaction = None;
+            if let Some(held) = self.constraints.of(node) {
+                let free = *v;
+                *v = held.apply(free);
+                reaction = Some([m * (v[0] - free[0]), m * (v[1] - free[1])]);
+            }
+            let mean = [0.5 * (old[0] + v[0]), 0.5 * (old[1] + v[1])];
+            sums.kinetic_half += 0.5 * m * (v[0] * v[0] + v[1] * v[1]);
+            sums.kinetic += 0.5 * m * (old[0] * v[0] + old[1] * v[1]);
+            sums.internal += self.dt * (internal[0] * mean[0] + internal[1] * mean[1]);
+            if let Some(g) = g {
+                sums.gravity += self.dt * m * (g[0] * mean[0] + g[1] * mean[1]);
+            }
+            if let Some(impulse) = reaction {
+                sums.constraint += impulse[0] * mean[0] + impulse[1] * mean[1];
+            }
+        }
+        sums
+    }
+}

@@ -2,6 +2,10 @@
 //!
 //! Nothing here is checked on construction: [`Model::check`] returns *all* faults, each with its path in the input.
 
+pub mod check;
+pub mod describe;
+pub mod reference;
+
 use std::collections::BTreeMap;
 use std::sync::Arc;
 

@@ -1,0 +1,136 @@
+//! What a name in the model means: a part, a side of a part (`part.side`), or a group of a mesh file.
+//!
+//! Names come from contacts, constraints and probes; the answer goes to [`Model::check`] and to the mesh builder, so that both understand
+//! a name in the same way.
+
+use super::describe::nearest;
+use super::{Model, Shape};
+
+/// What a name stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reference {
+    /// A part, by index.
+    Part(usize),
+    /// A named side of a part's built-in shape.
+    Side {
+        /// Index of the part.
+        part: usize,
+        /// Name of the side.
+        side: &'static str,
+    },
+    /// A group of an imported mesh.
+    Group {
+        /// Index into [`Model::meshes`].
+        mesh: usize,
+        /// Index into its groups.
+        group: usize,
+    },
+}
+
+/// Angles (rad) nearer than this to a full turn close a ring.
+const FULL_TURN_TOLERANCE: f64 = 1e-9;
+
+impl Shape {
+    /// Names of the sides that `part.side` can mean.
+    #[must_use]
+    pub fn sides(&self) -> &'static [&'static str] {
+        match self {
+            Self::Rectangle { .. } => &["left", "right", "bottom", "top"],
+            Self::Ring { from, to, .. } if (to - from - std::f64::consts::TAU).abs() <= FULL_TURN_TOLERANCE => &["inner", "outer"],
+            Self::Ring { .. } => &["inner", "outer", "start", "end"],
+            Self::Disk { .. } => &["outer"],
+            Self::Group { .. } => &[],
+        }
+    }
+}
+
+impl Model {
+    /// What `name` stands for: first a part, then a group of a mesh file, then `part.side`. With `dimension` only groups of that dimension count.
+    ///
+    /// # Errors
+    /// What is wrong and what to do, as texts.
+    pub fn reference(&self, name: &str, dimension: Option<u8>) -> Result<Reference, (String, String)> {
+        if let Some(part) = self.parts.iter().position(|part| part.name == name) {
+            return Ok(Reference::Part(part));
+        }
+        if let Some(found) = self.group(name, dimension)? {
+            return Ok(found);
+        }
+        if let Some((part_name, side_name)) = name.split_once('.')
+            && let Some(part) = self.parts.iter().position(|part| part.name == part_name)
+        {
+            let sides = self.parts[part].shape.sides();
+            if let Some(side) = sides.iter().copied().find(|side| *side == side_name) {
+                return Ok(Reference::Side { part, side });
+            }
+            let help = match sides {
+                [] => "a part of a mesh file has no named sides: name a line group of the file".to_string(),
+                _ => super::describe::suggestion(side_name, sides),
+            };
+            return Err((format!("part `{part_name}` has no side `{}`", excerpt(side_name)), help));
+        }
+        Err((format!("there is no part, side or group `{}`", excerpt(name)), self.near(name, dimension)))
+    }
+
+    fn group(&self, name: &str, dimension: Option<u8>) -> Result<Option<Reference>, (String, String)> {
+        let mut found = Vec::new();
+        let mut other = None;
+        for (mesh, imported) in self.meshes.iter().enumerate() {
+            for (group, it) in imported.groups.iter().enumerate().filter(|(_, it)| it.name == name) {
+                if dimension.is_none_or(|wanted| wanted == it.dimension) {
+                    found.push((mesh, group));
+                } else {
+                    other = Some(it.dimension);
+                }
+            }
+        }
+        match (found.as_slice(), other) {
+            ([], None) => Ok(None),
+            ([], Some(dimension)) => Err((
+                format!("group `{}` is {}, not lines", excerpt(name), dimension_word(dimension)),
+                "name a part, a side, or a group of lines".to_string(),
+            )),
+            ([(mesh, group)], _) => Ok(Some(Reference::Group { mesh: *mesh, group: *group })),
+            (several, _) => Err((
+                format!("group `{}` is in {} meshes", excerpt(name), several.len()),
+                "give the groups different names, so that it is clear which one is meant".to_string(),
+            )),
+        }
+    }
+
+    /// Help for a name that nothing has.
+    fn near(&self, name: &str, dimension: Option<u8>) -> String {
+        let mut known: Vec<String> = self.parts.iter().map(|part| part.name.clone()).collect();
+        for imported in &self.meshes {
+            known.extend(
+                imported.groups.iter().filter(|group| dimension.is_none_or(|d| d == group.dimension)).map(|group| group.name.clone()),
+            );
+        }
+        let plain: Vec<&str> = known.iter().map(String::as_str).filter(|name| !name.is_empty()).collect();
+        let sides: Vec<String> =
+            self.parts.iter().flat_map(|part| part.shape.sides().iter().map(move |side| format!("{}.{side}", part.name))).collect();
+        if let Some(near) = nearest(name, plain.iter().copied().chain(sides.iter().map(String::as_str))) {
+            return format!("did you mean `{near}`?");
+        }
+        super::describe::suggestion("", &plain)
+    }
+}
+
+/// A user's text, cut for a message.
+pub(super) fn excerpt(text: &str) -> String {
+    let mut shown: String = text.chars().take(60).map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect();
+    if text.chars().nth(60).is_some() {
+        shown.push_str("...");
+    }
+    shown
+}
+
+/// What cells of a dimension are called.
+pub(super) fn dimension_word(dimension: u8) -> &'static str {
+    match dimension {
+        0 => "a group of points",
+        1 => "a group of lines",
+        2 => "a group of surfaces",
+        _ => "a group of volumes",
+    }
+}

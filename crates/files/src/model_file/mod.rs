@@ -1,27 +1,151 @@
-//! The model file: TOML with units.
+//! The model file: TOML with units, read into a [`Model`].
+//!
+//! The walk: text (`mod.rs`) -> tree with places (`tree.rs`) -> overrides (`set.rs`) -> checked values (`reader.rs`, `value.rs`, `units.rs`) -> model
+//! (`build.rs`) -> [`Model::check`]. What a section may hold is described once, in [`embate_solver::model::describe`]; the JSON schema (`schema.rs`) and
+//! the manual (`manual.rs`) come from there too. Faults (`diagnostics.rs`) are collected all the way and shown together.
 
+mod build;
+mod decimal;
+mod diagnostics;
+mod manual;
+mod reader;
+mod schema;
+mod set;
+mod starter;
+mod tree;
+mod units;
+mod value;
+
+pub use diagnostics::{Diagnostic, Diagnostics};
+pub use manual::reference_markdown;
+pub use schema::schema;
+pub use starter::starter;
+
+use diagnostics::{Faults, Source};
 use embate_solver::model::Model;
-use std::path::Path;
+use std::io::Read;
+use std::path::{Path, PathBuf};
 
-/// All faults of a model file, ready to show.
-#[derive(Clone, Debug)]
-pub struct Diagnostics {
-    /// Text for a terminal, with file, line, column and excerpt of each fault.
-    pub rendered: String,
-    /// Number of faults.
-    pub count: usize,
-}
+/// Name of the model file in a folder.
+pub const FILE_NAME: &str = "model.toml";
+/// Largest model file, bytes: large meshes belong in mesh files.
+const SIZE_MAX: u64 = 16 << 20;
 
-/// Reads a model from a file, or from `model.toml` in a folder; `set` overrides keys (`path.to.key=value`).
+/// Reads a model from a file, or from `model.toml` in a folder; `set` overrides keys (`path.to.key=value`). The model is named after the folder if
+/// the file is `model.toml`, else after the file.
 ///
 /// # Errors
 /// All faults at once.
-pub fn load(_path: &Path, _set: &[String]) -> Result<Model, Diagnostics> {
-    Err(Diagnostics { rendered: String::new(), count: 0 })
+pub fn load(path: &Path, set: &[String]) -> Result<Model, Diagnostics> {
+    let file = if path.is_dir() { path.join(FILE_NAME) } else { path.to_path_buf() };
+    let shown = file.display().to_string();
+    let bytes = read(&file).map_err(|(message, help)| Diagnostics::plain(shown.clone(), message, help))?;
+    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).map_or_else(|| PathBuf::from("."), Path::to_path_buf);
+    match String::from_utf8(bytes) {
+        Ok(text) => load_source(&name_of(&file), Source { name: shown, text }, &folder, set),
+        Err(error) => {
+            let at = error.utf8_error().valid_up_to();
+            let text = String::from_utf8_lossy(error.as_bytes()).into_owned();
+            let mut faults = Faults::default();
+            let place = tree::Place { source: 0, start: at, end: at + 1 };
+            let texts = ("the file is not UTF-8 text".to_string(), "save it with the encoding UTF-8".to_string());
+            faults.beside("encoding", "", Some(place), texts);
+            Err(faults.into_diagnostics(&[Source { name: shown, text }], None))
+        }
+    }
 }
 
-/// The JSON schema of the model file.
-#[must_use]
-pub fn schema() -> String {
-    String::new()
+/// Reads a model from a text. `name` becomes the model's name and stands for the file in messages; mesh files are looked for in `folder`.
+///
+/// # Errors
+/// All faults at once.
+pub fn load_text(name: &str, text: &str, folder: &Path, set: &[String]) -> Result<Model, Diagnostics> {
+    load_source(name, Source { name: name.to_string(), text: text.to_string() }, folder, set)
+}
+
+fn load_source(name: &str, mut source: Source, folder: &Path, set: &[String]) -> Result<Model, Diagnostics> {
+    if source.text.starts_with('\u{feff}') {
+        source.text.remove(0);
+    }
+    let mut faults = Faults::default();
+    let mut root = match tree::document(&source.text, 0) {
+        Ok(root) => root,
+        Err(fault) => {
+            let place = fault.place.map(|range| tree::Place { source: 0, start: range.start, end: range.end });
+            let help = syntax_help(&fault.message).to_string();
+            faults.beside("syntax", "", place, (fault.message, help));
+            return Err(faults.into_diagnostics(&[source], None));
+        }
+    };
+    let mut sources = vec![source];
+    set::apply(&mut root, set, &mut sources, &mut faults);
+    let document = reader::read(&root, &mut faults);
+    let model = build::model(&document, name, folder, &mut faults);
+    for fault in model.check() {
+        if !faults.covers(&fault.path) {
+            let kind = fault.path.split('.').next_back().and_then(|key| key.split('[').next()).unwrap_or_default().to_string();
+            faults.beside(&kind, &fault.path, None, (fault.message, fault.help));
+        }
+    }
+    if faults.is_empty() { Ok(model) } else { Err(faults.into_diagnostics(&sources, Some(&root))) }
+}
+
+/// What to do about a fault of TOML's syntax.
+fn syntax_help(message: &str) -> &'static str {
+    if message.contains("must be quoted") {
+        "texts and numbers with units stand in quotes, for example \"10 ms\""
+    } else if message.contains("duplicate key") {
+        "each key and each [section] stands once; [[part]] and its like may be repeated"
+    } else if message.contains("recurs") {
+        "the model file needs no deep nesting"
+    } else {
+        "see https://toml.io for the syntax"
+    }
+}
+
+/// The bytes of a file of sensible size.
+fn read(file: &Path) -> Result<Vec<u8>, (String, String)> {
+    let cannot = |error: &std::io::Error| match error.kind() {
+        std::io::ErrorKind::NotFound => ("there is no such file".to_string(), near_files(file)),
+        _ => (format!("the file can't be read: {error}"), String::new()),
+    };
+    let opened = std::fs::File::open(file).map_err(|error| cannot(&error))?;
+    let mut bytes = Vec::new();
+    opened.take(SIZE_MAX + 1).read_to_end(&mut bytes).map_err(|error| cannot(&error))?;
+    if bytes.len() as u64 > SIZE_MAX {
+        let message = format!("the file is larger than {} MiB", SIZE_MAX >> 20);
+        return Err((message, "this is no model file: put large meshes into mesh files".to_string()));
+    }
+    Ok(bytes)
+}
+
+/// Help for a file that is not there: the model files beside it.
+fn near_files(file: &Path) -> String {
+    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let Ok(listing) = std::fs::read_dir(folder) else {
+        return format!("there is no folder {} either", folder.display());
+    };
+    let mut names: Vec<String> = listing
+        .flatten()
+        .map(|entry| entry.path())
+        .filter(|path| path.extension().is_some_and(|extension| extension == "toml") || path.join(FILE_NAME).is_file())
+        .map(|path| path.display().to_string())
+        .collect();
+    names.sort();
+    names.truncate(8);
+    match names.as_slice() {
+        [] => format!("make one with `embate new NAME`, or give a folder that holds a {FILE_NAME}"),
+        _ => format!("near it are {}", names.join(", ")),
+    }
+}
+
+fn name_of(file: &Path) -> String {
+    let own = |path: &Path| path.file_stem().map(|name| name.to_string_lossy().into_owned());
+    if file.file_name().is_some_and(|name| name == FILE_NAME) {
+        let folder =
+            std::path::absolute(file).ok().and_then(|path| path.canonicalize().ok()).and_then(|path| path.parent().map(Path::to_path_buf));
+        let name = folder.as_deref().and_then(Path::file_name).map(|name| name.to_string_lossy().into_owned());
+        return name.unwrap_or_else(|| "model".to_string());
+    }
+    own(file).unwrap_or_else(|| "model".to_string())
 }

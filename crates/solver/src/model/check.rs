@@ -11,6 +11,11 @@ use crate::quantity::{Dimension, Range};
 use crate::{contact, element, material, output};
 use std::collections::{BTreeMap, BTreeSet};
 
+/// Most field files of a run.
+const FRAMES_MAX: f64 = 1e6;
+/// Most rows of a history.
+const ROWS_MAX: f64 = 1e8;
+
 impl Model {
     /// All faults that can be told without meshing; empty for a sound model. Paths are those of the model file, such as `part[0].ring.inner`.
     #[must_use]
@@ -344,7 +349,8 @@ impl Check<'_> {
                 format!("{path}.between"),
                 format!(
                     "`{}` and `{}` share a surface: contact of a body with itself is not available",
-                    contact.between[0], contact.between[1]
+                    excerpt(&contact.between[0]),
+                    excerpt(&contact.between[1])
                 ),
                 "name two different bodies or two different sides",
             );
@@ -437,7 +443,18 @@ impl Check<'_> {
 
     fn output(&mut self) {
         let output = &self.model.output;
-        for (path, cadence) in [("output.fields", output.fields), ("output.history", output.history)] {
+        for (path, cadence, most) in [("output.fields", output.fields, FRAMES_MAX), ("output.history", output.history, ROWS_MAX)] {
+            let count = match cadence {
+                Cadence::Count(count) => count as f64,
+                Cadence::Interval(time) => self.model.run.end / time,
+            };
+            if count.is_finite() && count > most {
+                self.fault(
+                    path,
+                    format!("this would be written {count} times, more than {most}"),
+                    "give a smaller count or a longer interval",
+                );
+            }
             match cadence {
                 Cadence::Count(0) => {
                     self.fault(path, "there must be at least 1 interval, but it is 0", "give a count of 1 or more, or an interval")

@@ -4,6 +4,7 @@
 //! the JSON schema and the tables of `docs/model-file.md` are made from it by iteration. A new key is one line here and its use
 //! in the builder of `embate-files`.
 
+use super::reference::excerpt;
 use crate::quantity::{Dimension, Range};
 use crate::{contact, element, material, output};
 
@@ -16,6 +17,8 @@ pub struct Section {
     pub doc: &'static str,
     /// How it is written.
     pub form: Form,
+    /// Whether a model can't be without it.
+    pub required: bool,
     /// Its keys, in the order of the documentation.
     pub keys: &'static [Key],
     /// What must hold between its keys.
@@ -141,6 +144,7 @@ pub static TOP: Section = Section {
     name: "",
     doc: "Keys that stand above all sections.",
     form: Form::Single,
+    required: false,
     keys: &[key("title", Text, Optional("the model's name"), "Title for pictures and reports.")],
     rules: &[],
     more: None,
@@ -151,8 +155,9 @@ pub static SECTIONS: &[&Section] = &[&RUN, &MATERIAL, &PART, &CONTACT, &WALL, &S
 
 static RUN: Section = Section {
     name: "run",
-    doc: "How long the simulation runs and what stops it. Required.",
+    doc: "How long the simulation runs and what stops it.",
     form: Form::Single,
+    required: true,
     keys: &[
         key("end", Quantity(Dimension::TIME, Positive), Required, "End time."),
         key("safety", Quantity(Dimension::NONE, UpTo(0.0, 1.0)), Default("0.9"), "Fraction of the stable time step that is used."),
@@ -178,6 +183,7 @@ static MATERIAL: Section = Section {
     name: "material",
     doc: "A material: a law and its parameters. Parts refer to it by its name.",
     form: Form::Named,
+    required: true,
     keys: &[key("law", Choice(laws), Required, "Name of the law.")],
     rules: &[],
     more: Some(More { by: "law", keys: law_keys }),
@@ -187,6 +193,7 @@ static PART: Section = Section {
     name: "part",
     doc: "A body of one material and one kind of element. Exactly one of `rectangle`, `ring`, `disk` and `mesh` says where its elements come from.",
     form: Form::Repeated,
+    required: true,
     keys: &[
         key("name", Name, Required, "Unique name."),
         key("material", Reference, Required, "Name of a `[material.NAME]` section."),
@@ -205,6 +212,7 @@ static RECTANGLE: Section = Section {
     name: "rectangle",
     doc: "An axis-parallel rectangle; its sides are `left`, `right`, `bottom` and `top`.",
     form: Form::Inline,
+    required: false,
     keys: &[
         key("corner", Vector(Dimension::LENGTH, Finite), Required, "Lower left corner."),
         key("size", Vector(Dimension::LENGTH, Positive), Required, "Width and height."),
@@ -218,6 +226,7 @@ static RING: Section = Section {
     name: "ring",
     doc: "A ring, or a sector of one, counter-clockwise from `from` to `to`; its sides are `inner` and `outer` and, for a sector, `start` and `end`.",
     form: Form::Inline,
+    required: false,
     keys: &[
         key("centre", Vector(Dimension::LENGTH, Finite), Required, "Centre."),
         key("inner", Quantity(Dimension::LENGTH, Positive), Required, "Inner radius."),
@@ -234,6 +243,7 @@ static DISK: Section = Section {
     name: "disk",
     doc: "A full disk; its side is `outer`.",
     form: Form::Inline,
+    required: false,
     keys: &[
         key("centre", Vector(Dimension::LENGTH, Finite), Required, "Centre."),
         key("radius", Quantity(Dimension::LENGTH, Positive), Required, "Radius."),
@@ -247,6 +257,7 @@ static MESH: Section = Section {
     name: "mesh",
     doc: "A group of a mesh file (Gmsh `.msh` 2.2 or 4.1). Its other groups can be named in contacts, constraints and probes.",
     form: Form::Inline,
+    required: false,
     keys: &[
         key("file", Text, Required, "Path of the file, from the model file's folder."),
         key("group", Text, Required, "Name of a two-dimensional physical group."),
@@ -260,6 +271,7 @@ static CONTACT: Section = Section {
     name: "contact",
     doc: "Two surfaces that can't go through each other. A surface is a part (its whole outside), a side such as `plate.top`, or a line group of a mesh file.",
     form: Form::Repeated,
+    required: false,
     keys: &[
         key("name", Name, Optional("the two surfaces' names joined by `-`"), "Unique name."),
         key("between", References(Some(2)), Required, "The two surfaces."),
@@ -287,6 +299,7 @@ static WALL: Section = Section {
     name: "wall",
     doc: "A rigid plane wall that the nodes of some parts can't cross.",
     form: Form::Repeated,
+    required: false,
     keys: &[
         key("name", Name, Optional("`wall`, `wall2`, ..."), "Unique name."),
         key("parts", References(None), Optional("all parts"), "Parts that it stops."),
@@ -308,6 +321,7 @@ static SYMMETRY: Section = Section {
     name: "symmetry",
     doc: "A line of symmetry: nodes that lie on it at the start stay on it.",
     form: Form::Repeated,
+    required: false,
     keys: &[
         key("normal", Vector(Dimension::NONE, Finite), Required, "Normal of the line; any length but zero."),
         key("point", Vector(Dimension::LENGTH, Finite), Default("[0, 0]"), "A point of the line."),
@@ -321,6 +335,7 @@ static CONSTRAINT: Section = Section {
     name: "constraint",
     doc: "Prescribed motion of a set of nodes: a part, a side such as `plate.left`, or a group of a mesh file.",
     form: Form::Repeated,
+    required: false,
     keys: &[
         key("on", Reference, Required, "The set."),
         key("fixed", Kind::Choices(|| vec!["x", "y"]), Optional("none"), "Components that don't move."),
@@ -339,6 +354,7 @@ static LOAD: Section = Section {
     name: "load",
     doc: "A load on some parts.",
     form: Form::Repeated,
+    required: false,
     keys: &[
         key("gravity", Vector(Dimension::ACCELERATION, Finite), Required, "Uniform acceleration, such as `[0, \"-9.81 m/s^2\"]`."),
         key("parts", References(None), Optional("all parts"), "Parts that it acts on."),
@@ -351,6 +367,7 @@ static PROBE: Section = Section {
     name: "probe",
     doc: "A place whose position and velocity are written to the history as `NAME.x`, `NAME.y`, `NAME.vx`, `NAME.vy`: the node of `part` nearest to `point`, node number `node` of `part`, or the mean over `set`.",
     form: Form::Repeated,
+    required: false,
     keys: &[
         key("name", Name, Required, "Unique name."),
         key("part", Reference, Optional("only with `set`"), "Part of `point` or `node`."),
@@ -371,6 +388,7 @@ static OUTPUT: Section = Section {
     name: "output",
     doc: "What is written.",
     form: Form::Single,
+    required: false,
     keys: &[
         key("fields", Kind::Cadence, Default("100"), "How often the fields are written: a count, or an interval such as `\"0.1 ms\"`."),
         key("history", Kind::Cadence, Default("1000"), "How often a row of the history is written: a count or an interval."),
@@ -477,7 +495,8 @@ pub fn suggestion(name: &str, known: &[&str]) -> String {
     if let Some(near) = nearest(name, known.iter().copied()) {
         return format!("did you mean `{near}`?");
     }
-    match known {
+    let known: Vec<String> = known.iter().map(|name| excerpt(name)).collect();
+    match known.as_slice() {
         [] => "there is none".to_string(),
         [one] => format!("there is only `{one}`"),
         _ => {

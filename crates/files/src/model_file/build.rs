@@ -1,0 +1,273 @@
+//! Makes a [`Model`] from the records of a file: names that were left out, contradictions between keys, mesh files.
+//!
+//! Records come from `reader.rs`. Where a value is missing or faulty a placeholder stands in (NaN, empty, a mesh that is not there): its fault is
+//! noted already, and faults that only follow from it are not shown.
+
+use super::diagnostics::Faults;
+use super::reader::{Document, Record};
+use super::units::shorten;
+use super::value::Datum;
+use crate::gmsh;
+use embate_solver::model::{
+    Cadence, Constraint, Contact, Formulation, ImportedMesh, Load, Material, Model, Output, Part, Penalty, Probe, ProbeAt, Run, Shape,
+    Symmetry, Wall,
+};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// The model of a file in `folder`.
+pub(super) fn model(document: &Document, name: &str, folder: &Path, faults: &mut Faults) -> Model {
+    let mut meshes = Meshes { folder, read: Vec::new(), loaded: Vec::new() };
+    let parts = document.section("part").iter().map(|record| part(record, &mut meshes, faults)).collect();
+    let mut model = Model { name: name.to_string(), meshes: meshes.loaded, ..Model::default() };
+    model.title = document.top.text("title");
+    model.run = run(&document.single("run"));
+    let material = |record: &Record| Material { law: record.text("law"), parameters: record.numbers() };
+    model.materials = document.section("material").iter().map(|record| (record.name.clone(), material(record))).collect();
+    model.parts = parts;
+    model.contacts = document.section("contact").iter().map(|record| contact(record, faults)).collect();
+    model.walls = document.section("wall").iter().map(wall).collect();
+    model.symmetries = document.section("symmetry").iter().map(symmetry).collect();
+    model.constraints = document.section("constraint").iter().map(|record| constraint(record, faults)).collect();
+    model.loads = document.section("load").iter().map(load).collect();
+    model.probes = document.section("probe").iter().map(|record| probe(record, faults)).collect();
+    model.output = output(&document.single("output"));
+    name_the_nameless(&mut model);
+    model
+}
+
+fn run(record: &Record) -> Run {
+    let number = |name| record.number(name).unwrap_or(f64::NAN);
+    Run {
+        end: number("end"),
+        safety: number("safety"),
+        energy_limit: number("energy_limit"),
+        step_limit: record.number("step_limit"),
+        max_steps: record.integer("max_steps"),
+    }
+}
+
+fn part(record: &Record, meshes: &mut Meshes<'_>, faults: &mut Faults) -> Part {
+    Part {
+        name: record.text("name"),
+        material: record.text("material"),
+        element: record.text("element"),
+        shape: shape(record, meshes, faults),
+        velocity: record.vector("velocity"),
+    }
+}
+
+fn shape(part: &Record, meshes: &mut Meshes<'_>, faults: &mut Faults) -> Shape {
+    let number = |record: &Record, name| record.number(name).unwrap_or(f64::NAN);
+    if let Some(it) = part.table("rectangle") {
+        return Shape::Rectangle { corner: it.vector("corner"), size: it.vector("size"), elements: it.counts("elements") };
+    }
+    if let Some(it) = part.table("ring") {
+        return Shape::Ring {
+            centre: it.vector("centre"),
+            inner: number(it, "inner"),
+            outer: number(it, "outer"),
+            from: number(it, "from"),
+            to: number(it, "to"),
+            elements: it.counts("elements"),
+        };
+    }
+    if let Some(it) = part.table("disk") {
+        let elements = it.integer("elements").map_or(1, |count| usize::try_from(count).unwrap_or(usize::MAX));
+        return Shape::Disk { centre: it.vector("centre"), radius: number(it, "radius"), elements };
+    }
+    let mesh = part.table("mesh").and_then(|it| Some((meshes.index(it, faults)?, it.text("group"))));
+    if mesh.is_none() {
+        faults.cover(&part.key("mesh"));
+    }
+    let (mesh, group) = mesh.unwrap_or((usize::MAX, String::new()));
+    Shape::Group { mesh, group }
+}
+
+/// The mesh files of a model, each read once per scale.
+struct Meshes<'a> {
+    folder: &'a Path,
+    read: Vec<(PathBuf, u64, Option<usize>)>,
+    loaded: Vec<Arc<ImportedMesh>>,
+}
+
+impl Meshes<'_> {
+    /// Index into the model's meshes; `None` with a fault noted if the file can't be read.
+    fn index(&mut self, record: &Record, faults: &mut Faults) -> Option<usize> {
+        let (file, scale) = (record.text("file"), record.number("scale")?);
+        let place = record.written("file").filter(|_| record.datum("file").is_some())?;
+        let path = self.folder.join(&file);
+        if let Some((.., index)) = self.read.iter().find(|(known, bits, _)| *known == path && *bits == scale.to_bits()) {
+            return *index;
+        }
+        let index = if path.is_file() {
+            match gmsh::read(&path, scale) {
+                Ok(mesh) => {
+                    self.loaded.push(Arc::new(mesh));
+                    Some(self.loaded.len() - 1)
+                }
+                Err(wrong) => {
+                    for fault in wrong {
+                        let within = if fault.path.is_empty() { String::new() } else { format!(", {}", fault.path) };
+                        let message = format!("{}{within}: {}", shorten(&file), fault.message);
+                        faults.value("mesh file", &record.key("file"), place, (message, fault.help));
+                    }
+                    None
+                }
+            }
+        } else {
+            let message = format!("there is no file {}", shorten(&file));
+            let help = format!("paths begin at the model's folder, {}", self.folder.display());
+            faults.value("mesh file", &record.key("file"), place, (message, help));
+            None
+        };
+        self.read.push((path, scale.to_bits(), index));
+        index
+    }
+}
+
+fn penalty(record: &Record) -> Penalty {
+    match record.datum("penalty") {
+        Some(Datum::Penalty(penalty)) => *penalty,
+        _ => Penalty::Automatic { scale: record.number("penalty_scale").unwrap_or(1.0) },
+    }
+}
+
+fn contact(record: &Record, faults: &mut Faults) -> Contact {
+    let names = record.texts("between");
+    let between = [0, 1].map(|index| names.get(index).cloned().unwrap_or_default());
+    Contact {
+        name: record.text("name"),
+        formulation: formulation(record, &between, faults),
+        penalty: penalty(record),
+        search: record.text("search"),
+        between,
+    }
+}
+
+fn formulation(record: &Record, between: &[String; 2], faults: &mut Faults) -> Formulation {
+    let single = record.text("formulation") == "single_pass";
+    let known = record.datum("formulation").is_some() && record.datum("between").is_some();
+    let place = record.written("slave");
+    match (single, place) {
+        (false, None) => Formulation::DoublePass,
+        (false, Some(place)) => {
+            if known {
+                let help = "add `formulation = \"single_pass\"`, or leave `slave` out";
+                let message = "`slave` is given, but in a double pass contact both surfaces are slaves";
+                faults.value("rule", &record.key("slave"), place, (message.to_string(), help.to_string()));
+            }
+            Formulation::DoublePass
+        }
+        (true, None) => {
+            let help = format!("add `slave = {}`: usually the surface with the finer mesh or the softer body", shorten(&between[0]));
+            faults.beside("rule", &record.path, record.written("formulation"), ("a single pass contact needs `slave`".to_string(), help));
+            Formulation::SinglePass { slave: 0 }
+        }
+        (true, Some(place)) => {
+            let slave = record.text("slave");
+            let index = between.iter().position(|name| *name == slave);
+            if index.is_none() && known && record.datum("slave").is_some() {
+                let message = format!("the slave {} is not one of the two surfaces", shorten(&slave));
+                let help = format!("take {} or {}", shorten(&between[0]), shorten(&between[1]));
+                faults.value("rule", &record.key("slave"), place, (message, help));
+            }
+            Formulation::SinglePass { slave: index.unwrap_or(0) }
+        }
+    }
+}
+
+fn wall(record: &Record) -> Wall {
+    Wall {
+        name: record.text("name"),
+        parts: record.texts("parts"),
+        point: record.vector("point"),
+        normal: record.vector("normal"),
+        penalty: penalty(record),
+    }
+}
+
+fn symmetry(record: &Record) -> Symmetry {
+    Symmetry { parts: record.texts("parts"), point: record.vector("point"), normal: record.vector("normal") }
+}
+
+fn constraint(record: &Record, faults: &mut Faults) -> Constraint {
+    let mut velocity = if let Some(Datum::Components(velocity)) = record.datum("velocity") { *velocity } else { [None, None] };
+    for axis in record.texts("fixed") {
+        let index = usize::from(axis == "y");
+        if velocity[index].is_some()
+            && let Some(place) = record.written("fixed")
+        {
+            let message = format!("component `{axis}` is both fixed and given a velocity");
+            faults.value("rule", &record.key("fixed"), place, (message, "leave it out of one of the two".to_string()));
+        }
+        velocity[index] = velocity[index].or(Some(0.0));
+    }
+    if velocity == [None, None] {
+        // Nothing sound was given: the reader has said so.
+        velocity = [Some(0.0), None];
+    }
+    Constraint { on: record.text("on"), velocity }
+}
+
+fn load(record: &Record) -> Load {
+    Load::Gravity { parts: record.texts("parts"), acceleration: record.vector("gravity") }
+}
+
+fn probe(record: &Record, faults: &mut Faults) -> Probe {
+    let part = record.text("part");
+    let at = if record.written("point").is_some() {
+        ProbeAt::Point { part, point: record.vector("point") }
+    } else if record.written("node").is_some() {
+        let node = record.integer("node").map_or(0, |node| usize::try_from(node).unwrap_or(usize::MAX));
+        ProbeAt::Node { part, node }
+    } else {
+        if record.written("set").is_none() {
+            faults.cover(&record.key("set"));
+        }
+        ProbeAt::Set { set: record.text("set") }
+    };
+    Probe { name: record.text("name"), at }
+}
+
+fn output(record: &Record) -> Output {
+    let default = Output::default();
+    let cadence = |name, default| if let Some(Datum::Cadence(cadence)) = record.datum(name) { *cadence } else { default };
+    let mirror = record.texts("mirror");
+    Output {
+        fields: cadence("fields", Cadence::Count(1)),
+        history: cadence("history", Cadence::Count(1)),
+        include: record.texts("include"),
+        mirror: ["x", "y"].map(|axis| mirror.iter().any(|it| it == axis)),
+        pictures: if let Some(Datum::Flag(flag)) = record.datum("pictures") { *flag } else { default.pictures },
+        picture_field: record.text("picture_field"),
+    }
+}
+
+/// Names for contacts and walls that have none: the two surfaces' names, or `wall`, `wall2`, ...
+fn name_the_nameless(model: &mut Model) {
+    let plain =
+        |name: &str| -> String { name.chars().map(|c| if c.is_alphanumeric() || matches!(c, '_' | '-') { c } else { '_' }).collect() };
+    let mut taken: Vec<String> = model.contacts.iter().map(|contact| contact.name.clone()).collect();
+    for contact in model.contacts.iter_mut().filter(|contact| contact.name.is_empty()) {
+        let joined: String = format!("{}-{}", plain(&contact.between[0]), plain(&contact.between[1])).chars().take(60).collect();
+        contact.name = free(&joined, &taken);
+        taken.push(contact.name.clone());
+    }
+    let mut taken: Vec<String> = model.walls.iter().map(|wall| wall.name.clone()).collect();
+    for wall in model.walls.iter_mut().filter(|wall| wall.name.is_empty()) {
+        wall.name = free("wall", &taken);
+        taken.push(wall.name.clone());
+    }
+}
+
+/// The name, or the name with the first number from 2 that is free.
+fn free(name: &str, taken: &[String]) -> String {
+    let mut candidate = name.to_string();
+    let mut number = 1;
+    while taken.contains(&candidate) {
+        number += 1;
+        candidate = format!("{name}{number}");
+    }
+    candidate
+}

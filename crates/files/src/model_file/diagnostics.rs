@@ -1,0 +1,213 @@
+//! Faults of a model file as a person reads them: file, line, column, excerpt, and what to do.
+//!
+//! Faults come from the parser, the reader, the builder and [`Model::check`](embate_solver::model::Model::check); the texts go to a terminal.
+
+use super::tree::{Node, Place};
+use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet, normalize_untrusted_str};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Faults of one kind beyond this number are counted, not shown.
+const SHOWN_PER_KIND: usize = 20;
+/// Lines longer than this are not shown, only named.
+const LINE_MAX: usize = 400;
+
+/// All faults of a model file, ready to show.
+#[derive(Clone, Debug)]
+pub struct Diagnostics {
+    /// Text for a terminal without colours, with file, line, column and excerpt of each fault.
+    pub rendered: String,
+    /// Number of faults.
+    pub count: usize,
+    /// The faults in the order of the text.
+    pub entries: Vec<Diagnostic>,
+    lines: Vec<Option<Line>>,
+    kinds: Vec<String>,
+}
+
+/// One fault with its place.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Diagnostic {
+    /// File as it was named, or `--set`.
+    pub file: String,
+    /// Line from 1; 0 when the fault belongs to no line.
+    pub line: usize,
+    /// Column in characters from 1; 0 when the fault belongs to no line.
+    pub column: usize,
+    /// Path of the key, such as `part[0].ring.inner`; empty for the whole file.
+    pub path: String,
+    /// What is wrong.
+    pub message: String,
+    /// What to do; may be empty.
+    pub help: String,
+}
+
+/// The line that a fault shows, and the marked bytes in it.
+#[derive(Clone, Debug)]
+struct Line {
+    text: String,
+    start: usize,
+    end: usize,
+}
+
+/// A text that places refer to.
+#[derive(Clone, Debug)]
+pub(super) struct Source {
+    pub name: String,
+    pub text: String,
+}
+
+/// A fault on its way.
+#[derive(Clone, Debug)]
+struct Problem {
+    kind: String,
+    path: String,
+    message: String,
+    help: String,
+    place: Option<Place>,
+}
+
+/// Collects faults; knows which paths are faulty already, so that no fault is reported twice.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Faults {
+    problems: Vec<Problem>,
+    covered: BTreeSet<String>,
+}
+
+impl Faults {
+    /// A fault of the value at `path`; later faults at or under this path are its consequences.
+    pub(super) fn value(&mut self, kind: &str, path: &str, place: Place, wrong: (String, String)) {
+        self.cover(path);
+        self.beside(kind, path, Some(place), wrong);
+    }
+
+    /// A fault that leaves the values at and under `path` meaningful.
+    pub(super) fn beside(&mut self, kind: &str, path: &str, place: Option<Place>, (message, help): (String, String)) {
+        self.problems.push(Problem { kind: kind.to_string(), path: path.to_string(), message, help, place });
+    }
+
+    /// Whatever is at or under this path is a placeholder.
+    pub(super) fn cover(&mut self, path: &str) {
+        self.covered.insert(path.to_string());
+    }
+
+    /// Whether the path or something above it is known to be faulty.
+    pub(super) fn covers(&self, path: &str) -> bool {
+        let above = path.char_indices().filter(|(_, c)| matches!(c, '.' | '[')).map(|(at, _)| &path[..at]);
+        above.chain(std::iter::once(path)).any(|path| self.covered.contains(path))
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.problems.is_empty()
+    }
+
+    /// Gives every fault its place in the text.
+    pub(super) fn into_diagnostics(self, sources: &[Source], root: Option<&Node>) -> Diagnostics {
+        let mut problems = self.problems;
+        for problem in &mut problems {
+            if problem.place.is_none() && !problem.path.is_empty() {
+                problem.place = root.map(|root| root.locate(&problem.path)).filter(|place| place.end > place.start);
+            }
+        }
+        problems.sort_by_key(|problem| problem.place);
+        let starts: Vec<Vec<usize>> = sources.iter().map(|source| line_starts(&source.text)).collect();
+        let (mut entries, mut lines, mut kinds) = (Vec::new(), Vec::new(), Vec::new());
+        for problem in problems {
+            let source = &sources[problem.place.map_or(0, |place| place.source.min(sources.len() - 1))];
+            let found = problem.place.map(|place| line_of(&source.text, &starts[place.source.min(sources.len() - 1)], place));
+            let (line, column) = found.as_ref().map_or((0, 0), |(line, column, _)| (*line, *column));
+            lines.push(found.map(|(.., line)| line));
+            kinds.push(problem.kind);
+            entries.push(Diagnostic {
+                file: source.name.clone(),
+                line,
+                column,
+                path: problem.path,
+                message: problem.message,
+                help: problem.help,
+            });
+        }
+        let mut diagnostics = Diagnostics { rendered: String::new(), count: entries.len(), entries, lines, kinds };
+        diagnostics.rendered = diagnostics.render(false);
+        diagnostics
+    }
+}
+
+/// Byte at which each line starts.
+fn line_starts(text: &str) -> Vec<usize> {
+    std::iter::once(0).chain(text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n').map(|(at, _)| at + 1)).collect()
+}
+
+/// Line and column from 1, and the line's text with the marked bytes.
+fn line_of(text: &str, starts: &[usize], place: Place) -> (usize, usize, Line) {
+    let floor = |mut at: usize| {
+        at = at.min(text.len());
+        while !text.is_char_boundary(at) {
+            at -= 1;
+        }
+        at
+    };
+    let (start, end) = (floor(place.start), floor(place.end));
+    let line = starts.partition_point(|first| *first <= start).max(1);
+    let first = starts.get(line - 1).copied().unwrap_or(0);
+    let last = starts.get(line).map_or(text.len(), |next| next - 1);
+    let shown = text[first..last.max(first)].trim_end_matches('\r');
+    let start = (start - first).min(shown.len());
+    let end = (end.saturating_sub(first)).min(shown.len()).max(start);
+    let column = shown[..start].chars().count() + 1;
+    (line, column, Line { text: shown.to_string(), start, end })
+}
+
+impl Diagnostics {
+    /// Faults without a text that they could point into.
+    pub(super) fn plain(file: String, message: String, help: String) -> Self {
+        let mut faults = Faults::default();
+        faults.beside("file", "", None, (message, help));
+        faults.into_diagnostics(&[Source { name: file, text: String::new() }], None)
+    }
+
+    /// The text for a terminal, coloured if wanted: every fault with its excerpt, at most 20 of one kind.
+    #[must_use]
+    pub fn render(&self, color: bool) -> String {
+        let renderer = if color { Renderer::styled() } else { Renderer::plain() }.term_width(160);
+        let mut shown: BTreeMap<&str, usize> = BTreeMap::new();
+        let mut text = String::new();
+        for ((entry, line), kind) in self.entries.iter().zip(&self.lines).zip(&self.kinds) {
+            let count = shown.entry(kind).or_default();
+            *count += 1;
+            if *count <= SHOWN_PER_KIND {
+                text.push_str(&renderer.render(&[group(entry, line.as_ref())]));
+                text.push_str("\n\n");
+            }
+        }
+        let hidden: usize = shown.values().map(|count| count.saturating_sub(SHOWN_PER_KIND)).sum();
+        if hidden > 0 {
+            text.push_str(&format!("and {hidden} more of the same kinds\n"));
+        }
+        text.push_str(&match self.count {
+            1 => "1 fault: nothing was run\n".to_string(),
+            count => format!("{count} faults: nothing was run\n"),
+        });
+        text
+    }
+}
+
+fn group<'a>(entry: &'a Diagnostic, line: Option<&'a Line>) -> Group<'a> {
+    let title = Level::ERROR.primary_title(normalize_untrusted_str(&entry.message));
+    let group = match line {
+        Some(line) if line.text.len() <= LINE_MAX => {
+            let mark = AnnotationKind::Primary.span(line.start..line.end);
+            title.element(Snippet::source(&line.text).line_start(entry.line).path(&entry.file).annotation(mark))
+        }
+        Some(_) => title.element(Origin::path(&entry.file).line(entry.line).char_column(entry.column)),
+        None => title.element(Origin::path(&entry.file)),
+    };
+    if entry.help.is_empty() { group } else { group.element(Level::HELP.message(normalize_untrusted_str(&entry.help))) }
+}
+
+impl std::fmt::Display for Diagnostics {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.rendered)
+    }
+}
+
+impl std::error::Error for Diagnostics {}

@@ -1,0 +1,141 @@
+//! The reference of the model file, `docs/model-file.md`: the tables come from the descriptions of sections and keys and from the registries.
+
+use super::reader::header;
+use super::{units, value};
+use embate_solver::model::describe::{Form, Key, Kind, Need, Rule, SECTIONS, Section, TOP};
+use embate_solver::quantity::{Dimension, Range};
+use embate_solver::{contact, element, material, output};
+use std::fmt::Write;
+
+const OPENING: &str = "# The model file
+
+A model is a TOML file, usually `model.toml` in a folder of its own. It is strict: an unknown key is a fault, and all faults are reported at once, each
+with its line and what to do. `embate new NAME` writes a model to begin with, `embate check MODEL` checks one without running it, and `embate schema` prints
+a JSON schema with which editors complete keys.
+
+This page is made from the program's own descriptions.
+
+## Numbers and units
+
+A number is in SI units (m, kg, s, K, radians). A text carries its own unit and is checked against what the key needs: `\"94 mm\"`, `\"7.85 g/cm^3\"`,
+`\"-50 m/s\"`, `\"3.5e11 N/m/m\"`, `\"10 us\"`, `\"30 deg\"`. Units are multiplied by a space, `*` or `·`, divided by `/` (which divides by the one unit that follows
+it), and raised with `^`. The value is rounded once: `\"94 mm\"` is exactly the number 0.094, and multiples of 90 deg are exact.
+
+";
+
+/// The text of `docs/model-file.md`.
+#[must_use]
+pub fn reference_markdown() -> String {
+    let mut out = OPENING.to_string();
+    let _ =
+        writeln!(out, "Units: {}. Those with a star take prefixes from `f` (1e-15) to `P` (1e15); micro is `u` or `µ`.\n", units::names());
+    out.push_str("## Names\n\nParts, materials, contacts, walls and probes have names of letters, digits, `_` and `-`. A contact, a constraint or a probe may name a part\n");
+    out.push_str("(its whole outside, or all its nodes), a side of a built-in shape such as `plate.top`, or a group of a mesh file; a part comes before a group of the same name.\n\n");
+    let _ = writeln!(out, "## Above all sections\n");
+    table(&mut out, &TOP, TOP.keys);
+    for section in SECTIONS {
+        let _ = writeln!(out, "## `{}`\n\n{}{}\n", header(section), section.doc, if section.required { " Required." } else { "" });
+        table(&mut out, section, section.keys);
+        for key in section.keys {
+            if let Kind::Table(inner) = key.kind {
+                let _ = writeln!(out, "### `{}`\n\n{}\n", header(inner), inner.doc);
+                table(&mut out, inner, inner.keys);
+            }
+        }
+        if let Some(more) = section.more {
+            laws(&mut out, section, more.keys);
+        }
+    }
+    registries(&mut out);
+    overrides(&mut out);
+    while out.ends_with("\n\n") {
+        out.pop();
+    }
+    out
+}
+
+fn table(out: &mut String, section: &Section, keys: &[Key]) {
+    out.push_str("| key | value | left out | meaning |\n|---|---|---|---|\n");
+    for key in keys {
+        let left_out = match key.need {
+            Need::Required => "required".to_string(),
+            Need::Optional(text) => text.to_string(),
+            Need::Default(text) => format!("`{text}`"),
+            Need::Value(value) => format!("`{value}`"),
+        };
+        let _ = writeln!(out, "| `{}` | {} | {left_out} | {} |", key.name, words(key), key.doc);
+    }
+    out.push('\n');
+    for rule in section.rules {
+        let list = |names: &[&str], last: &str| {
+            let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+            quoted.split_last().map_or(String::new(), |(end, rest)| format!("{} {last} {end}", rest.join(", ")))
+        };
+        let _ = match rule {
+            Rule::OneOf(names) => writeln!(out, "- Exactly one of {}.", list(names, "and")),
+            Rule::SomeOf(names) => writeln!(out, "- {}, or both.", list(names, "or")),
+            Rule::NotBoth(one, other) => writeln!(out, "- Not `{one}` and `{other}` at once."),
+            Rule::Needs(one, other) => writeln!(out, "- `{one}` needs `{other}`."),
+        };
+    }
+    if !section.rules.is_empty() {
+        out.push('\n');
+    }
+}
+
+fn words(key: &Key) -> String {
+    let of = |dimension: Dimension| match dimension {
+        Dimension::NONE => "number".to_string(),
+        _ => format!("{}, {}", units::quantity(dimension), dimension.unit()),
+    };
+    let within = |range: Range| match range {
+        Range::Finite => String::new(),
+        range => format!(", {range}"),
+    };
+    match key.kind {
+        Kind::Quantity(dimension, range) => format!("{}{}", of(dimension), within(range)),
+        Kind::Angle(_) => "angle, rad".to_string(),
+        Kind::Vector(dimension, range) => format!("`[x, y]`: {}{}", of(dimension), within(range)),
+        Kind::Components(dimension, _) => format!("`{{ x, y }}`: {}", of(dimension)),
+        Kind::Integer(least) => format!("whole number from {least}"),
+        Kind::Integers(count, least) => format!("{count} whole numbers from {least}"),
+        Kind::Choice(known) if known().len() <= 3 => known().iter().map(|name| format!("`\"{name}\"`")).collect::<Vec<_>>().join(" or "),
+        Kind::Choices(known) if known().len() <= 3 => {
+            format!("{}, or a list of them", known().iter().map(|name| format!("`\"{name}\"`")).collect::<Vec<_>>().join(" or "))
+        }
+        Kind::Table(section) => format!("table, see `{}` below", section.name),
+        other => value::words(other).trim_start_matches("a ").to_string(),
+    }
+}
+
+fn laws(out: &mut String, section: &Section, keys: fn(&str) -> Option<Vec<Key>>) {
+    for kind in material::registry() {
+        let _ = writeln!(out, "### `law = \"{}\"`\n\n{}\n", kind.name, kind.doc);
+        let own: Vec<Key> = keys(kind.name).unwrap_or_default();
+        let plain = Section { name: section.name, doc: "", form: Form::Named, required: false, keys: &[], rules: &[], more: None };
+        table(out, &plain, &own);
+    }
+}
+
+fn registries(out: &mut String) {
+    out.push_str("## Elements\n\n| `element` | meaning |\n|---|---|\n");
+    for kind in element::registry() {
+        let _ = writeln!(out, "| `{}` | {} |", kind.name, kind.doc);
+    }
+    out.push_str("\n## Searches\n\n| `search` | meaning |\n|---|---|\n");
+    for kind in contact::search::registry::<2>() {
+        let _ = writeln!(out, "| `{}` | {} |", kind.name, kind.doc);
+    }
+    out.push_str("\n## Fields\n\n| field | unit | meaning |\n|---|---|---|\n");
+    for kind in output::FIELDS {
+        let _ = writeln!(out, "| `{}` | {} | {} |", kind.name, kind.unit, kind.doc);
+    }
+    out.push('\n');
+}
+
+fn overrides(out: &mut String) {
+    out.push_str("## Overrides on the command line\n\n");
+    out.push_str("`--set path.to.key=value` replaces a value or adds one, as often as needed. Things of which there are several are named by number or by name:\n");
+    out.push_str("`--set run.end=\"5 ms\"`, `--set part.tube.velocity='[0, \"-60 m/s\"]'`, `--set part.0.ring.elements='[2, 80]'`, `--set material.steel.poisson=0.25`.\n");
+    out.push_str("The value is written as in the file; a text needs no quotes.\n");
+}

@@ -1,0 +1,331 @@
+//! Reads the tree of a model file section by section, key by key, as [`describe`](embate_solver::model::describe) says.
+//!
+//! The tree comes from `tree.rs`; records of checked values go to `build.rs`. Every fault is noted and reading goes on.
+
+use super::diagnostics::Faults;
+use super::tree::{Entry, Node, Place, Value};
+use super::value::{self, Datum, Wrong};
+use embate_solver::model::describe::{
+    Form, Key, Kind, Need, Rule, SECTIONS, Section, TOP, nearest, section as section_by_name, suggestion,
+};
+use std::collections::BTreeMap;
+
+/// The values of one table: those of the file that are sound, and defaults.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Record {
+    /// Path of the table.
+    pub path: String,
+    /// Name in `[section.NAME]`; empty elsewhere.
+    pub name: String,
+    values: BTreeMap<String, Datum>,
+    /// Keys that the file has, sound or not, with the places of their values.
+    written: BTreeMap<String, Place>,
+}
+
+/// All tables of a file.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Document {
+    /// Keys above all sections.
+    pub top: Record,
+    sections: BTreeMap<&'static str, Vec<Record>>,
+}
+
+impl Document {
+    /// The tables of a section, in the order of the file.
+    pub(super) fn section(&self, name: &str) -> &[Record] {
+        self.sections.get(name).map_or(&[], Vec::as_slice)
+    }
+
+    /// The only table of a section, or one of defaults.
+    pub(super) fn single(&self, name: &str) -> Record {
+        match (self.section(name).first(), section_by_name(name)) {
+            (Some(record), _) => record.clone(),
+            (None, Some(section)) => {
+                Reader { faults: &mut Faults::default() }.table(section, &[], name, Place { source: 0, start: 0, end: 0 })
+            }
+            (None, None) => Record::default(),
+        }
+    }
+}
+
+impl Record {
+    /// Path of one of its keys.
+    pub(super) fn key(&self, name: &str) -> String {
+        format!("{}.{name}", self.path)
+    }
+
+    /// Where a key's value stands, if the file has it.
+    pub(super) fn written(&self, name: &str) -> Option<Place> {
+        self.written.get(name).copied()
+    }
+
+    pub(super) fn datum(&self, name: &str) -> Option<&Datum> {
+        self.values.get(name)
+    }
+
+    /// All keys with numbers.
+    pub(super) fn numbers(&self) -> BTreeMap<String, f64> {
+        let number = |(key, datum): (&String, &Datum)| if let Datum::Number(value) = datum { Some((key.clone(), *value)) } else { None };
+        self.values.iter().filter_map(number).collect()
+    }
+
+    pub(super) fn number(&self, name: &str) -> Option<f64> {
+        if let Some(Datum::Number(value)) = self.datum(name) { Some(*value) } else { None }
+    }
+
+    pub(super) fn vector(&self, name: &str) -> [f64; 2] {
+        if let Some(Datum::Vector(value)) = self.datum(name) { *value } else { [f64::NAN; 2] }
+    }
+
+    pub(super) fn integer(&self, name: &str) -> Option<u64> {
+        if let Some(Datum::Integer(value)) = self.datum(name) { Some(*value) } else { None }
+    }
+
+    pub(super) fn counts(&self, name: &str) -> [usize; 2] {
+        let Some(Datum::Integers(values)) = self.datum(name) else { return [1, 1] };
+        [0, 1].map(|index| values.get(index).map_or(1, |value| usize::try_from(*value).unwrap_or(usize::MAX)))
+    }
+
+    pub(super) fn text(&self, name: &str) -> String {
+        if let Some(Datum::Text(value)) = self.datum(name) { value.clone() } else { String::new() }
+    }
+
+    pub(super) fn texts(&self, name: &str) -> Vec<String> {
+        if let Some(Datum::Texts(values)) = self.datum(name) { values.clone() } else { Vec::new() }
+    }
+
+    pub(super) fn table(&self, name: &str) -> Option<&Record> {
+        if let Some(Datum::Table(record)) = self.datum(name) { Some(record) } else { None }
+    }
+}
+
+/// Reads all sections.
+pub(super) fn read(root: &Node, faults: &mut Faults) -> Document {
+    let mut reader = Reader { faults };
+    let mut document = Document::default();
+    let Value::Table(entries) = &root.value else { return document };
+    let (sections, others): (Vec<&Entry>, Vec<&Entry>) = entries.iter().partition(|entry| section_by_name(&entry.key).is_some());
+    let others: Vec<Entry> = others.into_iter().cloned().collect();
+    document.top = reader.table(&TOP, &others, "", root.place);
+    for entry in sections {
+        if let Some(section) = section_by_name(&entry.key) {
+            document.sections.insert(section.name, reader.section(section, entry));
+        }
+    }
+    for section in SECTIONS.iter().filter(|section| section.required && !document.sections.contains_key(section.name)) {
+        let message = format!("the model has no {}", header(section));
+        reader.faults.cover(section.name);
+        reader.faults.beside("missing section", section.name, None, (message, section.doc.to_string()));
+    }
+    document
+}
+
+/// How a section's header is written.
+pub(super) fn header(section: &Section) -> String {
+    match section.form {
+        Form::Single => format!("[{}]", section.name),
+        Form::Repeated => format!("[[{}]]", section.name),
+        Form::Named => format!("[{}.NAME]", section.name),
+        Form::Inline => format!("{} = {{ ... }}", section.name),
+    }
+}
+
+struct Reader<'a> {
+    faults: &'a mut Faults,
+}
+
+impl Reader<'_> {
+    fn section(&mut self, section: &Section, entry: &Entry) -> Vec<Record> {
+        let name = section.name;
+        match (section.form, &entry.node.value) {
+            (Form::Single | Form::Inline, Value::Table(entries)) => vec![self.table(section, entries, name, entry.node.place)],
+            (Form::Repeated, Value::List(items)) => {
+                items.iter().enumerate().filter_map(|(index, item)| self.item(section, item, index)).collect()
+            }
+            (Form::Named, Value::Table(entries)) => entries.iter().filter_map(|entry| self.named(section, entry)).collect(),
+            _ => {
+                let message = format!("`{name}` is not written like this");
+                self.faults.value("form", name, entry.node.place, (message, format!("write {}", header(section))));
+                Vec::new()
+            }
+        }
+    }
+
+    fn item(&mut self, section: &Section, item: &Node, index: usize) -> Option<Record> {
+        let path = format!("{}[{index}]", section.name);
+        if let Value::Table(entries) = &item.value {
+            return Some(self.table(section, entries, &path, item.place));
+        }
+        self.faults.value(
+            "form",
+            &path,
+            item.place,
+            (format!("`{}` is not a list of tables", section.name), format!("write {}", header(section))),
+        );
+        None
+    }
+
+    fn named(&mut self, section: &Section, entry: &Entry) -> Option<Record> {
+        let path = format!("{}.{}", section.name, entry.key);
+        if let Value::Table(entries) = &entry.node.value {
+            let mut record = self.table(section, entries, &path, entry.node.place);
+            record.name.clone_from(&entry.key);
+            return Some(record);
+        }
+        let message = format!("`{}` stands in `{}` without a name", shown(&entry.key), section.name);
+        self.faults.value("form", &path, entry.place, (message, format!("give it a name: write {}", header(section))));
+        None
+    }
+
+    /// Reads one table: its keys, those that are missing, and its rules.
+    fn table(&mut self, section: &Section, entries: &[Entry], path: &str, place: Place) -> Record {
+        let mut record = Record { path: path.to_string(), ..Record::default() };
+        let (keys, complete) = keys_of(section, entries);
+        for entry in entries {
+            let path = join(path, &entry.key);
+            record.written.insert(entry.key.clone(), entry.node.place);
+            match keys.iter().find(|key| key.name == entry.key) {
+                Some(key) => {
+                    let datum = self.datum(key, &entry.node, &path);
+                    record.values.extend(datum.map(|datum| (entry.key.clone(), datum)));
+                }
+                None if complete => self.unknown(section, &keys, entry, &path),
+                None => {}
+            }
+        }
+        for key in keys.iter().filter(|key| !record.written.contains_key(key.name)) {
+            match key.need {
+                Need::Required => self.missing(section, key, &join(path, key.name), place),
+                Need::Value(value) => drop(record.values.insert(key.name.to_string(), Datum::Number(value))),
+                Need::Default(text) => {
+                    let datum = super::tree::value(text, 0, 0).and_then(|node| value::read(key, &node, "").ok());
+                    record.values.extend(datum.map(|datum| (key.name.to_string(), datum)));
+                }
+                Need::Optional(_) => {}
+            }
+        }
+        for rule in section.rules {
+            self.rule(rule, section, &record, place);
+        }
+        record
+    }
+
+    fn datum(&mut self, key: &Key, node: &Node, path: &str) -> Option<Datum> {
+        if let (Kind::Table(section), Value::Table(entries)) = (key.kind, &node.value) {
+            return Some(Datum::Table(Box::new(self.table(section, entries, path, node.place))));
+        }
+        match value::read(key, node, path) {
+            Ok(datum) => Some(datum),
+            Err(wrongs) => {
+                for Wrong { kind, path, place, texts } in wrongs {
+                    self.faults.value(kind, &path, place, texts);
+                }
+                None
+            }
+        }
+    }
+
+    fn missing(&mut self, section: &Section, key: &Key, path: &str, place: Place) {
+        let message = format!("{} has no `{}`", called(section, path), key.name);
+        let help = format!("add `{} = {}`: {}", key.name, value::example(key), lower(key.doc));
+        self.faults.value("missing key", path, place, (message, help));
+    }
+
+    fn unknown(&mut self, section: &Section, keys: &[Key], entry: &Entry, path: &str) {
+        let mut known: Vec<&str> = keys.iter().map(|key| key.name).collect();
+        if section.name.is_empty() {
+            known.extend(SECTIONS.iter().map(|section| section.name));
+        }
+        let name = entry.key.as_str();
+        let home = |other: &&&Section| other.name != section.name && other.keys.iter().any(|key| key.name == name);
+        let help = match nearest(name, known.iter().copied()) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None if TOP.keys.iter().any(|key| key.name == name) => format!("`{name}` stands above all sections"),
+            None => match SECTIONS.iter().find(home) {
+                Some(other) => format!("`{name}` belongs in {}", header(other)),
+                None => suggestion("", &known),
+            },
+        };
+        let what = if section.name.is_empty() { "a model".to_string() } else { called(section, path) };
+        self.faults.value("unknown key", path, entry.place, (format!("{what} has no key `{}`", shown(name)), help));
+    }
+
+    fn rule(&mut self, rule: &Rule, section: &Section, record: &Record, place: Place) {
+        let has = |name: &&str| record.written.contains_key(*name);
+        let list = |names: &[&str], last: &str| {
+            let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+            match quoted.split_last() {
+                Some((end, rest)) if !rest.is_empty() => format!("{} {last} {end}", rest.join(", ")),
+                _ => quoted.concat(),
+            }
+        };
+        let what = called(section, &record.path);
+        let (at, message, help) = match rule {
+            Rule::OneOf(names) => {
+                let present: Vec<&str> = names.iter().filter(|name| has(name)).copied().collect();
+                match present.as_slice() {
+                    [_] => return,
+                    [] => (place, format!("{what} needs one of {}", list(names, "and")), "add one of them".to_string()),
+                    [_, second, ..] => (
+                        record.written(second).unwrap_or(place),
+                        format!("{what} has {} at once", list(&present, "and")),
+                        "leave all but one of them out".to_string(),
+                    ),
+                }
+            }
+            Rule::SomeOf(names) if !names.iter().any(|name| has(name)) => {
+                (place, format!("{what} needs {}", list(names, "or")), "add one of them".to_string())
+            }
+            Rule::NotBoth(one, other) if has(one) && has(other) => (
+                record.written(other).unwrap_or(place),
+                format!("{what} has `{one}` and `{other}` at once"),
+                "leave one of them out".to_string(),
+            ),
+            Rule::Needs(one, other) if has(one) && !has(other) => {
+                (record.written(one).unwrap_or(place), format!("{what} has `{one}` but no `{other}`"), format!("add `{other}`"))
+            }
+            _ => return,
+        };
+        self.faults.beside("rule", &record.path, Some(at), (message, help));
+        if let Rule::Needs(_, other) = rule {
+            self.faults.cover(&record.key(other));
+        }
+    }
+}
+
+/// The keys that a table may have, and whether these are all: not while the key that decides over the others is unknown.
+fn keys_of(section: &Section, entries: &[Entry]) -> (Vec<Key>, bool) {
+    let mut keys = section.keys.to_vec();
+    let Some(more) = section.more else { return (keys, true) };
+    let chosen = entries.iter().find(|entry| entry.key == more.by).map(|entry| &entry.node.value);
+    let further = if let Some(Value::Text(text)) = chosen { (more.keys)(text) } else { None };
+    let complete = further.is_some();
+    keys.extend(further.into_iter().flatten());
+    (keys, complete)
+}
+
+fn join(path: &str, key: &str) -> String {
+    if path.is_empty() { key.to_string() } else { format!("{path}.{key}") }
+}
+
+/// What a table is called in messages: its header, or its key for an inline one.
+fn called(section: &Section, path: &str) -> String {
+    match section.form {
+        Form::Inline => format!("`{}`", section.name),
+        Form::Named => {
+            let name: String = path.split('.').nth(1).unwrap_or("NAME").to_string();
+            format!("[{}.{}]", section.name, shown(&name))
+        }
+        _ => header(section),
+    }
+}
+
+fn shown(name: &str) -> String {
+    super::units::shorten(name).trim_matches('"').to_string()
+}
+
+/// A sentence as the end of another one.
+fn lower(doc: &str) -> String {
+    let mut chars = doc.trim_end_matches('.').chars();
+    chars.next().map_or(String::new(), |first| first.to_lowercase().chain(chars).collect())
+}

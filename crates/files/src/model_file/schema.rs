@@ -1,0 +1,243 @@
+//! The JSON schema of the model file, for completion and checks in editors.
+//!
+//! Made by iteration over [`describe`](embate_solver::model::describe) and the registries; `embate schema` prints it.
+
+use super::tree::{self, Value};
+use super::units;
+use embate_solver::material;
+use embate_solver::model::describe::{Form, Key, Kind, Need, Rule, SECTIONS, Section, TOP};
+use embate_solver::quantity::{Dimension, Range};
+
+/// A JSON value; objects keep their order.
+#[derive(Clone, Debug)]
+enum Json {
+    Text(String),
+    Number(f64),
+    Flag(bool),
+    List(Vec<Json>),
+    Object(Vec<(String, Json)>),
+}
+
+fn text(text: impl Into<String>) -> Json {
+    Json::Text(text.into())
+}
+
+fn object<const N: usize>(entries: [(&str, Json); N]) -> Json {
+    Json::Object(entries.into_iter().map(|(key, value)| (key.to_string(), value)).collect())
+}
+
+fn texts<'a>(all: impl IntoIterator<Item = &'a str>) -> Json {
+    Json::List(all.into_iter().map(text).collect())
+}
+
+impl Json {
+    fn with(mut self, key: &str, value: Json) -> Self {
+        if let Self::Object(entries) = &mut self {
+            entries.push((key.to_string(), value));
+        }
+        self
+    }
+
+    fn write(&self, out: &mut String, depth: usize) {
+        match self {
+            Self::Text(text) => quote(text, out),
+            Self::Number(number) => out.push_str(&number.to_string()),
+            Self::Flag(flag) => out.push_str(&flag.to_string()),
+            Self::List(items) => block(out, depth, ['[', ']'], items, |item, out| item.write(out, depth + 1)),
+            Self::Object(entries) => block(out, depth, ['{', '}'], entries, |(key, value), out| {
+                quote(key, out);
+                out.push_str(": ");
+                value.write(out, depth + 1);
+            }),
+        }
+    }
+}
+
+fn block<T>(out: &mut String, depth: usize, [open, close]: [char; 2], items: &[T], write: impl Fn(&T, &mut String)) {
+    out.push(open);
+    for (index, item) in items.iter().enumerate() {
+        out.push_str(if index == 0 { "\n" } else { ",\n" });
+        out.push_str(&"  ".repeat(depth + 1));
+        write(item, out);
+    }
+    if !items.is_empty() {
+        out.push('\n');
+        out.push_str(&"  ".repeat(depth));
+    }
+    out.push(close);
+}
+
+fn quote(text: &str, out: &mut String) {
+    out.push('"');
+    for c in text.chars() {
+        match c {
+            '"' => out.push_str("\\\""),
+            '\\' => out.push_str("\\\\"),
+            c if c.is_control() => out.push_str(&format!("\\u{:04x}", u32::from(c))),
+            c => out.push(c),
+        }
+    }
+    out.push('"');
+}
+
+/// The JSON schema (draft 2020-12) of the model file.
+#[must_use]
+pub fn schema() -> String {
+    let mut properties: Vec<(String, Json)> = TOP.keys.iter().map(|key| (key.name.to_string(), of_key(key))).collect();
+    properties.extend(SECTIONS.iter().map(|section| (section.name.to_string(), of_section(section))));
+    let required = texts(SECTIONS.iter().filter(|section| section.required).map(|section| section.name));
+    let root = object([
+        ("$schema", text("https://json-schema.org/draft/2020-12/schema")),
+        ("title", text("embate model file")),
+        ("description", text("Numbers are in SI units; a text carries its own unit, such as \"3 mm\".")),
+        ("type", text("object")),
+        ("properties", Json::Object(properties)),
+        ("required", required),
+        ("additionalProperties", Json::Flag(false)),
+    ]);
+    let mut out = String::new();
+    root.write(&mut out, 0);
+    out.push('\n');
+    out
+}
+
+fn of_section(section: &Section) -> Json {
+    let described = |json: Json| json.with("description", text(section.doc));
+    match section.form {
+        Form::Single | Form::Inline => described(of_table(section, section.keys)),
+        Form::Repeated => described(object([("type", text("array")), ("items", of_table(section, section.keys))])),
+        Form::Named => described(object([
+            ("type", text("object")),
+            ("additionalProperties", Json::Object(vec![("oneOf".to_string(), variants(section))])),
+        ])),
+    }
+}
+
+/// One table per value of the deciding key.
+fn variants(section: &Section) -> Json {
+    let names: Vec<&str> = material::registry().iter().map(|kind| kind.name).collect();
+    let Some(more) = section.more else { return Json::List(vec![of_table(section, section.keys)]) };
+    let variant = |name: &&str| {
+        let mut keys: Vec<Key> = section.keys.to_vec();
+        keys.extend((more.keys)(name).into_iter().flatten());
+        let mut table = of_table(section, &keys);
+        if let Json::Object(entries) = &mut table
+            && let Some((_, Json::Object(properties))) = entries.iter_mut().find(|(key, _)| key == "properties")
+            && let Some((_, decides)) = properties.iter_mut().find(|(key, _)| key == more.by)
+        {
+            *decides = object([("const", text(*name))]);
+        }
+        table
+    };
+    Json::List(names.iter().map(variant).collect())
+}
+
+fn of_table(section: &Section, keys: &[Key]) -> Json {
+    let properties = keys.iter().map(|key| (key.name.to_string(), of_key(key))).collect();
+    let table = object([
+        ("type", text("object")),
+        ("properties", Json::Object(properties)),
+        ("required", texts(keys.iter().filter(|key| key.need == Need::Required).map(|key| key.name))),
+        ("additionalProperties", Json::Flag(false)),
+    ]);
+    if section.rules.is_empty() { table } else { table.with("allOf", Json::List(section.rules.iter().map(of_rule).collect())) }
+}
+
+fn of_rule(rule: &Rule) -> Json {
+    let needs = |name: &&str| object([("required", texts([*name]))]);
+    match rule {
+        Rule::OneOf(names) => object([("oneOf", Json::List(names.iter().map(needs).collect()))]),
+        Rule::SomeOf(names) => object([("anyOf", Json::List(names.iter().map(needs).collect()))]),
+        Rule::NotBoth(one, other) => object([("not", object([("required", texts([*one, *other]))]))]),
+        Rule::Needs(one, other) => object([("dependentRequired", object([(one, texts([*other]))]))]),
+    }
+}
+
+fn of_key(key: &Key) -> Json {
+    let json = match key.kind {
+        Kind::Quantity(dimension, range) => quantity(dimension, range),
+        Kind::Angle(range) => any([number(range), object([("type", text("string")), ("examples", texts(["30 deg"]))])]),
+        Kind::Vector(dimension, range) => list(quantity(dimension, range), Some(2)),
+        Kind::Components(dimension, range) => object([
+            ("type", text("object")),
+            ("properties", object([("x", quantity(dimension, range)), ("y", quantity(dimension, range))])),
+            ("minProperties", Json::Number(1.0)),
+            ("additionalProperties", Json::Flag(false)),
+        ]),
+        Kind::Stiffness(range) => {
+            any([number(range), object([("type", text("string")), ("examples", texts(["3.5e11 N/m/m", "1e14 Pa/m"]))])])
+        }
+        Kind::Integer(least) => integer(least),
+        Kind::Integers(count, least) => list(integer(least), Some(count)),
+        Kind::Cadence => any([integer(1), quantity(Dimension::TIME, Range::Positive)]),
+        Kind::Flag => object([("type", text("boolean"))]),
+        Kind::Text | Kind::Reference => object([("type", text("string"))]),
+        Kind::Name => object([("type", text("string")), ("pattern", text("^[\\p{L}\\p{N}_-]{1,64}$"))]),
+        Kind::References(Some(count)) => list(object([("type", text("string"))]), Some(count)),
+        Kind::References(None) => one_or_more(object([("type", text("string"))])),
+        Kind::Choice(known) => choice(&known()),
+        Kind::Choices(known) => one_or_more(choice(&known())),
+        Kind::Table(section) => of_table(section, section.keys),
+    };
+    let json = json.with("description", text(key.doc));
+    match key.need {
+        Need::Default(written) => match tree::value(written, 0, 0) {
+            Some(node) => json.with("default", of_value(&node.value)),
+            None => json,
+        },
+        Need::Value(value) => json.with("default", Json::Number(value)),
+        Need::Required | Need::Optional(_) => json,
+    }
+}
+
+fn any<const N: usize>(all: [Json; N]) -> Json {
+    object([("anyOf", Json::List(all.into()))])
+}
+
+fn choice(known: &[&str]) -> Json {
+    object([("enum", texts(known.iter().copied()))])
+}
+
+fn list(items: Json, count: Option<usize>) -> Json {
+    let json = object([("type", text("array")), ("items", items)]);
+    let count = count.map(|count| Json::Number(count as f64));
+    match count {
+        Some(count) => json.with("minItems", count.clone()).with("maxItems", count),
+        None => json.with("minItems", Json::Number(1.0)),
+    }
+}
+
+fn one_or_more(item: Json) -> Json {
+    any([item.clone(), list(item, None)])
+}
+
+fn integer(least: u64) -> Json {
+    object([("type", text("integer")), ("minimum", Json::Number(least as f64))])
+}
+
+fn number(range: Range) -> Json {
+    let json = object([("type", text("number"))]);
+    match range {
+        Range::Finite => json,
+        Range::Positive => json.with("exclusiveMinimum", Json::Number(0.0)),
+        Range::NotNegative => json.with("minimum", Json::Number(0.0)),
+        Range::Between(low, high) => json.with("exclusiveMinimum", Json::Number(low)).with("exclusiveMaximum", Json::Number(high)),
+        Range::UpTo(low, high) => json.with("exclusiveMinimum", Json::Number(low)).with("maximum", Json::Number(high)),
+    }
+}
+
+/// A number, or a text with a unit.
+fn quantity(dimension: Dimension, range: Range) -> Json {
+    any([number(range), object([("type", text("string")), ("examples", texts([units::example(dimension).as_str()]))])])
+}
+
+fn of_value(value: &Value) -> Json {
+    match value {
+        Value::Text(written) => text(written),
+        Value::Integer(_, _, number) | Value::Float(_, number) => Json::Number(*number),
+        Value::Flag(flag) => Json::Flag(*flag),
+        Value::Date => text(""),
+        Value::List(items) => Json::List(items.iter().map(|item| of_value(&item.value)).collect()),
+        Value::Table(entries) => Json::Object(entries.iter().map(|entry| (entry.key.clone(), of_value(&entry.node.value))).collect()),
+    }
+}

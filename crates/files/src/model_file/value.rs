@@ -1,0 +1,287 @@
+//! Reads one value as its key's kind says: type, unit, range, choice.
+//!
+//! Nodes come from `tree.rs` through `reader.rs`; typed values in SI units, or what is wrong with them, go back to it. Each kind of value is one
+//! arm of `read`, one of `example`, and one of `words`.
+
+use super::reader::Record;
+use super::tree::{Node, Place, Value};
+use super::units::{self, Wanted};
+use embate_solver::model::describe::{Key, Kind, out_of_range, suggestion};
+use embate_solver::model::{Cadence, Penalty};
+use embate_solver::quantity::{Dimension, Range};
+
+/// A value that is sound.
+#[derive(Clone, Debug)]
+pub(super) enum Datum {
+    Number(f64),
+    Vector([f64; 2]),
+    Components([Option<f64>; 2]),
+    Integer(u64),
+    Integers(Vec<u64>),
+    Flag(bool),
+    Text(String),
+    Texts(Vec<String>),
+    Cadence(Cadence),
+    Penalty(Penalty),
+    Table(Box<Record>),
+}
+
+/// What is wrong with a value or an item of it.
+#[derive(Clone, Debug)]
+pub(super) struct Wrong {
+    pub kind: &'static str,
+    pub path: String,
+    pub place: Place,
+    pub texts: (String, String),
+}
+
+type Read<T> = Result<T, Vec<Wrong>>;
+
+/// A node on its way through this file: its kind, the key for messages, path and place for faults.
+#[derive(Clone, Copy)]
+struct At<'a> {
+    kind: Kind,
+    key: &'a Key,
+    node: &'a Node,
+    path: &'a str,
+}
+
+impl<'a> At<'a> {
+    /// The last step of the path: `inner`, `size[1]`.
+    fn name(&self) -> &'a str {
+        self.path.rsplit('.').next().unwrap_or(self.path)
+    }
+
+    fn wrong<T>(&self, kind: &'static str, message: String, help: impl Into<String>) -> Read<T> {
+        Err(vec![Wrong { kind, path: self.path.to_string(), place: self.node.place, texts: (message, help.into()) }])
+    }
+
+    /// The type is wrong.
+    fn unlike<T>(&self) -> Read<T> {
+        self.wrong("type", format!("`{}` must be {}, but it is {}", self.name(), words(self.kind), self.node.words()), like(self.key))
+    }
+
+    /// An item of this list or table.
+    fn on<'b>(&self, node: &'b Node, path: &'b str) -> At<'b>
+    where
+        'a: 'b,
+    {
+        At { kind: item(self.kind), key: self.key, node, path }
+    }
+
+    /// Reads every item of a list; all faults together.
+    fn each<T>(&self, items: &[Node], read: impl Fn(At<'_>) -> Read<T>) -> Read<Vec<T>> {
+        let (mut values, mut wrongs) = (Vec::with_capacity(items.len()), Vec::new());
+        for (index, node) in items.iter().enumerate() {
+            match read(self.on(node, &format!("{}[{index}]", self.path))) {
+                Ok(value) => values.push(value),
+                Err(wrong) => wrongs.extend(wrong),
+            }
+        }
+        if wrongs.is_empty() { Ok(values) } else { Err(wrongs) }
+    }
+
+    fn number(&self, dimensions: &[Dimension], range: Range, angle: bool) -> Read<(f64, Dimension)> {
+        let usual = dimensions.first().copied().unwrap_or(Dimension::NONE);
+        let (value, dimension) = match &self.node.value {
+            Value::Integer(_, _, value) | Value::Float(_, value) => (*value, usual),
+            Value::Text(text) => match units::read(text, Wanted { name: self.name(), dimensions, angle }) {
+                Ok(read) => read,
+                Err((message, help)) => return self.wrong("unit", message, help),
+            },
+            _ => return self.unlike(),
+        };
+        if range.contains(value) {
+            return Ok((value, dimension));
+        }
+        let unit = if matches!(self.node.value, Value::Text(_)) { String::new() } else { format!(" {}", usual.unit()) };
+        let shown = format!("{}{unit}", self.node.words().trim_matches('"'));
+        let (message, help) = out_of_range(self.name(), shown.trim_end(), value, range);
+        self.wrong("range", message, help)
+    }
+
+    fn integer(&self, least: u64) -> Read<u64> {
+        match &self.node.value {
+            Value::Integer(text, value, _) => match value.map(u64::try_from) {
+                Some(Ok(value)) if value >= least => Ok(value),
+                Some(_) if value.is_some_and(|value| value < i128::from(least)) => {
+                    self.wrong("range", format!("`{}` must be at least {least}, but it is {text}", self.name()), "")
+                }
+                _ => self.wrong("range", format!("`{}` is too large: {}", self.name(), self.node.words()), "give a smaller number"),
+            },
+            _ => self.unlike(),
+        }
+    }
+
+    fn text(&self) -> Read<String> {
+        if let Value::Text(text) = &self.node.value { Ok(text.clone()) } else { self.unlike() }
+    }
+
+    fn choice(&self, known: &[&'static str]) -> Read<String> {
+        let text = self.text()?;
+        if known.contains(&text.as_str()) {
+            return Ok(text);
+        }
+        let message = format!("`{}` can't be {}", self.name(), units::shorten(&text));
+        self.wrong("choice", message, suggestion(&text, known))
+    }
+
+    /// One text or a list of texts, each once.
+    fn several(&self, read: impl Fn(At<'_>) -> Read<String>) -> Read<Vec<String>> {
+        let Value::List(items) = &self.node.value else {
+            return if matches!(self.node.value, Value::Text(_)) { Ok(vec![read(*self)?]) } else { self.unlike() };
+        };
+        if items.is_empty() {
+            return self.wrong("empty list", format!("the list `{}` is empty", self.name()), "name something, or leave the key out");
+        }
+        self.each(items, read)
+    }
+
+    fn components(&self, dimension: Dimension, range: Range) -> Read<[Option<f64>; 2]> {
+        let Value::Table(entries) = &self.node.value else { return self.unlike() };
+        let mut velocity = [None, None];
+        let mut wrongs = Vec::new();
+        for entry in entries {
+            let path = format!("{}.{}", self.path, entry.key);
+            let Some(axis) = ["x", "y"].iter().position(|axis| *axis == entry.key) else {
+                let texts =
+                    (format!("`{}` has no component {}", self.name(), units::shorten(&entry.key)), "give `x`, `y`, or both".to_string());
+                wrongs.push(Wrong { kind: "unknown key", path, place: entry.place, texts });
+                continue;
+            };
+            match self.on(&entry.node, &path).number(&[dimension], range, false) {
+                Ok((value, _)) => velocity[axis] = Some(value),
+                Err(wrong) => wrongs.extend(wrong),
+            }
+        }
+        if !wrongs.is_empty() {
+            return Err(wrongs);
+        }
+        if entries.is_empty() {
+            return self.wrong("empty list", format!("`{}` has no component", self.name()), "give `x`, `y`, or both");
+        }
+        Ok(velocity)
+    }
+}
+
+/// Reads a value; tables are read by the reader.
+///
+/// # Errors
+/// Everything that is wrong with it.
+pub(super) fn read(key: &Key, node: &Node, path: &str) -> Read<Datum> {
+    let at = At { kind: key.kind, key, node, path };
+    Ok(match key.kind {
+        Kind::Quantity(dimension, range) => Datum::Number(at.number(&[dimension], range, false)?.0),
+        Kind::Angle(range) => Datum::Number(at.number(&[Dimension::NONE], range, true)?.0),
+        Kind::Vector(dimension, range) => match &node.value {
+            Value::List(items) if items.len() == 2 => {
+                let values = at.each(items, |at| at.number(&[dimension], range, false))?;
+                Datum::Vector([values[0].0, values[1].0])
+            }
+            _ => return at.unlike(),
+        },
+        Kind::Components(dimension, range) => Datum::Components(at.components(dimension, range)?),
+        Kind::Stiffness(range) => match at.number(&[Dimension::PRESSURE, Dimension::PRESSURE_PER_LENGTH], range, false)? {
+            (value, Dimension::PRESSURE) => Datum::Penalty(Penalty::PerNode(value)),
+            (value, _) => Datum::Penalty(Penalty::Pressure(value)),
+        },
+        Kind::Integer(least) => Datum::Integer(at.integer(least)?),
+        Kind::Integers(count, least) => match &node.value {
+            Value::List(items) if items.len() == count => Datum::Integers(at.each(items, |at| at.integer(least))?),
+            _ => return at.unlike(),
+        },
+        Kind::Cadence => Datum::Cadence(match &node.value {
+            Value::Integer(..) => Cadence::Count(at.integer(1)?),
+            _ => Cadence::Interval(at.number(&[Dimension::TIME], Range::Positive, false)?.0),
+        }),
+        Kind::Flag => match node.value {
+            Value::Flag(flag) => Datum::Flag(flag),
+            _ => return at.unlike(),
+        },
+        Kind::Text | Kind::Name | Kind::Reference => Datum::Text(at.text()?),
+        Kind::References(count) => {
+            if let (Some(count), Value::List(items)) = (count, &node.value)
+                && items.len() != count
+            {
+                return at.unlike();
+            }
+            if count.is_some() && matches!(node.value, Value::Text(_)) {
+                return at.unlike();
+            }
+            Datum::Texts(at.several(|at| at.text())?)
+        }
+        Kind::Choice(known) => Datum::Text(at.choice(&known())?),
+        Kind::Choices(known) => Datum::Texts(at.several(|at| at.choice(&known()))?),
+        Kind::Table(_) => return at.unlike(),
+    })
+}
+
+/// The kind of the items of a list or table.
+fn item(kind: Kind) -> Kind {
+    match kind {
+        Kind::Vector(dimension, range) | Kind::Components(dimension, range) => Kind::Quantity(dimension, range),
+        Kind::Integers(_, least) => Kind::Integer(least),
+        Kind::References(_) => Kind::Reference,
+        Kind::Choices(known) => Kind::Choice(known),
+        other => other,
+    }
+}
+
+/// What a value must be, in words.
+pub(super) fn words(kind: Kind) -> String {
+    let with_unit = |dimension: Dimension| match dimension {
+        Dimension::NONE => "a number".to_string(),
+        _ => format!("a number with a unit of {}", units::quantity(dimension)),
+    };
+    match kind {
+        Kind::Quantity(dimension, _) => with_unit(dimension),
+        Kind::Angle(_) => "an angle".to_string(),
+        Kind::Vector(Dimension::NONE, _) => "a list of 2 numbers".to_string(),
+        Kind::Vector(dimension, _) => format!("a list of 2 numbers with a unit of {}", units::quantity(dimension)),
+        Kind::Components(dimension, _) => format!("a table with x, y or both, each {}", with_unit(dimension)),
+        Kind::Stiffness(_) => "a stiffness".to_string(),
+        Kind::Integer(_) => "a whole number".to_string(),
+        Kind::Integers(count, _) => format!("a list of {count} whole numbers"),
+        Kind::Cadence => "a whole number or a time".to_string(),
+        Kind::Flag => "true or false".to_string(),
+        Kind::Text => "a text".to_string(),
+        Kind::Name | Kind::Reference | Kind::Choice(_) => "a name".to_string(),
+        Kind::References(Some(count)) => format!("a list of {count} names"),
+        Kind::References(None) | Kind::Choices(_) => "a name or a list of names".to_string(),
+        Kind::Table(_) => "a table".to_string(),
+    }
+}
+
+/// A value as a person writes it, in TOML.
+pub(super) fn example(key: &Key) -> String {
+    let number = |dimension: Dimension| match dimension {
+        Dimension::NONE => "0.3".to_string(),
+        _ => format!("\"{}\"", units::example(dimension)),
+    };
+    match key.kind {
+        Kind::Quantity(dimension, _) => number(dimension),
+        Kind::Angle(_) => "\"30 deg\"".to_string(),
+        Kind::Vector(Dimension::NONE, _) => "[1, 0]".to_string(),
+        Kind::Vector(dimension, _) => format!("[0, {}]", number(dimension)),
+        Kind::Components(dimension, _) => format!("{{ x = {} }}", number(dimension)),
+        Kind::Stiffness(_) => "\"3.5e11 N/m/m\"".to_string(),
+        Kind::Integer(_) => "12".to_string(),
+        Kind::Integers(count, _) => format!("[{}]", ["12", "3", "4"].iter().cycle().take(count).copied().collect::<Vec<_>>().join(", ")),
+        Kind::Cadence => "\"10 us\"".to_string(),
+        Kind::Flag => "true".to_string(),
+        Kind::Text | Kind::Name | Kind::Reference => "\"...\"".to_string(),
+        Kind::References(count) => {
+            format!("[{}]", ["\"...\"", "\"...\""].iter().cycle().take(count.unwrap_or(1)).copied().collect::<Vec<_>>().join(", "))
+        }
+        Kind::Choice(known) => format!("\"{}\"", known().first().copied().unwrap_or("...")),
+        Kind::Choices(known) => format!("[\"{}\"]", known().first().copied().unwrap_or("...")),
+        Kind::Table(section) => {
+            let required = section.keys.iter().filter(|key| key.need == embate_solver::model::describe::Need::Required);
+            format!("{{ {} }}", required.map(|key| format!("{} = {}", key.name, example(key))).collect::<Vec<_>>().join(", "))
+        }
+    }
+}
+
+fn like(key: &Key) -> String {
+    format!("write it like `{} = {}`", key.name, example(key))
+}

@@ -1,0 +1,3 @@
+//! Tests of the formats, one module a format.
+
+mod model_file;

@@ -1,0 +1,188 @@
+//! Every key that is described gets bad values: NaN, infinity, negative, zero, a wrong unit, a wrong type. New keys are tested without a line here.
+
+use super::SOUND;
+use embate_files::model_file::load_text;
+use embate_solver::material;
+use embate_solver::model::describe::{Form, Key, Kind, Need, SECTIONS, Section};
+use embate_solver::quantity::Range;
+use std::path::Path;
+
+/// What a bad value must be answered with: the path's end and a part of the message.
+struct Bad {
+    value: String,
+    at: &'static str,
+    says: &'static str,
+}
+
+fn bad(value: impl Into<String>, at: &'static str, says: &'static str) -> Bad {
+    Bad { value: value.into(), at, says }
+}
+
+/// Numbers outside a range.
+fn outside(range: Range) -> Vec<(&'static str, &'static str)> {
+    let mut all = vec![("nan", "is not a number"), ("inf", "is not finite"), ("-inf", "is not finite"), ("1e999", "is not finite")];
+    all.extend(
+        [("-1", -1.0), ("0", 0.0), ("1e300", 1e300)]
+            .iter()
+            .filter(|(_, value)| !range.contains(*value))
+            .map(|(text, _)| (*text, "must be")),
+    );
+    all
+}
+
+fn scalar(range: Range) -> Vec<Bad> {
+    let mut all: Vec<Bad> = outside(range).into_iter().map(|(value, says)| bad(value, "", says)).collect();
+    all.extend([
+        bad("\"5 K^3\"", "", "is in K^3"),
+        bad("\"5 parsecs\"", "", "not a unit"),
+        bad("\"\"", "", "must be"),
+        bad("true", "", "must be"),
+    ]);
+    all.extend([bad("[]", "", "must be"), bad("{ a = 1 }", "", "must be"), bad("1979-05-27", "", "a date")]);
+    all
+}
+
+fn whole(least: u64) -> Vec<Bad> {
+    let mut all: Vec<Bad> =
+        ["nan", "inf", "1.5", "\"3\"", "true", "[]"].iter().map(|value| bad(*value, "", "must be a whole number")).collect();
+    all.extend([bad("-1", "", "must be at least"), bad("99999999999999999999999999999999999999999999", "", "too large")]);
+    all.extend((least > 0).then(|| bad("0", "", "must be at least")));
+    all
+}
+
+/// Bad values of a kind; empty for tables.
+fn values(kind: Kind) -> Vec<Bad> {
+    match kind {
+        Kind::Quantity(_, range) | Kind::Angle(range) | Kind::Stiffness(range) => scalar(range),
+        Kind::Vector(_, range) => {
+            let inside = |it: Bad| Bad { value: format!("[1.0, {}]", it.value), at: "[1]", ..it };
+            let mut all: Vec<Bad> = scalar(range).into_iter().map(inside).collect();
+            all.extend(["5", "[1]", "[1, 2, 3]", "\"1 m\"", "true"].map(|value| bad(value, "", "must be a list of 2 numbers")));
+            all
+        }
+        Kind::Components(_, range) => {
+            let inside = |it: Bad| Bad { value: format!("{{ x = {} }}", it.value), at: ".x", ..it };
+            let mut all: Vec<Bad> = scalar(range).into_iter().map(inside).collect();
+            all.extend([bad("{ z = 1 }", ".z", "has no component"), bad("{}", "", "has no component"), bad("5", "", "must be")]);
+            all
+        }
+        Kind::Integer(least) => whole(least),
+        Kind::Integers(_, least) => {
+            let inside = |it: Bad| Bad { value: format!("[1, {}]", it.value), at: "[1]", ..it };
+            let mut all: Vec<Bad> = whole(least).into_iter().map(inside).collect();
+            all.extend(["5", "[1]", "[1, 2, 3]", "\"12\""].map(|value| bad(value, "", "must be a list of 2 whole numbers")));
+            all
+        }
+        Kind::Cadence => {
+            ["nan", "inf", "0", "-1", "-0.5", "\"0 s\"", "\"5 m\"", "\"5\"", "true", "[]"].map(|value| bad(value, "", "")).into()
+        }
+        Kind::Flag => ["1", "\"true\"", "nan", "[]"].map(|value| bad(value, "", "must be true or false")).into(),
+        Kind::Text | Kind::Name | Kind::Reference => ["5", "nan", "true", "[]", "{}"].map(|value| bad(value, "", "must be")).into(),
+        Kind::References(Some(_)) => {
+            ["[]", "[\"tube\"]", "\"tube\"", "5", "true", "{}"].map(|value| bad(value, "", "must be a list of 2 names")).into()
+        }
+        Kind::References(None) => vec![bad("[]", "", "is empty"), bad("5", "", "must be"), bad("[5]", "[0]", "must be")],
+        Kind::Choice(_) => vec![bad("\"nonsense\"", "", "can't be"), bad("5", "", "must be"), bad("[]", "", "must be")],
+        Kind::Choices(_) => {
+            vec![bad("\"nonsense\"", "", "can't be"), bad("[]", "", "is empty"), bad("[\"nonsense\"]", "[0]", "can't be")]
+        }
+        Kind::Table(_) => ["5", "[]", "\"a\"", "true"].map(|value| bad(value, "", "must be a table")).into(),
+    }
+}
+
+/// Sets the key of the sound model to every bad value and looks for the fault at its path and place.
+fn try_all(key: &Key, path: &str, before: &[String]) -> usize {
+    let shown = path.replace(".0", "[0]").replace(".1", "[1]").replace(".2", "[2]");
+    let all = values(key.kind);
+    for it in &all {
+        let mut set = before.to_vec();
+        set.push(format!("{path}={}", it.value));
+        let faults = load_text("m", SOUND, Path::new("."), &set).expect_err(&format!("{set:?}")).entries;
+        let expected = format!("{shown}{}", it.at);
+        let found = faults.iter().find(|fault| fault.path == expected && fault.message.contains(it.says));
+        let found = found.unwrap_or_else(|| panic!("{set:?} gave no fault at {expected} that says {:?}: {faults:#?}", it.says));
+        assert_eq!((found.file.as_str(), found.line), ("--set", 1), "{set:?}");
+        let column = if it.at.is_empty() { path.len() + 2 } else { path.len() + 3 };
+        assert!(found.column >= column, "{set:?} is marked at column {}", found.column);
+    }
+    all.len()
+}
+
+fn section_path(section: &Section) -> String {
+    match section.form {
+        Form::Repeated => format!("{}.0", section.name),
+        Form::Named => format!("{}.steel", section.name),
+        Form::Single | Form::Inline => section.name.to_string(),
+    }
+}
+
+#[test]
+fn every_key_refuses_every_bad_value_at_its_place() {
+    let mut count = 0;
+    for section in SECTIONS {
+        for key in section.keys {
+            let path = section_path(section);
+            count += try_all(key, &format!("{path}.{}", key.name), &[]);
+            if let Kind::Table(inner) = key.kind {
+                let index = ["ring", "rectangle", "disk", "mesh"].iter().position(|name| *name == inner.name).unwrap_or(0) % 3;
+                for key in inner.keys {
+                    count += try_all(key, &format!("part.{index}.{}.{}", inner.name, key.name), &[]);
+                }
+            }
+        }
+    }
+    assert!(count > 400, "only {count} cases");
+}
+
+#[test]
+fn every_parameter_of_every_law_refuses_every_bad_value() {
+    for law in material::registry() {
+        for parameter in law.parameters {
+            let key =
+                Key { name: parameter.name, kind: Kind::Quantity(parameter.dimension, parameter.range), need: Need::Required, doc: "" };
+            try_all(&key, &format!("material.steel.{}", parameter.name), &[format!("material.steel.law={}", law.name)]);
+        }
+    }
+}
+
+#[test]
+fn every_required_key_is_missed() {
+    for section in SECTIONS {
+        for key in section.keys.iter().filter(|key| key.need == Need::Required) {
+            let first = format!("{} = ", key.name);
+            let header = section_path(section).replace(".0", "").replace(".steel", "");
+            let text: String = {
+                let mut within = false;
+                SOUND
+                    .lines()
+                    .filter(|line| {
+                        if line.starts_with('[') {
+                            within = line.trim_matches(['[', ']']).split('.').next() == Some(header.as_str());
+                        }
+                        !(within && line.starts_with(&first))
+                    })
+                    .map(|line| format!("{line}\n"))
+                    .collect()
+            };
+            assert_ne!(text, SOUND, "{}.{} is not in the sound model", section.name, key.name);
+            let faults = super::faults(&text);
+            let found = faults.iter().find(|fault| fault.message.contains(&format!("has no `{}`", key.name)));
+            let found = found.unwrap_or_else(|| panic!("{}.{}: {faults:#?}", section.name, key.name));
+            assert!(found.line > 1 && found.help.starts_with("add `"), "{found:?}");
+        }
+    }
+}
+
+#[test]
+fn every_default_is_sound() {
+    for section in SECTIONS {
+        for key in section.keys {
+            if let Need::Default(text) = key.need {
+                let set = format!("{}.{}={text}", section_path(section), key.name);
+                if let Err(diagnostics) = load_text("m", SOUND, Path::new("."), std::slice::from_ref(&set)) {
+                    panic!("{set}: {diagnostics}");
+                }
+            }
+        }
+    }
+}

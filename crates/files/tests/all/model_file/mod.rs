@@ -1,0 +1,68 @@
+//! The model file: what it reads, what it refuses and with which words, and that no text makes it panic.
+
+mod described;
+mod faults;
+mod random;
+mod reads;
+
+use embate_files::model_file::{Diagnostic, Diagnostics, load_text};
+use embate_solver::model::Model;
+use std::path::Path;
+
+/// A sound model that uses every section; tests replace or add lines.
+pub(crate) const SOUND: &str = r#"title = "all sections"
+[run]
+end = "1 ms"
+[material.steel]
+law = "j2"
+young = "200 GPa"
+poisson = 0.3
+density = "7800 kg/m^3"
+yield = "100 MPa"
+[[part]]
+name = "tube"
+material = "steel"
+ring = { centre = [0, 0.1], inner = "94 mm", outer = "100 mm", from = "-90 deg", to = "90 deg", elements = [1, 40] }
+[[part]]
+name = "plate"
+material = "steel"
+rectangle = { corner = [0, "-3 mm"], size = ["600 mm", "3 mm"], elements = [120, 3] }
+[[part]]
+name = "ball"
+material = "steel"
+disk = { centre = [0, 0.1], radius = "9 mm", elements = 4 }
+[[contact]]
+between = ["tube", "plate"]
+[[wall]]
+parts = ["plate"]
+normal = [1, 0]
+[[symmetry]]
+normal = [1, 0]
+[[constraint]]
+on = "plate.left"
+fixed = "x"
+[[load]]
+gravity = [0, "-9.81 m/s^2"]
+[[probe]]
+name = "A"
+part = "tube"
+point = [0, 0]
+[output]
+fields = 10
+"#;
+
+/// Reads a text with all its lines numbered from 1.
+pub(crate) fn read(text: &str) -> Result<Model, Diagnostics> {
+    load_text("model.toml", text, Path::new("."), &[])
+}
+
+/// The faults of a text.
+pub(crate) fn faults(text: &str) -> Vec<Diagnostic> {
+    read(text).map_or_else(|diagnostics| diagnostics.entries, |_| Vec::new())
+}
+
+/// [`SOUND`] with `from` replaced by `to`.
+pub(crate) fn changed(from: &str, to: &str) -> String {
+    assert!(SOUND.contains(from), "{from}");
+    SOUND.replacen(from, to, 1)
+}

@@ -1,6 +1,6 @@
 //! Makes a [`Model`] from the records of a file: names that were left out, contradictions between keys, mesh files.
 //!
-//! Records come from `reader.rs`. Where a value is missing or faulty a placeholder stands in (NaN, empty, a mesh that is not there): its fault is
+//! Records come from `reader.rs`. Where a value is missing or faulty a placeholder stands in (NaN, empty, the largest count, a mesh that is not there): its fault is
 //! noted already, and faults that only follow from it are not shown.
 
 use super::diagnostics::Faults;
@@ -73,7 +73,7 @@ fn shape(part: &Record, meshes: &mut Meshes<'_>, faults: &mut Faults) -> Shape {
         };
     }
     if let Some(it) = part.table("disk") {
-        let elements = it.integer("elements").map_or(1, |count| usize::try_from(count).unwrap_or(usize::MAX));
+        let elements = it.integer("elements").map_or(usize::MAX, |count| usize::try_from(count).unwrap_or(usize::MAX));
         return Shape::Disk { centre: it.vector("centre"), radius: number(it, "radius"), elements };
     }
     let mesh = part.table("mesh").and_then(|it| Some((meshes.index(it, faults)?, it.text("group"))));

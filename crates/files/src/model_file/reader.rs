@@ -82,8 +82,8 @@ impl Record {
     }
 
     pub(super) fn counts(&self, name: &str) -> [usize; 2] {
-        let Some(Datum::Integers(values)) = self.datum(name) else { return [1, 1] };
-        [0, 1].map(|index| values.get(index).map_or(1, |value| usize::try_from(*value).unwrap_or(usize::MAX)))
+        let Some(Datum::Integers(values)) = self.datum(name) else { return [usize::MAX; 2] };
+        [0, 1].map(|index| values.get(index).map_or(usize::MAX, |value| usize::try_from(*value).unwrap_or(usize::MAX)))
     }
 
     pub(super) fn text(&self, name: &str) -> String {
@@ -144,8 +144,9 @@ impl Reader<'_> {
             }
             (Form::Named, Value::Table(entries)) => entries.iter().filter_map(|entry| self.named(section, entry)).collect(),
             _ => {
-                let message = format!("`{name}` is not written like this");
-                self.faults.value("form", name, entry.node.place, (message, format!("write {}", header(section))));
+                let help = if section.form == Form::Repeated { "in double brackets, because there may be several" } else { "" };
+                let texts = (format!("`{name}` must be written as {}", header(section)), help.to_string());
+                self.faults.value("form", name, entry.node.place, texts);
                 Vec::new()
             }
         }
@@ -217,6 +218,7 @@ impl Reader<'_> {
         match value::read(key, node, path) {
             Ok(datum) => Some(datum),
             Err(wrongs) => {
+                self.faults.cover(path);
                 for Wrong { kind, path, place, texts } in wrongs {
                     self.faults.value(kind, &path, place, texts);
                 }
@@ -273,7 +275,7 @@ impl Reader<'_> {
                     ),
                 }
             }
-            Rule::SomeOf(names) if !names.iter().any(|name| has(name)) => {
+            Rule::SomeOf(names) if !names.iter().any(&has) => {
                 (place, format!("{what} needs {}", list(names, "or")), "add one of them".to_string())
             }
             Rule::NotBoth(one, other) if has(one) && has(other) => (

@@ -316,11 +316,16 @@ fn suggestion(word: &str, usual: Dimension, angle: bool) -> String {
     let all: Vec<&str> = known.iter().map(String::as_str).collect();
     let same = |candidates: &[&str]| candidates.iter().find(|name| name.to_lowercase() == word.to_lowercase()).map(ToString::to_string);
     let near = |candidates: &[&str]| nearest(word, candidates.iter().copied()).filter(|near| near.len() > 1).map(ToString::to_string);
-    let split = || {
-        let mut halves = word.char_indices().skip(1).map(|(at, _)| word.split_at(at));
-        halves.find(|(a, b)| lookup(a).is_some() && lookup(b).is_some()).map(|(a, b)| format!("{a} {b}"))
+    let split = |fits: bool| {
+        let halves = word.char_indices().skip(1).filter_map(|(at, _)| {
+            let (a, b) = word.split_at(at);
+            Some((a, b, lookup(a)?.times(lookup(b)?, 1)?.dimension()?))
+        });
+        let mut halves = halves.filter(|(.., dimension)| !fits || *dimension == usual);
+        halves.next().map(|(a, b, _)| format!("{a} {b}"))
     };
-    let meant = same(&fitting).or_else(split).or_else(|| same(&all)).or_else(|| near(&fitting)).or_else(|| near(&all));
+    let meant = same(&fitting).or_else(|| split(true)).or_else(|| near(&fitting));
+    let meant = meant.or_else(|| same(&all)).or_else(|| split(false)).or_else(|| near(&all));
     meant.map_or_else(|| like(usual, angle), |meant| format!("did you mean `{meant}`?"))
 }
 

@@ -270,18 +270,28 @@ impl Check<'_> {
         }
     }
 
-    /// A reference to a part, side or group. An unknown name is no fault of its own while a mesh is missing: that mesh may hold it.
+    /// A reference to a part, side or group.
     fn reference(&mut self, path: &str, name: &str, dimension: Option<u8>) -> Option<Reference> {
         match self.model.reference(name, dimension) {
             Ok(found) => Some(found),
             Err((message, help)) => {
-                let missing = |part: &Part| matches!(part.shape, Shape::Group { mesh, .. } if mesh >= self.model.meshes.len());
-                if !self.model.parts.iter().any(missing) {
+                if !self.may_be_missing(name) {
                     self.fault(path, message, help);
                 }
                 None
             }
         }
+    }
+
+    /// Whether an unknown name may be one of a mesh that is not there: then its fault would only follow from the mesh's.
+    fn may_be_missing(&self, name: &str) -> bool {
+        let missing = |part: &&Part| matches!(part.shape, Shape::Group { mesh, .. } if mesh >= self.model.meshes.len());
+        if !self.model.parts.iter().any(|part| missing(&part)) {
+            return false;
+        }
+        let first = name.split('.').next().unwrap_or(name);
+        let known: Vec<&str> = self.model.parts.iter().filter(|part| !missing(part)).map(|part| part.name.as_str()).collect();
+        describe::nearest(first, known).is_none()
     }
 
     /// References to parts; each once.
@@ -532,3 +542,6 @@ fn elements_key(shape: &Shape) -> &'static str {
         Shape::Group { .. } => ".mesh.group",
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -484,9 +484,14 @@ pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
         return None;
     }
     let lower = name.to_lowercase();
-    let distance = |other: &str| strsim::damerau_levenshtein(&lower, &other.to_lowercase());
+    let distance = |other: &str| (strsim::damerau_levenshtein(&lower, &other.to_lowercase()), strsim::damerau_levenshtein(name, other));
     let limit = (name.chars().count() / 3).max(1);
-    known.into_iter().map(|other| (distance(other), other)).filter(|(d, _)| *d <= limit).min_by_key(|(d, _)| *d).map(|(_, other)| other)
+    known
+        .into_iter()
+        .map(|other| (distance(other), other))
+        .filter(|((d, _), _)| *d <= limit)
+        .min_by_key(|(d, _)| *d)
+        .map(|(_, other)| other)
 }
 
 /// Help for an unknown name: the nearest one, or all that there are.
@@ -495,7 +500,13 @@ pub fn suggestion(name: &str, known: &[&str]) -> String {
     if let Some(near) = nearest(name, known.iter().copied()) {
         return format!("did you mean `{near}`?");
     }
-    let known: Vec<String> = known.iter().map(|name| excerpt(name)).collect();
+    let mut all: Vec<String> = Vec::new();
+    for name in known.iter().map(|name| excerpt(name)) {
+        if !name.is_empty() && !all.contains(&name) && all.len() < 100 {
+            all.push(name);
+        }
+    }
+    let known = all;
     match known.as_slice() {
         [] => "there is none".to_string(),
         [one] => format!("there is only `{one}`"),

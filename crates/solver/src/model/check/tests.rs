@@ -1,0 +1,115 @@
+//! Models made by code, each with one fault.
+
+use super::*;
+use crate::model::{Constraint, ImportedMesh, Material, MeshGroup, Symmetry, Wall};
+use std::sync::Arc;
+
+/// A sound model made by code: a ring, a block of a mesh, everything that acts on them.
+fn sound() -> Model {
+    let parameters = [("density", 7800.0), ("young", 2e11), ("poisson", 0.3)].map(|(key, value)| (key.to_string(), value));
+    let part = |name: &str, shape| Part { name: name.into(), material: "steel".into(), element: "quad4".into(), shape, velocity: [0.0; 2] };
+    let group = |name: &str, dimension, cells| MeshGroup { name: name.into(), dimension, cells };
+    let mesh = ImportedMesh {
+        source: "block.msh".into(),
+        positions: vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]],
+        groups: vec![group("body", 2, vec![vec![0, 1, 2, 3]]), group("upper", 1, vec![vec![2, 3]])],
+    };
+    let ring = Shape::Ring { centre: [0.0; 2], inner: 1.0, outer: 2.0, from: 0.0, to: std::f64::consts::PI, elements: [1, 8] };
+    let mut model = Model { name: "test".into(), meshes: vec![Arc::new(mesh)], ..Model::default() };
+    model.run.end = 1.0;
+    model.materials.insert("steel".into(), Material { law: "elastic".into(), parameters: parameters.into_iter().collect() });
+    model.parts = vec![part("ring", ring), part("block", Shape::Group { mesh: 0, group: "body".into() })];
+    model.contacts = vec![Contact { name: "hit".into(), between: ["ring.outer".into(), "upper".into()], ..Contact::default() }];
+    model.walls = vec![Wall { name: "wall".into(), normal: [1.0, 0.0], ..Wall::default() }];
+    model.symmetries = vec![Symmetry { normal: [1.0, 0.0], ..Symmetry::default() }];
+    model.constraints = vec![Constraint { on: "upper".into(), velocity: [Some(0.0), None] }];
+    model.loads = vec![Load::Gravity { parts: vec![], acceleration: [0.0, -9.81] }];
+    model.probes = vec![Probe { name: "A".into(), at: ProbeAt::Point { part: "ring".into(), point: [0.0; 2] } }];
+    model
+}
+
+/// The paths of the faults of a sound model after a change.
+fn paths(change: impl FnOnce(&mut Model)) -> Vec<String> {
+    let mut model = sound();
+    change(&mut model);
+    model.check().into_iter().map(|fault| fault.path).collect()
+}
+
+#[test]
+fn a_sound_model_has_no_fault() {
+    assert_eq!(sound().check(), []);
+}
+
+#[test]
+fn a_number_that_is_not_finite_is_found_wherever_it_is() {
+    type Place = fn(&mut Model) -> &mut f64;
+    fn ring(model: &mut Model, which: usize) -> &mut f64 {
+        let Shape::Ring { centre, inner, outer, from, to, .. } = &mut model.parts[0].shape else { unreachable!("part 0 is the ring") };
+        [&mut centre[1], inner, outer, from, to].into_iter().nth(which).expect("five numbers")
+    }
+    let places: [(&str, Place); 18] = [
+        ("run.end", |m| &mut m.run.end),
+        ("run.safety", |m| &mut m.run.safety),
+        ("run.energy_limit", |m| &mut m.run.energy_limit),
+        ("run.step_limit", |m| m.run.step_limit.insert(0.0)),
+        ("material.steel.young", |m| m.materials.get_mut("steel").and_then(|it| it.parameters.get_mut("young")).expect("young")),
+        ("part[0].velocity[1]", |m| &mut m.parts[0].velocity[1]),
+        ("part[0].ring.centre[1]", |m| ring(m, 0)),
+        ("part[0].ring.inner", |m| ring(m, 1)),
+        ("part[0].ring.outer", |m| ring(m, 2)),
+        ("part[0].ring.from", |m| ring(m, 3)),
+        ("part[0].ring.to", |m| ring(m, 4)),
+        ("wall[0].point[0]", |m| &mut m.walls[0].point[0]),
+        ("wall[0].normal[0]", |m| &mut m.walls[0].normal[0]),
+        ("symmetry[0].point[1]", |m| &mut m.symmetries[0].point[1]),
+        ("symmetry[0].normal[1]", |m| &mut m.symmetries[0].normal[1]),
+        ("constraint[0].velocity.x", |m| m.constraints[0].velocity[0].get_or_insert(0.0)),
+        ("load[0].gravity[0]", |m| match &mut m.loads[0] {
+            Load::Gravity { acceleration, .. } => &mut acceleration[0],
+        }),
+        ("probe[0].point[0]", |m| match &mut m.probes[0].at {
+            ProbeAt::Point { point, .. } => &mut point[0],
+            _ => unreachable!("the probe is at a point"),
+        }),
+    ];
+    for (path, place) in places {
+        for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            let found = paths(|model| *place(model) = value);
+            assert!(found.iter().any(|it| it == path), "{path} = {value}: {found:?}");
+        }
+    }
+    for penalty in [Penalty::PerNode(f64::NAN), Penalty::Pressure(-1.0)] {
+        assert_eq!(paths(|model| model.contacts[0].penalty = penalty), ["contact[0].penalty"]);
+    }
+    assert_eq!(paths(|model| model.walls[0].penalty = Penalty::Automatic { scale: 0.0 }), ["wall[0].penalty_scale"]);
+    assert_eq!(paths(|model| model.output.history = Cadence::Interval(f64::NAN)), ["output.history"]);
+}
+
+#[test]
+fn names_mean_parts_before_groups_before_sides() {
+    let mut model = sound();
+    assert_eq!(model.reference("ring", None), Ok(Reference::Part(0)));
+    assert_eq!(model.reference("ring.start", Some(1)), Ok(Reference::Side { part: 0, side: "start" }));
+    assert_eq!(model.reference("upper", Some(1)), Ok(Reference::Group { mesh: 0, group: 1 }));
+    model.parts[1].name = "upper".into();
+    assert_eq!(model.reference("upper", Some(1)), Ok(Reference::Part(1)));
+    assert!(model.reference("body", Some(1)).is_err() && model.reference("block.top", None).is_err());
+    let copy = model.meshes[0].clone();
+    model.meshes.push(copy);
+    assert!(model.reference("body", None).is_err_and(|(message, _)| message == "group `body` is in 2 meshes"));
+}
+
+#[test]
+fn faults_that_only_code_can_make_are_found() {
+    assert_eq!(paths(|model| model.run.max_steps = Some(0)), ["run.max_steps"]);
+    assert_eq!(paths(|model| model.output.fields = Cadence::Count(0)), ["output.fields"]);
+    assert_eq!(paths(|model| model.contacts[0].formulation = Formulation::SinglePass { slave: 2 }), ["contact[0].slave"]);
+    assert_eq!(paths(|model| model.constraints[0].velocity = [None, None]), ["constraint[0]"]);
+    assert_eq!(paths(|model| model.parts[1].shape = Shape::Group { mesh: 3, group: "body".into() }), ["part[1].mesh"]);
+    let mesh = |change: fn(&mut ImportedMesh)| paths(|model| change(Arc::make_mut(&mut model.meshes[0])));
+    assert_eq!(mesh(|mesh| mesh.groups[0].cells[0] = vec![0, 1, 2, 9]), ["part[1].mesh.group"]);
+    assert_eq!(mesh(|mesh| mesh.groups[0].cells[0] = vec![0, 1, 2]), ["part[1].mesh.group"]);
+    assert_eq!(mesh(|mesh| mesh.groups[0].cells.clear()), ["part[1].mesh.group"]);
+    assert_eq!(mesh(|mesh| mesh.positions[0][0] = f64::NAN), ["part[1].mesh.group"]);
+    assert_eq!(Model::default().check().len(), 2);
+}

@@ -1,1 +1,356 @@
-//! Placeholder while the room is built.
+//! VTK XML files of unstructured grids (`.vtu`) and the collection that puts them on a time axis (`.pvd`).
+//!
+//! A [`Frame`] and its [`Cells`] become the bytes of one file: a short XML head, then all arrays as appended raw binary,
+//! little-endian, each in zlib blocks with 64-bit headers. What never changes during a run (connectivity, cell types,
+//! parts) is encoded once by [`VtuWriter::new`]. Equal input gives equal bytes on every machine. The bytes go to
+//! [`crate::results`], ParaView and `tests/read_back.py` read them.
+//! Source: VTK file formats, "XML formats", `vtkZLibDataCompressor`.
+
+use embate_solver::output::{CellKind, Cells, Field, FieldKind, Frame, Location};
+use flate2::Compression;
+use flate2::write::ZlibEncoder;
+use std::fmt::Write as _;
+use std::io::Write as _;
+use thiserror::Error;
+
+/// Bytes of one block before compression.
+const BLOCK: usize = 1 << 17;
+
+/// A frame that does not fit its cells; a fault of the program that made it, never of its user.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+pub enum VtuError {
+    /// A field has the wrong number of values.
+    #[error("field \"{name}\" has {found} values where {expected} are needed; this is a bug in embate")]
+    FieldLength {
+        /// Field name.
+        name: &'static str,
+        /// Values that it has.
+        found: usize,
+        /// Values that it needs.
+        expected: usize,
+    },
+    /// A cell refers to a node that the frame does not have.
+    #[error("a cell uses node {node}, but the frame has {nodes} nodes; this is a bug in embate")]
+    NodeMissing {
+        /// Largest node index of the cells.
+        node: u32,
+        /// Nodes of the frame.
+        nodes: usize,
+    },
+}
+
+/// An array of the file: its XML attributes and its bytes in zlib blocks.
+#[derive(Clone, Debug)]
+struct Array {
+    attributes: String,
+    bytes: Vec<u8>,
+}
+
+/// Writes the frames of one run.
+#[derive(Clone, Debug)]
+pub struct VtuWriter {
+    cell_count: usize,
+    node_last: Option<u32>,
+    connectivity: Array,
+    offsets: Array,
+    types: Array,
+    parts: Array,
+}
+
+impl VtuWriter {
+    /// A writer for the frames of `cells`.
+    #[must_use]
+    pub fn new(cells: &Cells) -> Self {
+        let connectivity: Vec<u8> = cells.nodes.iter().flat_map(|&n| i64::from(n).to_le_bytes()).collect();
+        let offsets: Vec<u8> = cells.offsets.iter().skip(1).flat_map(|&o| i64::from(o).to_le_bytes()).collect();
+        let types: Vec<u8> = cells.kinds.iter().map(|&kind| vtk_cell_type(kind)).collect();
+        let parts: Vec<u8> = cells.parts.iter().flat_map(|&p| p.to_le_bytes()).collect();
+        Self {
+            cell_count: cells.len(),
+            node_last: cells.nodes.iter().copied().max(),
+            connectivity: Array { attributes: "type=\"Int64\" Name=\"connectivity\"".into(), bytes: zlib_blocks(&connectivity) },
+            offsets: Array { attributes: "type=\"Int64\" Name=\"offsets\"".into(), bytes: zlib_blocks(&offsets) },
+            types: Array { attributes: "type=\"UInt8\" Name=\"types\"".into(), bytes: zlib_blocks(&types) },
+            parts: Array { attributes: "type=\"Int32\" Name=\"part\"".into(), bytes: zlib_blocks(&parts) },
+        }
+    }
+
+    /// The bytes of a `.vtu` file: points with z = 0, plane vectors with a third component 0, the fields named in `include`
+    /// (empty: all), `part` for each cell, and the time as the field datum `TimeValue`, which ParaView shows.
+    ///
+    /// # Errors
+    /// [`VtuError`] when a field or a cell does not fit.
+    pub fn bytes(&self, frame: &Frame<2>, include: &[String]) -> Result<Vec<u8>, VtuError> {
+        let nodes = frame.positions.len();
+        if let Some(node) = self.node_last.filter(|&node| node as usize >= nodes) {
+            return Err(VtuError::NodeMissing { node, nodes });
+        }
+        let points = Array {
+            attributes: "type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"".into(),
+            bytes: zlib_blocks(&plane_vectors_in_space(frame.positions.as_flattened())),
+        };
+        let mut at_nodes = Vec::new();
+        let mut at_cells = Vec::new();
+        for field in frame.fields.iter().filter(|f| include.is_empty() || include.iter().any(|name| name == f.kind.name)) {
+            let (list, count) = match field.kind.location {
+                Location::Node => (&mut at_nodes, nodes),
+                Location::Cell => (&mut at_cells, self.cell_count),
+            };
+            list.push(field_array(field, count)?);
+        }
+        let mut sections = Sections { xml: String::new(), appended: Vec::new() };
+        sections.add("PointData", at_nodes.iter());
+        sections.add("CellData", std::iter::once(&self.parts).chain(&at_cells));
+        sections.add("Points", std::iter::once(&points));
+        sections.add("Cells", [&self.connectivity, &self.offsets, &self.types].into_iter());
+
+        let mut file = format!(
+            "<?xml version=\"1.0\"?>\n\
+             <VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" \
+             compressor=\"vtkZLibDataCompressor\">\n\
+             <UnstructuredGrid>\n\
+             <FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">{:?}</DataArray>\n</FieldData>\n\
+             <Piece NumberOfPoints=\"{nodes}\" NumberOfCells=\"{}\">\n{}</Piece>\n</UnstructuredGrid>\n\
+             <AppendedData encoding=\"raw\">\n_",
+            frame.time, self.cell_count, sections.xml
+        )
+        .into_bytes();
+        file.extend_from_slice(&sections.appended);
+        file.extend_from_slice(b"\n</AppendedData>\n</VTKFile>\n");
+        Ok(file)
+    }
+}
+
+/// The text of a `.pvd` file: each frame's time (s) and its path relative to the collection.
+#[must_use]
+pub fn collection(frames: &[(f64, String)]) -> String {
+    let mut text =
+        String::from("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n<Collection>\n");
+    for (time, path) in frames {
+        // Writing to a string can't fail.
+        let _ = writeln!(text, "<DataSet timestep=\"{time:?}\" part=\"0\" file=\"{path}\"/>");
+    }
+    text.push_str("</Collection>\n</VTKFile>\n");
+    text
+}
+
+/// The XML of the arrays so far and the binary data to which its offsets point.
+struct Sections {
+    xml: String,
+    appended: Vec<u8>,
+}
+
+impl Sections {
+    fn add<'a>(&mut self, name: &str, arrays: impl Iterator<Item = &'a Array>) {
+        // Writing to a string can't fail.
+        let _ = writeln!(self.xml, "<{name}>");
+        for array in arrays {
+            let _ = writeln!(self.xml, "<DataArray {} format=\"appended\" offset=\"{}\"/>", array.attributes, self.appended.len());
+            self.appended.extend_from_slice(&array.bytes);
+        }
+        let _ = writeln!(self.xml, "</{name}>");
+    }
+}
+
+/// VTK's number of a cell shape.
+fn vtk_cell_type(kind: CellKind) -> u8 {
+    match kind {
+        CellKind::Triangle => 5,
+        CellKind::Quadrilateral => 9,
+    }
+}
+
+fn field_array(field: &Field, count: usize) -> Result<Array, VtuError> {
+    let kind = field.kind;
+    let expected = kind.width() * count;
+    if field.values.len() != expected {
+        return Err(VtuError::FieldLength { name: kind.name, found: field.values.len(), expected });
+    }
+    let data = if is_plane_vector(kind) { plane_vectors_in_space(&field.values) } else { little_endian(&field.values) };
+    Ok(Array { attributes: field_attributes(kind), bytes: zlib_blocks(&data) })
+}
+
+/// Readers draw arrows only for three components, so plane vectors get a third one.
+fn is_plane_vector(kind: &FieldKind) -> bool {
+    kind.components == ["x", "y"]
+}
+
+fn field_attributes(kind: &FieldKind) -> String {
+    let mut attributes = format!("type=\"Float64\" Name=\"{}\"", kind.name);
+    let third: &[&str] = if is_plane_vector(kind) { &["z"] } else { &[] };
+    let width = kind.width() + third.len();
+    if width > 1 {
+        // Writing to a string can't fail.
+        let _ = write!(attributes, " NumberOfComponents=\"{width}\"");
+    }
+    for (index, component) in kind.components.iter().chain(third).enumerate() {
+        let _ = write!(attributes, " ComponentName{index}=\"{component}\"");
+    }
+    attributes
+}
+
+fn little_endian(values: &[f64]) -> Vec<u8> {
+    values.iter().flat_map(|v| v.to_le_bytes()).collect()
+}
+
+/// `x y x y ...` to the bytes of `x y 0 x y 0 ...`.
+fn plane_vectors_in_space(values: &[f64]) -> Vec<u8> {
+    values.chunks_exact(2).flat_map(|v| [v[0], v[1], 0.0]).flat_map(f64::to_le_bytes).collect()
+}
+
+/// `data` as VTK's compressed array: number of blocks, block size, size of the last block when it is shorter (else 0),
+/// the compressed size of each block (all 64 bits), then the zlib streams. Fast compression: a run waits for its disk files.
+fn zlib_blocks(data: &[u8]) -> Vec<u8> {
+    let blocks = data.chunks(BLOCK);
+    let header = 8 * (3 + blocks.len());
+    let mut bytes = vec![0; header];
+    let put = |bytes: &mut Vec<u8>, index: usize, value: usize| {
+        bytes[8 * index..8 * index + 8].copy_from_slice(&(value as u64).to_le_bytes());
+    };
+    put(&mut bytes, 0, blocks.len());
+    put(&mut bytes, 1, BLOCK);
+    put(&mut bytes, 2, data.len() % BLOCK);
+    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::fast());
+    for (index, block) in blocks.enumerate() {
+        let stream = encoder.write_all(block).and_then(|()| encoder.reset(Vec::new())).expect("a vector takes every byte");
+        put(&mut bytes, 3 + index, stream.len());
+        bytes.extend_from_slice(&stream);
+    }
+    bytes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use embate_solver::output::field_kind;
+    use std::io::Read;
+
+    /// A quadrilateral and a triangle on its right.
+    fn cells() -> Cells {
+        Cells {
+            nodes: vec![0, 1, 2, 3, 1, 4, 2],
+            offsets: vec![0, 4, 7],
+            kinds: vec![CellKind::Quadrilateral, CellKind::Triangle],
+            parts: vec![0, 1],
+            part_names: vec!["left".into(), "right".into()],
+        }
+    }
+
+    fn frame() -> Frame<2> {
+        let field = |name: &str, values: Vec<f64>| Field { kind: field_kind(name).unwrap(), values };
+        Frame {
+            time: 1.25e-5,
+            step: 17,
+            positions: vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [2.0, 0.5]],
+            fields: vec![
+                field("velocity", (0..10).map(f64::from).collect()),
+                field("stress", vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0]),
+                field("plastic_strain", vec![0.25, 0.5]),
+            ],
+        }
+    }
+
+    /// The data of array `name`, found and inflated as a reader does it.
+    fn array(file: &[u8], name: &str) -> Vec<u8> {
+        let start = file.windows(2).position(|w| w == b"\n_").unwrap() + 2;
+        let xml = std::str::from_utf8(&file[..start]).unwrap();
+        let tag = xml.lines().find(|l| l.contains(&format!("Name=\"{name}\""))).unwrap();
+        let offset: usize = tag.split("offset=\"").nth(1).unwrap().split('"').next().unwrap().parse().unwrap();
+        let data = &file[start + offset..];
+        let number = |i: usize| u64::from_le_bytes(data[8 * i..8 * i + 8].try_into().unwrap()) as usize;
+        let mut at = 8 * (3 + number(0));
+        let mut out = Vec::new();
+        for block in 0..number(0) {
+            let before = out.len();
+            flate2::read::ZlibDecoder::new(&data[at..at + number(3 + block)]).read_to_end(&mut out).unwrap();
+            let is_short = block + 1 == number(0) && number(2) != 0;
+            assert_eq!(out.len() - before, if is_short { number(2) } else { number(1) });
+            at += number(3 + block);
+        }
+        out
+    }
+
+    fn floats(bytes: &[u8]) -> Vec<f64> {
+        bytes.chunks_exact(8).map(|b| f64::from_le_bytes(b.try_into().unwrap())).collect()
+    }
+
+    #[test]
+    fn arrays_come_back_as_they_went_in() {
+        let file = VtuWriter::new(&cells()).bytes(&frame(), &[]).unwrap();
+        let points = floats(&array(&file, "Points"));
+        assert_eq!(points, [0., 0., 0., 1., 0., 0., 1., 1., 0., 0., 1., 0., 2., 0.5, 0.]);
+        assert_eq!(floats(&array(&file, "velocity"))[..6], [0., 1., 0., 2., 3., 0.]);
+        assert_eq!(floats(&array(&file, "stress")), [1., 2., 3., 4., 5., 6., 7., 8.]);
+        assert_eq!(floats(&array(&file, "plastic_strain")), [0.25, 0.5]);
+        assert_eq!(array(&file, "types"), [9, 5]);
+        assert_eq!(array(&file, "part"), [0, 0, 0, 0, 1, 0, 0, 0]);
+        let integers: Vec<u8> = array(&file, "offsets").chunks_exact(8).map(|b| b[0]).collect();
+        assert_eq!(integers, [4, 7]);
+        assert_eq!(array(&file, "connectivity").len(), 7 * 8);
+    }
+
+    #[test]
+    fn stress_components_have_their_names() {
+        let file = VtuWriter::new(&cells()).bytes(&frame(), &[]).unwrap();
+        let text = String::from_utf8_lossy(&file);
+        assert!(text.contains(
+            "Name=\"stress\" NumberOfComponents=\"4\" ComponentName0=\"xx\" ComponentName1=\"yy\" ComponentName2=\"zz\" ComponentName3=\"xy\""
+        ));
+        assert!(text.contains("Name=\"velocity\" NumberOfComponents=\"3\" ComponentName0=\"x\" ComponentName1=\"y\" ComponentName2=\"z\""));
+        assert!(text.contains("Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">1.25e-5<"));
+    }
+
+    #[test]
+    fn only_the_wanted_fields_are_written() {
+        let file = VtuWriter::new(&cells()).bytes(&frame(), &["stress".to_string()]).unwrap();
+        let text = String::from_utf8_lossy(&file);
+        assert!(text.contains("\"stress\"") && text.contains("\"part\"") && !text.contains("\"velocity\""));
+    }
+
+    #[test]
+    fn equal_frames_give_equal_bytes() {
+        let once = VtuWriter::new(&cells()).bytes(&frame(), &[]).unwrap();
+        assert_eq!(once, VtuWriter::new(&cells()).bytes(&frame(), &[]).unwrap());
+    }
+
+    #[test]
+    fn long_and_incompressible_arrays_use_several_blocks() {
+        let mut state = 1_u64;
+        let mut noise = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            f64::from_bits((state >> 12) | 0x3ff0_0000_0000_0000)
+        };
+        for nodes in [BLOCK / 24, BLOCK / 8, 40_000] {
+            let positions: Vec<[f64; 2]> = (0..nodes).map(|_| [noise(), noise()]).collect();
+            let frame = Frame { time: 0.0, step: 0, positions, fields: vec![] };
+            let file = VtuWriter::new(&Cells::default()).bytes(&frame, &[]).unwrap();
+            let points = floats(&array(&file, "Points"));
+            assert!(points.chunks(3).map(|p| [p[0], p[1]]).eq(frame.positions.iter().copied()));
+        }
+    }
+
+    #[test]
+    fn no_cells_are_no_problem() {
+        let frame = Frame { time: 0.0, step: 0, positions: vec![], fields: vec![] };
+        let file = VtuWriter::new(&Cells::default()).bytes(&frame, &[]).unwrap();
+        assert!(array(&file, "connectivity").is_empty());
+    }
+
+    #[test]
+    fn a_field_of_the_wrong_length_is_an_error() {
+        let mut frame = frame();
+        frame.fields[1].values.pop();
+        let error = VtuWriter::new(&cells()).bytes(&frame, &[]).unwrap_err();
+        assert_eq!(error, VtuError::FieldLength { name: "stress", found: 7, expected: 8 });
+        frame.fields.clear();
+        frame.positions.truncate(4);
+        assert_eq!(VtuWriter::new(&cells()).bytes(&frame, &[]).unwrap_err(), VtuError::NodeMissing { node: 4, nodes: 4 });
+    }
+
+    #[test]
+    fn a_collection_lists_times_and_files() {
+        let text = collection(&[(0.0, "fields/frame-00000.vtu".into()), (1e-5, "fields/frame-00001.vtu".into())]);
+        assert!(text.contains("<DataSet timestep=\"0.0\" part=\"0\" file=\"fields/frame-00000.vtu\"/>"));
+        assert!(text.contains("<DataSet timestep=\"1e-5\" part=\"0\" file=\"fields/frame-00001.vtu\"/>"));
+    }
+}

@@ -98,12 +98,13 @@ impl VtuWriter {
             };
             list.push(field_array(field, count)?);
         }
-        let mut sections = Sections { xml: String::new(), appended: Vec::new() };
-        sections.add("PointData", at_nodes.iter());
-        sections.add("CellData", std::iter::once(&self.parts).chain(&at_cells));
-        sections.add("Points", std::iter::once(&points));
-        sections.add("Cells", [&self.connectivity, &self.offsets, &self.types].into_iter());
-
+        let sections = [
+            ("PointData", at_nodes.iter().collect()),
+            ("CellData", std::iter::once(&self.parts).chain(&at_cells).collect()),
+            ("Points", vec![&points]),
+            ("Cells", vec![&self.connectivity, &self.offsets, &self.types]),
+        ];
+        let (xml, appended) = append_sections(&sections);
         let mut file = format!(
             "<?xml version=\"1.0\"?>\n\
              <VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" \
@@ -112,10 +113,10 @@ impl VtuWriter {
              <FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">{:?}</DataArray>\n</FieldData>\n\
              <Piece NumberOfPoints=\"{nodes}\" NumberOfCells=\"{}\">\n{}</Piece>\n</UnstructuredGrid>\n\
              <AppendedData encoding=\"raw\">\n_",
-            frame.time, self.cell_count, sections.xml
+            frame.time, self.cell_count, xml
         )
         .into_bytes();
-        file.extend_from_slice(&sections.appended);
+        file.extend_from_slice(&appended);
         file.extend_from_slice(b"\n</AppendedData>\n</VTKFile>\n");
         Ok(file)
     }
@@ -134,22 +135,24 @@ pub fn collection(frames: &[(f64, String)]) -> String {
     text
 }
 
-/// The XML of the arrays so far and the binary data to which its offsets point.
-struct Sections {
-    xml: String,
-    appended: Vec<u8>,
-}
-
-impl Sections {
-    fn add<'a>(&mut self, name: &str, arrays: impl Iterator<Item = &'a Array>) {
-        // Writing to a string can't fail.
-        let _ = writeln!(self.xml, "<{name}>");
-        for array in arrays {
-            let _ = writeln!(self.xml, "<DataArray {} format=\"appended\" offset=\"{}\"/>", array.attributes, self.appended.len());
-            self.appended.extend_from_slice(&array.bytes);
+/// The XML of all sections and the binary data to which its offsets point.
+///
+/// The data lie in the reverse order of their tags, which the format allows: meshio 5 replaces the offsets of the tags one by
+/// one, in the order of the data, and takes the first tag that has the offset it looks for. In reverse order a tag whose offset
+/// is new, and by chance equal to one still looked for, is never the first.
+fn append_sections(sections: &[(&str, Vec<&Array>)]) -> (String, Vec<u8>) {
+    let mut tags = Vec::new();
+    let mut appended = Vec::new();
+    for (name, arrays) in sections.iter().rev() {
+        tags.push(format!("</{name}>\n"));
+        for array in arrays.iter().rev() {
+            tags.push(format!("<DataArray {} format=\"appended\" offset=\"{}\"/>\n", array.attributes, appended.len()));
+            appended.extend_from_slice(&array.bytes);
         }
-        let _ = writeln!(self.xml, "</{name}>");
+        tags.push(format!("<{name}>\n"));
     }
+    tags.reverse();
+    (tags.concat(), appended)
 }
 
 /// VTK's number of a cell shape.

@@ -1,0 +1,78 @@
+//! The result folder of a run: which files lie in it, how they get there, and who writes them.
+//!
+//! A [`Recorder`] listens to a simulation and fills a [`ResultFolder`]: `history.csv` row by row, `fields/frame-*.vtu` and
+//! `fields.pvd`, the pictures, and last of all `summary.json`. Every file is written as `NAME.part` and renamed when it is
+//! complete, so a file under its final name is never half-written, whatever happens to the run or the machine.
+
+mod atomic;
+mod csv;
+mod folder;
+mod recorder;
+mod report;
+
+pub use atomic::write_whole;
+pub use folder::ResultFolder;
+pub use recorder::{OnProgress, Outcome, Recorder, film_settings};
+pub use report::{MomentumDrift, Report, RunStatus};
+
+use crate::vtu::VtuError;
+use std::io::ErrorKind;
+use std::path::PathBuf;
+use thiserror::Error;
+
+/// Why results can't be written: what, where, and what to do.
+#[derive(Debug, Error)]
+pub enum ResultsError {
+    /// The folder holds results of another run.
+    #[error("{} already holds results ({found}); choose another folder with --out, or replace them with --force", .path.display())]
+    Exists {
+        /// The folder.
+        path: PathBuf,
+        /// What was found in it.
+        found: String,
+    },
+    /// The path leads to something that is not a folder.
+    #[error("{} is not a folder; choose another place for the results with --out", .path.display())]
+    NotAFolder {
+        /// The path.
+        path: PathBuf,
+    },
+    /// The system refused.
+    #[error("can't {action} {}: {source}{}", .path.display(), cure(.source.kind()))]
+    File {
+        /// What was tried: `write`, `rename` ...
+        action: &'static str,
+        /// On which path.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// A frame that can't be written.
+    #[error(transparent)]
+    Frame(#[from] VtuError),
+    /// A history row that does not fit its columns.
+    #[error("a history row has {found} values for {expected} columns; this is a bug in embate")]
+    RowLength {
+        /// Values of the row.
+        found: usize,
+        /// Columns of the history.
+        expected: usize,
+    },
+}
+
+impl ResultsError {
+    fn file(action: &'static str, path: impl Into<PathBuf>) -> impl FnOnce(std::io::Error) -> Self {
+        let path = path.into();
+        move |source| Self::File { action, path, source }
+    }
+}
+
+/// What a person can do about an error of the system; empty where its own text says it all.
+fn cure(kind: ErrorKind) -> &'static str {
+    match kind {
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => "; free some space, or choose a folder on another disk with --out",
+        ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => "; choose a folder that you may write to with --out",
+        ErrorKind::NotADirectory => "; a part of the path is a file, choose another folder with --out",
+        _ => "",
+    }
+}

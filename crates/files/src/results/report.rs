@@ -1,0 +1,115 @@
+//! `summary.json`: what came out of a run, in a fixed order of keys.
+//!
+//! Figures come from [`Summary`]; the recorder adds status, names and times. Goes to the user, to tests and to tools.
+
+use embate_solver::output::Summary;
+use serde::Serialize;
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum RunStatus {
+    /// It reached its end time.
+    Done,
+    /// It ended with an error; what was computed until then is kept.
+    Failed,
+    /// It ended before its end time because the user or `run.max_steps` said so.
+    Stopped,
+}
+
+/// Relative change of momentum over the whole run; a number is `None` where walls, supports or loads act.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct MomentumDrift {
+    /// Change of linear momentum over Σ m|v|.
+    pub linear: Option<f64>,
+    /// Change of angular momentum over Σ m|x||v|.
+    pub angular: Option<f64>,
+}
+
+/// The contents of `summary.json`; the order of the fields is the order in the file. Numbers that are not finite become `null`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Report {
+    /// How the run ended.
+    pub status: RunStatus,
+    /// The message of a failed run.
+    pub error: Option<String>,
+    /// Model name.
+    pub model: String,
+    /// Version of embate.
+    pub version: String,
+    /// Names of the parts; their order gives the numbers of the cell field `part`.
+    pub parts: Vec<String>,
+    /// Threads used.
+    pub threads: usize,
+    /// Instruction set used.
+    pub simd: String,
+    /// Number of elements.
+    pub elements: usize,
+    /// Number of nodes.
+    pub nodes: usize,
+    /// Steps done.
+    pub steps: u64,
+    /// Time reached, s.
+    pub time_end: f64,
+    /// Wall time of the run with its output and pictures, without reading and meshing the model, s.
+    pub wall_seconds: f64,
+    /// User CPU time of the whole process, s; `None` where the system does not tell.
+    pub user_cpu_seconds: Option<f64>,
+    /// Elements × steps over the wall time of the steps alone, output taken out; `None` for a run without steps.
+    pub element_steps_per_second: Option<f64>,
+    /// Smallest time step taken, s.
+    pub stable_time_step_min: f64,
+    /// What governed that step.
+    pub stable_time_step_governor: String,
+    /// Largest |stores − works| as a fraction of the largest total energy.
+    pub energy_drift: f64,
+    /// Largest |change of kinetic energy − sum of works| as a fraction of the largest total energy.
+    pub ledger_residual: f64,
+    /// Change of momentum; `None` where walls, supports or loads act.
+    pub momentum_drift: Option<MomentumDrift>,
+    /// Deepest penetration seen, m.
+    pub penetration_max: f64,
+    /// Hash of positions and velocities at the end.
+    pub state_hash: String,
+    /// Things the user should know.
+    pub warnings: Vec<String>,
+}
+
+impl Report {
+    /// A report of the solver's figures; the rest is filled in by the recorder.
+    pub(super) fn of(summary: &Summary, model: &str, parts: &[String]) -> Self {
+        let momentum = MomentumDrift { linear: summary.momentum_drift_linear, angular: summary.momentum_drift_angular };
+        Self {
+            status: RunStatus::Done,
+            error: None,
+            model: model.to_string(),
+            version: env!("CARGO_PKG_VERSION").to_string(),
+            parts: parts.to_vec(),
+            threads: summary.threads,
+            simd: summary.simd.clone(),
+            elements: summary.elements,
+            nodes: summary.nodes,
+            steps: summary.steps,
+            time_end: summary.time_end,
+            wall_seconds: 0.0,
+            user_cpu_seconds: None,
+            element_steps_per_second: None,
+            stable_time_step_min: summary.stable_time_step_min,
+            stable_time_step_governor: summary.stable_time_step_governor.clone(),
+            energy_drift: summary.energy_drift,
+            ledger_residual: summary.ledger_residual,
+            momentum_drift: (momentum.linear.is_some() || momentum.angular.is_some()).then_some(momentum),
+            penetration_max: summary.penetration_max,
+            state_hash: summary.state_hash.clone(),
+            warnings: summary.warnings.clone(),
+        }
+    }
+
+    /// The text of `summary.json`.
+    #[must_use]
+    pub fn json(&self) -> String {
+        let mut text = serde_json::to_string_pretty(self).expect("plain numbers, texts and lists always have a JSON form");
+        text.push('\n');
+        text
+    }
+}

@@ -1,0 +1,284 @@
+//! Result folders, filled by a make-believe simulation.
+
+use embate_files::results::{OnProgress, Outcome, Recorder, ResultFolder, ResultsError, RunStatus};
+use embate_solver::model::Model;
+use embate_solver::output::{CellKind, Cells, FIELDS, Field, Frame, Location, Summary};
+use embate_solver::simulation::{Control, Observer, Progress};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// A path of this test alone, empty.
+fn fresh(name: &str) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = fs::remove_dir_all(&path);
+    path
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let mut names: Vec<String> = fs::read_dir(folder).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+fn model() -> Model {
+    let mut model = Model { name: "fake".into(), ..Model::default() };
+    model.run.end = 1e-3;
+    model
+}
+
+/// A quadrilateral and a triangle on its right.
+fn cells() -> Cells {
+    Cells {
+        nodes: vec![0, 1, 2, 3, 1, 4, 2],
+        offsets: vec![0, 4, 7],
+        kinds: vec![CellKind::Quadrilateral, CellKind::Triangle],
+        parts: vec![0, 1],
+        part_names: vec!["left".into(), "right".into()],
+    }
+}
+
+/// Everything moves with 3 m/s along x and -1 m/s along y.
+fn frame(step: u64) -> Frame<2> {
+    let time = step as f64 * 1e-4;
+    let initial = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [2.0, 0.5]];
+    let moved = [3.0 * time, -time];
+    let positions: Vec<[f64; 2]> = initial.iter().map(|x| [x[0] + moved[0], x[1] + moved[1]]).collect();
+    let values = |name: &str, location, width| match (name, location) {
+        ("displacement", _) => moved.repeat(5),
+        ("velocity", _) => [3.0, -1.0].repeat(5),
+        (_, Location::Node) => vec![0.5; 5 * width],
+        (_, Location::Cell) => vec![0.25; 2 * width],
+    };
+    let fields = FIELDS.iter().map(|kind| Field { kind, values: values(kind.name, kind.location, kind.width()) }).collect();
+    Frame { time, step, positions, fields }
+}
+
+fn summary(steps: u64) -> Summary {
+    Summary {
+        elements: 2,
+        nodes: 5,
+        steps,
+        time_end: steps as f64 * 1e-4,
+        stable_time_step_min: 1e-4,
+        stable_time_step_governor: "element 0 of part \"left\"".into(),
+        energy_drift: 0.001,
+        ledger_residual: 1e-15,
+        momentum_drift_linear: Some(1e-16),
+        momentum_drift_angular: None,
+        penetration_max: 0.0,
+        state_hash: "0123456789abcdef".into(),
+        threads: 1,
+        simd: "scalar".into(),
+        warnings: vec![],
+    }
+}
+
+fn columns() -> Vec<String> {
+    vec!["time".into(), "energy.kinetic".into()]
+}
+
+/// Ten steps with a frame and a row each, or until the caller's progress says stop.
+fn record(folder: &Path, on_progress: OnProgress<'_>, error: Option<&str>) -> Outcome {
+    let folder = ResultFolder::create(folder, false).unwrap();
+    let mut recorder = Recorder::new(folder, &model(), columns(), cells(), on_progress).unwrap();
+    let mut done = 0;
+    for step in 0..=10 {
+        recorder.frame(&frame(step)).unwrap();
+        recorder.row(&[step as f64 * 1e-4, 5.0]).unwrap();
+        done = step;
+        let progress = Progress { step, time: step as f64 * 1e-4, end: 1e-3, time_step: 1e-4, governor: "x", energy_drift: 0.0 };
+        if recorder.progress(&progress) == Control::Stop {
+            break;
+        }
+    }
+    recorder.finish(error.map(ToString::to_string), &summary(done), || Some(0.5))
+}
+
+fn go_on<'a>() -> OnProgress<'a> {
+    Box::new(|_| Control::Continue)
+}
+
+#[test]
+fn a_finished_run_has_all_its_files_and_no_parts() {
+    let folder = fresh("finished");
+    let outcome = record(&folder, go_on(), None);
+    assert!(outcome.unwritten.is_none());
+    assert_eq!(outcome.report.status, RunStatus::Done);
+    let found = names(&folder);
+    for name in ["fields", "fields.pvd", "history.csv", "summary.json"] {
+        assert!(found.contains(&name.to_string()), "{name} is missing in {found:?}");
+    }
+    assert!(found.iter().chain(&names(&folder.join("fields"))).all(|name| !name.ends_with(".part")));
+    assert_eq!(names(&folder.join("fields")).len(), 11);
+    let history = fs::read_to_string(folder.join("history.csv")).unwrap();
+    assert!(history.starts_with("time,energy.kinetic\n0,5\n0.0001,5\n"));
+    assert_eq!(history.lines().count(), 12);
+}
+
+#[test]
+fn the_summary_has_its_keys_in_order() {
+    let folder = fresh("summary");
+    record(&folder, go_on(), None);
+    let text = fs::read_to_string(folder.join("summary.json")).unwrap();
+    let keys: Vec<&str> =
+        text.lines().filter(|l| l.starts_with("  \"")).map(|l| l.trim().split('"').nth(1).unwrap()).filter(|k| !k.is_empty()).collect();
+    assert_eq!(
+        keys,
+        [
+            "status",
+            "error",
+            "model",
+            "version",
+            "parts",
+            "threads",
+            "simd",
+            "elements",
+            "nodes",
+            "steps",
+            "time_end",
+            "wall_seconds",
+            "user_cpu_seconds",
+            "element_steps_per_second",
+            "stable_time_step_min",
+            "stable_time_step_governor",
+            "energy_drift",
+            "ledger_residual",
+            "momentum_drift",
+            "penetration_max",
+            "state_hash",
+            "warnings"
+        ]
+    );
+    let value: serde_json::Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(value["status"], "done");
+    assert_eq!(value["error"], serde_json::Value::Null);
+    assert_eq!(value["momentum_drift"]["linear"], 1e-16);
+    assert_eq!(value["momentum_drift"]["angular"], serde_json::Value::Null);
+    assert!(value["element_steps_per_second"].as_f64().unwrap() > 0.0);
+}
+
+#[test]
+fn a_failed_run_keeps_its_results_and_says_why() {
+    let folder = fresh("failed");
+    let outcome = record(&folder, go_on(), Some("element 3 turned inside out"));
+    assert_eq!(outcome.report.status, RunStatus::Failed);
+    let value: serde_json::Value = serde_json::from_str(&fs::read_to_string(folder.join("summary.json")).unwrap()).unwrap();
+    assert_eq!((value["status"].as_str(), value["error"].as_str()), (Some("failed"), Some("element 3 turned inside out")));
+    assert!(folder.join("history.csv").exists() && folder.join("fields.pvd").exists());
+}
+
+#[test]
+fn a_stopped_run_keeps_its_results() {
+    let folder = fresh("stopped");
+    let outcome = record(&folder, Box::new(|p| if p.step < 4 { Control::Continue } else { Control::Stop }), None);
+    assert_eq!(outcome.report.status, RunStatus::Stopped);
+    assert_eq!(names(&folder.join("fields")).len(), 5);
+}
+
+#[test]
+fn an_existing_result_is_refused_and_untouched() {
+    let folder = fresh("existing");
+    record(&folder, go_on(), None);
+    let before = fs::read(folder.join("summary.json")).unwrap();
+    let error = ResultFolder::create(&folder, false).unwrap_err();
+    assert!(matches!(error, ResultsError::Exists { .. }));
+    assert!(error.to_string().contains("--force") && error.to_string().contains("summary.json"), "{error}");
+    assert_eq!(fs::read(folder.join("summary.json")).unwrap(), before);
+}
+
+#[test]
+fn a_run_that_was_killed_counts_as_a_result() {
+    let folder = fresh("killed");
+    fs::create_dir_all(&folder).unwrap();
+    fs::write(folder.join("history.csv.part"), "time\n").unwrap();
+    assert!(ResultFolder::create(&folder, false).is_err());
+    ResultFolder::create(&folder, true).unwrap();
+    assert_eq!(names(&folder), ["fields"]);
+}
+
+#[test]
+fn force_removes_only_files_that_embate_makes() {
+    let folder = fresh("forced");
+    record(&folder, go_on(), None);
+    fs::write(folder.join("notes.txt"), "mine").unwrap();
+    fs::write(folder.join("fields/frame-old.vtu"), "mine").unwrap();
+    ResultFolder::create(&folder, true).unwrap();
+    assert_eq!(names(&folder), ["fields", "notes.txt"]);
+    assert_eq!(names(&folder.join("fields")), ["frame-old.vtu"]);
+}
+
+#[test]
+fn a_folder_with_foreign_files_takes_results() {
+    let folder = fresh("foreign");
+    fs::create_dir_all(&folder).unwrap();
+    fs::write(folder.join("model.toml"), "").unwrap();
+    fs::write(folder.join("check.png"), "").unwrap();
+    ResultFolder::create(&folder, false).unwrap();
+}
+
+#[test]
+fn a_file_in_the_way_is_named() {
+    let path = fresh("in-the-way");
+    fs::write(&path, "").or_else(|_| fs::create_dir_all(path.parent().unwrap()).and_then(|()| fs::write(&path, ""))).unwrap();
+    let direct = ResultFolder::create(&path, true).unwrap_err().to_string();
+    assert!(direct.contains("in-the-way") && direct.contains("not a folder"), "{direct}");
+    let below = ResultFolder::create(&path.join("below"), true).unwrap_err().to_string();
+    assert!(below.contains("in-the-way") && below.contains("--out"), "{below}");
+    fs::remove_file(path).unwrap();
+}
+
+#[test]
+fn two_runs_never_share_a_history() {
+    let folder = fresh("two-runs");
+    let first = ResultFolder::create(&folder, false).unwrap();
+    let second = ResultFolder::create(&folder, false).unwrap();
+    let _running = Recorder::new(first, &model(), columns(), cells(), go_on()).unwrap();
+    assert!(Recorder::new(second, &model(), columns(), cells(), go_on()).is_err());
+}
+
+#[test]
+fn a_row_of_the_wrong_length_is_an_error() {
+    let folder = ResultFolder::create(&fresh("row"), false).unwrap();
+    let mut recorder = Recorder::new(folder, &model(), columns(), cells(), go_on()).unwrap();
+    assert!(recorder.row(&[1.0]).unwrap_err().to_string().contains("1 values for 2 columns"));
+}
+
+#[test]
+fn the_last_state_is_not_written_twice() {
+    let folder = ResultFolder::create(&fresh("twice"), false).unwrap();
+    let path = folder.path().to_path_buf();
+    let mut recorder = Recorder::new(folder, &model(), columns(), cells(), go_on()).unwrap();
+    for step in [0, 5, 5] {
+        recorder.frame(&frame(step)).unwrap();
+    }
+    assert_eq!(names(&path.join("fields")).len(), 2);
+}
+
+#[test]
+fn a_lost_folder_is_reported_with_its_path() {
+    let folder = ResultFolder::create(&fresh("lost"), false).unwrap();
+    let path = folder.path().to_path_buf();
+    let mut recorder = Recorder::new(folder, &model(), columns(), cells(), go_on()).unwrap();
+    fs::remove_dir_all(&path).unwrap();
+    let error = recorder.frame(&frame(0)).unwrap_err().to_string();
+    assert!(error.contains("lost") && error.contains("frame-00000.vtu"), "{error}");
+    let outcome = recorder.finish(None, &summary(10), || None);
+    assert_eq!(outcome.report.status, RunStatus::Failed);
+    assert!(outcome.unwritten.unwrap().to_string().contains("lost"));
+}
+
+/// Runs `tests/read_back.py` with the interpreter named by `EMBATE_PYTHON` (with meshio or vtk installed), as CI does.
+#[test]
+fn python_reads_the_results_back() {
+    let folder = fresh("read-back");
+    record(&folder, go_on(), None);
+    let Some(python) = std::env::var_os("EMBATE_PYTHON") else {
+        eprintln!("skipped: EMBATE_PYTHON names no interpreter");
+        return;
+    };
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/read_back.py");
+    let output = Command::new(python).arg(script).arg(&folder).output().unwrap();
+    let text = String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{text}");
+}

@@ -1,2 +1,89 @@
-//! The program `embate`.
-fn main() {}
+//! The program `embate`: reads the command line, calls the libraries, turns their errors into messages and exit codes.
+//!
+//! One file per command. Exit codes: 0 done, 1 a run failed (or a bug), 2 bad input or command line, 130 stopped by Ctrl-C.
+
+mod check;
+mod cpu;
+mod input;
+mod interrupt;
+mod list;
+mod new;
+mod numbers;
+mod progress;
+mod run;
+mod schema;
+mod terminal;
+
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+/// Explicit finite elements for contact-impact between flexible bodies in large deformation.
+#[derive(Parser)]
+#[command(name = "embate", version, arg_required_else_help = true)]
+struct CommandLine {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Run a model and write its results
+    Run(run::Arguments),
+    /// Look at a model without running it: parts, masses, stable step, probes, penetrations, a picture
+    Check(check::Arguments),
+    /// List elements, materials, searches and output fields with their parameters
+    List(list::Arguments),
+    /// Make a folder with a commented model to start from
+    New(new::Arguments),
+    /// Print the JSON schema of the model file (for completion in editors)
+    Schema,
+}
+
+/// Why a command did not succeed; the text is what the user reads.
+#[derive(Debug)]
+enum Failure {
+    /// Bad input, or results in the way; nothing was done.
+    Input(String),
+    /// A run failed, or its results could not be written.
+    Run(String),
+    /// The user stopped a run.
+    Interrupted,
+}
+
+impl Failure {
+    fn code(&self) -> u8 {
+        match self {
+            Self::Run(_) => 1,
+            Self::Input(_) => 2,
+            Self::Interrupted => 130,
+        }
+    }
+}
+
+fn main() -> ExitCode {
+    terminal::announce_bugs();
+    let command = CommandLine::parse().command;
+    // The hook has told the user about a panic; here it only becomes an exit code.
+    let Ok(result) = std::panic::catch_unwind(|| obey(&command)) else {
+        return ExitCode::from(1);
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            if let Failure::Input(text) | Failure::Run(text) = &failure {
+                terminal::complain(text);
+            }
+            ExitCode::from(failure.code())
+        }
+    }
+}
+
+fn obey(command: &Command) -> Result<(), Failure> {
+    match command {
+        Command::Run(arguments) => run::run(arguments),
+        Command::Check(arguments) => check::check(arguments),
+        Command::List(arguments) => list::list(arguments),
+        Command::New(arguments) => new::new(arguments),
+        Command::Schema => schema::schema(),
+    }
+}

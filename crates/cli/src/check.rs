@@ -1,0 +1,79 @@
+//! `embate check`: what a model is, without running it, and a picture of its mesh.
+
+use crate::input::{self, ModelArguments};
+use crate::numbers::{grouped, table, with_unit};
+use crate::{Failure, terminal};
+use clap::Args;
+use embate_files::{picture, results};
+use embate_solver::model::Model;
+use embate_solver::simulation::{Options, Overview, Simulation};
+use std::path::{Path, PathBuf};
+
+/// Which model, and where the picture goes.
+#[derive(Args)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    model: ModelArguments,
+    /// Folder for check.png [default: results/NAME]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+pub(crate) fn check(arguments: &Arguments) -> Result<(), Failure> {
+    let model = input::load(&arguments.model)?;
+    let simulation = input::ready(&model, &Options::default())?;
+    let mut text = overview_text(&model, &simulation.overview());
+    let folder = arguments.out.clone().unwrap_or_else(|| input::default_folder(&model));
+    match draw(&model, &simulation, &folder) {
+        Ok(path) => text.push_str(&format!("picture: {}\n", path.display())),
+        Err(message) => terminal::complain(&format!("warning: no picture: {message}")),
+    }
+    terminal::print(&text)
+}
+
+fn overview_text(model: &Model, overview: &Overview) -> String {
+    let mut rows = vec![["part", "elements", "nodes", "mass", "stable step"].map(ToString::to_string).to_vec()];
+    rows.extend(overview.parts.iter().map(|part| {
+        vec![
+            part.name.clone(),
+            grouped(part.elements as u64),
+            grouped(part.nodes as u64),
+            format!("{:.4} kg/m", part.mass),
+            with_unit(part.stable_time_step, "s"),
+        ]
+    }));
+    let mut text = format!("{}\n{}", model.name, table(&rows, "  "));
+    text.push_str(&format!(
+        "first time step {} (governed by {}), about {} steps to {}\n",
+        with_unit(overview.stable_time_step, "s"),
+        overview.governor,
+        grouped(overview.steps_expected),
+        with_unit(model.run.end, "s")
+    ));
+    for (title, lines) in
+        [("probes", &overview.probes), ("initial penetrations", &overview.initial_penetrations), ("warnings", &overview.warnings)]
+    {
+        if !lines.is_empty() {
+            text.push_str(&format!("{title}\n  {}\n", lines.join("\n  ")));
+        }
+    }
+    if overview.initial_penetrations.is_empty() {
+        text.push_str("no initial penetrations\n");
+    }
+    text
+}
+
+/// Draws the mesh beside its final name and moves it there when it is complete.
+fn draw(model: &Model, simulation: &Simulation, folder: &Path) -> Result<PathBuf, String> {
+    std::fs::create_dir_all(folder).map_err(|error| format!("can't create {}: {error}", folder.display()))?;
+    let path = folder.join("check.png");
+    let part = folder.join("check.png.part");
+    let drawn = picture::mesh_png(&simulation.frame(), &simulation.cells(), &results::film_settings(model), &part)
+        .map_err(|error| error.to_string())
+        .and_then(|()| std::fs::rename(&part, &path).map_err(|error| format!("can't write {}: {error}", path.display())));
+    if drawn.is_err() {
+        // The first error is the one that matters.
+        let _ = std::fs::remove_file(&part);
+    }
+    drawn.map(|()| path)
+}

@@ -1,0 +1,15 @@
+//! The CPU time of this process, from the system.
+
+/// User CPU time of all threads so far, s; `None` where the system does not tell.
+#[cfg(unix)]
+pub(crate) fn user_seconds() -> Option<f64> {
+    use nix::sys::resource::{UsageWho, getrusage};
+    use nix::sys::time::TimeValLike;
+    getrusage(UsageWho::RUSAGE_SELF).ok().map(|usage| usage.user_time().num_microseconds() as f64 * 1e-6)
+}
+
+/// User CPU time of all threads so far, s; `None` where the system does not tell.
+#[cfg(not(unix))]
+pub(crate) fn user_seconds() -> Option<f64> {
+    None
+}

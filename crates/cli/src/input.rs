@@ -1,0 +1,90 @@
+//! What `run` and `check` share: reading a model, making it ready, and where its results go.
+
+use crate::Failure;
+use clap::Args;
+use embate_files::model_file;
+use embate_solver::error::{Error, Fault};
+use embate_solver::model::Model;
+use embate_solver::simulation::{Options, Simulation};
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
+
+/// Which model.
+#[derive(Args)]
+pub(crate) struct ModelArguments {
+    /// Model file, or folder with a model.toml
+    pub(crate) model: PathBuf,
+    /// Override a key of the model file, for example run.end="5 ms" or part[0].velocity=[0,-20]; may be repeated
+    #[arg(long, value_name = "KEY=VALUE", value_parser = key_and_value)]
+    pub(crate) set: Vec<String>,
+}
+
+fn key_and_value(text: &str) -> Result<String, String> {
+    match text.split_once('=') {
+        Some((key, _)) if !key.trim().is_empty() => Ok(text.to_string()),
+        _ => Err("write it as path.to.key=value".to_string()),
+    }
+}
+
+/// Reads a model; all faults of the file become one message.
+pub(crate) fn load(arguments: &ModelArguments) -> Result<Model, Failure> {
+    model_file::load(&arguments.model, &arguments.set).map_err(|diagnostics| {
+        let text = diagnostics.rendered.trim_end();
+        let count = diagnostics.count;
+        let plural = if count == 1 { "" } else { "s" };
+        Failure::Input(
+            format!("{text}\nerror: {} has {count} fault{plural}; nothing was run", arguments.model.display()).trim_start().to_string(),
+        )
+    })
+}
+
+/// Makes a model ready to step.
+pub(crate) fn ready(model: &Model, options: &Options) -> Result<Simulation, Failure> {
+    Simulation::new(model, options).map_err(|error| Failure::Input(told(&error)))
+}
+
+/// An error as the user reads it: one paragraph for each fault.
+pub(crate) fn told(error: &Error) -> String {
+    match error {
+        Error::Model(faults) if !faults.is_empty() => faults.iter().map(told_fault).collect::<Vec<_>>().join("\n"),
+        _ => format!("error: {error}"),
+    }
+}
+
+fn told_fault(fault: &Fault) -> String {
+    let place = if fault.path.is_empty() { String::new() } else { format!("{}: ", fault.path) };
+    let help = if fault.help.is_empty() { String::new() } else { format!("\n  help: {}", fault.help) };
+    format!("error: {place}{}{help}", fault.message)
+}
+
+/// The results folder when none is given: `results/NAME`.
+pub(crate) fn default_folder(model: &Model) -> PathBuf {
+    // Only the last part of a name that looks like a path, so that nothing is written elsewhere.
+    let name = Path::new(&model.name).file_name().unwrap_or(OsStr::new("model"));
+    Path::new("results").join(name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn results_stay_below_the_results_folder() {
+        for (name, folder) in [("tube", "results/tube"), ("../../etc", "results/etc"), ("..", "results/model"), ("", "results/model")] {
+            let model = Model { name: name.into(), ..Model::default() };
+            assert_eq!(default_folder(&model), Path::new(folder));
+        }
+    }
+
+    #[test]
+    fn overrides_need_a_key_and_a_value() {
+        assert!(key_and_value("run.end=1").is_ok());
+        assert!(key_and_value("run.end").is_err() && key_and_value("=1").is_err());
+    }
+
+    #[test]
+    fn every_fault_is_told_with_its_help() {
+        let error = Error::Model(vec![Fault::new("run.end", "is 0", "give a time"), Fault::new("", "no parts", "")]);
+        assert_eq!(told(&error), "error: run.end: is 0\n  help: give a time\nerror: no parts");
+    }
+}

@@ -1,0 +1,108 @@
+//! `embate list`: what the registries hold. Nothing is named here: a new material, element, search or field shows up by itself.
+
+use crate::numbers::table;
+use crate::{Failure, terminal};
+use clap::{Args, ValueEnum};
+use embate_solver::quantity::Parameter;
+use embate_solver::{contact, element, material, output};
+use std::fmt::Write;
+
+/// What to list.
+#[derive(Args)]
+pub(crate) struct Arguments {
+    /// One kind of thing; all when left out
+    what: Option<What>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum What {
+    /// Element formulations
+    Elements,
+    /// Material laws
+    Materials,
+    /// Global contact searches
+    Searches,
+    /// Fields of the output
+    Fields,
+}
+
+pub(crate) fn list(arguments: &Arguments) -> Result<(), Failure> {
+    let chosen = |what: &What| arguments.what.is_none_or(|wanted| wanted == *what);
+    let lists: Vec<String> = What::value_variants().iter().filter(|what| chosen(what)).map(|what| what.list()).collect();
+    terminal::print(&lists.join("\n"))
+}
+
+impl What {
+    fn list(self) -> String {
+        match self {
+            Self::Elements => elements(),
+            Self::Materials => materials(),
+            Self::Searches => searches(),
+            Self::Fields => fields(),
+        }
+    }
+}
+
+fn elements() -> String {
+    let mut text = String::from("Elements (part.element)\n");
+    for kind in element::registry() {
+        entry(&mut text, kind.name, &format!("{} ({} nodes)", kind.doc, kind.nodes), kind.source);
+    }
+    text
+}
+
+fn materials() -> String {
+    let mut text = String::from("Materials (material.NAME.law)\n");
+    for law in material::registry() {
+        entry(&mut text, law.name, law.doc, law.source);
+        text.push_str(&table(&law.parameters.iter().map(parameter_row).collect::<Vec<_>>(), "      "));
+    }
+    text
+}
+
+fn searches() -> String {
+    let mut text = String::from("Searches (contact.search)\n");
+    for (index, search) in contact::search::registry::<2>().iter().enumerate() {
+        let name = if index == 0 { format!("{} (default)", search.name) } else { search.name.to_string() };
+        entry(&mut text, &name, search.doc, search.source);
+    }
+    text
+}
+
+fn fields() -> String {
+    let row = |kind: &output::FieldKind| {
+        let place = match kind.location {
+            output::Location::Node => "node",
+            output::Location::Cell => "cell",
+        };
+        let components = if kind.components.is_empty() { "scalar".to_string() } else { kind.components.join(" ") };
+        vec![kind.name.to_string(), place.to_string(), components, unit(kind.unit.to_string()), kind.doc.to_string()]
+    };
+    format!("Fields (output.include)\n{}", table(&output::FIELDS.iter().map(row).collect::<Vec<_>>(), "  "))
+}
+
+/// Name, what it is, and where it comes from.
+fn entry(text: &mut String, name: &str, doc: &str, source: &str) {
+    // Writing to a string can't fail.
+    let _ = writeln!(text, "  {name}\n      {doc}");
+    if !source.is_empty() {
+        let _ = writeln!(text, "      source: {source}");
+    }
+}
+
+fn parameter_row(parameter: &Parameter) -> Vec<String> {
+    let default = parameter.default.map_or("required".to_string(), |value| format!("default {value}"));
+    vec![
+        parameter.name.to_string(),
+        parameter.symbol.to_string(),
+        unit(parameter.dimension.unit()),
+        parameter.range.to_string(),
+        default,
+        parameter.doc.to_string(),
+    ]
+}
+
+/// A unit in brackets; a dash for a pure number.
+fn unit(unit: String) -> String {
+    if unit.is_empty() { "-".to_string() } else { unit }
+}

@@ -1,0 +1,88 @@
+//! How a run goes on: a bar on a terminal, a line every tenth otherwise, nothing when quiet. All on standard error.
+
+use crate::numbers::{grouped, per_cent, with_unit};
+use crate::terminal;
+use embate_solver::simulation::Progress;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::io::IsTerminal;
+use std::time::{Duration, Instant};
+
+/// Ticks of the bar.
+const TICKS: u64 = 1000;
+/// Time between two updates of the bar.
+const PAUSE: Duration = Duration::from_millis(100);
+
+/// Shows progress.
+pub(crate) enum Display {
+    /// Nothing.
+    Quiet,
+    /// A line for each tenth of the run; `next` is the next tenth.
+    Lines { next: u64, begin: Instant },
+    /// A bar.
+    Bar { bar: ProgressBar, updated: Instant },
+}
+
+impl Display {
+    pub(crate) fn new(is_quiet: bool) -> Self {
+        if is_quiet {
+            return Self::Quiet;
+        }
+        if !std::io::stderr().is_terminal() {
+            return Self::Lines { next: 1, begin: Instant::now() };
+        }
+        let bar = ProgressBar::with_draw_target(Some(TICKS), ProgressDrawTarget::stderr());
+        if let Ok(style) = ProgressStyle::with_template("{bar:24} {percent:>3} %  ETA {eta}  {wide_msg}") {
+            bar.set_style(style);
+        }
+        Self::Bar { bar, updated: Instant::now() }
+    }
+
+    pub(crate) fn update(&mut self, progress: &Progress<'_>) {
+        let done = if progress.end > 0.0 { (progress.time / progress.end).clamp(0.0, 1.0) } else { 0.0 };
+        match self {
+            Self::Quiet => {}
+            Self::Lines { next, begin } => {
+                let tenth = (10.0 * done).floor() as u64;
+                if tenth >= *next {
+                    let left = begin.elapsed().as_secs_f64() * (1.0 - done) / done;
+                    terminal::complain(&format!("{:>3} %  {}  ETA {}", 10 * tenth, state(progress), with_unit(left, "s")));
+                    *next = tenth + 1;
+                }
+            }
+            Self::Bar { bar, updated } => {
+                if updated.elapsed() >= PAUSE {
+                    bar.set_position((TICKS as f64 * done) as u64);
+                    bar.set_message(state(progress));
+                    *updated = Instant::now();
+                }
+            }
+        }
+    }
+
+    /// Says something while the run goes on.
+    pub(crate) fn say(&self, text: &str) {
+        match self {
+            Self::Quiet => {}
+            Self::Lines { .. } => terminal::complain(text),
+            Self::Bar { bar, .. } => bar.suspend(|| terminal::complain(text)),
+        }
+    }
+
+    /// Takes the bar away.
+    pub(crate) fn close(self) {
+        if let Self::Bar { bar, .. } = self {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+fn state(progress: &Progress<'_>) -> String {
+    format!(
+        "step {}  t {}  dt {}  drift {}  {}",
+        grouped(progress.step),
+        with_unit(progress.time, "s"),
+        with_unit(progress.time_step, "s"),
+        per_cent(progress.energy_drift),
+        progress.governor
+    )
+}

@@ -1,0 +1,139 @@
+//! Everything that does not step: usage, lists, schema, starter models, results in the way.
+
+use crate::{embate, fresh};
+use embate_solver::{contact, element, material, output};
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+fn here() -> &'static Path {
+    Path::new(env!("CARGO_TARGET_TMPDIR"))
+}
+
+#[test]
+fn usage_errors_end_with_code_two() {
+    for arguments in [
+        &[][..],
+        &["fly"],
+        &["run"],
+        &["run", "model", "--threads", "many"],
+        &["run", "model", "--threads", "4000000000"],
+        &["run", "model", "--set", "run.end"],
+        &["run", "model", "--fast"],
+        &["list", "colours"],
+        &["new"],
+    ] {
+        let answer = embate(here(), arguments);
+        assert_eq!(answer.code, Some(2), "{arguments:?}: {}", answer.err);
+        assert!(answer.out.is_empty() && (answer.err.contains("Usage") || answer.err.contains("--help")), "{arguments:?}: {}", answer.err);
+    }
+}
+
+#[test]
+fn help_and_version_end_with_code_zero() {
+    let help = embate(here(), ["--help"]);
+    assert_eq!(help.code, Some(0));
+    for command in ["run", "check", "list", "new", "schema"] {
+        assert!(help.out.contains(command), "{}", help.out);
+    }
+    assert_eq!(embate(here(), ["--version"]).out.trim(), concat!("embate ", env!("CARGO_PKG_VERSION")));
+    assert!(embate(here(), ["run", "--help"]).out.contains("--simd"));
+}
+
+#[test]
+fn a_model_that_is_not_there_ends_with_code_two() {
+    let folder = fresh("no-model");
+    for command in ["run", "check"] {
+        let answer = embate(&folder, [command, "nowhere"]);
+        assert_eq!(answer.code, Some(2));
+        assert!(answer.err.contains("nowhere"), "{}", answer.err);
+    }
+    assert_eq!(fs::read_dir(&folder).unwrap().count(), 0, "a faulty model leaves nothing behind");
+}
+
+#[test]
+fn existing_results_are_refused() {
+    let folder = fresh("in-the-way");
+    fs::write(folder.join("summary.json"), "{}").unwrap();
+    let answer = embate(&folder, ["run", "nowhere", "--out", "."]);
+    assert_eq!(answer.code, Some(2));
+    assert!(answer.err.contains("--force") && answer.err.contains("summary.json"), "{}", answer.err);
+    assert_eq!(fs::read_to_string(folder.join("summary.json")).unwrap(), "{}");
+}
+
+#[test]
+fn a_faulty_model_does_not_cost_earlier_results() {
+    let folder = fresh("faulty-forced");
+    fs::write(folder.join("summary.json"), "{}").unwrap();
+    assert_eq!(embate(&folder, ["run", "nowhere", "--out", ".", "--force"]).code, Some(2));
+    assert!(folder.join("summary.json").exists());
+}
+
+#[test]
+fn lists_hold_everything_in_the_registries() {
+    let text = embate(here(), ["list"]).out;
+    let mut names: Vec<&str> = output::FIELDS.iter().map(|field| field.name).collect();
+    names.extend(element::registry().iter().map(|kind| kind.name));
+    names.extend(contact::search::registry::<2>().iter().map(|search| search.name));
+    for law in material::registry() {
+        names.push(law.name);
+        names.extend(law.parameters.iter().map(|parameter| parameter.name));
+    }
+    for name in names {
+        assert!(text.contains(name), "{name} is missing in\n{text}");
+    }
+}
+
+#[test]
+fn one_list_can_be_chosen() {
+    for (what, title) in [("elements", "Elements"), ("materials", "Materials"), ("searches", "Searches"), ("fields", "Fields")] {
+        let answer = embate(here(), ["list", what]);
+        assert_eq!(answer.code, Some(0));
+        assert!(answer.out.starts_with(title));
+        assert_eq!(answer.out.contains("plastic_strain  "), what == "fields", "{}", answer.out);
+    }
+}
+
+#[test]
+fn the_schema_is_json() {
+    let answer = embate(here(), ["schema"]);
+    assert_eq!(answer.code, Some(0));
+    if !answer.out.trim().is_empty() {
+        let schema: serde_json::Value = serde_json::from_str(&answer.out).unwrap();
+        assert!(schema.is_object());
+    }
+}
+
+#[test]
+fn a_starter_model_is_made_once() {
+    let folder = fresh("starter");
+    let answer = embate(&folder, ["new", "deep/tube"]);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    assert!(answer.out.contains("embate run deep/tube"), "{}", answer.out);
+    let file = folder.join("deep/tube/model.toml");
+    fs::write(&file, "mine").unwrap();
+    let again = embate(&folder, ["new", "deep/tube"]);
+    assert_eq!(again.code, Some(2));
+    assert!(again.err.contains("--force"), "{}", again.err);
+    assert_eq!(fs::read_to_string(&file).unwrap(), "mine");
+    assert_eq!(embate(&folder, ["new", "deep/tube", "--force"]).code, Some(0));
+    assert_ne!(fs::read_to_string(&file).unwrap(), "mine");
+    assert_eq!(embate(&folder, ["new", ".."]).code, Some(2));
+}
+
+#[test]
+fn a_closed_pipe_is_quiet() {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_embate")).arg("list").stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert!(output.stderr.is_empty() && output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_full_disk_is_told() {
+    let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_embate")).arg("list").stdout(full).output().unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("standard output"));
+}

@@ -1,0 +1,31 @@
+//! The program as a user meets it: what it prints, which files it leaves, which exit code it gives.
+#![allow(clippy::unwrap_used)]
+
+mod command_line;
+mod whole_runs;
+
+use std::ffi::OsStr;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// A folder of one test alone, empty.
+fn fresh(name: &str) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = fs::remove_dir_all(&path);
+    fs::create_dir_all(&path).unwrap();
+    path
+}
+
+/// What the program did.
+struct Answer {
+    code: Option<i32>,
+    out: String,
+    err: String,
+}
+
+/// Calls the program in `folder`.
+fn embate(folder: &Path, arguments: impl IntoIterator<Item = impl AsRef<OsStr>>) -> Answer {
+    let output = Command::new(env!("CARGO_BIN_EXE_embate")).args(arguments).current_dir(folder).output().unwrap();
+    Answer { code: output.status.code(), out: String::from_utf8(output.stdout).unwrap(), err: String::from_utf8(output.stderr).unwrap() }
+}

@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 pub(crate) struct ModelArguments {
     /// Model file, or folder with a model.toml
     pub(crate) model: PathBuf,
-    /// Override a key of the model file, for example run.end="5 ms" or part[0].velocity=[0,-20]; may be repeated
+    /// Override a key of the model file, for example `run.end="5 ms"`; may be repeated
     #[arg(long, value_name = "KEY=VALUE", value_parser = key_and_value)]
     pub(crate) set: Vec<String>,
 }
@@ -29,12 +29,11 @@ fn key_and_value(text: &str) -> Result<String, String> {
 /// Reads a model; all faults of the file become one message.
 pub(crate) fn load(arguments: &ModelArguments) -> Result<Model, Failure> {
     model_file::load(&arguments.model, &arguments.set).map_err(|diagnostics| {
-        let text = diagnostics.rendered.trim_end();
-        let count = diagnostics.count;
-        let plural = if count == 1 { "" } else { "s" };
-        Failure::Input(
-            format!("{text}\nerror: {} has {count} fault{plural}; nothing was run", arguments.model.display()).trim_start().to_string(),
-        )
+        if diagnostics.rendered.is_empty() {
+            Failure::Input(format!("error: {} can't be used as a model", arguments.model.display()))
+        } else {
+            Failure::Input(diagnostics.rendered)
+        }
     })
 }
 

@@ -43,6 +43,8 @@ impl ResultFolder {
             for file in existing(path)? {
                 fs::remove_file(&file).map_err(ResultsError::file("remove", &file))?;
             }
+            // Stays if something foreign lies in it.
+            let _ = fs::remove_dir(path.join(PICTURES));
         } else {
             Self::refuse_existing(path)?;
         }

@@ -1,0 +1,3 @@
+//! Tests of the formats through the crate's public face, one module a format.
+
+mod picture;

@@ -22,8 +22,9 @@ struct Palette {
 const UNKNOWN: u8 = 255;
 
 impl Palette {
-    fn new(look: Option<Look>) -> Self {
-        let (edge, outline) = look.map_or((0.3, 0.8), |look| (look.edge, look.outline));
+    fn new(looks: &[Look]) -> Self {
+        let edge = looks.iter().map(|look| look.edge).fold(0.0, f32::max);
+        let outline = looks.iter().map(|look| look.outline).fold(0.3, f32::max);
         let mut colours = vec![WHITE, GRID, BORDER, NO_VALUE, TEXT, TEXT_FAINT];
         let of_map = |colours: &mut Vec<Rgb>, count: usize, over: Rgb, alpha: f32| {
             colours.extend((0..count).map(|k| mix(MAP[k * (MAP.len() - 1) / (count - 1)], over, alpha)));
@@ -67,8 +68,8 @@ pub(super) struct Animation<'a> {
 
 impl<'a> Animation<'a> {
     /// Writes the head of the file; `canvas` gives the size.
-    pub(super) fn start(out: &'a mut dyn Write, canvas: &Canvas, look: Option<Look>, path: &'a Path) -> Result<Self, PictureError> {
-        let palette = Palette::new(look);
+    pub(super) fn start(out: &'a mut dyn Write, canvas: &Canvas, looks: &[Look], path: &'a Path) -> Result<Self, PictureError> {
+        let palette = Palette::new(looks);
         let (width, height) = (canvas.width, canvas.height);
         let mut encoder = Encoder::new(out, width as u16, height as u16, &palette.bytes()).map_err(|e| refused(path, e))?;
         encoder.set_repeat(Repeat::Infinite).map_err(|e| refused(path, e))?;
@@ -142,7 +143,7 @@ mod tests {
 
     #[test]
     fn the_palette_is_full_and_knows_its_own_colours() {
-        let mut palette = Palette::new(None);
+        let mut palette = Palette::new(&[]);
         assert_eq!(palette.colours.len(), 255);
         for colour in [WHITE, GRID, BORDER, MAP[0], MAP[255], TEXT] {
             let index = usize::from(palette.index(colour));
@@ -158,7 +159,7 @@ mod tests {
         let mut out = Vec::new();
         {
             let sink: &mut dyn Write = &mut out;
-            let mut animation = Animation::start(sink, &canvas, None, Path::new("x.gif")).unwrap();
+            let mut animation = Animation::start(sink, &canvas, &[], Path::new("x.gif")).unwrap();
             animation.frame(&canvas, 5).unwrap();
             animation.frame(&canvas, 5).unwrap();
             canvas.rectangle(10.0, 12.0, 20.0, 15.0, MAP[100], 1.0);

@@ -29,6 +29,8 @@ struct Edge {
     nodes: [u32; 2],
     /// Between a part and whatever is not that part.
     outline: bool,
+    /// One of the cells that it belongs to, as index in `cells`.
+    cell: u32,
 }
 
 /// What the colours of the cells mean.
@@ -44,96 +46,105 @@ pub(super) enum Values<'a> {
     Nodes(&'a [f32], [f64; 2]),
 }
 
-/// Strengths (0 to 1) and widths (pixels) of the lines.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Lines of one part: strengths (0 to 1) and widths (pixels).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Look {
     pub(super) edge: f32,
     pub(super) edge_width: f32,
     pub(super) outline: f32,
     pub(super) outline_width: f32,
+    /// Pixels by which each side of the part is drawn too far out: what is as thin as a hair would not show its colour.
+    pub(super) swell: f32,
 }
+
+/// Thinnest drawn body, pixels at the usual font.
+const THIN: f32 = 3.4;
 
 impl Mesh {
     /// Takes what is sound: cells whose nodes are listed wrongly are left out.
     pub(super) fn new(cells: &Cells) -> Self {
         let mut mesh = Self { part_count: cells.part_names.len(), ..Self::default() };
         for (index, range) in cells.offsets.windows(2).enumerate().take(cells.kinds.len()) {
-            let part = cells.parts.get(index).copied().unwrap_or(0);
+            // Parts beyond any sensible number are a fault elsewhere; here they only must not cost memory.
+            let part = cells.parts.get(index).copied().unwrap_or(0).min(cells.kinds.len() as u32);
             let (nodes, corners) = match cells.nodes.get(range[0] as usize..range[1] as usize) {
                 Some(&[a, b, c]) => ([a, b, c, c], 3),
                 Some(&[a, b, c, d]) => ([a, b, c, d], 4),
                 _ => continue,
             };
+            mesh.part_count = mesh.part_count.max(part as usize + 1);
             mesh.cells.push(DrawnCell { nodes, corners, part, index: index as u32 });
         }
         mesh.edges = edges(&mesh.cells);
         mesh
     }
 
-    /// Line strengths for bodies at these places: thin bodies and small cells would drown in lines.
-    pub(super) fn look(&self, points: &[[f32; 2]], unit: f32) -> Look {
-        let length = |nodes: [u32; 2]| distance(points, nodes).filter(|l| l.is_finite());
-        let outline: f32 = self.edges.iter().filter(|e| e.outline).filter_map(|e| length(e.nodes)).sum();
-        let (mut area, mut heights, mut count) = (0.0f32, 0.0f32, 0.0f32);
+    /// How each part is drawn at these places: thin bodies and small cells would drown in lines.
+    pub(super) fn looks(&self, points: &[[f32; 2]], unit: f32) -> Vec<Look> {
+        #[derive(Clone, Copy, Default)]
+        struct Sums {
+            outline: f32,
+            area: f32,
+            heights: f32,
+            count: f32,
+        }
+        let mut sums = vec![Sums::default(); self.part_count];
+        let length = |nodes: [u32; 2]| distance(points, nodes).filter(|l| l.is_finite()).unwrap_or(0.0);
+        for edge in self.edges.iter().filter(|e| e.outline) {
+            sums[self.cells[edge.cell as usize].part as usize].outline += length(edge.nodes);
+        }
         for cell in &self.cells {
             let Some(corners) = corners(points, cell) else { continue };
-            let size = quad_area(&corners);
-            let longest = (0..4).filter_map(|k| length([cell.nodes[k], cell.nodes[(k + 1) % 4]])).fold(0.0, f32::max);
-            area += size;
-            heights += if longest > 0.0 { size / longest } else { 0.0 };
-            count += 1.0;
+            let area = quad_area(&corners);
+            let longest = (0..4).map(|k| length([cell.nodes[k], cell.nodes[(k + 1) % 4]])).fold(0.0, f32::max);
+            let sum = &mut sums[cell.part as usize];
+            sum.area += area;
+            sum.heights += if longest > 0.0 { area / longest } else { 0.0 };
+            sum.count += 1.0;
         }
-        let height = if count > 0.0 { heights / count } else { 0.0 };
-        let thickness = if outline > 0.0 { 2.0 * area / outline } else { 0.0 };
         let rise = |value: f32, from: f32, to: f32| ((value - from) / (to - from)).clamp(0.0, 1.0);
-        Look {
-            edge: 0.34 * rise(height, 2.5, 9.0),
-            edge_width: 0.9 * unit,
-            outline: 0.25 + 0.6 * rise(thickness, 2.0, 10.0),
-            outline_width: (0.6 + 0.7 * rise(thickness, 2.0, 10.0)) * unit,
-        }
+        let look = |sum: &Sums| {
+            let height = if sum.count > 0.0 { sum.heights / sum.count } else { 0.0 };
+            let thickness = if sum.outline > 0.0 { 2.0 * sum.area / sum.outline } else { 0.0 };
+            Look {
+                edge: 0.34 * rise(height, 2.5, 9.0),
+                edge_width: 0.9 * unit,
+                outline: 0.85 * rise(thickness, 1.5, 9.0),
+                outline_width: (0.6 + 0.7 * rise(thickness, 1.5, 9.0)) * unit,
+                swell: 0.5 * (THIN * unit - thickness).max(0.0),
+            }
+        };
+        sums.iter().map(look).collect()
     }
 
     /// Draws all cells and lines; `points` are pixels within the layer, not finite where there is nothing to show. `planes`: x and y at which
-    /// the body goes on in its mirror image; there it has no outline.
-    pub(super) fn draw(&self, layer: &mut Layer, points: &[[f32; 2]], planes: [Option<f32>; 2], values: Values<'_>, look: Look) {
-        let parts: Vec<[f32; 3]> = (0..self.part_count.max(1)).map(|p| floats(colour::part(p))).collect();
+    /// the body goes on in its mirror image; there it has no outline. `looks`: one per part, as from [`Mesh::looks`].
+    pub(super) fn draw(&self, layer: &mut Layer, points: &[[f32; 2]], planes: [Option<f32>; 2], values: Values<'_>, looks: &[Look]) {
         let map: Vec<[f32; 3]> = MAP.iter().map(|c| floats(*c)).collect();
-        let flat = |value: Option<f32>, range: [f64; 2]| match value.and_then(|v| level(v, range)) {
-            Some(level) => map[(level + 0.5) as usize],
-            None => floats(NO_VALUE),
-        };
         for cell in &self.cells {
             let Some(corners) = corners(points, cell) else { continue };
             let corners = &corners[..usize::from(cell.corners)];
-            match values {
-                Values::Plain => layer.fill(corners, Shade::Flat(floats(NO_VALUE))),
-                Values::Parts => layer.fill(corners, Shade::Flat(parts[cell.part as usize % parts.len()])),
-                Values::Cells(values, range) => layer.fill(corners, Shade::Flat(flat(values.get(cell.index as usize).copied(), range))),
-                Values::Nodes(values, range) => {
-                    let levels = cell.nodes.map(|n| values.get(n as usize).and_then(|v| level(*v, range)));
-                    match levels {
-                        [Some(a), Some(b), Some(c), Some(d)] => smooth(layer, &map, corners, &[a, b, c, d]),
-                        _ => layer.fill(corners, Shade::Flat(floats(NO_VALUE))),
-                    }
-                }
+            match node_levels(cell, values) {
+                Some(levels) => smooth(layer, &map, corners, &levels),
+                None => layer.fill(corners, Shade::Flat(cell_colour(cell, values, &map))),
             }
         }
-        self.draw_edges(layer, points, planes, look);
-    }
-
-    fn draw_edges(&self, layer: &mut Layer, points: &[[f32; 2]], planes: [Option<f32>; 2], look: Look) {
         for edge in &self.edges {
+            let cell = &self.cells[edge.cell as usize];
+            let look = looks.get(cell.part as usize).copied().unwrap_or_default();
             if !edge.outline && look.edge < 0.02 {
                 continue;
             }
             let (Some(a), Some(b)) = (points.get(edge.nodes[0] as usize), points.get(edge.nodes[1] as usize)) else { continue };
             let on = |axis: usize| planes[axis].is_some_and(|plane| (a[axis] - plane).abs() < 0.05 && (b[axis] - plane).abs() < 0.05);
-            if edge.outline && !on(0) && !on(1) {
-                layer.line(*a, *b, look.outline_width, look.outline);
-            } else {
+            if !edge.outline || on(0) || on(1) {
                 layer.line(*a, *b, look.edge_width, look.edge);
+                continue;
             }
+            if look.swell > 0.05 {
+                layer.stroke(*a, *b, 2.0 * look.swell, Shade::Flat(cell_colour(cell, values, &map)));
+            }
+            layer.line(*a, *b, look.outline_width, look.outline);
         }
     }
 
@@ -143,21 +154,45 @@ impl Mesh {
     }
 }
 
+/// Levels at the corners, where values live at nodes and all corners have one.
+fn node_levels(cell: &DrawnCell, values: Values<'_>) -> Option<[f32; 4]> {
+    let Values::Nodes(values, range) = values else { return None };
+    let mut levels = [0.0; 4];
+    for (found, node) in levels.iter_mut().zip(cell.nodes) {
+        *found = level(*values.get(node as usize)?, range)?;
+    }
+    Some(levels)
+}
+
+/// One colour for the whole cell.
+fn cell_colour(cell: &DrawnCell, values: Values<'_>, map: &[[f32; 3]]) -> [f32; 3] {
+    let level = match values {
+        Values::Parts => return floats(colour::part(cell.part as usize)),
+        Values::Plain => None,
+        Values::Cells(values, range) => values.get(cell.index as usize).and_then(|v| level(*v, range)),
+        Values::Nodes(..) => node_levels(cell, values).map(|levels| 0.25 * levels.iter().sum::<f32>()),
+    };
+    level.map_or(floats(NO_VALUE), |level| map[(level + 0.5) as usize])
+}
+
 /// Every edge once. An edge of one cell, or between two parts, belongs to the outline.
 fn edges(cells: &[DrawnCell]) -> Vec<Edge> {
     let mut sides: Vec<([u32; 2], u32)> = Vec::with_capacity(4 * cells.len());
-    for cell in cells {
+    for (index, cell) in cells.iter().enumerate() {
         let corners = usize::from(cell.corners);
         for k in 0..corners {
             let (a, b) = (cell.nodes[k], cell.nodes[(k + 1) % corners]);
-            sides.push(([a.min(b), a.max(b)], cell.part));
+            sides.push(([a.min(b), a.max(b)], index as u32));
         }
     }
     sides.sort_unstable();
-    sides
-        .chunk_by(|a, b| a.0 == b.0)
-        .map(|same| Edge { nodes: same[0].0, outline: same.len() == 1 || same.iter().any(|side| side.1 != same[0].1) })
-        .collect()
+    let part = |side: &([u32; 2], u32)| cells[side.1 as usize].part;
+    let edge = |same: &[([u32; 2], u32)]| Edge {
+        nodes: same[0].0,
+        outline: same.len() == 1 || same.iter().any(|side| part(side) != part(&same[0])),
+        cell: same[0].1,
+    };
+    sides.chunk_by(|a, b| a.0 == b.0).map(edge).collect()
 }
 
 fn corners(points: &[[f32; 2]], cell: &DrawnCell) -> Option<[[f32; 2]; 4]> {
@@ -246,8 +281,8 @@ mod tests {
         let cells = Cells { nodes: vec![0, 1, 2], offsets: vec![0, 3, 9, 2], kinds: vec![CellKind::Triangle; 3], ..Cells::default() };
         assert_eq!(Mesh::new(&cells).len(), 1);
         let mut layer = Layer::new(4, 4);
-        let look = Look { edge: 1.0, edge_width: 1.0, outline: 1.0, outline_width: 1.0 };
-        Mesh::new(&cells).draw(&mut layer, &[[0.0, 0.0]], [None; 2], Values::Parts, look);
+        let looks = [Look { edge: 1.0, edge_width: 1.0, outline: 1.0, outline_width: 1.0, swell: 1.0 }];
+        Mesh::new(&cells).draw(&mut layer, &[[0.0, 0.0]], [None; 2], Values::Parts, &looks);
     }
 
     #[test]
@@ -256,8 +291,7 @@ mod tests {
         let points = [[0.0, 0.0], [20.0, 0.0], [40.0, 0.0], [0.0, 10.0], [20.0, 10.0], [40.0, 10.0]];
         let values = [0.0, 0.5, 1.0, 0.0, 0.5, 1.0];
         let mut layer = Layer::new(40, 10);
-        let look = Look { edge: 0.0, edge_width: 1.0, outline: 0.0, outline_width: 1.0 };
-        mesh.draw(&mut layer, &points, [None; 2], Values::Nodes(&values, [0.0, 1.0]), look);
+        mesh.draw(&mut layer, &points, [None; 2], Values::Nodes(&values, [0.0, 1.0]), &[]);
         let mut canvas = Canvas::new(40, 10);
         layer.compose(&mut canvas, 0, 0);
         for x in [3usize, 12, 22, 36] {

@@ -181,7 +181,7 @@ impl Film {
             for (index, frame) in chosen.iter().map(|k| (*k, &self.stored[*k])) {
                 scene.draw(mesh, &self.moment(frame, show, &notes[index]), &mut canvas);
                 if let Some(out) = out.take() {
-                    animation = Some(Animation::start(out, &canvas, scene.look(), &path)?);
+                    animation = Some(Animation::start(out, &canvas, scene.looks(), &path)?);
                 }
                 if let Some(animation) = &mut animation {
                     animation.frame(&canvas, if index + 1 == self.stored.len() { HOLD } else { delay })?;

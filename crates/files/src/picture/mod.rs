@@ -10,15 +10,18 @@ mod colour;
 mod field;
 mod film;
 mod mesh;
+mod plots;
 
 mod raster;
 mod scale;
 mod scene;
+mod svg;
 
 mod text;
 
 pub use film::{Film, FilmSettings};
 pub use mesh::mesh_png;
+pub use plots::plots;
 
 use raster::Canvas;
 use std::fs;

@@ -180,18 +180,7 @@ impl Layer {
 
     /// Draws a line of `thick` pixels; where lines meet, the stronger one counts.
     pub(super) fn line(&mut self, from: [f32; 2], to: [f32; 2], thick: f32, strength: f32) {
-        let along = [to[0] - from[0], to[1] - from[1]];
-        let length = along[0].hypot(along[1]);
-        if length <= 1e-3 || !length.is_finite() {
-            return;
-        }
-        let side = [-0.5 * thick * along[1] / length, 0.5 * thick * along[0] / length];
-        let corners = [
-            [from[0] + side[0], from[1] + side[1]],
-            [to[0] + side[0], to[1] + side[1]],
-            [to[0] - side[0], to[1] - side[1]],
-            [from[0] - side[0], from[1] - side[1]],
-        ];
+        let Some(corners) = (if strength > 0.0 { thickened(from, to, thick) } else { None }) else { return };
         let width = self.width;
         if let Some((left, top)) = self.cover(&corners) {
             let ink = &mut self.ink;
@@ -199,6 +188,13 @@ impl Layer {
                 let pixel = &mut ink[(top + row) * width + left + column];
                 *pixel = pixel.max(coverage * strength);
             });
+        }
+    }
+
+    /// Fills a line of `thick` pixels as if it were a body.
+    pub(super) fn stroke(&mut self, from: [f32; 2], to: [f32; 2], thick: f32, shade: Shade<'_>) {
+        if let Some(corners) = thickened(from, to, thick) {
+            self.fill(&corners, shade);
         }
     }
 
@@ -267,6 +263,22 @@ impl Layer {
         }
         Some((left, top))
     }
+}
+
+/// Corners of a line with a thickness; none for a line without length.
+fn thickened(from: [f32; 2], to: [f32; 2], thick: f32) -> Option<[[f32; 2]; 4]> {
+    let along = [to[0] - from[0], to[1] - from[1]];
+    let length = along[0].hypot(along[1]);
+    if length <= 1e-3 || !length.is_finite() {
+        return None;
+    }
+    let side = [-0.5 * thick * along[1] / length, 0.5 * thick * along[0] / length];
+    Some([
+        [from[0] + side[0], from[1] + side[1]],
+        [to[0] + side[0], to[1] + side[1]],
+        [to[0] - side[0], to[1] - side[1]],
+        [from[0] - side[0], from[1] - side[1]],
+    ])
 }
 
 /// Adds `coverage` of a shade at pixel (`x`, `y`).

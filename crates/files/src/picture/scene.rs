@@ -59,7 +59,7 @@ pub(super) struct Scene {
     font: f32,
     mirror: [bool; 2],
     layer: Layer,
-    look: Option<Look>,
+    looks: Option<Vec<Look>>,
     points: Vec<[f32; 2]>,
 }
 
@@ -107,7 +107,7 @@ impl Scene {
         camera.middle[0] = 0.5 * (plot[0] + plot[2]) as f64;
         let still = Canvas::new(width as usize, (top + high + below).round() as usize);
         let layer = Layer::new(plot[2].min(still.width) - plot[0], plot[3] - plot[1]);
-        let mut scene = Self { still, camera, plot, font, mirror: plan.mirror, layer, look: None, points: Vec::new() };
+        let mut scene = Self { still, camera, plot, font, mirror: plan.mirror, layer, looks: None, points: Vec::new() };
         scene.draw_axes(&axes);
         scene.draw_title(plan);
         scene.draw_key(&plan.key);
@@ -119,9 +119,9 @@ impl Scene {
         &self.still
     }
 
-    /// Line strengths; decided by the first moment that was drawn.
-    pub(super) fn look(&self) -> Option<Look> {
-        self.look
+    /// How parts are drawn; decided by the first moment that was drawn.
+    pub(super) fn looks(&self) -> &[Look] {
+        self.looks.as_deref().unwrap_or_default()
     }
 
     /// Draws a moment on `canvas`, which is overwritten.
@@ -134,8 +134,8 @@ impl Scene {
             for x_sign in signs(self.mirror[0]) {
                 self.place(moment, [*x_sign, *y_sign]);
                 let unit = (self.font / 15.0).max(0.8);
-                let look = *self.look.get_or_insert_with(|| mesh.look(&self.points, unit));
-                mesh.draw(&mut self.layer, &self.points, planes, moment.values, look);
+                let looks = self.looks.get_or_insert_with(|| mesh.looks(&self.points, unit));
+                mesh.draw(&mut self.layer, &self.points, planes, moment.values, looks);
             }
         }
         self.layer.compose(canvas, self.plot[0], self.plot[1]);

@@ -2,7 +2,7 @@
 //! where they must not; files are read back by other decoders' eyes (frame count, sizes).
 #![allow(clippy::unwrap_used)] // what tests call may stop a test like the tests themselves
 
-use embate_files::picture::{Film, FilmSettings, PictureError, mesh_png};
+use embate_files::picture::{Film, FilmSettings, PictureError, mesh_png, plots};
 use embate_solver::output::{CellKind, Cells, Field, Frame, field_kind};
 use std::f64::consts::PI;
 use std::fs;
@@ -220,7 +220,7 @@ fn strange_frames_give_a_picture_and_no_panic() {
     ];
     for (name, frames) in cases {
         for size in [[960, 720], [1, 1], [240, 5000]] {
-            let folder = folder("strange").join(name);
+            let folder = folder(&format!("strange-{name}"));
             let settings = FilmSettings { width: size[0], height: size[1], mirror: [true; 2], ..settings() };
             let mut film = Film::new(cells(), settings.clone());
             frames.iter().for_each(|frame| film.add(frame));
@@ -240,4 +240,99 @@ fn the_mesh_picture_shows_every_part_in_its_colour() {
     };
     assert!(count(&|c| c[2] > c[0].saturating_add(50)) > 2000, "blue tube");
     assert!(count(&|c| c[0] > c[2].saturating_add(50)) > 2000, "orange plate");
+}
+
+/// A history with the columns of a run: two probes, one contact that acts late, one that never acts.
+fn history(rows: usize) -> (Vec<String>, Vec<Vec<f64>>) {
+    let names = "time energy.kinetic energy.internal energy.plastic energy.contact energy.external energy.total energy.kinetic[tube] A.x A.y A.vx B.x B.y \
+                 T.x T.y contact.force_x[impact] contact.force_y[impact] contact.force_x[self] contact.force_y[self]";
+    let row = |k: usize| {
+        let t = 0.01 * k as f64 / (rows.max(2) - 1) as f64;
+        let s = (t / 0.003).min(1.0);
+        let kinetic = 61_000.0 * (1.0 - 0.72 * s * s * (3.0 - 2.0 * s)) + 900.0 * (2500.0 * t).sin() * s;
+        let plastic = 38_000.0 * s * s * (3.0 - 2.0 * s);
+        let contact = 350.0 * (900.0 * t).sin().abs() * (-t / 0.002).exp();
+        let internal = 61_000.0 - kinetic - plastic - contact;
+        let force =
+            if (2e-4..4.2e-3).contains(&t) { 4.1e6 * (t * 800.0).sin().max(0.0) * (1.0 + 0.3 * (k as f64 * 1.7).sin()) } else { 0.0 };
+        vec![
+            t,
+            kinetic,
+            internal,
+            plastic,
+            contact,
+            0.0,
+            61_000.0 - 20.0 * s,
+            30_000.0,
+            0.0,
+            -0.06 * s + 0.004 * (1500.0 * t).sin(),
+            0.0,
+            0.0,
+            -0.061 * s,
+            0.0,
+            0.2 - 0.13 * s,
+            0.02 * force,
+            force,
+            0.0,
+            0.0,
+        ]
+    };
+    (names.split_whitespace().map(String::from).collect(), (0..rows).map(row).collect())
+}
+
+#[test]
+fn plots_show_every_energy_probe_and_contact_by_name() {
+    let folder = folder("plots");
+    let (columns, rows) = history(20_000);
+    plots(&columns, &rows, "Tube <against> plate & \"wall\"", &folder).unwrap();
+    let energy = fs::read_to_string(folder.join("energy.svg")).unwrap();
+    for name in
+        [">kinetic<", ">internal<", ">plastic<", ">total<", "zero throughout: external", "kJ/m", "time [ms]", "&lt;against&gt; plate &amp;"]
+    {
+        assert!(energy.contains(name), "{name}");
+    }
+    assert!(!energy.contains("[tube]"));
+    let history = fs::read_to_string(folder.join("history.svg")).unwrap();
+    for name in [">A<", ">B<", ">T<", ">impact<", "position y [mm]", "contact force y [MN/m]", "zero throughout: self"] {
+        assert!(history.contains(name), "{name}");
+    }
+    assert!(energy.len() < 250_000 && history.len() < 250_000, "{} {}", energy.len(), history.len());
+}
+
+#[test]
+fn plots_of_strange_histories_are_sound() {
+    let (columns, rows) = history(50);
+    let mut gaps = rows.clone();
+    for row in &mut gaps[20..30] {
+        row[1..].fill(f64::NAN);
+    }
+    gaps[5][2] = f64::INFINITY;
+    gaps[6][2] = 1e308;
+    gaps[7][2] = -1e308;
+    gaps[40].truncate(3);
+    let zeros = vec![vec![0.0; columns.len()]; 9];
+    let nans = vec![vec![f64::NAN; columns.len()]; 9];
+    let many: Vec<String> =
+        std::iter::once("time".to_string()).chain((0..40).map(|k| format!("probe {k} with quite a long name.y"))).collect();
+    let many_rows = (0..30).map(|t| (0..41).map(|k| f64::from(t * k) * 1e-3).collect()).collect();
+    let cases = [
+        ("gaps", columns.clone(), gaps),
+        ("zeros", columns.clone(), zeros),
+        ("nans", columns.clone(), nans),
+        ("one", columns.clone(), rows[30..31].to_vec()),
+        ("none", columns.clone(), vec![]),
+        ("no columns", vec![], vec![vec![]; 4]),
+        ("same time", columns, vec![rows[9].clone(); 3]),
+        ("many", many, many_rows),
+    ];
+    for (name, columns, rows) in cases {
+        let folder = folder(&format!("plots-strange-{}", name.replace(' ', "-")));
+        plots(&columns, &rows, "", &folder).unwrap();
+        for file in ["energy.svg", "history.svg"] {
+            let text = fs::read_to_string(folder.join(file)).unwrap();
+            assert!(!text.contains("NaN") && !text.contains("inf"), "{name}: {file}");
+            assert!(text.starts_with("<?xml") && text.ends_with("</svg>\n"), "{name}: {file}");
+            assert_eq!(text.matches("<text").count(), text.matches("</text>").count(), "{name}: {file}");
+        }
+    }
 }

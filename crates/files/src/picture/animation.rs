@@ -1,0 +1,177 @@
+//! The moving picture: one palette for the film, made from the colour map, and per frame only the rectangle that changed.
+//! Canvases come from `film` one after the other; bytes go to `animation.gif`.
+
+use super::PictureError;
+use super::body::Look;
+use super::colour::{BORDER, GRID, INK, MAP, NO_VALUE, Rgb, TEXT, TEXT_FAINT, WHITE, mix};
+use super::raster::Canvas;
+use gif::{DisposalMethod, Encoder, EncodingError, Frame, Repeat};
+use std::borrow::Cow;
+use std::io::Write;
+use std::path::Path;
+
+/// Colours of the film: the map itself, the map under element edges and outlines, the map fading into the white background, greys.
+#[derive(Clone, Debug)]
+struct Palette {
+    colours: Vec<Rgb>,
+    /// Index for each colour of six bits a channel; `UNKNOWN` until it is first needed.
+    nearest: Vec<u8>,
+}
+
+/// Index that stands for "as in the frame before" in files, and for "not looked up" in the palette.
+const UNKNOWN: u8 = 255;
+
+impl Palette {
+    fn new(looks: &[Look]) -> Self {
+        let edge = looks.iter().map(|look| look.edge).fold(0.0, f32::max);
+        let outline = looks.iter().map(|look| look.outline).fold(0.3, f32::max);
+        let mut colours = vec![WHITE, GRID, BORDER, NO_VALUE, TEXT, TEXT_FAINT];
+        let of_map = |colours: &mut Vec<Rgb>, count: usize, over: Rgb, alpha: f32| {
+            colours.extend((0..count).map(|k| mix(MAP[k * (MAP.len() - 1) / (count - 1)], over, alpha)));
+        };
+        of_map(&mut colours, 96, INK, 0.0);
+        of_map(&mut colours, 40, INK, 0.85 * edge.max(0.1));
+        of_map(&mut colours, 32, INK, 0.5 * outline);
+        of_map(&mut colours, 14, INK, outline);
+        of_map(&mut colours, 28, WHITE, 0.5);
+        of_map(&mut colours, 8, WHITE, 0.8);
+        let greys = 255 - colours.len();
+        colours.extend((0..greys).map(|k| mix(INK, WHITE, (k as f32 + 0.5) / greys as f32)));
+        Self { colours, nearest: vec![UNKNOWN; 1 << 18] }
+    }
+
+    fn bytes(&self) -> Vec<u8> {
+        self.colours.as_flattened().to_vec()
+    }
+
+    fn index(&mut self, colour: Rgb) -> u8 {
+        let key = (usize::from(colour[0] >> 2) << 12) | (usize::from(colour[1] >> 2) << 6) | usize::from(colour[2] >> 2);
+        if self.nearest[key] == UNKNOWN {
+            let distance = |other: &Rgb| -> i32 { (0..3).map(|k| (i32::from(other[k]) - i32::from(colour[k])).pow(2)).sum() };
+            let best = self.colours.iter().enumerate().min_by_key(|(_, other)| distance(other));
+            self.nearest[key] = best.map_or(0, |(index, _)| index as u8);
+        }
+        self.nearest[key]
+    }
+}
+
+/// A GIF that is being written.
+pub(super) struct Animation<'a> {
+    encoder: Encoder<&'a mut dyn Write>,
+    palette: Palette,
+    width: usize,
+    height: usize,
+    /// Indices of the frame before; empty before the first.
+    before: Vec<u8>,
+    path: &'a Path,
+}
+
+impl<'a> Animation<'a> {
+    /// Writes the head of the file; `canvas` gives the size.
+    pub(super) fn start(out: &'a mut dyn Write, canvas: &Canvas, looks: &[Look], path: &'a Path) -> Result<Self, PictureError> {
+        let palette = Palette::new(looks);
+        let (width, height) = (canvas.width, canvas.height);
+        let mut encoder = Encoder::new(out, width as u16, height as u16, &palette.bytes()).map_err(|e| refused(path, e))?;
+        encoder.set_repeat(Repeat::Infinite).map_err(|e| refused(path, e))?;
+        Ok(Self { encoder, palette, width, height, before: Vec::new(), path })
+    }
+
+    /// Adds a frame that stays for `delay` hundredths of a second.
+    pub(super) fn frame(&mut self, canvas: &Canvas, delay: u16) -> Result<(), PictureError> {
+        let palette = &mut self.palette;
+        let mut last = (WHITE, palette.index(WHITE));
+        let indices = canvas.pixels.iter().map(|pixel| {
+            if *pixel != last.0 {
+                last = (*pixel, palette.index(*pixel));
+            }
+            last.1
+        });
+        let now: Vec<u8> = indices.collect();
+        let [left, top, right, bottom] = self.changed(&now);
+        let mut buffer = Vec::with_capacity((right - left) * (bottom - top));
+        for row in top..bottom {
+            let line = row * self.width + left..row * self.width + right;
+            match self.before.get(line.clone()) {
+                None => buffer.extend_from_slice(&now[line]),
+                Some(before) => buffer.extend(now[line].iter().zip(before).map(|(n, b)| if n == b { UNKNOWN } else { *n })),
+            }
+        }
+        self.before = now;
+        let frame = Frame {
+            delay,
+            dispose: DisposalMethod::Keep,
+            transparent: Some(UNKNOWN),
+            left: left as u16,
+            top: top as u16,
+            width: (right - left) as u16,
+            height: (bottom - top) as u16,
+            buffer: Cow::Owned(buffer),
+            ..Frame::default()
+        };
+        self.encoder.write_frame(&frame).map_err(|e| refused(self.path, e))
+    }
+
+    /// The rectangle outside which nothing changed; never empty, because a frame needs a pixel.
+    fn changed(&self, now: &[u8]) -> [usize; 4] {
+        if self.before.is_empty() {
+            return [0, 0, self.width, self.height];
+        }
+        let [mut left, mut top, mut right, mut bottom] = [self.width, self.height, 0, 0];
+        for (row, (a, b)) in now.chunks_exact(self.width).zip(self.before.chunks_exact(self.width)).enumerate() {
+            if a == b {
+                continue;
+            }
+            let differ = |k: &usize| a[*k] != b[*k];
+            left = (0..left).find(differ).unwrap_or(left);
+            right = (right..self.width).rev().find(differ).map_or(right, |k| k + 1);
+            (top, bottom) = (top.min(row), row + 1);
+        }
+        if bottom == 0 { [0, 0, 1, 1] } else { [left.min(right - 1), top, right, bottom] }
+    }
+}
+
+fn refused(path: &Path, error: EncodingError) -> PictureError {
+    match error {
+        EncodingError::Io(source) => PictureError::Io { path: path.to_path_buf(), source },
+        other => PictureError::Encode { path: path.to_path_buf(), reason: other.to_string() },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_palette_is_full_and_knows_its_own_colours() {
+        let mut palette = Palette::new(&[]);
+        assert_eq!(palette.colours.len(), 255);
+        for colour in [WHITE, GRID, BORDER, MAP[0], MAP[255], TEXT] {
+            let index = usize::from(palette.index(colour));
+            let off: i32 = (0..3).map(|k| (i32::from(palette.colours[index][k]) - i32::from(colour[k])).abs()).sum();
+            assert!(off <= 6, "{colour:?} became {:?}", palette.colours[index]);
+        }
+        assert_eq!(palette.index(WHITE), 0);
+    }
+
+    #[test]
+    fn only_what_changed_is_written_and_reading_gives_it_back() {
+        let mut canvas = Canvas::new(40, 30);
+        let mut out = Vec::new();
+        {
+            let sink: &mut dyn Write = &mut out;
+            let mut animation = Animation::start(sink, &canvas, &[], Path::new("x.gif")).unwrap();
+            animation.frame(&canvas, 5).unwrap();
+            animation.frame(&canvas, 5).unwrap();
+            canvas.rectangle(10.0, 12.0, 20.0, 15.0, MAP[100], 1.0);
+            animation.frame(&canvas, 150).unwrap();
+        }
+        let mut options = gif::DecodeOptions::new();
+        options.set_color_output(gif::ColorOutput::Indexed);
+        let mut decoder = options.read_info(&out[..]).unwrap();
+        let mut frames = Vec::new();
+        while let Some(frame) = decoder.read_next_frame().unwrap() {
+            frames.push((frame.left, frame.top, frame.width, frame.height, frame.delay));
+        }
+        assert_eq!(frames, [(0, 0, 40, 30, 5), (0, 0, 1, 1, 5), (10, 12, 10, 3, 150)]);
+    }
+}

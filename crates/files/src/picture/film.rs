@@ -1,0 +1,414 @@
+//! The film of a run: collects frames, then writes `animation.gif` and `final.png` with one camera and one colour range for all of them.
+//! Frames come from the observer of a run; `scene` draws them, `animation` and the PNG writer take the pictures.
+
+use super::animation::Animation;
+use super::body::{Mesh, Values};
+use super::field::{Scalar, names};
+use super::scale::{decimals, number, unit};
+use super::scene::{Key, Moment, Plan, Scene};
+use super::{PictureError, write_png, write_whole};
+use embate_solver::output::{Cells, Frame};
+use std::path::Path;
+
+/// What a film looks like.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FilmSettings {
+    /// Title, at the upper left.
+    pub title: String,
+    /// Whether bodies are also shown mirrored at x = 0 and at y = 0 (symmetric models).
+    pub mirror: [bool; 2],
+    /// Field shown as colour: a name (`von_mises`; vectors show their size) or a component (`stress.xy`); empty: plastic strain if there is
+    /// any, else the equivalent stress.
+    pub field: String,
+    /// Width of `final.png`, pixels; the animation is at most 640 wide.
+    pub width: u32,
+    /// Largest height of `final.png`, pixels; flat bodies get a lower picture.
+    pub height: u32,
+}
+
+impl Default for FilmSettings {
+    fn default() -> Self {
+        Self { title: String::new(), mirror: [false; 2], field: String::new(), width: 960, height: 720 }
+    }
+}
+
+/// Stored frames may use this much memory.
+const BYTES_MAX: usize = 256 << 20;
+/// More stored frames than this show nothing more.
+const STORED_MAX: usize = 400;
+/// Frames of the animation: more make the file large and, at the shortest delay that browsers respect, the film long.
+const SHOWN_MAX: usize = 160;
+/// Width of the animation, pixels.
+const ANIMATION_WIDTH: u32 = 640;
+/// Length of the film without the last frame, hundredths of a second.
+const LENGTH: usize = 700;
+/// How long the last frame stays, hundredths of a second.
+const HOLD: u16 = 150;
+
+/// The frames of a run, as far as a film needs them.
+#[derive(Clone, Debug)]
+pub struct Film {
+    cells: Cells,
+    settings: FilmSettings,
+    /// Scalars that may be shown, the preferred first.
+    scalars: Vec<Scalar>,
+    /// Fields of the first frame, when the wanted one was not among them.
+    missing: Option<String>,
+    /// Added to stored positions, m: keeps `f32` exact enough far from the origin.
+    origin: Option<[f64; 2]>,
+    stored: Vec<Stored>,
+    /// Every `stride`-th frame is kept; and the last.
+    stride: usize,
+    added: usize,
+    bytes_max: usize,
+}
+
+#[derive(Clone, Debug)]
+struct Stored {
+    number: usize,
+    time: f64,
+    positions: Vec<[f32; 2]>,
+    /// One list per scalar.
+    values: Vec<Vec<f32>>,
+}
+
+impl Stored {
+    fn bytes(&self) -> usize {
+        8 * self.positions.len() + 4 * self.values.iter().map(Vec::len).sum::<usize>()
+    }
+}
+
+/// What was decided for the whole film.
+struct Show {
+    scalar: Option<usize>,
+    range: [f64; 2],
+    key: Key,
+    view: [[f64; 2]; 2],
+}
+
+impl Film {
+    /// An empty film of these cells.
+    #[must_use]
+    pub fn new(cells: Cells, settings: FilmSettings) -> Self {
+        Self {
+            cells,
+            settings,
+            scalars: Vec::new(),
+            missing: None,
+            origin: None,
+            stored: Vec::new(),
+            stride: 1,
+            added: 0,
+            bytes_max: BYTES_MAX,
+        }
+    }
+
+    /// Adds a frame. Keeps positions and the shown scalar in single precision; drops every second kept frame when they get too many.
+    pub fn add(&mut self, frame: &Frame<2>) {
+        if self.added == 0 {
+            self.choose_scalars(frame);
+        }
+        let first = || frame.positions.iter().find(|p| p.iter().all(|v| v.is_finite())).copied();
+        if self.origin.is_none() {
+            self.origin = first();
+        }
+        let origin = self.origin.unwrap_or_default();
+        // The last frame is always kept until another follows.
+        if self.stored.last().is_some_and(|last| last.number % self.stride != 0) {
+            self.stored.pop();
+        }
+        self.stored.push(Stored {
+            number: self.added,
+            time: frame.time,
+            positions: frame.positions.iter().map(|p| [(p[0] - origin[0]) as f32, (p[1] - origin[1]) as f32]).collect(),
+            values: self.scalars.iter().map(|scalar| scalar.values(frame)).collect(),
+        });
+        self.added += 1;
+        while self.stored.len() > 2
+            && (self.stored.len() > STORED_MAX || self.stored.iter().map(Stored::bytes).sum::<usize>() > self.bytes_max)
+        {
+            self.thin();
+        }
+    }
+
+    fn choose_scalars(&mut self, frame: &Frame<2>) {
+        if self.settings.field.is_empty() {
+            self.scalars = Scalar::defaults(frame);
+        } else if let Some(scalar) = Scalar::named(frame, &self.settings.field) {
+            self.scalars = vec![scalar];
+        } else {
+            self.missing = Some(names(&frame.fields));
+        }
+    }
+
+    fn thin(&mut self) {
+        self.stride *= 2;
+        let (stride, last) = (self.stride, self.added - 1);
+        self.stored.retain(|frame| frame.number % stride == 0 || frame.number == last);
+    }
+
+    /// Writes `animation.gif` (some seven seconds, repeated, the last frame held) and `final.png` (the last frame) into `folder`.
+    ///
+    /// # Errors
+    /// [`PictureError::Empty`] without a frame, [`PictureError::Field`] if the wanted field is in no frame, [`PictureError::Io`] and
+    /// [`PictureError::Encode`] if a file can't be written.
+    pub fn finish(&self, folder: &Path) -> Result<(), PictureError> {
+        let Some(last) = self.stored.last() else { return Err(PictureError::Empty) };
+        if let Some(available) = &self.missing {
+            return Err(PictureError::Field { name: self.settings.field.clone(), available: available.clone() });
+        }
+        let show = self.show();
+        let mesh = Mesh::new(&self.cells);
+        let notes = self.notes();
+        let wide = self.settings.width.min(ANIMATION_WIDTH);
+        let high = f64::from(self.settings.height) * f64::from(wide) / f64::from(self.settings.width.max(1));
+        self.write_animation(folder, &mesh, &show, &notes, [wide, high.round() as u32])?;
+        let mut scene = self.scene(&show, &notes, [self.settings.width, self.settings.height]);
+        let mut canvas = scene.still().clone();
+        scene.draw(&mesh, &self.moment(last, &show, notes.last().map_or("", String::as_str)), &mut canvas);
+        write_png(&canvas, &folder.join("final.png"))
+    }
+
+    fn write_animation(&self, folder: &Path, mesh: &Mesh, show: &Show, notes: &[String], size: [u32; 2]) -> Result<(), PictureError> {
+        let mut scene = self.scene(show, notes, size);
+        let mut canvas = scene.still().clone();
+        let chosen = evenly(self.stored.len(), SHOWN_MAX);
+        let delay = (LENGTH / chosen.len().max(1)).clamp(3, 50) as u16;
+        let path = folder.join("animation.gif");
+        write_whole(&path, |out| {
+            let mut animation: Option<Animation<'_>> = None;
+            let mut out = Some(out);
+            for (index, frame) in chosen.iter().map(|k| (*k, &self.stored[*k])) {
+                scene.draw(mesh, &self.moment(frame, show, &notes[index]), &mut canvas);
+                if let Some(out) = out.take() {
+                    animation = Some(Animation::start(out, &canvas, scene.looks(), &path)?);
+                }
+                if let Some(animation) = &mut animation {
+                    animation.frame(&canvas, if index + 1 == self.stored.len() { HOLD } else { delay })?;
+                }
+            }
+            Ok(())
+        })
+    }
+
+    fn scene(&self, show: &Show, notes: &[String], size: [u32; 2]) -> Scene {
+        let longest = notes.iter().max_by_key(|note| note.chars().count()).map_or("", String::as_str);
+        let (title, mirror) = (&self.settings.title, self.settings.mirror);
+        Scene::new(&Plan { title, mirror, size, view: show.view, key: show.key.clone(), note: longest })
+    }
+
+    fn moment<'a>(&'a self, frame: &'a Stored, show: &Show, note: &'a str) -> Moment<'a> {
+        let values = match show.scalar.map(|k| (self.scalars[k], &frame.values[k])) {
+            None => Values::Plain,
+            Some((scalar, values)) if scalar.at_nodes() => Values::Nodes(values, show.range),
+            Some((_, values)) => Values::Cells(values, show.range),
+        };
+        Moment { positions: &frame.positions, origin: self.origin.unwrap_or_default(), values, note }
+    }
+
+    /// Field, colour range and view for all stored frames.
+    fn show(&self) -> Show {
+        let all = |k: usize| self.stored.iter().flat_map(move |frame| frame.values[k].iter().copied()).filter(|v| v.is_finite());
+        // The first scalar that is not zero throughout; if all are, the last (equivalent stress before plastic strain).
+        let scalar = (0..self.scalars.len()).find(|k| all(*k).any(|v| v != 0.0)).or(self.scalars.len().checked_sub(1));
+        let view = mirrored(self.view(), self.settings.mirror);
+        let Some(chosen) = scalar else { return Show { scalar, range: [0.0, 1.0], key: Key::Empty, view } };
+        let kind = self.scalars[chosen];
+        let (range, beyond) = colour_range(all(chosen), kind.starts_at_zero());
+        let key = Key::Bar { label: kind.label(), si: kind.kind.unit, range, beyond };
+        Show { scalar, range, key, view }
+    }
+
+    /// Box of all finite positions, m. If single nodes have been thrown far away (a run that failed), they don't count.
+    fn view(&self) -> [[f64; 2]; 2] {
+        let boxes: Vec<_> = self.stored.iter().map(|frame| extent(frame.positions.iter(), 0.0)).collect();
+        let union = boxes.iter().copied().reduce(joined).unwrap_or(NOTHING);
+        let mut view = union;
+        if boxes.first().is_some_and(|first| size(union) > 4.0 * size(*first)) {
+            let trimmed = self.stored.iter().map(|frame| extent(frame.positions.iter(), 0.005)).reduce(joined).unwrap_or(union);
+            if size(union) > 3.0 * size(trimmed) {
+                view = trimmed;
+            }
+        }
+        let origin = self.origin.unwrap_or_default();
+        view.map(|corner| [corner[0] + origin[0], corner[1] + origin[1]])
+    }
+
+    /// `t = 3.10 ms` for each stored frame, with the decimals that tell them apart.
+    fn notes(&self) -> Vec<String> {
+        let last = self.stored.iter().map(|frame| frame.time.abs()).filter(|t| t.is_finite()).fold(0.0, f64::max);
+        let unit = unit("s", last);
+        let interval = last * unit.factor / (self.stored.len().max(2) - 1) as f64;
+        let digits = if interval > 0.0 { (1.0 - interval.log10().floor()).clamp(0.0, 4.0) as i32 } else { 0 };
+        let step = 10f64.powi(-digits);
+        debug_assert_eq!(decimals(step), digits as usize);
+        self.stored.iter().map(|frame| format!("t = {} {}", number(frame.time * unit.factor, step), unit.name)).collect()
+    }
+}
+
+const NOTHING: [[f64; 2]; 2] = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+
+fn joined(a: [[f64; 2]; 2], b: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
+    [[a[0][0].min(b[0][0]), a[0][1].min(b[0][1])], [a[1][0].max(b[1][0]), a[1][1].max(b[1][1])]]
+}
+
+fn size(view: [[f64; 2]; 2]) -> f64 {
+    (view[1][0] - view[0][0]).max(view[1][1] - view[0][1])
+}
+
+/// Box of finite points without the share `trim` of them at each end of each axis.
+fn extent<'a>(points: impl Iterator<Item = &'a [f32; 2]> + Clone, trim: f64) -> [[f64; 2]; 2] {
+    let mut bounds = NOTHING;
+    for axis in 0..2 {
+        let finite = points.clone().filter(|p| p[0].is_finite() && p[1].is_finite()).map(|p| f64::from(p[axis]));
+        if trim == 0.0 {
+            (bounds[0][axis], bounds[1][axis]) =
+                finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
+        } else {
+            let mut sorted: Vec<f64> = finite.collect();
+            sorted.sort_unstable_by(f64::total_cmp);
+            let cut = (trim * sorted.len() as f64).ceil() as usize;
+            if let Some([low, .., high] | [low @ high]) = sorted.get(cut..sorted.len().saturating_sub(cut)) {
+                (bounds[0][axis], bounds[1][axis]) = (*low, *high);
+            }
+        }
+    }
+    bounds
+}
+
+/// The box and its mirror images.
+fn mirrored(mut view: [[f64; 2]; 2], mirror: [bool; 2]) -> [[f64; 2]; 2] {
+    for axis in 0..2 {
+        if mirror[axis] {
+            let far = view[0][axis].abs().max(view[1][axis].abs());
+            (view[0][axis], view[1][axis]) = (-far, far);
+        }
+    }
+    view
+}
+
+/// Range of the colour map, and whether values lie below or above it. Single peaks far above everything else don't set the range.
+fn colour_range(values: impl Iterator<Item = f32> + Clone, from_zero: bool) -> ([f64; 2], [bool; 2]) {
+    const SAMPLES: usize = 400_000;
+    let count = values.clone().count();
+    let mut sorted: Vec<f32> = values.clone().step_by(count.div_ceil(SAMPLES).max(1)).collect();
+    if sorted.is_empty() {
+        return ([0.0, 1.0], [false; 2]);
+    }
+    sorted.sort_unstable_by(f32::total_cmp);
+    let at = |share: f64| f64::from(sorted[((sorted.len() - 1) as f64 * share).round() as usize]);
+    let (least, most) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(f64::from(v)), b.max(f64::from(v))));
+    let (calm_low, calm_high) = (at(0.002), at(0.998));
+    let spread = calm_high - if from_zero { 0.0 } else { calm_low };
+    let mut low = if from_zero || (least >= 0.0 && least < 0.5 * most) { 0.0 } else { least };
+    let mut high = most;
+    if spread > 0.0 {
+        if most > calm_high + 0.6 * spread {
+            high = calm_high;
+        }
+        if low < 0.0 && least < calm_low - 0.6 * spread {
+            low = calm_low;
+        }
+    }
+    if high - low <= 1e-9 * high.abs().max(low.abs()) {
+        // One value throughout: the range has it in the middle, or starts at zero.
+        let half = if low == 0.0 { 1.0 } else { 0.5 * low.abs() };
+        return if from_zero && low >= 0.0 { ([0.0, high.max(low) + half], [false; 2]) } else { ([low - half, low + half], [false; 2]) };
+    }
+    ([low, high], [least < low, most > high])
+}
+
+/// At most `most` of the numbers `0..count`, evenly spaced, the last included.
+fn evenly(count: usize, most: usize) -> Vec<usize> {
+    if count <= most {
+        return (0..count).collect();
+    }
+    (0..most).map(|k| (k * (count - 1) + (most - 1) / 2) / (most - 1)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn frame(time: f64, x: f64) -> Frame<2> {
+        Frame { time, step: 0, positions: vec![[x, 0.0], [x + 1.0, 0.0], [x, 1.0]], fields: vec![] }
+    }
+
+    #[test]
+    fn a_long_film_is_thinned_and_keeps_first_and_last() {
+        let mut film = Film::new(Cells::default(), FilmSettings::default());
+        film.bytes_max = 24 * 10;
+        for k in 0..1001 {
+            film.add(&frame(k as f64, 0.0));
+            assert!(film.stored.len() <= 10);
+            assert_eq!(film.stored.last().unwrap().number, k);
+        }
+        let numbers: Vec<usize> = film.stored.iter().map(|f| f.number).collect();
+        assert_eq!((numbers[0], *numbers.last().unwrap()), (0, 1000));
+        let regular = &numbers[..numbers.len() - 1];
+        assert!(regular.windows(2).all(|w| w[1] - w[0] == film.stride), "{numbers:?}");
+        assert!(numbers.len() >= 5);
+    }
+
+    #[test]
+    fn shown_frames_are_spread_evenly() {
+        assert_eq!(evenly(4, 10), [0, 1, 2, 3]);
+        let shown = evenly(400, 160);
+        assert_eq!((shown.len(), shown[0], shown[159]), (160, 0, 399));
+        assert!(shown.windows(2).all(|w| (2..=3).contains(&(w[1] - w[0]))));
+    }
+
+    #[test]
+    fn one_peak_does_not_set_the_colour_range() {
+        let values = (0..1000).map(|k| k as f32 * 1e5).chain([1e12]);
+        let (range, beyond) = colour_range(values, true);
+        assert!(range[0] == 0.0 && (0.9e8..1.01e8).contains(&range[1]), "{range:?}");
+        assert_eq!(beyond, [false, true]);
+        assert_eq!(colour_range([0.1f32, 0.2, 0.3].into_iter(), true).1, [false, false]);
+    }
+
+    #[test]
+    fn a_constant_or_empty_field_has_a_range() {
+        for (values, zero) in [(vec![], true), (vec![0.0f32], true), (vec![5.0; 9], false), (vec![-5.0; 9], false), (vec![5.0; 9], true)] {
+            let ([low, high], _) = colour_range(values.iter().copied(), zero);
+            assert!(low < high, "{values:?}");
+        }
+    }
+
+    #[test]
+    fn a_node_thrown_away_does_not_shrink_the_picture() {
+        let mut film = Film::new(Cells::default(), FilmSettings::default());
+        let positions: Vec<[f64; 2]> = (0..1000).map(|k| [f64::from(k % 100), f64::from(k / 100)]).collect();
+        let mut frame = Frame { time: 0.0, step: 0, positions, fields: vec![] };
+        film.add(&frame);
+        frame.positions[7] = [1e9, -1e9];
+        frame.positions[8] = [f64::NAN, 0.0];
+        film.add(&frame);
+        assert!(size(film.view()) < 150.0, "{:?}", film.view());
+    }
+
+    #[test]
+    fn far_from_the_origin_positions_stay_exact() {
+        let mut film = Film::new(Cells::default(), FilmSettings::default());
+        film.add(&frame(0.0, 1e8));
+        let view = film.view();
+        assert_eq!((view[0][0], view[1][0]), (1e8, 1e8 + 1.0));
+    }
+
+    #[test]
+    fn mirroring_makes_the_view_symmetric() {
+        assert_eq!(mirrored([[-1.0, 2.0], [3.0, 4.0]], [true, false]), [[-3.0, 2.0], [3.0, 4.0]]);
+    }
+
+    #[test]
+    fn the_time_label_has_the_decimals_that_frames_need() {
+        let mut film = Film::new(Cells::default(), FilmSettings::default());
+        for k in 0..101 {
+            film.add(&frame(1e-4 * f64::from(k), 0.0));
+        }
+        assert_eq!(film.notes()[31], "t = 3.10 ms");
+        let mut film = Film::new(Cells::default(), FilmSettings::default());
+        film.add(&frame(0.0, 0.0));
+        assert_eq!(film.notes(), ["t = 0 s"]);
+    }
+}

@@ -1,0 +1,102 @@
+//! Pictures of a run, as an engineer would show them: the moving field, the last state, the mesh, the history.
+//!
+//! Data comes from [`embate_solver::output`] (cells once, frames, history rows) and leaves as `animation.gif`, `final.png`, a mesh
+//! picture and two SVG plots. The way of a picture: `film` or `mesh` choose what to show, `scale` its units and ticks, `scene` lays out
+//! axes and colour bar, `body` hands cells and edges to `raster`, `text` writes, `animation` encodes; `plots` chooses curves, `svg` draws them.
+
+mod animation;
+mod body;
+mod colour;
+mod field;
+mod film;
+mod mesh;
+mod plots;
+
+mod raster;
+mod scale;
+mod scene;
+mod svg;
+
+mod text;
+
+pub use film::{Film, FilmSettings};
+pub use mesh::mesh_png;
+pub use plots::plots;
+
+use raster::Canvas;
+use std::fs;
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// Why a picture was not written.
+#[derive(Debug, Error)]
+pub enum PictureError {
+    /// The disk refused.
+    #[error("{}: {source}; check that the folder exists, is writable and has space left", path.display())]
+    Io {
+        #[doc = "File."]
+        path: PathBuf,
+        #[doc = "What the system said."]
+        source: std::io::Error,
+    },
+    /// The encoder refused.
+    #[error("{}: the picture can't be encoded: {reason}", path.display())]
+    Encode {
+        #[doc = "File."]
+        path: PathBuf,
+        #[doc = "What the encoder said."]
+        reason: String,
+    },
+    /// The wanted field is not in the frames.
+    #[error("the field \"{name}\" can't be shown; the frames hold {available}; choose one of these, or leave the field empty")]
+    Field {
+        #[doc = "Name that was asked for."]
+        name: String,
+        #[doc = "Names that would do."]
+        available: String,
+    },
+    /// A film without a frame.
+    #[error("the film has no frame; add at least one before it is finished")]
+    Empty,
+}
+
+/// Writes `NAME.part` next to `path`, then renames it: a file under its final name is always whole.
+fn write_whole(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<(), PictureError>) -> Result<(), PictureError> {
+    let io = |source| PictureError::Io { path: path.to_path_buf(), source };
+    if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+        fs::create_dir_all(folder).map_err(io)?;
+    }
+    let mut part = path.as_os_str().to_owned();
+    part.push(".part");
+    let part = PathBuf::from(part);
+    let written = (|| {
+        let mut writer = BufWriter::new(fs::File::create(&part).map_err(io)?);
+        write(&mut writer)?;
+        writer.flush().map_err(io)?;
+        drop(writer);
+        fs::rename(&part, path).map_err(io)
+    })();
+    if written.is_err() {
+        // The first error is the one to tell; a leftover that can't be removed either adds nothing.
+        let _ = fs::remove_file(&part);
+    }
+    written
+}
+
+/// Writes `canvas` as an RGB PNG.
+fn write_png(canvas: &Canvas, path: &Path) -> Result<(), PictureError> {
+    let encode = |error: png::EncodingError| match error {
+        png::EncodingError::IoError(source) => PictureError::Io { path: path.to_path_buf(), source },
+        other => PictureError::Encode { path: path.to_path_buf(), reason: other.to_string() },
+    };
+    write_whole(path, |out| {
+        let mut encoder = png::Encoder::new(out, canvas.width as u32, canvas.height as u32);
+        encoder.set_color(png::ColorType::Rgb);
+        encoder.set_depth(png::BitDepth::Eight);
+        encoder.set_compression(png::Compression::Fast);
+        let mut writer = encoder.write_header().map_err(encode)?;
+        writer.write_image_data(canvas.pixels.as_flattened()).map_err(encode)?;
+        writer.finish().map_err(encode)
+    })
+}

@@ -1,0 +1,3 @@
+//! All tests of the formats in one program.
+
+mod gmsh;

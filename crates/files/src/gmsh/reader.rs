@@ -261,7 +261,12 @@ impl<'a> Reader<'a> {
         self.skip_space();
         let word = self.rest().split(u8::is_ascii_whitespace).next().unwrap_or_default();
         if word.strip_prefix(b"$End") != Some(name.as_bytes()) {
-            let found = if word.is_empty() { "the end of the file".to_string() } else { shown(word) };
+            let found = match word.first() {
+                None => "the end of the file".to_string(),
+                Some(b'$') => shown(word),
+                Some(_) if self.is_binary() => "other bytes".to_string(),
+                Some(_) => shown(word),
+            };
             let message = format!("expected $End{name}, found {found}");
             return Err(self.fault(
                 self.at,

@@ -7,7 +7,7 @@ Gmsh is an outside tool under its own licence; only its output stands here.
 """
 
 import struct
-from math import pi
+from math import copysign, floor, pi
 from pathlib import Path
 
 import gmsh
@@ -45,7 +45,7 @@ def between(a, b, i, n):
 
 def cos_sin(quarters):
     """Cosine and sine of a number of quarter turns, rounded as the built-in shapes do: exact on the axes."""
-    whole = round(quarters)
+    whole = int(copysign(floor(abs(quarters) + 0.5), quarters))  # halves away from zero
     rest = quarters - whole
     r = 0.0 if abs(rest) < 1e-12 else rest * (pi / 2)
     r2 = r * r

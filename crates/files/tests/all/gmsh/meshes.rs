@@ -166,3 +166,23 @@ fn a_mesh_is_read_from_its_file_and_says_where_it_came_from() {
     let fault = &read(&path.with_extension("lost"), 1.0).unwrap_err()[0];
     assert!(fault.message.starts_with("the mesh file can't be read") && fault.path.ends_with("plate-v2-text.lost"), "{fault}");
 }
+
+#[test]
+fn binary_files_of_a_32_bit_gmsh_are_read() {
+    for big_endian in [false, true] {
+        let int = |x: i32| if big_endian { x.to_be_bytes() } else { x.to_le_bytes() };
+        let mut file = b"$MeshFormat\n4.1 1 4\n".to_vec();
+        file.extend(int(1));
+        file.extend(b"\n$EndMeshFormat\n$Nodes\n");
+        file.extend([1, 4, 10, 13, 2, 1, 0, 4, 10, 11, 12, 13].map(int).concat());
+        for x in [0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 2.0, 1.0, 0.0, 0.0, 1.0, 0.0_f64] {
+            file.extend(if big_endian { x.to_be_bytes() } else { x.to_le_bytes() });
+        }
+        file.extend(b"\n$EndNodes\n$Elements\n");
+        file.extend([1, 1, 7, 7, 2, 1, 3, 1, 7, 10, 11, 12, 13].map(int).concat());
+        file.extend(b"\n$EndElements\n");
+        let mesh = parse(&file, "m.msh", 1.0).unwrap();
+        assert_eq!(mesh.positions, [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]]);
+        assert_eq!((mesh.groups[0].name.as_str(), &mesh.groups[0].cells[..]), ("all", &[vec![0, 1, 2, 3]][..]));
+    }
+}

@@ -21,7 +21,7 @@ fn path(name: &str) -> PathBuf {
 }
 
 fn bytes(name: &str) -> Vec<u8> {
-    std::fs::read(path(name)).unwrap()
+    std::fs::read(path(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
 
 /// The mesh of a fixture, with the same source for all.

@@ -1,0 +1,53 @@
+//! The faults of a mesh: at most [`PLACES`] of each kind with their places, the rest counted.
+//!
+//! `plane.rs` fills it while it goes through the cells and nodes; [`super::parse`] hands the list to the caller.
+
+use embate_solver::error::Fault;
+
+/// Faults of one kind that are given with their places.
+pub(super) const PLACES: usize = 20;
+
+/// Faults by kind, in the order in which the kinds were met.
+#[derive(Debug, Default)]
+pub(super) struct Faults {
+    kinds: Vec<Kind>,
+}
+
+#[derive(Debug)]
+struct Kind {
+    name: &'static str,
+    faults: Vec<Fault>,
+    more: usize,
+}
+
+impl Faults {
+    /// Adds a fault to those of the kind `name`, a plural such as "elements without area".
+    pub(super) fn add(&mut self, name: &'static str, fault: impl FnOnce() -> Fault) {
+        let index = self.kinds.iter().position(|kind| kind.name == name).unwrap_or_else(|| {
+            self.kinds.push(Kind { name, faults: Vec::new(), more: 0 });
+            self.kinds.len() - 1
+        });
+        let kind = &mut self.kinds[index];
+        if kind.faults.len() < PLACES {
+            kind.faults.push(fault());
+        } else {
+            kind.more += 1;
+        }
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.kinds.is_empty()
+    }
+
+    /// All faults; a last one of each kind counts those without a place.
+    pub(super) fn into_list(self, source: &str) -> Vec<Fault> {
+        let mut list = Vec::new();
+        for kind in self.kinds {
+            list.extend(kind.faults);
+            if kind.more > 0 {
+                list.push(Fault::new(source, format!("{} more {}", kind.more, kind.name), ""));
+            }
+        }
+        list
+    }
+}

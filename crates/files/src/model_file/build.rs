@@ -12,6 +12,7 @@ use embate_solver::model::{
     Cadence, Constraint, Contact, Formulation, ImportedMesh, Load, Material, Model, Output, Part, Penalty, Probe, ProbeAt, Run, Shape,
     Symmetry, Wall,
 };
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -248,21 +249,21 @@ fn output(record: &Record) -> Output {
 fn name_the_nameless(model: &mut Model) {
     let plain =
         |name: &str| -> String { name.chars().map(|c| if c.is_alphanumeric() || matches!(c, '_' | '-') { c } else { '_' }).collect() };
-    let mut taken: Vec<String> = model.contacts.iter().map(|contact| contact.name.clone()).collect();
+    let mut taken: BTreeSet<String> = model.contacts.iter().map(|contact| contact.name.clone()).collect();
     for contact in model.contacts.iter_mut().filter(|contact| contact.name.is_empty()) {
         let joined: String = format!("{}-{}", plain(&contact.between[0]), plain(&contact.between[1])).chars().take(60).collect();
         contact.name = free(&joined, &taken);
-        taken.push(contact.name.clone());
+        taken.insert(contact.name.clone());
     }
-    let mut taken: Vec<String> = model.walls.iter().map(|wall| wall.name.clone()).collect();
+    let mut taken: BTreeSet<String> = model.walls.iter().map(|wall| wall.name.clone()).collect();
     for wall in model.walls.iter_mut().filter(|wall| wall.name.is_empty()) {
         wall.name = free("wall", &taken);
-        taken.push(wall.name.clone());
+        taken.insert(wall.name.clone());
     }
 }
 
 /// The name, or the name with the first number from 2 that is free.
-fn free(name: &str, taken: &[String]) -> String {
+fn free(name: &str, taken: &BTreeSet<String>) -> String {
     let mut candidate = name.to_string();
     let mut number = 1;
     while taken.contains(&candidate) {

@@ -41,10 +41,10 @@ pub struct Diagnostic {
     pub help: String,
 }
 
-/// The line that a fault shows, and the marked bytes in it.
+/// The line that a fault shows, and the marked bytes in it; no text for a line that is too long to show.
 #[derive(Clone, Debug)]
 struct Line {
-    text: String,
+    text: Option<String>,
     start: usize,
     end: usize,
 }
@@ -111,9 +111,10 @@ impl Faults {
         problems.sort_by_key(|problem| problem.place);
         let starts: Vec<Vec<usize>> = sources.iter().map(|source| line_starts(&source.text)).collect();
         let (mut entries, mut lines, mut kinds) = (Vec::new(), Vec::new(), Vec::new());
+        let mut cursor = Cursor::default();
         for problem in problems {
             let source = &sources[problem.place.map_or(0, |place| place.source.min(sources.len() - 1))];
-            let found = problem.place.map(|place| line_of(&source.text, &starts[place.source.min(sources.len() - 1)], place));
+            let found = problem.place.map(|place| cursor.line(&source.text, &starts[place.source.min(sources.len() - 1)], place));
             let (line, column) = found.as_ref().map_or((0, 0), |(line, column, _)| (*line, *column));
             lines.push(found.map(|(.., line)| line));
             kinds.push(problem.kind);
@@ -137,24 +138,42 @@ fn line_starts(text: &str) -> Vec<usize> {
     std::iter::once(0).chain(text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n').map(|(at, _)| at + 1)).collect()
 }
 
-/// Line and column from 1, and the line's text with the marked bytes.
-fn line_of(text: &str, starts: &[usize], place: Place) -> (usize, usize, Line) {
-    let floor = |mut at: usize| {
-        at = at.min(text.len());
-        while !text.is_char_boundary(at) {
-            at -= 1;
+/// Where columns have been counted to: faults come in the order of the text, so long lines are counted once.
+#[derive(Clone, Copy, Debug, Default)]
+struct Cursor {
+    source: usize,
+    /// First byte of the line.
+    first: usize,
+    /// Byte counted to, and the characters before it in the line.
+    byte: usize,
+    characters: usize,
+}
+
+impl Cursor {
+    /// Line and column from 1, and the line's text with the marked bytes.
+    fn line(&mut self, text: &str, starts: &[usize], place: Place) -> (usize, usize, Line) {
+        let floor = |mut at: usize| {
+            at = at.min(text.len());
+            while !text.is_char_boundary(at) {
+                at -= 1;
+            }
+            at
+        };
+        let (start, end) = (floor(place.start), floor(place.end));
+        let line = starts.partition_point(|first| *first <= start).max(1);
+        let first = starts.get(line - 1).copied().unwrap_or(0);
+        let last = starts.get(line).map_or(text.len(), |next| next - 1).max(first);
+        let shown = text[first..last].trim_end_matches('\r');
+        let start = (start - first).min(shown.len());
+        let end = (end.saturating_sub(first)).min(shown.len()).max(start);
+        if (self.source, self.first) != (place.source, first) || self.byte > start {
+            *self = Self { source: place.source, first, byte: 0, characters: 0 };
         }
-        at
-    };
-    let (start, end) = (floor(place.start), floor(place.end));
-    let line = starts.partition_point(|first| *first <= start).max(1);
-    let first = starts.get(line - 1).copied().unwrap_or(0);
-    let last = starts.get(line).map_or(text.len(), |next| next - 1);
-    let shown = text[first..last.max(first)].trim_end_matches('\r');
-    let start = (start - first).min(shown.len());
-    let end = (end.saturating_sub(first)).min(shown.len()).max(start);
-    let column = shown[..start].chars().count() + 1;
-    (line, column, Line { text: shown.to_string(), start, end })
+        self.characters += shown[self.byte..start].chars().count();
+        self.byte = start;
+        let text = (shown.len() <= LINE_MAX).then(|| shown.to_string());
+        (line, self.characters + 1, Line { text, start, end })
+    }
 }
 
 impl Diagnostics {
@@ -193,12 +212,12 @@ impl Diagnostics {
 
 fn group<'a>(entry: &'a Diagnostic, line: Option<&'a Line>) -> Group<'a> {
     let title = Level::ERROR.primary_title(normalize_untrusted_str(&entry.message));
-    let group = match line {
-        Some(line) if line.text.len() <= LINE_MAX => {
+    let group = match line.map(|line| (line, &line.text)) {
+        Some((line, Some(text))) => {
             let mark = AnnotationKind::Primary.span(line.start..line.end);
-            title.element(Snippet::source(&line.text).line_start(entry.line).path(&entry.file).annotation(mark))
+            title.element(Snippet::source(text).line_start(entry.line).path(&entry.file).annotation(mark))
         }
-        Some(_) => title.element(Origin::path(&entry.file).line(entry.line).char_column(entry.column)),
+        Some((_, None)) => title.element(Origin::path(&entry.file).line(entry.line).char_column(entry.column)),
         None => title.element(Origin::path(&entry.file)),
     };
     if entry.help.is_empty() { group } else { group.element(Level::HELP.message(normalize_untrusted_str(&entry.help))) }

@@ -8,6 +8,9 @@ use embate_solver::material;
 use embate_solver::model::describe::{Form, Key, Kind, Need, Rule, SECTIONS, Section, TOP};
 use embate_solver::quantity::{Dimension, Range};
 
+/// Names: no ASCII character but letters, digits, `-` and `_`. Written without classes, which not every reader of schemas knows.
+const NAME_PATTERN: &str = r"^[^\u0000-\u002c\u002e\u002f\u003a-\u0040\u005b-\u005e\u0060\u007b-\u007f]{1,64}$";
+
 /// A JSON value; objects keep their order.
 #[derive(Clone, Debug)]
 enum Json {
@@ -172,7 +175,7 @@ fn of_key(key: &Key) -> Json {
         Kind::Cadence => any([integer(1), quantity(Dimension::TIME, Range::Positive)]),
         Kind::Flag => object([("type", text("boolean"))]),
         Kind::Text | Kind::Reference => object([("type", text("string"))]),
-        Kind::Name => object([("type", text("string")), ("pattern", text("^[\\p{L}\\p{N}_-]{1,64}$"))]),
+        Kind::Name => object([("type", text("string")), ("pattern", text(NAME_PATTERN))]),
         Kind::References(Some(count)) => list(object([("type", text("string"))]), Some(count)),
         Kind::References(None) => one_or_more(object([("type", text("string"))])),
         Kind::Choice(known) => choice(&known()),

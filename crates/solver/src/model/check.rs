@@ -321,6 +321,7 @@ impl Check<'_> {
         let model = self.model;
         self.names("contact", model.contacts.iter().map(|contact| contact.name.as_str()));
         let searches: Vec<&str> = contact::search::registry::<2>().iter().map(|kind| kind.name).collect();
+        let mut pairs = BTreeMap::new();
         for (index, contact) in model.contacts.iter().enumerate() {
             let path = format!("contact[{index}]");
             self.surfaces(&path, contact);
@@ -334,7 +335,8 @@ impl Check<'_> {
                 self.known(&format!("{path}.search"), "search", &contact.search, &searches);
             }
             let pair = sorted(&contact.between);
-            if let Some(first) = model.contacts[..index].iter().position(|other| sorted(&other.between) == pair) {
+            let first = *pairs.entry(pair).or_insert(index);
+            if first != index {
                 self.fault(
                     format!("{path}.between"),
                     format!("`{}` and `{}` are already joined by contact[{first}]", excerpt(pair[0]), excerpt(pair[1])),

@@ -265,19 +265,21 @@ impl Layer {
     }
 }
 
-/// Corners of a line with a thickness; none for a line without length.
+/// Corners of a line with a thickness, half of which it reaches beyond its ends (so that a chain of short ones has no gaps); none for a line
+/// without length.
 fn thickened(from: [f32; 2], to: [f32; 2], thick: f32) -> Option<[[f32; 2]; 4]> {
     let along = [to[0] - from[0], to[1] - from[1]];
     let length = along[0].hypot(along[1]);
     if length <= 1e-3 || !length.is_finite() {
         return None;
     }
-    let side = [-0.5 * thick * along[1] / length, 0.5 * thick * along[0] / length];
+    let ahead = along.map(|a| 0.5 * thick * a / length);
+    let side = [-ahead[1], ahead[0]];
     Some([
-        [from[0] + side[0], from[1] + side[1]],
-        [to[0] + side[0], to[1] + side[1]],
-        [to[0] - side[0], to[1] - side[1]],
-        [from[0] - side[0], from[1] - side[1]],
+        [from[0] - ahead[0] + side[0], from[1] - ahead[1] + side[1]],
+        [to[0] + ahead[0] + side[0], to[1] + ahead[1] + side[1]],
+        [to[0] + ahead[0] - side[0], to[1] + ahead[1] - side[1]],
+        [from[0] - ahead[0] - side[0], from[1] - ahead[1] - side[1]],
     ])
 }
 

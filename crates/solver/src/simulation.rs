@@ -189,6 +189,18 @@ impl Simulation {
         self.system.time
     }
 
+    /// Step that leads to the next state, s.
+    #[must_use]
+    pub fn time_step(&self) -> f64 {
+        self.system.time_step
+    }
+
+    /// Energies and works so far.
+    #[must_use]
+    pub fn ledger(&self) -> &crate::energy::Ledger {
+        &self.system.ledger
+    }
+
     /// Steps done.
     #[must_use]
     pub fn steps(&self) -> u64 {

@@ -20,8 +20,9 @@ pub type Vector = [f64; 2];
 
 /// Nodes that one task updates.
 const CHUNK: usize = 1024;
-/// A step grows by at most this factor from one to the next: a step that jumps pumps energy.
-const GROWTH: f64 = 1.05;
+/// A step grows by at most this factor from one to the next. Contacts that open and close make the bound jump; a step that follows every
+/// jump upwards pumps energy into the modes near the stability limit (tube and plate: 4 % drift with 1.05, 0.04 % with this).
+const GROWTH: f64 = 1.001;
 
 /// Limits and fractions of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,4 +1,17 @@
 //! Global search: which slave nodes may meet which facets. Every search returns a superset of the true pairs.
+//!
+//! Positions and surfaces come from the contact; candidate pairs go to the projection. One search a file, one line in [`registry`]. What all
+//! promise is tested in `tests/all/search.rs` for whatever the registry holds; `docs/theory.md` section 4.5 says where they come from.
+//!
+//! Nodes whose position is not finite meet nothing: every search but the brute force leaves them out.
+
+mod boxes;
+mod brute_force;
+mod extent;
+mod grid;
+mod nearest_node;
+mod size_class;
+mod spheres;
 
 /// A slave node that may meet a facet; both are indices into the lists of the [`Query`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -47,5 +60,5 @@ pub struct SearchKind<const D: usize> {
 /// Every search; the first is the default.
 #[must_use]
 pub fn registry<const D: usize>() -> Vec<SearchKind<D>> {
-    Vec::new()
+    vec![grid::kind(), boxes::kind(), spheres::kind(), nearest_node::kind(), brute_force::kind()]
 }

@@ -1,0 +1,3 @@
+//! Tests of the solver through its public face: contracts that every entry of a registry keeps.
+
+mod search;

@@ -1,8 +1,10 @@
 //! Cost of the global search per segment, from a thousand to a million segments: `cargo bench -p embate-solver --bench search [NAME]`.
 //!
 //! Every case has so many segments and so many slave nodes. `waves`: two long wavy chains, one just above the other, nodes of the one against
-//! segments of the other. `rings`: a field of small rings in random places, all nodes against all segments. `shuffled`: the same with all
-//! nodes in random places of memory, the worst order there is. Small cases come in several variants that take turns, because a processor
+//! segments of the other. `rings`: a field of small rings in random places, listed in rows; all nodes against all segments. `mixed`: the same
+//! rings listed in random order. `shuffled`: the same with all nodes and segments in random places of memory, the worst order there is. The
+//! last two show what memory costs when the order of a list says nothing about places: once the data has outgrown the caches, every look at
+//! a neighbour waits for memory, whatever the method. Small cases come in several variants that take turns, because a processor
 //! learns the branches of a repeated search of a thousand segments by heart, which no simulation's next search would profit from.
 
 use embate_solver::contact::search::{Pair, Query, registry};
@@ -48,13 +50,25 @@ fn waves(n: usize, variant: u64) -> Case {
 }
 
 fn rings(n: usize, variant: u64) -> Case {
+    ring_field(n, variant, true)
+}
+
+fn mixed(n: usize, variant: u64) -> Case {
+    ring_field(n, variant, false)
+}
+
+fn ring_field(n: usize, variant: u64, in_rows: bool) -> Case {
     const AROUND: usize = 16;
     let count = n / AROUND;
     let mut random = Random(7 + variant);
     let side = (count as f64).sqrt() * 8.0;
     let mut case = Case { positions: vec![], slaves: vec![], facets: vec![] };
-    for ring in 0..count {
-        let (x, y) = (random.unit() * side, random.unit() * side);
+    let mut centres: Vec<_> = (0..count).map(|_| (random.unit() * side, random.unit() * side)).collect();
+    if in_rows {
+        let row = |y: f64| (y / 40.0).floor();
+        centres.sort_by(|a, b| row(a.1).total_cmp(&row(b.1)).then(a.0.total_cmp(&b.0)));
+    }
+    for (ring, (x, y)) in centres.into_iter().enumerate() {
         for k in 0..AROUND {
             let (s, c) = (k as f64 * std::f64::consts::TAU / AROUND as f64).sin_cos();
             case.positions.push([x + 2.5 * c, y + 2.5 * s]);
@@ -96,7 +110,7 @@ fn main() {
     };
     println!("{wanted}: nanoseconds per segment");
     println!("{:10} {:>10} {:>10} {:>10} {:>10} {:>10}", "case", "segments", "pairs", "first", "least", "median");
-    let cases: [(&str, Make); 3] = [("waves", waves), ("rings", rings), ("shuffled", shuffled)];
+    let cases: [(&str, Make); 4] = [("waves", waves), ("rings", rings), ("mixed", mixed), ("shuffled", shuffled)];
     for (case_name, make) in cases {
         let mut costs = Vec::new();
         for n in [1_000, 10_000, 100_000, 1_000_000] {

@@ -289,6 +289,22 @@ fn a_fast_node_finds_every_facet_that_it_flies_over() {
 }
 
 #[test]
+fn fast_nodes_over_scattered_facets_find_each_once() {
+    // Few facets far apart: rows of cells share buckets, and a long path looks at several of them.
+    for wide in 2..14 {
+        let mut positions: Vec<[f64; 2]> = vec![];
+        for k in 0..16 {
+            let x = f64::from(k) * 3.0;
+            positions.extend([[x, x % 4.0], [x + 1.0, x % 4.0]]);
+        }
+        positions.extend((0..40).map(|i| [f64::from(i) - 1.0, -1.5]));
+        let facets = (0..16).map(|k| [2 * k, 2 * k + 1]).collect();
+        let scene = Scene::still(positions, facets, 0.02);
+        check(&scene.moved(|i, x| if i < 32 { x } else { [x[0] + f64::from(wide), 5.5] }));
+    }
+}
+
+#[test]
 fn a_node_that_crosses_a_thin_body_within_one_step_is_found() {
     let plate = vec![[0.0, 0.0], [0.0, 1e-4], [1.0, 1e-4], [1.0, 0.0], [0.5, 0.3]];
     let facets = vec![[0, 1], [1, 2], [2, 3], [3, 0]];

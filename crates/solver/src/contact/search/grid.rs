@@ -10,11 +10,12 @@
 //! - *Rolled up.* Cell (x, y) is bucket (x + s y) mod m, m a power of two of about the number of groups. When the whole grid has at most m
 //!   cells, s is the length of a row and every cell has its own bucket; else s ≈ 0.618 m spreads rows evenly, and cells that share a bucket
 //!   only cost comparisons. Neighbours in x stay neighbours in memory: a row of cells is one piece of the sorted list.
-//! - *Counting sort* of groups into buckets. Everything that is done per facet runs through memory in the order of the list.
+//! - *Counting sort* of groups into buckets. What is done per facet runs through memory in the order of the list, and slave groups go through each
+//!   stage in batches and without branches on what was just loaded, so that the processor waits for many far places at a time.
 //! - *Whole numbers decide.* A cell number is a monotone function of the coordinate, whatever its rounding, and the number of cells that a box
 //!   spans is measured, so no pair is lost at cell boundaries.
 
-use super::extent::{Extent, Margin, larger};
+use super::extent::{Extent, Margin};
 use super::size_class::Sizes;
 use super::{Pair, Query, Search, SearchKind};
 
@@ -29,12 +30,13 @@ pub(super) fn kind<const D: usize>() -> SearchKind<D> {
 
 /// Most facets in a group, most slave nodes in a group.
 const GROUP: usize = 8;
-/// Largest size of a group over the largest of its facets.
-const GROUP_SIZE: f64 = 8.0;
 /// Edge of a cell over the largest group of its level.
 const CELL: f64 = 1.0;
 /// Buckets per group, rounded up to a power of two.
 const BUCKETS: usize = 1;
+
+/// Slave groups that go through each stage of the search together.
+const BATCH: usize = 16;
 
 /// Storage kept between calls; nothing is allocated once it has grown to the size of the problem.
 struct Grid<const D: usize> {
@@ -56,8 +58,26 @@ struct Grid<const D: usize> {
     sizes: Sizes,
     /// Box of all groups that are not unbounded.
     bounds: Extent<D>,
-    /// Groups that one group of slave nodes meets.
+    /// A few groups of slave nodes that are worked on together.
+    slaves: Vec<SlaveGroup<D>>,
+    /// Where in `sorted` each of them has to look: beginnings and ends.
+    pieces: Vec<(u32, u32)>,
+    /// Groups of facets that each of them meets.
     found: Vec<Group<D>>,
+}
+
+/// Slave nodes that follow each other in the query.
+struct SlaveGroup<const D: usize> {
+    /// Number of the first.
+    begin: usize,
+    /// How many.
+    count: usize,
+    /// Path of each; [`Extent::NONE`] where it is not finite.
+    paths: [Extent<D>; GROUP],
+    /// Box of all.
+    extent: Extent<D>,
+    /// Where its entries in `found` end; they begin where those of the group before end.
+    found: usize,
 }
 
 /// Facets `begin..end`.
@@ -139,6 +159,8 @@ impl<const D: usize> Default for Grid<D> {
             levels: Vec::new(),
             sizes: Sizes::default(),
             bounds: Extent::NONE,
+            slaves: Vec::new(),
+            pieces: Vec::new(),
             found: Vec::new(),
         }
     }
@@ -150,28 +172,16 @@ impl<const D: usize> Search<D> for Grid<D> {
         self.group_facets(query);
         self.choose_levels();
         self.sort_into_buckets();
-        // Slave groups as large as the most common facet groups.
+        // Slave groups are as large as the most common facet groups.
         let limit = self.levels.iter().max_by_key(|l| l.count).map_or(0.0, |l| 1.0 / l.inverse);
-        let mut begin = 0;
-        while begin < query.slaves.len() {
-            let mut paths = [Extent::NONE; GROUP];
-            let mut all = Extent::NONE;
-            let mut count = 0;
-            for (path, &node) in paths.iter_mut().zip(&query.slaves[begin..]) {
-                *path = Extent::of_path(query, node).unwrap_or(Extent::NONE);
-                let both = all.with(path);
-                if count > 0 && both.size() > limit {
-                    break;
-                }
-                all = both;
-                count += 1;
-            }
-            self.look_around(&all);
-            for (path, slave) in paths[..count].iter().zip(begin..) {
-                self.compare(query, path, slave, pairs);
-            }
-            begin += count;
+        let mut slave = 0;
+        let mut written = 0;
+        while slave < query.slaves.len() {
+            slave = self.group_slaves(query, slave, limit);
+            self.look_around();
+            written = self.compare(query, pairs, written);
         }
+        pairs.truncate(written);
     }
 }
 
@@ -186,7 +196,8 @@ impl<const D: usize> Grid<D> {
         self.sizes.clear();
         self.bounds = Extent::NONE;
         let mut group = Group::NONE;
-        let mut largest = 0.0_f64;
+        // A chain of facets is no longer than they are together; facets in random places are farther apart.
+        let mut together = 0.0;
         for (nodes, facet) in query.facets.iter().zip(0_u32..) {
             let extent = Extent::of_facet(query, nodes, margin).unwrap_or(Extent::NONE);
             self.facets.push(extent);
@@ -194,13 +205,13 @@ impl<const D: usize> Grid<D> {
                 continue;
             }
             let both = group.extent.with(&extent);
-            largest = larger(largest, extent.size());
-            if facet - group.begin < GROUP as u32 && both.size() <= GROUP_SIZE * largest {
+            together += extent.size();
+            if facet - group.begin < GROUP as u32 && both.size() <= together {
                 group.extent = both;
             } else {
                 self.add(group);
                 group = Group { extent, begin: facet, end: facet };
-                largest = extent.size();
+                together = extent.size();
             }
             group.end = facet + 1;
         }
@@ -257,69 +268,128 @@ impl<const D: usize> Grid<D> {
         }
     }
 
-    /// Puts into `found` the groups that meet a box, ascending.
-    fn look_around(&mut self, extent: &Extent<D>) {
-        self.found.clear();
-        if extent.meets(&self.bounds) {
-            for level in 0..self.levels.len() {
-                self.look_at(level, extent);
+    /// The next few groups of slave nodes from `begin` on; returns where they end.
+    fn group_slaves(&mut self, query: &Query<'_, D>, mut begin: usize, limit: f64) -> usize {
+        self.slaves.clear();
+        while self.slaves.len() < BATCH && begin < query.slaves.len() {
+            let mut group = SlaveGroup { begin, count: 0, paths: [Extent::NONE; GROUP], extent: Extent::NONE, found: 0 };
+            for (path, &node) in group.paths.iter_mut().zip(&query.slaves[begin..]) {
+                *path = Extent::of_path(query, node).unwrap_or(Extent::NONE);
+                let both = group.extent.with(path);
+                if group.count > 0 && both.size() > limit {
+                    break;
+                }
+                group.extent = both;
+                group.count += 1;
             }
+            begin += group.count;
+            self.slaves.push(group);
         }
-        if !extent.is_none() {
-            self.found.extend(&self.unbounded);
-        }
-        self.found.sort_unstable_by_key(|g| g.begin);
-        // On a rolled up grid two rows of cells may share buckets.
-        self.found.dedup_by_key(|g| g.begin);
+        begin
     }
 
-    /// Writes the pairs of one slave node with the facets in the found groups.
-    #[inline]
-    fn compare(&self, query: &Query<'_, D>, path: &Extent<D>, slave: usize, pairs: &mut Vec<Pair>) {
-        let node = query.slaves[slave];
-        for group in &self.found {
-            if !group.extent.meets(path) {
+    /// For each group of slave nodes the groups of facets that meet its box, ascending, into `found`.
+    fn look_around(&mut self) {
+        self.pieces.clear();
+        for number in 0..self.slaves.len() {
+            if self.slaves[number].extent.meets(&self.bounds) {
+                for level in 0..self.levels.len() {
+                    self.look_at(level, number);
+                }
+            }
+            // One more piece for the unbounded ones, which marks the end of this group's pieces.
+            self.pieces.push((u32::MAX, 0));
+        }
+        let mut slaves = self.slaves.iter_mut();
+        let Some(mut group) = slaves.next() else { return };
+        let (mut first, mut end) = (0, 0);
+        for &(from, to) in &self.pieces {
+            if from < u32::MAX {
+                let piece = &self.sorted[from as usize..to as usize];
+                if self.found.len() < end + piece.len() {
+                    self.found.resize(end + piece.len(), Group::NONE);
+                }
+                for candidate in piece {
+                    self.found[end] = *candidate;
+                    end += usize::from(candidate.extent.meets(&group.extent));
+                }
                 continue;
             }
-            // Without a branch per facet: write always, count hits.
-            let mut near = [Pair { slave: slave as u32, facet: 0 }; GROUP];
-            let mut count = 0;
-            let range = group.begin as usize..group.end as usize;
-            for ((extent, nodes), facet) in self.facets[range.clone()].iter().zip(&query.facets[range]).zip(group.begin..) {
-                near[count % GROUP].facet = facet;
-                count += usize::from(extent.meets(path) & !nodes.contains(&node));
+            if !self.unbounded.is_empty() && !group.extent.is_none() {
+                self.found.truncate(end);
+                self.found.extend(&self.unbounded);
+                end = self.found.len();
             }
-            pairs.extend_from_slice(&near[..count.min(GROUP)]);
+            let own = &mut self.found[first..end];
+            own.sort_unstable_by_key(|g| g.begin);
+            // On a rolled up grid two rows of cells may share buckets.
+            let mut kept = 0;
+            for i in 0..own.len() {
+                if kept == 0 || own[kept - 1].begin != own[i].begin {
+                    own[kept] = own[i];
+                    kept += 1;
+                }
+            }
+            end = first + kept;
+            group.found = end;
+            first = end;
+            match slaves.next() {
+                Some(next) => group = next,
+                None => return,
+            }
         }
     }
 
-    /// Adds to `found` the groups of one level that meet a box.
-    fn look_at(&mut self, level: usize, extent: &Extent<D>) {
-        let Self { levels, begin, sorted, found, .. } = self;
-        let level = &levels[level];
+    /// Writes the pairs of the slave groups with the facets of the groups that they found, from `written` on; returns where they end.
+    fn compare(&self, query: &Query<'_, D>, pairs: &mut Vec<Pair>, mut written: usize) -> usize {
+        let mut first = 0;
+        for slaves in &self.slaves {
+            let found = &self.found[first..slaves.found];
+            first = slaves.found;
+            for (path, slave) in slaves.paths[..slaves.count].iter().zip(slaves.begin..) {
+                let node = query.slaves[slave];
+                for group in found.iter().filter(|g| g.extent.meets(path)) {
+                    if pairs.len() < written + GROUP {
+                        pairs.resize(written + 1024, Pair { slave: 0, facet: 0 });
+                    }
+                    let place = &mut pairs[written..written + GROUP];
+                    let mut count = 0;
+                    let range = group.begin as usize..group.end as usize;
+                    for ((extent, nodes), facet) in self.facets[range.clone()].iter().zip(&query.facets[range]).zip(group.begin..) {
+                        place[count % GROUP] = Pair { slave: slave as u32, facet };
+                        count += usize::from(extent.meets(path) & !nodes.contains(&node));
+                    }
+                    written += count;
+                }
+            }
+        }
+        written
+    }
+
+    /// Adds the pieces of `sorted` in which one level's groups lie that may meet the box of a group of slave nodes.
+    fn look_at(&mut self, level: usize, slaves: usize) {
+        let Self { levels, begin, pieces, .. } = self;
+        let (level, extent) = (&levels[level], &self.slaves[slaves].extent);
         let low: [i64; D] = std::array::from_fn(|d| level.cell(d, extent.low[d]).saturating_sub(level.span).max(0));
         let high: [i64; D] = std::array::from_fn(|d| level.cell(d, extent.high[d]).min(level.last[d]));
         if (0..D).any(|d| low[d] > high[d]) {
             return;
         }
-        let mut compare = |from: usize, to: usize| {
-            let groups = &sorted[begin[from] as usize..begin[to] as usize];
-            found.extend(groups.iter().filter(|g| g.extent.meets(extent)));
-        };
+        let mut add = |from: usize, to: usize| pieces.push((begin[from], begin[to]));
         let buckets = level.mask as usize + 1;
         let columns = (high[0] - low[0]) as u64;
         let rows = (1..D).fold(1.0, |rows, d| rows * ((high[d] - low[d]) as f64 + 1.0));
         if columns >= level.mask || rows > level.count as f64 {
-            compare(level.base, level.base + buckets);
+            add(level.base, level.base + buckets);
             return;
         }
         let mut cell = low;
         loop {
             let first = level.bucket(&cell) as usize;
             let end = first + columns as usize + 1;
-            compare(level.base + first, level.base + end.min(buckets));
+            add(level.base + first, level.base + end.min(buckets));
             if end > buckets {
-                compare(level.base, level.base + end - buckets);
+                add(level.base, level.base + end - buckets);
             }
             // The next row: counts up like a meter.
             let mut d = 1;

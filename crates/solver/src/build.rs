@@ -9,8 +9,8 @@ use crate::energy::Ledger;
 use crate::error::Fault;
 use crate::load::constraint::{Constraints, unit};
 use crate::load::{gravity, wall::Wall};
-use crate::mesh::Mesh;
 use crate::mesh::surface::{NONE, Surface};
+use crate::mesh::{Mesh, PartMesh};
 use crate::model::Model;
 use crate::step::{Governor, Limits, NodeSums, System};
 use crate::time::stable::Springs;
@@ -94,7 +94,7 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
 
 /// Mass of each part on each of its nodes, kg/m, nodes ascending.
 pub(crate) fn part_masses(mesh: &Mesh<2>, blocks: &[Box<dyn Block<2>>]) -> Vec<Vec<(u32, f64)>> {
-    let of = |(part, block): (&crate::mesh::PartMesh, &Box<dyn Block<2>>)| {
+    let of = |(part, block): (&PartMesh, &dyn Block<2>)| {
         let mut sums = vec![0.0; mesh.positions.len()];
         for (k, &node) in part.connectivity.iter().enumerate() {
             sums[node as usize] += block.corner_mass(k / part.nodes_per_element, k % part.nodes_per_element);
@@ -103,7 +103,7 @@ pub(crate) fn part_masses(mesh: &Mesh<2>, blocks: &[Box<dyn Block<2>>]) -> Vec<V
         nodes.sort_unstable();
         nodes.into_iter().map(|node| (node, sums[node as usize])).collect()
     };
-    mesh.parts.iter().zip(blocks).map(of).collect()
+    mesh.parts.iter().zip(blocks.iter().map(AsRef::as_ref)).map(of).collect()
 }
 
 struct Builder<'a> {
@@ -120,7 +120,11 @@ impl Builder<'_> {
         let mut blocks = Vec::new();
         for (i, (part, mesh)) in self.model.parts.iter().zip(&self.mesh.parts).enumerate() {
             let Some(material) = self.model.materials.get(&part.material) else {
-                self.faults.push(Fault::new(format!("part[{i}].material"), format!("there is no material \"{}\"", part.material), "define it"));
+                self.faults.push(Fault::new(
+                    format!("part[{i}].material"),
+                    format!("there is no material \"{}\"", part.material),
+                    "define it",
+                ));
                 continue;
             };
             let input = BlockInput { element: &part.element, material, connectivity: &mesh.connectivity, positions: &self.mesh.positions };
@@ -166,7 +170,11 @@ impl Builder<'_> {
                 }
             };
             let Some(search) = search_by_name(&contact.search) else {
-                self.faults.push(Fault::new(format!("contact[{i}].search"), format!("there is no search \"{}\"", contact.search), "see `embate list searches`"));
+                self.faults.push(Fault::new(
+                    format!("contact[{i}].search"),
+                    format!("there is no search \"{}\"", contact.search),
+                    "see `embate list searches`",
+                ));
                 continue;
             };
             let pressure_stiffness = [self.stiffness_under(&first.surface), self.stiffness_under(&second.surface)];
@@ -189,10 +197,12 @@ impl Builder<'_> {
         if surface.segments.is_empty() {
             return Err(Fault::new("", format!("surface \"{name}\" lies on a symmetry line altogether"), "name another surface"));
         }
-        let starts = surface.segments.iter().zip(&surface.previous).filter(|(_, previous)| **previous == NONE).map(|(segment, _)| segment[0]);
+        let starts =
+            surface.segments.iter().zip(&surface.previous).filter(|(_, previous)| **previous == NONE).map(|(segment, _)| segment[0]);
         let ends = surface.segments.iter().zip(&surface.next).filter(|(_, next)| **next == NONE).map(|(segment, _)| segment[1]);
         let open = starts.chain(ends);
-        let mut mirrors: Vec<(u32, [f64; 2])> = open.filter_map(|node| Some((node, self.constraints.mirror_normals(node).next()?))).collect();
+        let mut mirrors: Vec<(u32, [f64; 2])> =
+            open.filter_map(|node| Some((node, self.constraints.mirror_normals(node).next()?))).collect();
         mirrors.sort_by_key(|&(node, _)| node);
         Ok(Target { surface, mirrors })
     }

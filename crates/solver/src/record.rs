@@ -61,7 +61,8 @@ impl Recorded {
 
     pub(crate) fn row(&self, system: &System) -> Vec<f64> {
         let (stores, external) = (system.ledger.stores, system.ledger.external);
-        let mut row = vec![system.time, system.time_step, stores.kinetic, stores.elastic + stores.plastic, stores.plastic, stores.contact, external];
+        let mut row =
+            vec![system.time, system.time_step, stores.kinetic, stores.elastic + stores.plastic, stores.plastic, stores.contact, external];
         row.push(stores.total() - external);
         for ((part, block), report) in system.mesh.parts.iter().zip(&system.blocks).zip(&system.reports) {
             let n = part.nodes_per_element;
@@ -125,7 +126,8 @@ fn von_mises(s: &[f64; 6]) -> f64 {
 }
 
 fn resolve(at: &ProbeAt, system: &System) -> Result<(Vec<(u32, f64)>, String), String> {
-    let part_of = |name: &str| system.mesh.parts.iter().find(|part| part.name == name).ok_or_else(|| format!("there is no part \"{name}\""));
+    let part_of =
+        |name: &str| system.mesh.parts.iter().find(|part| part.name == name).ok_or_else(|| format!("there is no part \"{name}\""));
     let place = |node: u32| {
         let [x, y] = system.positions[node as usize];
         format!("({x:.6e}, {y:.6e}) m")
@@ -147,7 +149,8 @@ fn resolve(at: &ProbeAt, system: &System) -> Result<(Vec<(u32, f64)>, String), S
             Ok((vec![(index, 1.0)], format!("node {node} of \"{part}\" at {}", place(index))))
         }
         ProbeAt::Set { set } => {
-            let nodes = system.mesh.nodes(set).filter(|nodes| !nodes.is_empty()).ok_or_else(|| format!("there is nothing called \"{set}\""))?;
+            let nodes =
+                system.mesh.nodes(set).filter(|nodes| !nodes.is_empty()).ok_or_else(|| format!("there is nothing called \"{set}\""))?;
             let total: f64 = nodes.iter().map(|&node| system.mass[node as usize]).sum();
             let line = format!("mass-weighted mean of {} nodes of \"{set}\"", nodes.len());
             Ok((nodes.into_iter().map(|node| (node, system.mass[node as usize] / total)).collect(), line))
@@ -208,7 +211,9 @@ impl Momentum {
         let change = [now.linear[0] - self.start.linear[0], now.linear[1] - self.start.linear[1]];
         let linear = (change[0] * change[0] + change[1] * change[1]).sqrt();
         let angular = (now.angular - self.start.angular).abs();
-        for (drift, (change, scales)) in self.drift.iter_mut().zip([(linear, [self.start.scale[0], now.scale[0]]), (angular, [self.start.scale[1], now.scale[1]])]) {
+        for (drift, (change, scales)) in
+            self.drift.iter_mut().zip([(linear, [self.start.scale[0], now.scale[0]]), (angular, [self.start.scale[1], now.scale[1]])])
+        {
             let scale = scales[0].max(scales[1]);
             if scale > 0.0 {
                 *drift = drift.max(change / scale);

@@ -1,7 +1,9 @@
 //! The loop: steps, events, the end. Made from a model; speaks to an [`Observer`].
 
+use crate::block::Block;
 use crate::build;
 use crate::error::{Error, Fault};
+use crate::mesh::PartMesh;
 use crate::model::{Cadence, Model};
 use crate::output::{Cells, Frame, Summary};
 use crate::record::{Momentum, Recorded};
@@ -128,7 +130,11 @@ impl Simulation {
             None => Level::best(),
             Some(name) => Level::named(name).ok_or_else(|| {
                 let has: Vec<_> = Level::available().iter().map(|level| level.name()).collect();
-                Error::Model(vec![Fault::new("", format!("instruction set \"{name}\" is not available here"), format!("this machine has {}", has.join(", ")))])
+                Error::Model(vec![Fault::new(
+                    "",
+                    format!("instruction set \"{name}\" is not available here"),
+                    format!("this machine has {}", has.join(", ")),
+                )])
             })?,
         };
         let threads = match options.threads {
@@ -174,7 +180,8 @@ impl Simulation {
         for contact in &self.system.contacts {
             for (node, depth) in contact.penetrations().filter(|&(_, depth)| depth > TOLD_DEPTH * size) {
                 let [x, y] = self.system.positions[node as usize];
-                self.initial_penetrations.push(format!("contact \"{}\": the node at ({x:.6e}, {y:.6e}) m is {depth:.3e} m inside at the start", contact.name));
+                self.initial_penetrations
+                    .push(format!("contact \"{}\": the node at ({x:.6e}, {y:.6e}) m is {depth:.3e} m inside at the start", contact.name));
             }
         }
         if !self.initial_penetrations.is_empty() {
@@ -266,8 +273,14 @@ impl Simulation {
                 return Ok(());
             }
             let governor = self.system.governor_name(self.system.governor);
-            let progress =
-                Progress { step: self.system.step, time, end, time_step: self.system.time_step, governor: &governor, energy_drift: self.system.ledger.drift() };
+            let progress = Progress {
+                step: self.system.step,
+                time,
+                end,
+                time_step: self.system.time_step,
+                governor: &governor,
+                energy_drift: self.system.ledger.drift(),
+            };
             if observer.progress(&progress) == Control::Stop {
                 if last_frame != Some(self.system.step) {
                     observer.frame(&self.frame()).map_err(output)?;
@@ -319,7 +332,7 @@ impl Simulation {
     #[must_use]
     pub fn overview(&self) -> Overview {
         let system = &self.system;
-        let part = |(part, block): (&crate::mesh::PartMesh, &Box<dyn crate::block::Block<2>>)| PartOverview {
+        let part = |(part, block): (&PartMesh, &dyn Block<2>)| PartOverview {
             name: part.name.clone(),
             elements: block.elements(),
             nodes: part.nodes.len(),
@@ -327,7 +340,7 @@ impl Simulation {
             stable_time_step: (0..block.elements()).map(|element| block.time_step_squared(element)).fold(f64::INFINITY, f64::min).sqrt(),
         };
         Overview {
-            parts: system.mesh.parts.iter().zip(&system.blocks).map(part).collect(),
+            parts: system.mesh.parts.iter().zip(system.blocks.iter().map(AsRef::as_ref)).map(part).collect(),
             stable_time_step: system.time_step,
             governor: system.governor_name(system.governor),
             steps_expected: (system.limits.end / system.time_step).ceil() as u64,

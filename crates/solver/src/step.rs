@@ -137,7 +137,8 @@ impl System {
         let dt = self.time_step;
         let update = |((x, x_old), v): ((&mut Vector, &Vector), &Vector)| *x = [x_old[0] + dt * v[0], x_old[1] + dt * v[1]];
         if self.parallel {
-            let chunks = self.positions.par_chunks_mut(CHUNK).zip(self.positions_old.par_chunks(CHUNK)).zip(self.velocities.par_chunks(CHUNK));
+            let chunks =
+                self.positions.par_chunks_mut(CHUNK).zip(self.positions_old.par_chunks(CHUNK)).zip(self.velocities.par_chunks(CHUNK));
             chunks.for_each(|((x, x_old), v)| x.iter_mut().zip(x_old).zip(v).for_each(update));
         } else {
             self.positions.iter_mut().zip(&self.positions_old).zip(&self.velocities).for_each(update);
@@ -252,7 +253,8 @@ impl System {
             gravity: sum.gravity,
             constraint: sum.constraint,
         };
-        let springs = self.contacts.iter().map(|contact| contact.energy).sum::<f64>() + self.walls.iter().map(|wall| wall.energy).sum::<f64>();
+        let springs =
+            self.contacts.iter().map(|contact| contact.energy).sum::<f64>() + self.walls.iter().map(|wall| wall.energy).sum::<f64>();
         let stores = Stores { kinetic: sum.kinetic, elastic: blocks.stored, plastic: blocks.dissipated, contact: springs };
         if !(sum.kinetic_half.is_finite() && stores.total().is_finite()) {
             return Err(self.not_finite());

@@ -91,6 +91,8 @@ macro_rules! componentwise {
         fn trace(self) -> L {
             self.0[0] + self.0[1] + self.0[2]
         }
+        // In the plane the loop over the remaining shear components is empty.
+        #[allow(clippy::reversed_empty_ranges)]
         #[inline(always)]
         fn contract(self, other: Self) -> L {
             let (a, b) = (self.0, other.0);

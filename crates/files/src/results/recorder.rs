@@ -152,7 +152,12 @@ impl Observer for Recorder<'_> {
 /// How a model wants its pictures.
 #[must_use]
 pub fn film_settings(model: &Model) -> FilmSettings {
-    FilmSettings { title: picture_title(model), field: model.output.picture_field.clone(), mirror: model.output.mirror, ..FilmSettings::default() }
+    FilmSettings {
+        title: picture_title(model),
+        field: model.output.picture_field.clone(),
+        mirror: model.output.mirror,
+        ..FilmSettings::default()
+    }
 }
 
 fn picture_title(model: &Model) -> String {

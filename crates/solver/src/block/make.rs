@@ -52,6 +52,9 @@ impl<E: Element<2, N, P>, const N: usize, const P: usize> LawVisitor for ChosenL
     }
 }
 
+/// What one task advances: points, elements, corners and the report of a chunk, as the iterators hand them over.
+type ChunkOf<'a> = (((&'a mut [Batch], &'a mut [ElementBatch]), &'a mut [Batch]), &'a mut Report);
+
 /// The elements of a block with their state.
 struct Elements<M: Law, E, const D: usize, const N: usize, const P: usize> {
     law: M,
@@ -143,10 +146,7 @@ where
     fn advance(&mut self, motion: &Motion<'_, D>, level: Level, corners: &mut [Batch], parallel: bool) -> Report {
         let (width, initial_width) = (P * point_width::<D, M>(), P * initial_width::<D, M>());
         let (law, nodes, initial) = (&self.law, &self.nodes, &self.initial[..]);
-        let chunk = |(index, (((points, elements), corners), report)): (
-            usize,
-            (((&mut [Batch], &mut [ElementBatch]), &mut [Batch]), &mut Report),
-        )| {
+        let chunk = |(index, (((points, elements), corners), report)): (usize, ChunkOf<'_>)| {
             let first = index * CHUNK;
             let initial = &initial[first * initial_width..(first + elements.len()) * initial_width];
             *report = level.run(Advance::<M, E, D, N, P> {

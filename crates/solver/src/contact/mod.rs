@@ -105,7 +105,8 @@ impl Contact {
         let pass = |&slave: &usize| {
             let surface = &input.targets[slave].surface;
             let nodes = node_stiffness(surface, &input.pressure_stiffness[slave], positions);
-            let stiffness = |&(length, own): &(f64, f64)| law::penalty::stiffness(input.penalty, length, own, softest(1 - slave), slaves.len());
+            let stiffness =
+                |&(length, own): &(f64, f64)| law::penalty::stiffness(input.penalty, length, own, softest(1 - slave), slaves.len());
             Pass {
                 slave,
                 stiffness: nodes.iter().map(stiffness).collect(),
@@ -178,7 +179,8 @@ impl Contact {
         for pass in &mut self.passes {
             let target = &self.targets[1 - pass.slave].surface;
             let slaves = &self.targets[pass.slave].surface.nodes;
-            let query = Query { positions_old: sweep.old, positions_new: sweep.new, slaves, facets: &target.segments, reach: self.reach.skin };
+            let query =
+                Query { positions_old: sweep.old, positions_new: sweep.new, slaves, facets: &target.segments, reach: self.reach.skin };
             self.reach.search.pairs(&query, &mut self.reach.pairs);
             pass.candidates.clear();
             pass.candidates.extend(self.reach.pairs.iter().map(|pair| pair.facet));

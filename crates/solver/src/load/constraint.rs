@@ -78,7 +78,11 @@ impl Constraints<2> {
             let Some(normal) = unit(symmetry.normal) else { continue };
             let nodes = on_line(symmetry, normal, mesh);
             if nodes.is_empty() {
-                faults.push(Fault::new(&path, "no node lies on this symmetry line", "move the line or the bodies; nodes must lie on it within 1e-9 of the model's size"));
+                faults.push(Fault::new(
+                    &path,
+                    "no node lies on this symmetry line",
+                    "move the line or the bodies; nodes must lie on it within 1e-9 of the model's size",
+                ));
             }
             for node in nodes {
                 result.mirrors.push((node, normal));
@@ -89,7 +93,11 @@ impl Constraints<2> {
         for (i, constraint) in model.constraints.iter().enumerate() {
             let path = format!("constraint[{i}]");
             let Some(nodes) = mesh.nodes(&constraint.on) else {
-                faults.push(Fault::new(format!("{path}.on"), format!("there is nothing called \"{}\"", constraint.on), "name a part, a side as part.side, or a group"));
+                faults.push(Fault::new(
+                    format!("{path}.on"),
+                    format!("there is nothing called \"{}\"", constraint.on),
+                    "name a part, a side as part.side, or a group",
+                ));
                 continue;
             };
             for node in nodes {
@@ -114,7 +122,9 @@ impl Constraints<2> {
         }
         if let Err(earlier) = self.held[*slot as usize].add(direction, velocity) {
             let [x, y] = mesh.positions[node as usize];
-            let message = format!("the node at ({x:.6e}, {y:.6e}) shall move at {velocity} m/s, but another condition already gives it {earlier} m/s there");
+            let message = format!(
+                "the node at ({x:.6e}, {y:.6e}) shall move at {velocity} m/s, but another condition already gives it {earlier} m/s there"
+            );
             if faults.len() < 20 {
                 faults.push(Fault::new(path, message, "take the node out of one of the two"));
             }

@@ -71,7 +71,7 @@ impl Law for J2 {
             let step = L::select(yields, (q - flow) * L::splat(1.0 / (3.0 * self.shear + self.hardening)), zero);
             let factor = L::select(yields, L::splat(1.0) - L::splat(3.0 * self.shear) * step / q, L::splat(1.0));
             deviator = trial.times(factor);
-            state[0] = state[0] + step;
+            state[0] += step;
             // q at the end of the step is the new flow stress.
             dissipated = (flow + L::splat(self.hardening) * step) * step;
         }

@@ -98,7 +98,11 @@ impl Mesh<2> {
         let mut result = PartMesh { name: name.to_string(), nodes_per_element: 4, ..PartMesh::default() };
         let path = format!("part[{part}]");
         let Some(group) = source.groups.iter().find(|g| g.name == group && g.dimension == 2) else {
-            faults.push(Fault::new(path, format!("{} has no two-dimensional group \"{group}\"", source.source), "name a group of the mesh file"));
+            faults.push(Fault::new(
+                path,
+                format!("{} has no two-dimensional group \"{group}\"", source.source),
+                "name a group of the mesh file",
+            ));
             self.parts.push(result);
             return;
         };
@@ -165,7 +169,12 @@ impl Mesh<2> {
                 if count <= TOLD {
                     faults.push(Fault::new(
                         format!("part[{part}]"),
-                        format!("element {element} of part \"{}\" at ({:.6e}, {:.6e}) is degenerate or not convex", mesh.name, x(0)[0], x(0)[1]),
+                        format!(
+                            "element {element} of part \"{}\" at ({:.6e}, {:.6e}) is degenerate or not convex",
+                            mesh.name,
+                            x(0)[0],
+                            x(0)[1]
+                        ),
                         "mend the mesh there",
                     ));
                 }

@@ -125,7 +125,10 @@ impl Target {
             let e = [e0[0] + time * de[0], e0[1] + time * de[1]];
             let r = [r0[0] + time * dr[0], r0[1] + time * dr[1]];
             let (along, whole) = (dot(r, e), dot(e, e));
-            (0.0..=1.0).contains(time) && b + 2.0 * a * time < 0.0 && whole > 0.0 && (-END_TOLERANCE * whole..=(1.0 + END_TOLERANCE) * whole).contains(&along)
+            (0.0..=1.0).contains(time)
+                && b + 2.0 * a * time < 0.0
+                && whole > 0.0
+                && (-END_TOLERANCE * whole..=(1.0 + END_TOLERANCE) * whole).contains(&along)
         };
         quadratic_roots(a, b, c).into_iter().flatten().find(within)
     }

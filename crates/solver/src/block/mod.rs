@@ -1,7 +1,7 @@
 //! A block is one element kind times one material: it gathers node motion, updates strain and stress, and leaves corner forces.
 //!
-//! Element and material are compiled together ([`kernel`]) and erased once, as `Box<dyn Block>`: one virtual call per block
-//! and step. State lives in batches of eight ([`batch`]). Corner forces go to the assembly, which sums them in fixed order.
+//! Element and material are compiled together (`kernel.rs`) and erased once, as `Box<dyn Block>`: one virtual call per block
+//! and step. State lives in batches of eight (`batch.rs`). Corner forces go to the assembly, which sums them in fixed order.
 
 mod batch;
 mod kernel;

@@ -1,7 +1,7 @@
 //! Material laws: the contract that each fulfils, and the registry that everything else iterates over.
 //!
 //! A law is written once, for any dimension, against [`SymmetricTensor`]. Its input is one [`Kinematics`] value from the block;
-//! it returns the Cauchy stress and what the ledger and the stable step need. To add a law: one file, one line in [`laws!`].
+//! it returns the Cauchy stress and what the ledger and the stable step need. To add a law: one file, one line in `laws!`.
 
 mod elastic;
 mod j2;

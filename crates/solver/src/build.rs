@@ -4,6 +4,7 @@ use crate::assembly::Assembly;
 use crate::block::{Block, BlockInput, Report, make};
 use crate::contact::projection::node_segment::Target;
 use crate::contact::search::Search;
+use crate::contact::springs::Springs;
 use crate::contact::{self, Contact, ContactInput, law, search};
 use crate::energy::Ledger;
 use crate::error::Fault;
@@ -13,7 +14,6 @@ use crate::mesh::surface::{NONE, Surface};
 use crate::mesh::{Mesh, PartMesh};
 use crate::model::Model;
 use crate::step::{Governor, Limits, NodeSums, System};
-use crate::time::stable::Springs;
 use embate_lanes::{Batch, Level};
 use std::collections::BTreeMap;
 
@@ -212,11 +212,13 @@ impl Builder<'_> {
         for (i, wall) in self.model.walls.iter().enumerate() {
             let Some(normal) = unit(wall.normal) else { continue };
             let mut stiffness: BTreeMap<u32, f64> = BTreeMap::new();
+            let mut spacing = 0.0;
             for part in self.model.parts.iter().filter(|part| wall.parts.is_empty() || wall.parts.contains(&part.name)) {
                 match self.mesh.surface(&part.name, |_| false) {
                     Ok(surface) => {
                         let own = contact::node_stiffness(&surface, &self.stiffness_under(&surface), &self.mesh.positions);
                         for (&node, &(length, own)) in surface.nodes.iter().zip(&own) {
+                            spacing += length;
                             *stiffness.entry(node).or_default() += law::penalty::stiffness(wall.penalty, length, own, own, 1);
                         }
                     }
@@ -225,8 +227,9 @@ impl Builder<'_> {
             }
             // Nodes that a symmetry line keeps on this wall need no spring.
             let held = |node: u32| self.constraints.mirror_normals(node).any(|m| (m[0] * normal[1] - m[1] * normal[0]).abs() < 1e-12);
+            let reach = contact::SKIN * spacing / stiffness.len().max(1) as f64;
             let nodes = stiffness.into_iter().filter(|&(node, _)| !held(node)).collect();
-            walls.push(Wall::new(wall.name.clone(), wall.point, normal, nodes));
+            walls.push(Wall::new(wall.name.clone(), wall.point, normal, nodes, reach));
         }
         walls
     }

@@ -8,10 +8,6 @@ impl System {
     pub(crate) fn governor_name(&self, governor: Governor) -> String {
         match governor {
             Governor::Element(squared) => self.element_with_step(squared),
-            Governor::Spring(node) => {
-                let [x, y] = self.positions[node as usize];
-                format!("contact at node {node} ({x:.6e}, {y:.6e})")
-            }
             Governor::Schedule => "growth limit or end of the run".into(),
         }
     }

@@ -13,7 +13,6 @@ pub mod block;
 pub mod contact;
 pub mod load;
 pub mod assembly;
-pub mod time;
 pub mod energy;
 pub mod step;
 pub mod build;

@@ -178,7 +178,7 @@ impl Simulation {
     fn tell_initial_penetrations(&mut self) {
         let size = self.system.positions.iter().flatten().fold(0.0f64, |size, x| size.max(x.abs()));
         for contact in &self.system.contacts {
-            for (node, depth) in contact.penetrations().filter(|&(_, depth)| depth > TOLD_DEPTH * size) {
+            for (node, depth) in contact.penetrations(&self.system.springs).filter(|&(_, depth)| depth > TOLD_DEPTH * size) {
                 let [x, y] = self.system.positions[node as usize];
                 self.initial_penetrations
                     .push(format!("contact \"{}\": the node at ({x:.6e}, {y:.6e}) m is {depth:.3e} m inside at the start", contact.name));

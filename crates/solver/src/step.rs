@@ -5,13 +5,13 @@
 
 use crate::assembly::Assembly;
 use crate::block::{Block, Motion, Report};
+use crate::contact::springs::{Springs, Update};
 use crate::contact::{Contact, Sweep};
 use crate::energy::{Entry, Ledger, Stores, Works};
 use crate::error::Error;
 use crate::load::constraint::Constraints;
 use crate::load::wall::Wall;
 use crate::mesh::Mesh;
-use crate::time::stable::{SpringBound, Springs};
 use embate_lanes::{Batch, Level};
 use rayon::prelude::*;
 
@@ -42,8 +42,6 @@ pub struct Limits {
 pub enum Governor {
     /// An element of the block whose smallest squared step this is.
     Element(f64),
-    /// The springs on a node.
-    Spring(u32),
     /// The end of the run, or growth from a smaller step.
     Schedule,
 }
@@ -103,8 +101,9 @@ impl System {
     /// An inverted element, a collapsed step, a value that is not finite, too much energy drift.
     pub fn step(&mut self) -> Result<(), Error> {
         self.move_nodes();
-        self.evaluate_forces();
+        self.strain_elements();
         let time_step = self.stable_step()?;
+        self.push_apart(time_step);
         self.accelerate(time_step);
         self.close_books(time_step)
     }
@@ -122,11 +121,12 @@ impl System {
         let kinetic = |(m, v): (&f64, &Vector)| 0.5 * m * (v[0] * v[0] + v[1] * v[1]);
         self.ledger = Ledger::new(self.mass.iter().zip(&self.velocities).map(kinetic).sum());
         self.positions_old.clone_from(&self.positions);
-        self.evaluate_forces();
+        self.strain_elements();
         let time_step = self.stable_step()?;
         if self.limits.step <= 0.0 {
             self.limits.step = 1e-3 * time_step;
         }
+        self.push_apart(time_step);
         self.accelerate(time_step);
         self.close_books(time_step)
     }
@@ -148,8 +148,8 @@ impl System {
         self.step += 1;
     }
 
-    /// Internal, contact and wall forces at x^n.
-    fn evaluate_forces(&mut self) {
+    /// Internal forces and element steps at x^n.
+    fn strain_elements(&mut self) {
         let motion = Motion { positions: &self.positions, velocities: &self.velocities, time_step: self.time_step_old };
         let mut rest = &mut self.corners[..];
         for (block, report) in self.blocks.iter_mut().zip(&mut self.reports) {
@@ -157,41 +157,16 @@ impl System {
             *report = block.advance(&motion, self.level, corners, self.parallel);
             rest = others;
         }
-        if self.contacts.is_empty() && self.walls.is_empty() {
-            return;
-        }
-        self.contact_forces.fill([0.0; 2]);
-        let sweep = Sweep { old: &self.positions_old, new: &self.positions };
-        for contact in &mut self.contacts {
-            contact.evaluate(sweep, &mut self.contact_forces, &mut self.springs);
-            self.penetration_max = self.penetration_max.max(contact.penetration);
-        }
-        for wall in &mut self.walls {
-            wall.evaluate(&self.positions_old, &self.positions, &mut self.contact_forces, &mut self.springs);
-            self.penetration_max = self.penetration_max.max(wall.penetration);
-        }
     }
 
-    /// The next step from the elements, the springs, growth and the end.
+    /// The next step: the elements' bound (which is that of the nodes in contact too, see [`crate::contact::springs`]), growth, and the end.
     fn stable_step(&mut self) -> Result<f64, Error> {
         let blocks = self.reports.iter().fold(Report::NOTHING, |sum, &report| sum.join(report));
         if blocks.determinant <= 0.0 {
             return Err(self.inverted());
         }
-        let elements = self.limits.safety * blocks.time_step_squared.sqrt();
-        let (assembly, all) = (&self.assembly, &self.blocks);
-        let behind = |node: u32| {
-            let stiffness = |corner: &crate::assembly::Corner| {
-                let (block, element) = (&all[corner.block as usize], corner.element as usize);
-                4.0 / block.time_step_squared(element) * block.corner_mass(element, corner.corner as usize)
-            };
-            assembly.corners(node as usize).iter().map(stiffness).sum()
-        };
-        let SpringBound { time_step: springs, node } = self.springs.take_bound(self.limits.safety, &self.mass, behind);
-        let (mut time_step, mut governor) = (elements, Governor::Element(blocks.time_step_squared));
-        if springs < time_step {
-            (time_step, governor) = (springs, Governor::Spring(node));
-        }
+        let mut time_step = self.limits.safety * blocks.time_step_squared.sqrt();
+        let mut governor = Governor::Element(blocks.time_step_squared);
         if time_step < self.limits.step || time_step.is_nan() {
             return Err(self.collapsed(time_step, governor));
         }
@@ -205,6 +180,39 @@ impl System {
         }
         self.governor = governor;
         Ok(time_step)
+    }
+
+    /// Contact and wall forces at x^n for the coming update.
+    fn push_apart(&mut self, time_step: f64) {
+        if self.contacts.is_empty() && self.walls.is_empty() {
+            return;
+        }
+        self.springs.list.clear();
+        let sweep = Sweep { old: &self.positions_old, new: &self.positions };
+        for contact in &mut self.contacts {
+            contact.detect(sweep, &mut self.springs);
+            self.penetration_max = self.penetration_max.max(contact.penetration);
+        }
+        for wall in &mut self.walls {
+            wall.detect(&self.positions_old, &self.positions, &mut self.springs);
+            self.penetration_max = self.penetration_max.max(wall.penetration);
+        }
+        let dt = 0.5 * (time_step + self.time_step_old);
+        let (assembly, corners, constraints, gravity) = (&self.assembly, &self.corners, &self.constraints, &self.gravity);
+        let (mass, old) = (&self.mass, &self.velocities);
+        let velocity_free = |node: usize| {
+            let (f, v, g) = (assembly.force(node, corners), old[node], gravity.get(node).copied().unwrap_or_default());
+            let free = [v[0] + dt * (f[0] / mass[node] + g[0]), v[1] + dt * (f[1] / mass[node] + g[1])];
+            constraints.of(node).map_or(free, |held| held.apply(free))
+        };
+        self.springs.solve(&Update { time_step: dt, mass, velocities_old: old, velocity_free, constraints });
+        self.contact_forces.fill([0.0; 2]);
+        for contact in &mut self.contacts {
+            contact.collect(&self.springs, &mut self.contact_forces);
+        }
+        for wall in &mut self.walls {
+            wall.collect(&self.springs, &mut self.contact_forces);
+        }
     }
 
     /// v^{n+1/2} = v^{n-1/2} + ½ (dt^n + dt^{n-1}) f^n / m, then prescribed motion; sums for the ledger.
@@ -240,16 +248,11 @@ impl System {
             sum.gravity += part.gravity;
             sum.constraint += part.constraint;
         }
-        let dt = 0.5 * (time_step + self.time_step_old);
-        let mean = |node: usize| {
-            let (a, b) = (self.velocities_old[node], self.velocities[node]);
-            [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])]
-        };
         let blocks = self.reports.iter().fold(Report::NOTHING, |sum, &report| sum.join(report));
         let works = Works {
             internal: sum.internal,
-            contact: dt * self.contacts.iter().map(|contact| contact.power(mean)).sum::<f64>(),
-            wall: dt * self.walls.iter().map(|wall| wall.power(mean)).sum::<f64>(),
+            contact: self.contacts.iter().map(|contact| contact.work).sum(),
+            wall: self.walls.iter().map(|wall| wall.work).sum(),
             gravity: sum.gravity,
             constraint: sum.constraint,
         };

@@ -1,17 +1,19 @@
 //! Contact: search -> project -> law -> forces, each pass of each contact on the same configuration.
 //!
-//! Sees surfaces, positions and stiffnesses; knows nothing of elements and materials. Forces go to the nodes, spring stiffness to the stable
-//! step, works and energies to the ledger. Order is fixed: passes, then slave nodes ascending; so results do not depend on the search.
+//! Sees surfaces, positions and stiffnesses; knows nothing of elements and materials. [`Contact::detect`] finds the springs of the step,
+//! [`springs::Springs::solve`] the forces of all contacts and walls together, [`Contact::collect`] what they sum up to. Order is fixed: passes, then slave nodes ascending; so results do not depend on the search.
 
 pub mod search;
 pub mod projection;
 pub mod law;
+pub mod springs;
 
 use crate::mesh::surface::NONE;
 use crate::model::{Formulation, Penalty};
-use crate::time::stable::Springs;
 use projection::node_segment::{Projection, Target, Vector};
 use search::{Pair, Query, Search};
+use springs::{Spring, Springs};
+use std::ops::Range;
 
 /// A contact between two surfaces.
 pub struct Contact {
@@ -21,11 +23,15 @@ pub struct Contact {
     pub resultant: Vector,
     /// Energy of its springs, J/m.
     pub energy: f64,
+    /// Work of its forces in the last velocity update, J/m.
+    pub work: f64,
     /// Deepest penetration in the last evaluation, m.
     pub penetration: f64,
     targets: [Target; 2],
     passes: Vec<Pass>,
     reach: Reach,
+    /// Where each pass's springs of this step lie in the list of all.
+    found: Vec<Range<usize>>,
 }
 
 /// One pass: nodes of one surface against the other.
@@ -38,18 +44,6 @@ struct Pass {
     /// Candidates of slave `i`: `candidates[starts[i]..starts[i + 1]]`.
     starts: Vec<u32>,
     candidates: Vec<u32>,
-    active: Vec<Active>,
-}
-
-/// A spring that pushes.
-#[derive(Clone, Copy, Debug)]
-struct Active {
-    slave: u32,
-    target: [u32; 2],
-    weights: [f64; 2],
-    /// On the slave node, N/m.
-    force: Vector,
-    gap: f64,
 }
 
 /// When the global search must run again.
@@ -90,7 +84,7 @@ pub struct ContactInput {
 }
 
 /// Skin as a fraction of the mean segment length: how far bodies may move before the next global search.
-const SKIN: f64 = 0.25;
+pub const SKIN: f64 = 0.25;
 
 impl Contact {
     /// Makes a contact ready; `positions` are the initial ones.
@@ -113,10 +107,9 @@ impl Contact {
                 memory: vec![NONE; surface.nodes.len()],
                 starts: vec![0; surface.nodes.len() + 1],
                 candidates: Vec::new(),
-                active: Vec::new(),
             }
         };
-        let passes = slaves.iter().map(pass).collect();
+        let passes: Vec<Pass> = slaves.iter().map(pass).collect();
         let mut nodes: Vec<u32> = input.targets.iter().flat_map(|target| target.surface.nodes.iter().copied()).collect();
         nodes.sort_unstable();
         nodes.dedup();
@@ -124,55 +117,67 @@ impl Contact {
         let count = input.targets.iter().map(|target| target.surface.segments.len()).sum::<usize>().max(1);
         let skin = SKIN * lengths.sum::<f64>() / count as f64;
         let reach = Reach { search: input.search, pairs: Vec::new(), nodes, positions: Vec::new(), skin };
-        Self { name: input.name, resultant: [0.0; 2], energy: 0.0, penetration: 0.0, targets: input.targets, passes, reach }
+        Self {
+            name: input.name,
+            resultant: [0.0; 2],
+            energy: 0.0,
+            work: 0.0,
+            penetration: 0.0,
+            targets: input.targets,
+            passes,
+            reach,
+            found: Vec::new(),
+        }
     }
 
-    /// Finds all contacts of the step and adds their forces to `forces` and their springs, also of those that are near, to `springs`.
-    pub fn evaluate(&mut self, sweep: Sweep<'_>, forces: &mut [Vector], springs: &mut Springs) {
+    /// Adds the springs of the step to `springs`: of every slave node that is inside or within the skin, so that a spring is there before it is
+    /// needed (one that closes unseen would give back what it never took).
+    pub fn detect(&mut self, sweep: Sweep<'_>, springs: &mut Springs) {
         if self.reach.is_left(sweep.new) {
             self.search(sweep);
         }
-        (self.resultant, self.energy, self.penetration) = ([0.0; 2], 0.0, 0.0);
+        self.penetration = 0.0;
+        self.found.clear();
         for pass in &mut self.passes {
             let target = &self.targets[1 - pass.slave];
             let nodes = &self.targets[pass.slave].surface.nodes;
-            pass.active.clear();
+            let first = springs.list.len();
             for (i, &node) in nodes.iter().enumerate() {
                 let Some(projection) = pass.locate(i, node, target, sweep) else { continue };
                 let segment = target.surface.segments[projection.segment as usize];
+                let [a, b] = projection.weights;
+                let (nodes, shares) = ([node, segment[0], segment[1]], [1.0, -a, -b]);
                 let stiffness = pass.stiffness[i];
-                if projection.gap <= near(node, segment, sweep) {
-                    springs.add_pair(node, segment, projection.weights, stiffness);
-                }
-                if projection.gap < 0.0 {
-                    let force = projection.normal.map(|n| -projection.gap * stiffness * n);
-                    pass.active.push(Active { slave: node, target: segment, weights: projection.weights, force, gap: projection.gap });
-                    self.energy += 0.5 * stiffness * projection.gap * projection.gap;
-                    self.penetration = self.penetration.max(-projection.gap);
-                    let sign = if pass.slave == 0 { 1.0 } else { -1.0 };
-                    for d in 0..2 {
-                        self.resultant[d] += sign * force[d];
-                        forces[node as usize][d] += force[d];
-                        forces[segment[0] as usize][d] -= projection.weights[0] * force[d];
-                        forces[segment[1] as usize][d] -= projection.weights[1] * force[d];
+                springs.list.push(Spring { nodes, shares, normal: projection.normal, gap: projection.gap, stiffness, ..Spring::default() });
+                self.penetration = self.penetration.max(-projection.gap);
+            }
+            self.found.push(first..springs.list.len());
+        }
+    }
+
+    /// Sums up the solved springs: adds their forces to `forces`, keeps resultant, energy and work.
+    pub fn collect(&mut self, springs: &Springs, forces: &mut [Vector]) {
+        (self.resultant, self.energy, self.work) = ([0.0; 2], 0.0, 0.0);
+        for (pass, found) in self.passes.iter().zip(&self.found) {
+            let sign = if pass.slave == 0 { 1.0 } else { -1.0 };
+            for spring in &springs.list[found.clone()] {
+                self.energy += spring.energy;
+                self.work += spring.work;
+                for d in 0..2 {
+                    let force = spring.force * spring.normal[d];
+                    self.resultant[d] += sign * force;
+                    for (node, share) in spring.nodes.iter().zip(spring.shares) {
+                        forces[*node as usize][d] += share * force;
                     }
                 }
             }
         }
     }
 
-    /// Power of the contact forces with node velocities `mean(node)`, W/m.
-    pub fn power(&self, mean: impl Fn(usize) -> Vector) -> f64 {
-        let of = |active: &Active| {
-            let [v, a, b] = [active.slave, active.target[0], active.target[1]].map(|node| mean(node as usize));
-            (0..2).map(|d| active.force[d] * (v[d] - active.weights[0] * a[d] - active.weights[1] * b[d])).sum::<f64>()
-        };
-        self.passes.iter().flat_map(|pass| &pass.active).map(of).sum()
-    }
-
-    /// Slave nodes that are inside now, with their depth, m.
-    pub fn penetrations(&self) -> impl Iterator<Item = (u32, f64)> {
-        self.passes.iter().flat_map(|pass| pass.active.iter().map(|active| (active.slave, -active.gap)))
+    /// Slave nodes that are inside in the last step, with their depth, m.
+    pub fn penetrations<'a>(&'a self, springs: &'a Springs) -> impl Iterator<Item = (u32, f64)> + 'a {
+        let all = self.found.iter().flat_map(|found| &springs.list[found.clone()]);
+        all.filter(|spring| spring.gap < 0.0).map(|spring| (spring.nodes[0], -spring.gap))
     }
 
     fn search(&mut self, sweep: Sweep<'_>) {
@@ -240,15 +245,6 @@ impl Reach {
                 !(moved[0] * moved[0] + moved[1] * moved[1] <= limit)
             })
     }
-}
-
-/// Gap below which a pair will soon touch: a few times the motion of the step.
-fn near(node: u32, segment: [u32; 2], sweep: Sweep<'_>) -> f64 {
-    let moved = |node: u32| {
-        let (a, b) = (sweep.old[node as usize], sweep.new[node as usize]);
-        (b[0] - a[0]).abs() + (b[1] - a[1]).abs()
-    };
-    4.0 * (moved(node) + moved(segment[0]).max(moved(segment[1])))
 }
 
 fn length(segment: [u32; 2], positions: &[Vector]) -> f64 {

@@ -34,6 +34,18 @@ impl<const D: usize> Held<D> {
         }
     }
 
+    /// The part of a direction along which the node is free to move.
+    #[must_use]
+    pub fn free_part(&self, mut direction: [f64; D]) -> [f64; D] {
+        for (held, _) in &self.directions {
+            let along: f64 = (0..D).map(|d| direction[d] * held[d]).sum();
+            for d in 0..D {
+                direction[d] -= along * held[d];
+            }
+        }
+        direction
+    }
+
     /// The velocity with the prescribed components.
     #[inline]
     #[must_use]

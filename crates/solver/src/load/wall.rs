@@ -1,6 +1,7 @@
 //! Rigid plane wall: the paper's rigid contact element. It acts on nodes only, with a penalty spring where a node is behind it.
 
-use crate::time::stable::Springs;
+use crate::contact::springs::{Spring, Springs};
+use std::ops::Range;
 
 /// A wall and the nodes that can't cross it.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,47 +18,51 @@ pub struct Wall {
     pub resultant: [f64; 2],
     /// Energy of its springs, J/m.
     pub energy: f64,
+    /// Work of its forces in the last velocity update, J/m.
+    pub work: f64,
     /// Deepest penetration in the last evaluation, m.
     pub penetration: f64,
-    active: Vec<(u32, [f64; 2])>,
+    /// Nodes within this distance get a spring, m.
+    reach: f64,
+    /// Where its springs of this step lie in the list of all.
+    found: Range<usize>,
 }
 
 impl Wall {
-    /// A wall that has not acted yet.
+    /// A wall that has not acted yet; `reach` is a fraction of the nodes' spacing, m.
     #[must_use]
-    pub fn new(name: String, point: [f64; 2], normal: [f64; 2], nodes: Vec<(u32, f64)>) -> Self {
-        Self { name, point, normal, nodes, resultant: [0.0; 2], energy: 0.0, penetration: 0.0, active: Vec::new() }
+    pub fn new(name: String, point: [f64; 2], normal: [f64; 2], nodes: Vec<(u32, f64)>, reach: f64) -> Self {
+        Self { name, point, normal, nodes, resultant: [0.0; 2], energy: 0.0, penetration: 0.0, work: 0.0, reach, found: 0..0 }
     }
 
-    /// Adds the forces on nodes behind the wall to `forces`, and the springs of those and of nodes that will soon be, to `springs`.
-    pub fn evaluate(&mut self, old: &[[f64; 2]], new: &[[f64; 2]], forces: &mut [[f64; 2]], springs: &mut Springs) {
-        (self.resultant, self.energy, self.penetration) = ([0.0; 2], 0.0, 0.0);
-        self.active.clear();
+    /// Adds the springs of the step: of nodes that are behind the wall or will soon be.
+    pub fn detect(&mut self, old: &[[f64; 2]], new: &[[f64; 2]], springs: &mut Springs) {
+        self.penetration = 0.0;
+        let first = springs.list.len();
         let gap_at = |x: [f64; 2]| (x[0] - self.point[0]) * self.normal[0] + (x[1] - self.point[1]) * self.normal[1];
         for &(node, stiffness) in &self.nodes {
             let gap = gap_at(new[node as usize]);
-            if gap <= 4.0 * (gap - gap_at(old[node as usize])).abs() {
-                springs.add_wall(node, stiffness);
-            }
-            if gap < 0.0 {
-                let force = self.normal.map(|n| -gap * stiffness * n);
-                self.active.push((node, force));
-                self.energy += 0.5 * stiffness * gap * gap;
+            // Well before it touches: a spring that closes unseen would give back what it never took.
+            if gap <= self.reach + 4.0 * (gap - gap_at(old[node as usize])).abs() {
+                let (nodes, shares) = ([node; 3], [1.0, 0.0, 0.0]);
+                springs.list.push(Spring { nodes, shares, normal: self.normal, gap, stiffness, ..Spring::default() });
                 self.penetration = self.penetration.max(-gap);
-                for d in 0..2 {
-                    forces[node as usize][d] += force[d];
-                    self.resultant[d] += force[d];
-                }
             }
         }
+        self.found = first..springs.list.len();
     }
 
-    /// Power of the wall's forces with node velocities `mean(node)`, W/m.
-    pub fn power(&self, mean: impl Fn(usize) -> [f64; 2]) -> f64 {
-        let of = |&(node, force): &(u32, [f64; 2])| {
-            let v = mean(node as usize);
-            force[0] * v[0] + force[1] * v[1]
-        };
-        self.active.iter().map(of).sum()
+    /// Sums up the solved springs: adds their forces to `forces`, keeps resultant, energy and work.
+    pub fn collect(&mut self, springs: &Springs, forces: &mut [[f64; 2]]) {
+        (self.resultant, self.energy, self.work) = ([0.0; 2], 0.0, 0.0);
+        for spring in &springs.list[self.found.clone()] {
+            self.energy += spring.energy;
+            self.work += spring.work;
+            for d in 0..2 {
+                let force = spring.force * self.normal[d];
+                self.resultant[d] += force;
+                forces[spring.nodes[0] as usize][d] += force;
+            }
+        }
     }
 }

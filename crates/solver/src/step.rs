@@ -205,7 +205,7 @@ impl System {
             let free = [v[0] + dt * (f[0] / mass[node] + g[0]), v[1] + dt * (f[1] / mass[node] + g[1])];
             constraints.of(node).map_or(free, |held| held.apply(free))
         };
-        self.springs.solve(&Update { time_step: dt, mass, velocities_old: old, velocity_free, constraints });
+        self.springs.solve(&Update { time_steps: [self.time_step_old, time_step], mass, velocities_old: old, velocity_free, constraints });
         self.contact_forces.fill([0.0; 2]);
         for contact in &mut self.contacts {
             contact.collect(&self.springs, &mut self.contact_forces);

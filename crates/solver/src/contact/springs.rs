@@ -1,7 +1,8 @@
 //! Contact springs, solved so that contact neither makes nor takes energy, whatever their stiffness and the step.
 //!
-//! Contacts and walls find where springs are; this file finds their forces, all together, because springs share nodes. With g^{n±½} = g^n ± ½ dt ġ^{n±½}
-//! (dt the mean of the two steps) a force F does the work F (g^{n+½} − g^{n−½}) in the velocity update. So
+//! Contacts and walls find where springs are; this file finds their forces, all together, because springs share nodes. With the gaps at half steps,
+//! g^{n+½} = g^n + ½ dt^n ġ^{n+½} and g^{n−½} = g^n − ½ dt^{n−1} ġ^{n−½}, a force F does the work F (g^{n+½} − g^{n−½}) in the velocity update (exactly for
+//! equal steps, else but for ¼ (dt^n − dt^{n−1}) F Δġ, which the slow growth of the step keeps small). So
 //!
 //! F = − [V(g^{n+½}) − V(g^{n−½})] / (g^{n+½} − g^{n−½}),  V(g) = ½ k g² for g < 0, else 0,
 //!
@@ -73,17 +74,18 @@ struct End {
 struct Link {
     /// Places of its nodes.
     ends: [u32; 3],
-    /// Change of each node's velocity per force: dt/m times the share of the normal that is free to move.
+    /// Change of each node's velocity per force: ½ (dt^{n−1} + dt^n) / m times the share of the normal that is free to move.
     response: [Vector; 3],
     /// Change of g^{n+½} per force.
     compliance: f64,
+    rate_old: f64,
     gap_old: f64,
 }
 
 /// What the solution needs of the model.
 pub struct Update<'a, F: Fn(usize) -> Vector> {
-    /// Mean of the steps before and after, s.
-    pub time_step: f64,
+    /// Steps before and after, s: v^{n+½} = v^{n−½} + ½ (dt^{n−1} + dt^n) F / m, x^{n+1} = x^n + dt^n v^{n+½}.
+    pub time_steps: [f64; 2],
     /// Nodal masses, kg/m.
     pub mass: &'a [f64],
     /// v^{n−½}, m/s.
@@ -113,12 +115,13 @@ impl Springs {
             return;
         }
         self.link(update);
+        let [before, after] = update.time_steps;
         for sweep in 1..=SWEEPS {
             self.sweeps = sweep;
             let (mut change, mut largest) = (0.0f64, 0.0f64);
             for (spring, link) in self.list.iter_mut().zip(&self.links) {
                 let rate = rate(spring, |a| self.ends[link.ends[a] as usize].velocity);
-                let gap_free = spring.gap + 0.5 * update.time_step * rate - link.compliance * spring.force;
+                let gap_free = spring.gap + 0.5 * after * rate - link.compliance * spring.force;
                 let force = force(spring.stiffness, link.gap_old, gap_free, link.compliance);
                 let step = force - spring.force;
                 spring.force = force;
@@ -137,11 +140,12 @@ impl Springs {
             }
         }
         for (spring, link) in self.list.iter_mut().zip(&self.links) {
-            let gap_new = spring.gap + 0.5 * update.time_step * rate(spring, |a| self.ends[link.ends[a] as usize].velocity);
+            let rate_new = rate(spring, |a| self.ends[link.ends[a] as usize].velocity);
+            let gap_new = spring.gap + 0.5 * after * rate_new;
             let stored = |gap: f64| 0.5 * spring.stiffness * gap.min(0.0) * gap.min(0.0);
             let bend = gap_new + link.gap_old - 2.0 * spring.gap;
             spring.energy = 0.5 * (stored(link.gap_old) + stored(gap_new)) + 0.5 * spring.force * bend;
-            spring.work = spring.force * (gap_new - link.gap_old);
+            spring.work = spring.force * 0.25 * (before + after) * (link.rate_old + rate_new);
         }
         for end in self.ends.drain(..) {
             self.place[end.node as usize] = u32::MAX;
@@ -151,6 +155,7 @@ impl Springs {
     /// Gathers the nodes of the springs and what a force does to them.
     fn link<F: Fn(usize) -> Vector>(&mut self, update: &Update<'_, F>) {
         self.links.clear();
+        let [before, after] = update.time_steps;
         for spring in &self.list {
             let mut link = Link::default();
             for a in 0..spring.count() {
@@ -165,12 +170,13 @@ impl Springs {
                 if let Some(held) = update.constraints.of(node as usize) {
                     direction = held.free_part(direction);
                 }
-                let scale = spring.shares[a] * update.time_step / update.mass[node as usize];
+                let scale = spring.shares[a] * 0.5 * (before + after) / update.mass[node as usize];
                 link.response[a] = [scale * direction[0], scale * direction[1]];
                 let along = link.response[a][0] * spring.normal[0] + link.response[a][1] * spring.normal[1];
-                link.compliance += 0.5 * update.time_step * spring.shares[a] * along;
+                link.compliance += 0.5 * after * spring.shares[a] * along;
             }
-            link.gap_old = spring.gap - 0.5 * update.time_step * rate(spring, |a| update.velocities_old[spring.nodes[a] as usize]);
+            link.rate_old = rate(spring, |a| update.velocities_old[spring.nodes[a] as usize]);
+            link.gap_old = spring.gap - 0.5 * before * link.rate_old;
             self.links.push(link);
         }
     }
@@ -258,7 +264,7 @@ mod tests {
                 springs.list.extend([wall(1.0, x), wall(-1.0, 20.0 - x)]);
                 let (old, free) = ([v], v);
                 springs.solve(&Update {
-                    time_step: dt,
+                    time_steps: [dt; 2],
                     mass: &mass,
                     velocities_old: &old,
                     velocity_free: |_| free,

@@ -17,7 +17,8 @@ impl System {
             // NaN equals nothing, so a block whose step is NaN is found by its own failure to compare.
             if let Some(element) = (0..block.elements()).find(|&element| block.time_step_squared(element).total_cmp(&squared).is_eq()) {
                 let [x, y] = self.centre(part, element);
-                return format!("element {element} of part \"{}\" ({x:.6e}, {y:.6e})", part.name);
+                let user = part.user_elements[element];
+                return format!("element {user} of part \"{}\" ({x:.6e}, {y:.6e})", part.name);
             }
         }
         "an element".into()
@@ -51,7 +52,7 @@ impl System {
         }
         let part = &self.mesh.parts[worst.1];
         let at = self.centre(part, worst.2).to_vec();
-        Error::Inverted { part: part.name.clone(), element: worst.2, at, time: self.time, step: self.step }
+        Error::Inverted { part: part.name.clone(), element: part.user_elements[worst.2] as usize, at, time: self.time, step: self.step }
     }
 
     pub(crate) fn collapsed(&self, time_step: f64, governor: Governor) -> Error {
@@ -66,7 +67,7 @@ impl System {
         let (what, place) = match bad {
             Some(node) => {
                 let [x, y] = self.positions_old[node];
-                ("the motion of a node".to_string(), format!("node {node}, last seen at ({x:.6e}, {y:.6e})"))
+                ("the motion of a node".to_string(), format!("node {}, last seen at ({x:.6e}, {y:.6e})", self.mesh.user_nodes[node]))
             }
             None => ("an energy".to_string(), "no node is affected yet".to_string()),
         };

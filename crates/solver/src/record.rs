@@ -1,5 +1,6 @@
 //! What is recorded of a system: frames, history rows, momentum, the state hash. Values only; formats are elsewhere.
 
+use crate::block::ElementState;
 use crate::error::Fault;
 use crate::model::{Model, ProbeAt};
 use crate::output::{CellKind, Cells, FIELDS, Field, FieldKind, Frame};
@@ -93,7 +94,11 @@ impl Recorded {
 
     pub(crate) fn frame(&self, system: &System) -> Frame<2> {
         let fields = self.fields.iter().map(|&kind| Field { kind, values: values(kind.name, system) }).collect();
-        Frame { time: system.time, step: system.step, positions: system.positions.clone(), fields }
+        let mut positions = vec![[0.0; 2]; system.positions.len()];
+        for (x, &user) in system.positions.iter().zip(&system.mesh.user_nodes) {
+            positions[user as usize] = *x;
+        }
+        Frame { time: system.time, step: system.step, positions, fields }
     }
 }
 
@@ -103,21 +108,42 @@ fn velocity(system: &System, node: usize) -> Vector {
     [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])]
 }
 
-/// Values of one of [`FIELDS`].
+/// Values of one of [`FIELDS`], in the user's order.
 fn values(name: &str, system: &System) -> Vec<f64> {
-    let nodes = 0..system.positions.len();
-    let states = || system.blocks.iter().flat_map(|block| (0..block.elements()).map(|element| block.state(element)));
+    let moved = |node: usize| [0, 1].map(|d| system.positions[node][d] - system.mesh.positions[node][d]);
     match name {
-        "displacement" => nodes.flat_map(|n| [0, 1].map(|d| system.positions[n][d] - system.mesh.positions[n][d])).collect(),
-        "velocity" => nodes.flat_map(|n| velocity(system, n)).collect(),
-        "contact_force" => system.contact_forces.iter().flatten().copied().collect(),
-        "stress" => states().flat_map(|state| [state.stress[0], state.stress[1], state.stress[2], state.stress[3]]).collect(),
-        "von_mises" => states().map(|state| von_mises(&state.stress)).collect(),
-        "pressure" => states().map(|state| -(state.stress[0] + state.stress[1] + state.stress[2]) / 3.0).collect(),
-        "plastic_strain" => states().map(|state| state.plastic_strain).collect(),
-        "energy_density" => states().map(|state| state.energy_density).collect(),
+        "displacement" => by_node(system, moved),
+        "velocity" => by_node(system, |node| velocity(system, node)),
+        "contact_force" => by_node(system, |node| system.contact_forces[node]),
+        "stress" => by_element(system, |state| [state.stress[0], state.stress[1], state.stress[2], state.stress[3]]),
+        "von_mises" => by_element(system, |state| [von_mises(&state.stress)]),
+        "pressure" => by_element(system, |state| [-(state.stress[0] + state.stress[1] + state.stress[2]) / 3.0]),
+        "plastic_strain" => by_element(system, |state| [state.plastic_strain]),
+        "energy_density" => by_element(system, |state| [state.energy_density]),
         _ => Vec::new(),
     }
+}
+
+/// A vector of every node, in the user's order.
+fn by_node(system: &System, value: impl Fn(usize) -> Vector) -> Vec<f64> {
+    let mut values = vec![0.0; 2 * system.positions.len()];
+    for (node, &user) in system.mesh.user_nodes.iter().enumerate() {
+        values[2 * user as usize..][..2].copy_from_slice(&value(node));
+    }
+    values
+}
+
+/// Values of every element, part by part in the user's order.
+fn by_element<const N: usize>(system: &System, value: impl Fn(&ElementState) -> [f64; N]) -> Vec<f64> {
+    let mut values = Vec::new();
+    for (part, block) in system.mesh.parts.iter().zip(&system.blocks) {
+        let first = values.len();
+        values.resize(first + N * block.elements(), 0.0);
+        for (element, &user) in part.user_elements.iter().enumerate() {
+            values[first + N * user as usize..][..N].copy_from_slice(&value(&block.state(element)));
+        }
+    }
+    values
 }
 
 fn von_mises(s: &[f64; 6]) -> f64 {
@@ -158,13 +184,17 @@ fn resolve(at: &ProbeAt, system: &System) -> Result<(Vec<(u32, f64)>, String), S
     }
 }
 
-/// The cells of all parts.
+/// The cells of all parts, in the user's order and numbering.
 pub(crate) fn cells(system: &System) -> Cells {
     let mut cells = Cells { offsets: vec![0], ..Cells::default() };
     for (index, part) in system.mesh.parts.iter().enumerate() {
         cells.part_names.push(part.name.clone());
-        for cell in part.connectivity.chunks_exact(part.nodes_per_element) {
-            cells.nodes.extend(cell);
+        let n = part.nodes_per_element;
+        let mut order: Vec<usize> = (0..part.elements()).collect();
+        order.sort_unstable_by_key(|&element| part.user_elements[element]);
+        for element in order {
+            let cell = &part.connectivity[element * n..(element + 1) * n];
+            cells.nodes.extend(cell.iter().map(|&node| system.mesh.user_nodes[node as usize]));
             cells.offsets.push(cells.nodes.len() as u32);
             cells.kinds.push(if cell.len() == 3 { CellKind::Triangle } else { CellKind::Quadrilateral });
             cells.parts.push(index as u32);

@@ -5,6 +5,7 @@
 
 pub mod shapes;
 pub mod surface;
+mod order;
 
 use crate::error::Fault;
 use crate::model::{ImportedMesh, Model, Shape};
@@ -22,6 +23,8 @@ pub struct PartMesh {
     pub connectivity: Vec<u32>,
     /// All nodes of the part in the order of its mesh.
     pub nodes: Vec<u32>,
+    /// The user's number of each element: its place in the part as it was made or read.
+    pub user_elements: Vec<u32>,
 }
 
 impl PartMesh {
@@ -43,6 +46,8 @@ pub struct Mesh<const D: usize> {
     pub positions: Vec<[f64; D]>,
     /// Parts in model order.
     pub parts: Vec<PartMesh>,
+    /// The user's number of each node: its place in the parts as they were made or read.
+    pub user_nodes: Vec<u32>,
     /// Named lines: `part.side` and one-dimensional groups, each with the body on the right.
     lines: BTreeMap<String, Vec<[u32; 2]>>,
     /// Named nodes: zero- and two-dimensional groups.
@@ -74,7 +79,11 @@ impl Mesh<2> {
         for (source, numbers) in model.meshes.iter().zip(&imported) {
             mesh.add_named_groups(source, numbers, &mut faults);
         }
-        if faults.is_empty() { Ok(mesh) } else { Err(faults) }
+        if !faults.is_empty() {
+            return Err(faults);
+        }
+        mesh.reorder();
+        Ok(mesh)
     }
 
     fn add_shape(&mut self, shape: &Shape, name: &str) {
@@ -86,6 +95,7 @@ impl Mesh<2> {
             nodes_per_element: 4,
             connectivity: body.quads.iter().flatten().map(|node| node + first).collect(),
             nodes: (first..first + body.positions.len() as u32).collect(),
+            user_elements: Vec::new(),
         });
         for (side, segments) in body.sides {
             self.lines.insert(format!("{name}.{side}"), segments.iter().map(|segment| segment.map(|node| node + first)).collect());

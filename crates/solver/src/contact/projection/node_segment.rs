@@ -40,6 +40,17 @@ impl Target {
     /// ε of eq. (8) is 2 s − 1 with s = (x − C₁)·T / |C₂ − C₁|.
     #[must_use]
     pub fn project(&self, x: Vector, segment: u32, positions: &[Vector]) -> Option<Projection> {
+        self.feature(x, segment, positions)?.projection
+    }
+
+    /// Distance of `x` from segment `segment`, m; `None` where it has no length.
+    #[must_use]
+    pub fn distance(&self, x: Vector, segment: u32, positions: &[Vector]) -> Option<f64> {
+        self.feature(x, segment, positions).map(|feature| feature.distance)
+    }
+
+    /// The nearest feature of a segment; `None` for a segment without length.
+    fn feature(&self, x: Vector, segment: u32, positions: &[Vector]) -> Option<Feature> {
         let [n1, n2] = self.surface.segments[segment as usize];
         let (c1, c2) = (positions[n1 as usize], positions[n2 as usize]);
         let t = minus(c2, c1);
@@ -51,11 +62,17 @@ impl Target {
         let s = dot(minus(x, c1), t) / length_squared;
         let normal = outward(t, length_squared.sqrt());
         if (0.0..=1.0).contains(&s) {
-            let gap = dot(minus(x, c1), normal);
-            return Some(Projection { segment, weights: [1.0 - s, s], gap, normal });
+            // The sign is that of `crossing` at the beginning of the next step, to the last bit.
+            let gap = cross(t, minus(x, c1)) / length_squared.sqrt();
+            let projection = Some(Projection { segment, weights: [1.0 - s, s], gap, normal });
+            return Some(Feature { segment, at: Place::Inside, distance: gap.abs(), projection });
         }
-        let (node, end, beyond, weights) = if s < 0.0 { (n1, c1, -s, [1.0, 0.0]) } else { (n2, c2, s - 1.0, [0.0, 1.0]) };
-        let pseudo = match self.neighbour_normal(segment, s > 0.0, positions) {
+        let (node, end, beyond, weights, at) =
+            if s < 0.0 { (n1, c1, -s, [1.0, 0.0], Place::Begin) } else { (n2, c2, s - 1.0, [0.0, 1.0], Place::End) };
+        let away = minus(x, end);
+        let distance = dot(away, away).sqrt();
+        let cut_off = Feature { segment, at, distance, projection: None };
+        let pseudo = match self.neighbour_normal(segment, at, positions) {
             Some(other) => plus(normal, other),
             None => match self.mirrors.binary_search_by_key(&node, |&(node, _)| node) {
                 Ok(i) => {
@@ -64,52 +81,66 @@ impl Target {
                     [normal[0] - along * m[0], normal[1] - along * m[1]]
                 }
                 Err(_) if beyond <= END_TOLERANCE => normal,
-                Err(_) => return None,
+                Err(_) => return Some(cut_off),
             },
         };
-        let away = minus(x, end);
-        let distance = dot(away, away).sqrt();
         if distance == 0.0 {
-            return Some(Projection { segment, weights, gap: 0.0, normal: unit(pseudo, normal) });
+            let projection = Some(Projection { segment, weights, gap: 0.0, normal: unit(pseudo, normal) });
+            return Some(Feature { projection, ..cut_off });
         }
         let inside = dot(away, pseudo) < 0.0;
         let sign = if inside { -1.0 } else { 1.0 };
-        Some(Projection { segment, weights, gap: sign * distance, normal: [sign * away[0] / distance, sign * away[1] / distance] })
+        let normal = [sign * away[0] / distance, sign * away[1] / distance];
+        Some(Feature { projection: Some(Projection { segment, weights, gap: sign * distance, normal }), ..cut_off })
     }
 
-    fn neighbour_normal(&self, segment: u32, at_end: bool, positions: &[Vector]) -> Option<Vector> {
-        let neighbour = if at_end { self.surface.next[segment as usize] } else { self.surface.previous[segment as usize] };
+    /// Normal of the segment that goes on at an end, zero if that one has no length; `None` at an open end.
+    fn neighbour_normal(&self, segment: u32, end: Place, positions: &[Vector]) -> Option<Vector> {
+        let neighbour = self.neighbour(segment, end);
         let [a, b] = *self.surface.segments.get(neighbour as usize)?;
         let t = minus(positions[b as usize], positions[a as usize]);
         let length = dot(t, t).sqrt();
-        (length > 0.0).then(|| outward(t, length))
+        Some(if length > 0.0 { outward(t, length) } else { [0.0, 0.0] })
     }
 
-    /// Nearest feature to `x` among `candidates`; of equally near ones the first.
+    fn neighbour(&self, segment: u32, end: Place) -> u32 {
+        if end == Place::Begin { self.surface.previous[segment as usize] } else { self.surface.next[segment as usize] }
+    }
+
+    /// Nearest feature to `x` among `candidates`; of equally near ones the first. `None` where that is an end at which the surface is cut off.
     pub fn nearest(&self, x: Vector, candidates: &[u32], positions: &[Vector]) -> Option<Projection> {
-        candidates.iter().filter_map(|&segment| self.project(x, segment, positions)).reduce(nearer)
+        candidates.iter().filter_map(|&segment| self.feature(x, segment, positions)).reduce(nearer)?.projection
     }
 
     /// Follows the chain from `start` to the nearest feature: the way to stay on the side of a thin body on which a node came in.
+    /// `None` beyond an end at which the surface is cut off.
+    ///
+    /// A neighbour counts with its own inside and the shared node. Its far end counts only when `x` is beyond the shared node: else a
+    /// node deep below a thin body would be led around the body's edge to the far side.
     #[must_use]
     pub fn follow(&self, x: Vector, start: u32, positions: &[Vector]) -> Option<Projection> {
-        let mut best = self.project(x, start, positions);
+        let mut best = self.feature(x, start, positions)?;
         for _ in 0..self.surface.segments.len() {
-            let at = best.map_or(start, |projection| projection.segment) as usize;
-            let neighbours = [self.surface.previous[at], self.surface.next[at]];
-            let around = neighbours.iter().filter(|&&segment| segment != NONE).filter_map(|&segment| self.project(x, segment, positions));
-            let next = best.into_iter().chain(around).reduce(nearer);
-            if next.map(|p| p.segment) == best.map(|p| p.segment) {
+            let here = best;
+            for end in [Place::Begin, Place::End] {
+                let neighbour = self.neighbour(here.segment, end);
+                if neighbour == NONE {
+                    continue;
+                }
+                let other = self.feature(x, neighbour, positions).filter(|other| other.at != end || here.at == end);
+                best = other.map_or(best, |other| nearer(best, other));
+            }
+            if best.segment == here.segment {
                 break;
             }
-            best = next;
         }
-        best
+        best.projection
     }
 
-    /// First time (0 to 1) at which a node that moves from `x_old` to `x_new` goes through `segment` from the outside in; all paths straight.
+    /// Time (0 to 1) at which a node that moves from `x_old` to `x_new` goes through `segment` from the outside in; all paths straight.
     ///
-    /// The side f = T × (x − C₁) is a quadratic in time; its roots are tested for lying between the segment's nodes.
+    /// The side f = T × (x − C₁) is a quadratic in time; its roots are tested for lying between the segment's nodes. Round-off can take a
+    /// path through a shared node from both neighbours, so what decides in the end is [`net_exits`], which can lose nothing.
     #[must_use]
     pub fn crossing(&self, x_old: Vector, x_new: Vector, segment: u32, positions_old: &[Vector], positions_new: &[Vector]) -> Option<f64> {
         let [n1, n2] = self.surface.segments[segment as usize].map(|node| node as usize);
@@ -118,20 +149,67 @@ impl Target {
         let de = minus(minus(positions_new[n2], positions_new[n1]), e0);
         let dr = minus(minus(x_new, positions_new[n1]), r0);
         let (c, b, a) = (cross(e0, r0), cross(e0, dr) + cross(de, r0), cross(de, dr));
-        if c.abs() > b.abs() + a.abs() {
+        let rounding = 16.0 * f64::EPSILON * (e0[0].abs() + e0[1].abs()) * (r0[0].abs() + r0[1].abs());
+        // NaN fails the comparison too
+        if !(c.abs() <= b.abs() + a.abs() + rounding) {
             return None;
         }
+        let roots = quadratic_roots(a, b, c);
         let within = |time: &f64| {
             let e = [e0[0] + time * de[0], e0[1] + time * de[1]];
             let r = [r0[0] + time * dr[0], r0[1] + time * dr[1]];
             let (along, whole) = (dot(r, e), dot(e, e));
+            let speed = b + 2.0 * a * time;
             (0.0..=1.0).contains(time)
-                && b + 2.0 * a * time < 0.0
+                && (speed < 0.0 || (speed == 0.0 && a < 0.0))
                 && whole > 0.0
                 && (-END_TOLERANCE * whole..=(1.0 + END_TOLERANCE) * whole).contains(&along)
         };
-        quadratic_roots(a, b, c).into_iter().flatten().find(within)
+        let time = roots.into_iter().flatten().find(within);
+        time.or_else(|| {
+            let seen = [(n1, x_old, positions_old), (n2, x_old, positions_old), (n1, x_new, positions_new), (n2, x_new, positions_new)];
+            let entered = net_exits(seen.map(|(n, x, positions)| minus(positions[n], x))) < 0;
+            entered.then(|| roots.into_iter().flatten().find(|time| (0.0..=1.0).contains(time)).unwrap_or(1.0))
+        })
     }
+}
+
+/// The nearest feature of one segment: its inside or an end.
+#[derive(Clone, Copy)]
+struct Feature {
+    segment: u32,
+    at: Place,
+    distance: f64,
+    /// `None` beyond an end at which the surface is cut off.
+    projection: Option<Projection>,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Place {
+    Begin,
+    Inside,
+    End,
+}
+
+/// How often a node goes out through a segment a → b (body on its right) less how often it goes in, in one step. `seen` are a and b at the
+/// beginning and a and b at the end, as seen from the node.
+///
+/// This is the winding number of the loop a₀ → a₁ → b₁ → b₀ → a₀ around the node (the origin), counted by the ray along +x. Neighbours share
+/// the way of their common node, with the same bits and opposite signs; so along a chain nothing is lost or counted twice, however the
+/// products round: the sum over a closed chain is exactly the change of the winding number of the chain.
+fn net_exits([a0, b0, a1, b1]: [Vector; 4]) -> i32 {
+    let way = |from: Vector, to: Vector| match (from[1] <= 0.0, to[1] <= 0.0) {
+        (true, false) => i32::from(cross(from, to) > 0.0),
+        (false, true) => -i32::from(cross(from, to) < 0.0),
+        _ => 0,
+    };
+    // A node on the segment itself is outside, as its gap of zero says.
+    let side = |a: Vector, b: Vector| match (a[1] <= 0.0, b[1] <= 0.0) {
+        (true, false) => i32::from(cross(a, b) >= 0.0),
+        (false, true) => -i32::from(cross(a, b) < 0.0),
+        _ => 0,
+    };
+    way(a0, a1) + side(a1, b1) - way(b0, b1) - side(a0, b0)
 }
 
 /// Real roots of a t² + b t + c = 0 in ascending order, without cancellation.
@@ -152,8 +230,8 @@ fn quadratic_roots(a: f64, b: f64, c: f64) -> [Option<f64>; 2] {
     }
 }
 
-fn nearer(best: Projection, other: Projection) -> Projection {
-    if other.gap.abs() < best.gap.abs() { other } else { best }
+fn nearer(best: Feature, other: Feature) -> Feature {
+    if other.distance < best.distance { other } else { best }
 }
 
 fn minus(a: Vector, b: Vector) -> Vector {

@@ -195,10 +195,24 @@ fn a_node_is_followed_around_a_corner_to_the_outside() {
     // In through the upper side, out through the right end.
     let inside = target.follow([3.9, 0.45], 3, &points).unwrap();
     assert!(inside.gap < 0.0 && inside.normal[1] == 1.0);
+    // The right end is nearer now, but the node came in through the upper side and still projects on it.
     let at_end = target.follow([3.98, 0.4], inside.segment, &points).unwrap();
-    assert!((at_end.gap + 0.02).abs() < 1e-14 && at_end.normal[0] == 1.0);
+    assert!((at_end.gap + 0.1).abs() < 1e-14 && at_end.normal[1] == 1.0);
+    assert_eq!(nearest(&target, [3.98, 0.4], &points).normal[0], 1.0);
     for x in [[4.02, 0.4], [4.3, -0.2], [4.0001, 0.25]] {
         assert!(target.follow(x, inside.segment, &points).unwrap().gap > 0.0, "{x:?}");
+    }
+}
+
+#[test]
+fn a_corner_that_meets_a_corner_end_on_is_pushed_back() {
+    // The end of a bar of the same height comes in at the right end: its corner runs along the lower side, a round-off above or below.
+    let (target, points) = plate(4, 0.5);
+    for offset in [0.0, 1e-17, -1e-17, 1e-9, -1e-9] {
+        let (time, segment) = entry(&target, [4.01, offset], [3.99, offset], &points, &points).unwrap();
+        assert!((time - 0.5).abs() < 1e-12);
+        let inside = target.follow([3.99, offset], segment, &points).unwrap();
+        assert!((inside.gap + 0.01).abs() < 1e-12 && inside.normal[0] == 1.0, "{offset}: {inside:?}");
     }
 }
 

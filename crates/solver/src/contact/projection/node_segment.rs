@@ -31,8 +31,11 @@ pub struct Projection {
     pub normal: Vector,
 }
 
-/// An end beyond which a body is cut (a named side only): nodes that project beyond it by this fraction of the segment still count.
-const END_TOLERANCE: f64 = 1e-9;
+/// Nodes that project beyond a segment's end by this fraction of its length still project on it. Two bars of one height meet corner on corner:
+/// round-off must not decide whether they touch.
+const END_TOLERANCE: f64 = 1e-6;
+/// Cosine of the angle between two segments from which on their common node is an edge, not a facet of something round.
+const EDGE: f64 = 0.5;
 
 impl Target {
     /// Projects `x` on segment `segment` or on the end that is nearest; `None` where the surface is cut off there, or the segment has no length.
@@ -61,14 +64,13 @@ impl Target {
         }
         let s = dot(minus(x, c1), t) / length_squared;
         let normal = outward(t, length_squared.sqrt());
-        if (0.0..=1.0).contains(&s) {
+        if (-END_TOLERANCE..=1.0 + END_TOLERANCE).contains(&s) {
             // The sign is that of `crossing` at the beginning of the next step, to the last bit.
             let gap = cross(t, minus(x, c1)) / length_squared.sqrt();
             let projection = Some(Projection { segment, weights: [1.0 - s, s], gap, normal });
             return Some(Feature { segment, at: Place::Inside, distance: gap.abs(), projection });
         }
-        let (node, end, beyond, weights, at) =
-            if s < 0.0 { (n1, c1, -s, [1.0, 0.0], Place::Begin) } else { (n2, c2, s - 1.0, [0.0, 1.0], Place::End) };
+        let (node, end, weights, at) = if s < 0.0 { (n1, c1, [1.0, 0.0], Place::Begin) } else { (n2, c2, [0.0, 1.0], Place::End) };
         let away = minus(x, end);
         let distance = dot(away, away).sqrt();
         let cut_off = Feature { segment, at, distance, projection: None };
@@ -80,7 +82,6 @@ impl Target {
                     let along = dot(normal, m);
                     [normal[0] - along * m[0], normal[1] - along * m[1]]
                 }
-                Err(_) if beyond <= END_TOLERANCE => normal,
                 Err(_) => return Some(cut_off),
             },
         };
@@ -115,6 +116,9 @@ impl Target {
     /// Follows the chain from `start` to the nearest feature: the way to stay on the side of a thin body on which a node came in.
     /// `None` beyond an end at which the surface is cut off.
     ///
+    /// Across a sharp edge the node stays with the face that it came in through as long as it projects on it: near an edge the other face is
+    /// always near, and a bar that meets another end on would be pushed out sideways, with no force at all. On faceted curves the nearest decides.
+    ///
     /// A neighbour counts with its own inside and the shared node. Its far end counts only when `x` is beyond the shared node: else a
     /// node deep below a thin body would be led around the body's edge to the far side.
     #[must_use]
@@ -124,7 +128,7 @@ impl Target {
             let here = best;
             for end in [Place::Begin, Place::End] {
                 let neighbour = self.neighbour(here.segment, end);
-                if neighbour == NONE {
+                if neighbour == NONE || (here.at == Place::Inside && self.is_edge(here.segment, neighbour, positions)) {
                     continue;
                 }
                 let other = self.feature(x, neighbour, positions).filter(|other| other.at != end || here.at == end);
@@ -135,6 +139,15 @@ impl Target {
             }
         }
         best.projection
+    }
+
+    /// Whether two segments meet at a sharp angle.
+    fn is_edge(&self, a: u32, b: u32, positions: &[Vector]) -> bool {
+        let [ta, tb] = [a, b].map(|segment| {
+            let [n1, n2] = self.surface.segments[segment as usize].map(|node| positions[node as usize]);
+            minus(n2, n1)
+        });
+        dot(ta, tb) < EDGE * (dot(ta, ta) * dot(tb, tb)).sqrt()
     }
 
     /// Time (0 to 1) at which a node that moves from `x_old` to `x_new` goes through `segment` from the outside in; all paths straight.

@@ -22,6 +22,8 @@ enum What {
     Materials,
     /// Global contact searches
     Searches,
+    /// Contact laws
+    Laws,
     /// Fields of the output
     Fields,
 }
@@ -38,6 +40,7 @@ impl What {
             Self::Elements => elements(),
             Self::Materials => materials(),
             Self::Searches => searches(),
+            Self::Laws => laws(),
             Self::Fields => fields(),
         }
     }
@@ -55,7 +58,7 @@ fn materials() -> String {
     let mut text = String::from("Materials (material.NAME.law)\n");
     for law in material::registry() {
         entry(&mut text, law.name, law.doc, law.source);
-        text.push_str(&table(&law.parameters.iter().map(parameter_row).collect::<Vec<_>>(), "      "));
+        text.push_str(&table(&law.parameters.iter().map(|parameter| parameter_row(parameter, "required")).collect::<Vec<_>>(), "      "));
     }
     text
 }
@@ -65,6 +68,15 @@ fn searches() -> String {
     for (index, search) in contact::search::registry::<2>().iter().enumerate() {
         let name = if index == 0 { format!("{} (default)", search.name) } else { search.name.to_string() };
         entry(&mut text, &name, search.doc, search.source);
+    }
+    text
+}
+
+fn laws() -> String {
+    let mut text = String::from("Contact laws (contact, wall)\n");
+    for law in contact::law::LAWS {
+        entry(&mut text, law.name, law.doc, law.source);
+        text.push_str(&table(&law.parameters.iter().map(|parameter| parameter_row(parameter, "optional")).collect::<Vec<_>>(), "      "));
     }
     text
 }
@@ -90,8 +102,9 @@ fn entry(text: &mut String, name: &str, doc: &str, source: &str) {
     }
 }
 
-fn parameter_row(parameter: &Parameter) -> Vec<String> {
-    let default = parameter.default.map_or("required".to_string(), |value| format!("default {value}"));
+/// A row of a parameter table; `without` says what a parameter without a default value is.
+fn parameter_row(parameter: &Parameter, without: &str) -> Vec<String> {
+    let default = parameter.default.map_or(without.to_string(), |value| format!("default {value}"));
     vec![
         parameter.name.to_string(),
         parameter.symbol.to_string(),

@@ -202,6 +202,12 @@ impl Simulation {
         self.system.time_step
     }
 
+    /// Most sweeps over the contact springs that a step took, and steps whose forces were not solved to the last digit.
+    #[must_use]
+    pub fn sweeps(&self) -> (usize, u64) {
+        (self.system.springs.sweeps_max, self.system.springs.unsolved)
+    }
+
     /// Energies and works so far.
     #[must_use]
     pub fn ledger(&self) -> &crate::energy::Ledger {
@@ -350,6 +356,16 @@ impl Simulation {
         }
     }
 
+    fn warnings(&self) -> Vec<String> {
+        let mut warnings: Vec<String> = self.warnings.iter().cloned().collect();
+        let unsolved = self.system.springs.unsolved;
+        if unsolved > 0 {
+            warnings
+                .push(format!("in {unsolved} step(s) the contact forces were not solved to the last digit: lower the contact penalties"));
+        }
+        warnings
+    }
+
     /// Figures of the run so far (valid after a failure too).
     #[must_use]
     pub fn summary(&self) -> Summary {
@@ -369,7 +385,7 @@ impl Simulation {
             state_hash: crate::record::state_hash(system),
             threads: self.threads,
             simd: system.level.name().to_string(),
-            warnings: self.warnings.iter().cloned().collect(),
+            warnings: self.warnings(),
         }
     }
 }

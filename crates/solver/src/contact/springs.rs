@@ -58,8 +58,10 @@ pub struct Springs {
     place: Vec<u32>,
     ends: Vec<End>,
     links: Vec<Link>,
-    /// Sweeps of the last solution.
-    pub sweeps: usize,
+    /// Most sweeps that a step took so far.
+    pub sweeps_max: usize,
+    /// Steps whose forces still changed after the last sweep that is allowed.
+    pub unsolved: u64,
 }
 
 /// A node that springs act on.
@@ -110,14 +112,12 @@ impl Springs {
 
     /// Finds the force, work and energy of every spring.
     pub fn solve<F: Fn(usize) -> Vector>(&mut self, update: &Update<'_, F>) {
-        self.sweeps = 0;
         if self.list.is_empty() {
             return;
         }
         self.link(update);
         let [before, after] = update.time_steps;
         for sweep in 1..=SWEEPS {
-            self.sweeps = sweep;
             let (mut change, mut largest) = (0.0f64, 0.0f64);
             for (spring, link) in self.list.iter_mut().zip(&self.links) {
                 let rate = rate(spring, |a| self.ends[link.ends[a] as usize].velocity);
@@ -135,9 +135,11 @@ impl Springs {
                 change = change.max(step.abs());
                 largest = largest.max(force);
             }
+            self.sweeps_max = self.sweeps_max.max(sweep);
             if change <= TOLERANCE * largest {
                 break;
             }
+            self.unsolved += u64::from(sweep == SWEEPS);
         }
         for (spring, link) in self.list.iter_mut().zip(&self.links) {
             let rate_new = rate(spring, |a| self.ends[link.ends[a] as usize].velocity);

@@ -1,4 +1,5 @@
-//! The film of a run: collects frames, then writes `animation.gif` and `final.png` with one camera and one colour range for all of them.
+//! The film of a run: collects frames, then writes `animation.gif` with one camera for all of them, and `final.png`, which shows the last frame
+//! alone and as large as it fits; the colour range is that of the whole run in both.
 //! Frames come from the observer of a run; `scene` draws them, `animation` and the PNG writer take the pictures.
 
 use super::animation::Animation;
@@ -163,6 +164,7 @@ impl Film {
         let wide = self.settings.width.min(ANIMATION_WIDTH);
         let high = f64::from(self.settings.height) * f64::from(wide) / f64::from(self.settings.width.max(1));
         self.write_animation(folder, &mesh, &show, &notes, [wide, high.round() as u32])?;
+        let show = Show { view: self.view_of(last, show.view), ..show };
         let mut scene = self.scene(&show, &notes, [self.settings.width, self.settings.height]);
         let mut canvas = scene.still().clone();
         scene.draw(&mesh, &self.moment(last, &show, notes.last().map_or("", String::as_str)), &mut canvas);
@@ -232,6 +234,15 @@ impl Film {
         }
         let origin = self.origin.unwrap_or_default();
         view.map(|corner| [corner[0] + origin[0], corner[1] + origin[1]])
+    }
+
+    /// Box of the bodies in one frame, m, within the film's view `whole`: a still picture needs no room for where they were.
+    fn view_of(&self, frame: &Stored, whole: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
+        let origin = self.origin.unwrap_or_default();
+        let own = extent(frame.positions.iter(), 0.0).map(|corner| [corner[0] + origin[0], corner[1] + origin[1]]);
+        let [low, high] = mirrored(own, self.settings.mirror);
+        let kept = [[0, 1].map(|k| low[k].max(whole[0][k])), [0, 1].map(|k| high[k].min(whole[1][k]))];
+        if (0..2).all(|k| kept[0][k] <= kept[1][k]) { kept } else { whole }
     }
 
     /// `t = 3.10 ms` for each stored frame, with the decimals that tell them apart.
@@ -385,6 +396,18 @@ mod tests {
         frame.positions[8] = [f64::NAN, 0.0];
         film.add(&frame);
         assert!(size(film.view()) < 150.0, "{:?}", film.view());
+    }
+
+    #[test]
+    fn the_last_frame_fills_its_own_picture() {
+        let mut film = Film::new(Cells::default(), FilmSettings { mirror: [true, false], ..FilmSettings::default() });
+        film.add(&frame(0.0, 9.0));
+        film.add(&frame(1.0, 2.0));
+        let whole = film.show().view;
+        assert_eq!(whole, [[-10.0, 0.0], [10.0, 1.0]]);
+        assert_eq!(film.view_of(&film.stored[1], whole), [[-3.0, 0.0], [3.0, 1.0]]);
+        film.add(&frame(2.0, f64::NAN));
+        assert_eq!(film.view_of(&film.stored[2], whole), whole, "nothing to be seen: the whole view");
     }
 
     #[test]

@@ -43,7 +43,21 @@ impl Table<'_> {
     }
 
     fn is_zero(&self, column: usize) -> bool {
-        self.rows.iter().all(|row| row.get(column).is_none_or(|v| *v == 0.0))
+        self.largest(column) == 0.0
+    }
+
+    /// Largest size of a column's values; those that are not finite don't count.
+    fn largest(&self, column: usize) -> f64 {
+        self.values(column).fold(0.0, |largest, v| largest.max(v.abs()))
+    }
+
+    /// Smallest and largest value of a column.
+    fn range(&self, column: usize) -> [f64; 2] {
+        self.values(column).fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)])
+    }
+
+    fn values(&self, column: usize) -> impl Iterator<Item = f64> {
+        self.rows.iter().filter_map(move |row| row.get(column).copied()).filter(|v| v.is_finite())
     }
 }
 
@@ -84,27 +98,44 @@ fn energy(table: &Table<'_>) -> Panel {
 /// Curves in one panel; more would be a carpet.
 const CURVES_MAX: usize = 9;
 
+/// Components smaller than this beside the largest of their kind are round-off and not shown.
+const ROUND_OFF: f64 = 1e-9;
+/// Probes that move less than this fraction of the distances between them are shown by their displacements: their positions would be flat lines.
+const FLAT: f64 = 0.05;
+
+/// One quantity of probes or contacts: its columns, with the names of their curves, by axis (y first: the direction in which most things fall).
+struct Quantity {
+    name: &'static str,
+    si: &'static str,
+    axes: [Vec<(usize, String)>; 2],
+    /// Whether curves show the change since the first row.
+    from_start: bool,
+}
+
+const AXES: [&str; 2] = ["y", "x"];
+
 /// A panel for each kind of quantity that the history holds.
 fn history(table: &Table<'_>) -> Vec<Panel> {
-    let probe = |axis: &'static str| {
-        move |name: &str| {
-            let probe = name.strip_suffix(axis)?;
-            (!probe.is_empty() && !probe.starts_with("energy.") && !probe.starts_with("contact.force")).then(|| probe.to_string())
-        }
+    let columns = |name_of: &dyn Fn(&str) -> Option<String>| -> Vec<(usize, String)> {
+        table.columns.iter().enumerate().filter_map(|(k, column)| Some((k, name_of(column)?))).collect()
     };
-    let force = |axis: &'static str| {
+    let positions = AXES.map(|axis| {
+        columns(&|name| {
+            let probe = name.strip_suffix(axis)?.strip_suffix('.')?;
+            (!probe.is_empty() && !probe.starts_with("energy") && !probe.starts_with("contact.force")).then(|| probe.to_string())
+        })
+    });
+    let forces = AXES.map(|axis| {
         let prefix = format!("contact.force_{axis}[");
-        move |name: &str| Some(name.strip_prefix(&prefix)?.strip_suffix(']')?.to_string())
-    };
-    let mut panels: Vec<Panel> = [
-        panel(table, "position y", "m", probe(".y")),
-        panel(table, "position x", "m", probe(".x")),
-        panel(table, "contact force y", "N/m", force("y")),
-        panel(table, "contact force x", "N/m", force("x")),
-    ]
-    .into_iter()
-    .flatten()
-    .collect();
+        columns(&|name| Some(name.strip_prefix(&prefix)?.strip_suffix(']')?.to_string()))
+    });
+    let from_start = is_flat(table, &positions);
+    let name = if from_start { "displacement" } else { "position" };
+    let quantities = [
+        Quantity { name, si: "m", axes: positions, from_start },
+        Quantity { name: "contact force", si: "N/m", axes: forces, from_start: false },
+    ];
+    let mut panels: Vec<Panel> = quantities.iter().flat_map(|quantity| quantity.panels(table)).collect();
     if panels.is_empty() {
         let remark = "no probe moves and no contact acts".into();
         panels.push(Panel { name: "history".into(), si: "", from_zero: false, height: 170.0, curves: Vec::new(), remark });
@@ -112,28 +143,92 @@ fn history(table: &Table<'_>) -> Vec<Panel> {
     panels
 }
 
-/// The panel of all columns that `name_of` names; none if there are none or all are zero.
-fn panel(table: &Table<'_>, name: &str, si: &'static str, name_of: impl Fn(&str) -> Option<String>) -> Option<Panel> {
-    let found: Vec<(usize, String)> = table.columns.iter().enumerate().filter_map(|(k, c)| Some((k, name_of(c)?))).collect();
-    let (shown, zero): (Vec<_>, Vec<_>) = found.into_iter().partition(|(column, _)| !table.is_zero(*column));
-    if shown.is_empty() {
-        return None;
+/// Whether no probe moves by more than a small part of the range that the positions of all span.
+fn is_flat(table: &Table<'_>, positions: &[Vec<(usize, String)>; 2]) -> bool {
+    let (mut span, mut motion) = (0.0_f64, 0.0_f64);
+    for axis in positions {
+        let mut all = [f64::INFINITY, f64::NEG_INFINITY];
+        for [low, high] in axis.iter().map(|(column, _)| table.range(*column)) {
+            all = [all[0].min(low), all[1].max(high)];
+            motion = motion.max(high - low);
+        }
+        span = span.max(all[1] - all[0]);
     }
-    let mut remarks = Vec::new();
-    if shown.len() > CURVES_MAX {
-        remarks.push(format!("{} more in the history file", shown.len() - CURVES_MAX));
+    motion > 0.0 && motion < FLAT * span
+}
+
+impl Quantity {
+    /// One panel per axis; none for an axis without columns or with nothing but zeros.
+    fn panels(&self, table: &Table<'_>) -> Vec<Panel> {
+        let size = |column: usize| if self.from_start { motion(table, column) } else { table.largest(column) };
+        let largest = self.axes.iter().flatten().map(|(column, _)| size(*column)).fold(0.0, f64::max);
+        let is_shown = |column: usize| size(column) > ROUND_OFF * largest;
+        let of_axis = |(axis, found): (&str, &Vec<(usize, String)>)| {
+            let (shown, zero): (Vec<_>, Vec<_>) = found.iter().partition(|(column, _)| is_shown(*column));
+            (!shown.is_empty()).then(|| self.panel(table, axis, &shown, &zero))
+        };
+        AXES.into_iter().zip(&self.axes).filter_map(of_axis).collect()
     }
-    if !zero.is_empty() {
-        remarks.push(format!("zero throughout: {}", zero.iter().map(|(_, name)| name.as_str()).collect::<Vec<_>>().join(", ")));
+
+    fn panel(&self, table: &Table<'_>, axis: &str, shown: &[&(usize, String)], zero: &[&(usize, String)]) -> Panel {
+        let mut remarks = Vec::new();
+        if shown.len() > CURVES_MAX {
+            remarks.push(format!("{} more in the history file", shown.len() - CURVES_MAX));
+        }
+        if !zero.is_empty() {
+            remarks.push(format!("zero throughout: {}", zero.iter().map(|(_, name)| name.as_str()).collect::<Vec<_>>().join(", ")));
+        }
+        let points = |column: usize| {
+            let mut points = table.points(column);
+            if self.from_start {
+                let first = table.values(column).next().unwrap_or(0.0);
+                points.iter_mut().for_each(|point| point[1] -= first);
+            }
+            points
+        };
+        let curve = |(index, (column, name)): (usize, &&(usize, String))| Curve {
+            name: name.clone(),
+            colour: DISTINCT[index % DISTINCT.len()],
+            dashes: if index < DISTINCT.len() { "" } else { "6 4" },
+            width: 1.6,
+            points: points(*column),
+        };
+        let curves: Vec<Curve> = shown.iter().take(CURVES_MAX).enumerate().map(curve).collect();
+        let height = 170.0 + 16.0 * curves.len().saturating_sub(5) as f64;
+        let from_zero = self.from_start || self.si != "m";
+        Panel { name: format!("{} {axis}", self.name), si: self.si, from_zero, height, curves, remark: remarks.join("; ") }
     }
-    let curve = |(index, (column, name)): (usize, (usize, String))| Curve {
-        name,
-        colour: DISTINCT[index % DISTINCT.len()],
-        dashes: if index < DISTINCT.len() { "" } else { "6 4" },
-        width: 1.6,
-        points: table.points(column),
-    };
-    let curves: Vec<Curve> = shown.into_iter().take(CURVES_MAX).enumerate().map(curve).collect();
-    let height = 170.0 + 16.0 * curves.len().saturating_sub(5) as f64;
-    Some(Panel { name: name.into(), si, from_zero: si != "m", height, curves, remark: remarks.join("; ") })
+}
+
+/// Distance between the smallest and the largest value of a column; zero without values.
+fn motion(table: &Table<'_>, column: usize) -> f64 {
+    let [low, high] = table.range(column);
+    (high - low).max(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names_of(columns: &[&str], rows: &[Vec<f64>]) -> Vec<String> {
+        let columns: Vec<String> = columns.iter().map(ToString::to_string).collect();
+        history(&Table { columns: &columns, rows }).into_iter().map(|panel| panel.name).collect()
+    }
+
+    #[test]
+    fn round_off_gets_no_panel() {
+        let columns = ["time", "A.x", "A.y", "contact.force_x[c]", "contact.force_y[c]"];
+        let rows: Vec<Vec<f64>> = (0..9).map(f64::from).map(|t| vec![t, 1e-17 * t, 0.1 * t, 1e3 * t, 1e-8 * t]).collect();
+        assert_eq!(names_of(&columns, &rows), ["position y", "contact force x"]);
+    }
+
+    #[test]
+    fn probes_that_hardly_move_are_shown_by_their_displacement() {
+        let columns = ["time", "A.x", "A.y", "B.x", "B.y"];
+        let rows: Vec<Vec<f64>> = (0..9).map(f64::from).map(|t| vec![t, -1.0, 2.0, 1.0 + 1e-4 * t, 2.0]).collect();
+        assert_eq!(names_of(&columns, &rows), ["displacement x"]);
+        let moved: Vec<Vec<f64>> = (0..9).map(f64::from).map(|t| vec![t, -1.0, 2.0, 1.0 + t, 2.0]).collect();
+        assert_eq!(names_of(&columns, &moved), ["position y", "position x"]);
+        assert_eq!(names_of(&columns, &rows[..1]), ["position y", "position x"], "one row has no displacement");
+    }
 }

@@ -153,7 +153,7 @@ impl Target {
     /// Time (0 to 1) at which a node that moves from `x_old` to `x_new` goes through `segment` from the outside in; all paths straight.
     ///
     /// The side f = T × (x − C₁) is a quadratic in time; its roots are tested for lying between the segment's nodes. Round-off can take a
-    /// path through a shared node from both neighbours, so what decides in the end is [`net_exits`], which can lose nothing.
+    /// path through a shared node from both neighbours, so what decides in the end is `net_exits`, which can lose nothing.
     #[must_use]
     pub fn crossing(&self, x_old: Vector, x_new: Vector, segment: u32, positions_old: &[Vector], positions_new: &[Vector]) -> Option<f64> {
         let [n1, n2] = self.surface.segments[segment as usize].map(|node| node as usize);

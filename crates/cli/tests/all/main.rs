@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod command_line;
+mod examples;
 mod whole_runs;
 
 use std::ffi::OsStr;

@@ -1,0 +1,181 @@
+//! Every example as the README runs it, with the numbers that it promises. `examples/NAME/README.md` says where each number comes from.
+
+use crate::{embate, fresh};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// What a run left: `summary.json` and `history.csv`.
+struct Results {
+    folder: PathBuf,
+    summary: serde_json::Value,
+    columns: Vec<String>,
+    rows: Vec<Vec<f64>>,
+}
+
+impl Results {
+    fn figure(&self, key: &str) -> f64 {
+        self.summary[key].as_f64().unwrap_or_else(|| panic!("no number {key} in {}", self.summary))
+    }
+
+    fn column(&self, name: &str) -> Vec<f64> {
+        let index =
+            self.columns.iter().position(|column| column == name).unwrap_or_else(|| panic!("no column {name} in {:?}", self.columns));
+        self.rows.iter().map(|row| row[index]).collect()
+    }
+
+    /// Time and value of the rows where `is` holds for the column's value.
+    fn rows_where(&self, name: &str, is: impl Fn(f64) -> bool) -> Vec<(f64, f64)> {
+        self.column("time").into_iter().zip(self.column(name)).filter(|(_, value)| is(*value)).collect()
+    }
+}
+
+/// Runs an example into a folder of the test's own.
+fn run(name: &str, folder: &str) -> Results {
+    let folder = fresh(folder);
+    let model = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples").join(name);
+    let answer = embate(&folder, ["run", model.to_str().unwrap(), "--out", "out", "--quiet"]);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    let summary = serde_json::from_str(&fs::read_to_string(folder.join("out/summary.json")).unwrap()).unwrap();
+    let history = fs::read_to_string(folder.join("out/history.csv")).unwrap();
+    let mut lines = history.lines();
+    let columns = lines.next().unwrap().split(',').map(String::from).collect();
+    let rows = lines.map(|line| line.split(',').map(|value| value.parse().unwrap()).collect()).collect();
+    Results { folder: folder.join("out"), summary, columns, rows }
+}
+
+#[test]
+fn every_example_is_listed_here() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
+    let mut names: Vec<_> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    assert_eq!(names, ["rubber-disk", "tube-plate", "tube-plate-gmsh", "two-bars"], "give a new example its numbers");
+}
+
+#[test]
+fn the_tube_turns_back_after_seven_and_a_half_milliseconds_and_the_plate_closes_over_it() {
+    let results = run("tube-plate", "example-tube-plate");
+    assert_eq!(results.summary["status"], "done");
+    assert_eq!((results.figure("elements"), results.figure("nodes")), (400.0, 566.0));
+
+    let lowest = results.rows_where("A.y", |_| true).into_iter().reduce(|best, row| if row.1 < best.1 { row } else { best }).unwrap();
+    assert!((7e-3..=8e-3).contains(&lowest.0) && (lowest.1 + 0.117).abs() <= 0.006, "A is lowest at {lowest:?}");
+
+    assert!(results.figure("energy_drift") < 0.005, "{}", results.summary);
+    assert!(results.figure("ledger_residual") <= 1e-10, "{}", results.summary);
+    // The deepest node in any contact or wall at any step.
+    assert!(results.figure("penetration_max") <= 1e-4, "{}", results.summary);
+
+    let held = results.rows_where("wall.force_x[wall]", |force| force > 0.0);
+    assert!((8.5e-3..=8.9e-3).contains(&held[0].0), "the plate's tips meet the line of symmetry at {:?}", held[0]);
+    assert!(held.last().unwrap().0 > 9.5e-3, "and the plate is last held there at {:?}", held.last());
+    let depth = results.column("wall.penetration[wall]").into_iter().fold(0.0, f64::max);
+    assert!(depth > 0.0 && depth <= 1e-4, "{depth} m beyond x = 0");
+
+    for file in ["animation.gif", "final.png", "energy.svg", "history.svg", "fields.pvd"] {
+        assert!(results.folder.join(file).metadata().unwrap().len() > 1000, "{file}");
+    }
+}
+
+#[test]
+fn a_gmsh_file_gives_the_same_as_the_built_in_shapes() {
+    let [shapes, gmsh] =
+        [("tube-plate", "example-twin-shapes"), ("tube-plate-gmsh", "example-twin-gmsh")].map(|(name, folder)| run(name, folder));
+    assert_eq!(shapes.columns, gmsh.columns);
+    assert_eq!(shapes.rows.len(), gmsh.rows.len());
+    for name in shapes.columns.iter().filter(|name| !name.starts_with("contact.") && !name.starts_with("wall.")) {
+        let (a, b) = (shapes.column(name), gmsh.column(name));
+        let largest = a.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+        let difference = a.iter().zip(&b).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
+        assert!(difference <= 1e-12 * largest, "{name} differs by {difference} of {largest}");
+    }
+    assert_eq!(shapes.summary["state_hash"], gmsh.summary["state_hash"], "equal to the last bit");
+}
+
+#[test]
+fn two_bars_exchange_their_velocities_while_a_wave_runs_there_and_back() {
+    let results = run("two-bars", "example-two-bars");
+    let (length, speed_of_sound, velocity, height) = (0.1, 5000.0, 4.0, 0.004);
+    let acting = results.rows_where("contact.force_x[ends]", |force| force != 0.0);
+    let (first, last) = (acting[0].0, acting[acting.len() - 1].0);
+    let expected = 2.0 * length / speed_of_sound;
+    assert!(
+        first < 0.01 * expected && (last - expected).abs() < 0.02 * expected,
+        "contact from {first} to {last} s, {expected} s expected"
+    );
+
+    let end = |name: &str| *results.column(name).last().unwrap();
+    assert!(end("left.vx").abs() < 0.01 * velocity, "{}", end("left.vx"));
+    assert!((end("right.vx") - velocity).abs() < 0.01 * velocity, "{}", end("right.vx"));
+
+    // σ = ½ ρ c v on the whole cross-section; the penalty springs vibrate about it.
+    let force = acting.iter().map(|row| -row.1).sum::<f64>() / acting.len() as f64;
+    let expected = 0.5 * 8000.0 * speed_of_sound * velocity * height;
+    assert!((force - expected).abs() < 0.03 * expected, "mean contact force {force} N/m, {expected} expected");
+
+    assert!(results.figure("energy_drift") < 0.01);
+    let momentum = &results.summary["momentum_drift"];
+    for kind in ["linear", "angular"] {
+        assert!(momentum[kind].as_f64().unwrap() <= 1e-12, "{momentum}");
+    }
+}
+
+#[test]
+fn a_rubber_disk_bounces_with_ninety_five_per_cent_of_its_velocity() {
+    let results = run("rubber-disk", "example-rubber-disk");
+    let acting = results.rows_where("contact.force_y[bounce]", |force| force != 0.0);
+    let (time, velocity) = (results.column("time"), results.column("disk.vy"));
+    let at = |wanted: f64| velocity[time.iter().position(|time| *time >= wanted).unwrap()];
+    let (first, last) = (acting[0].0, acting[acting.len() - 1].0);
+    // Free fall until then: v = v₀ + g t, and a depth of 1 mm below the lowest node.
+    let before = at(first - 4e-5);
+    assert!((before + 2.0 + 9.81 * (first - 4e-5)).abs() < 1e-3, "{before} m/s");
+    let fall = (-2.0 + (4.0_f64 + 2.0 * 9.81 * 1e-3).sqrt()) / 9.81;
+    assert!((first - fall).abs() < 3e-5, "contact begins at {first} s, {fall} s expected");
+
+    let restitution = -at(last + 4e-5) / before;
+    assert!((restitution - 0.95).abs() < 0.01, "{restitution}");
+    // No force from the side on a symmetric body.
+    let side = results.column("contact.force_x[bounce]").into_iter().fold(0.0_f64, |most, force| most.max(force.abs()));
+    assert!(side < 1e-6, "{side} N/m");
+    assert!(results.figure("energy_drift") < 1e-4 && results.figure("ledger_residual") <= 1e-10, "{}", results.summary);
+}
+
+#[test]
+fn the_model_of_the_readme_runs() {
+    let readme = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../README.md")).unwrap();
+    let model = readme.split("```toml\n").nth(1).unwrap().split("```").next().unwrap();
+    let folder = fresh("readme");
+    fs::write(folder.join("model.toml"), model).unwrap();
+    let answer = embate(&folder, ["run", "model.toml", "--out", "out", "--quiet"]);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    let summary: serde_json::Value = serde_json::from_str(&fs::read_to_string(folder.join("out/summary.json")).unwrap()).unwrap();
+    assert_eq!((summary["status"].as_str(), summary["elements"].as_u64()), (Some("done"), Some(128 + 480)));
+    assert!(summary["energy_drift"].as_f64().unwrap() < 0.005, "{summary}");
+}
+
+#[test]
+fn the_page_on_results_has_every_field_and_key() {
+    let page = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/output.md")).unwrap();
+    for field in embate_solver::output::FIELDS {
+        let place = if field.location == embate_solver::output::Location::Node { "node" } else { "cell" };
+        let components = if field.components.is_empty() { "scalar".to_string() } else { field.components.join(" ") };
+        let unit = if field.unit.is_empty() { "-" } else { field.unit };
+        let row = format!("| `{}` | {place} | {components} | {unit} | {} |", field.name, field.doc);
+        assert!(page.contains(&row), "docs/output.md lacks\n{row}");
+    }
+    let results = run("two-bars", "example-keys");
+    for key in results.summary.as_object().unwrap().keys() {
+        assert!(page.contains(&format!("`{key}`")), "docs/output.md does not explain the key {key} of summary.json");
+    }
+    for column in &results.columns {
+        let name = column.split_once('[').map_or(column.as_str(), |(name, _)| name);
+        let name = ["left", "right"]
+            .into_iter()
+            .find_map(|probe| Some(format!("PROBE.{}", name.strip_prefix(probe)?.strip_prefix('.')?)))
+            .unwrap_or(name.into());
+        assert!(
+            page.contains(&format!("`{name}`")) || page.contains(&format!("`{name}[")),
+            "docs/output.md does not explain the column {column}"
+        );
+    }
+}

@@ -184,7 +184,7 @@ pub trait Space<const D: usize> {
     /// Symmetric part of a displacement gradient: the strain increment.
     fn symmetric<L: Lane>(gradient: &Matrix<L, D>) -> Self::Tensor<L>;
     /// Hughes and Winget's rotation (I − ½W)⁻¹ (I + ½W) of the skew part W of a displacement gradient taken in the mid-step
-    /// configuration; exact (and the strain increment zero) for a rigid rotation. Hughes and Winget 1980, eq. (15).
+    /// configuration; exact (and the strain increment zero) for a rigid rotation. Hughes and Winget 1980.
     fn rotation<L: Lane>(gradient: &Matrix<L, D>) -> <Self::Tensor<L> as SymmetricTensor<L>>::Rotation;
     /// `scale` F Fᵀ, out-of-plane component `scale` in the plane.
     fn left_cauchy_green<L: Lane>(f: &Matrix<L, D>, scale: L) -> Self::Tensor<L>;

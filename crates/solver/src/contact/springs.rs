@@ -7,7 +7,7 @@
 //! F = − [V(g^{n+½}) − V(g^{n−½})] / (g^{n+½} − g^{n−½}),  V(g) = ½ k g² for g < 0, else 0,
 //!
 //! takes from the motion exactly what the spring stores and gives it back at release: Armero and Petőcz, Comput. Meth. Appl. Mech. Engng 158
-//! (1998) 269-300, section 4, put into the explicit update. A plain explicit force k g^n does not: what a spring gives at release differs from
+//! (1998) 269-300, put into the explicit update. A plain explicit force k g^n does not: what a spring gives at release differs from
 //! what it took at closing by up to ½ k v² dt²/4, and stiff springs pump or lose energy far below the linear stability limit.
 //!
 //! Stability: while closed F = −k (g^{n−1} + 2 g^n + g^{n+1})/4, so a spring adds k to the stiffness and k dt²/4 to the mass:

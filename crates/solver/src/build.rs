@@ -15,7 +15,6 @@ use crate::mesh::{Mesh, PartMesh};
 use crate::model::Model;
 use crate::step::{Governor, Limits, NodeSums, System};
 use embate_lanes::{Batch, Level};
-use std::collections::BTreeMap;
 
 /// Below so many elements threads cost more than they bring.
 const SERIAL: usize = 4096;
@@ -30,7 +29,7 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         return Err(faults);
     }
     let mesh = Mesh::new(model)?;
-    let mut builder = Builder { model, faults: Vec::new(), constraints: Constraints::new(model, &mesh)?, under: BTreeMap::new(), mesh };
+    let mut builder = Builder { model, faults: Vec::new(), constraints: Constraints::new(model, &mesh)?, under: Vec::new(), mesh };
     let blocks = builder.blocks();
     if blocks.len() < model.parts.len() {
         return Err(builder.faults);
@@ -111,8 +110,8 @@ struct Builder<'a> {
     mesh: Mesh<2>,
     constraints: Constraints<2>,
     faults: Vec<Fault>,
-    /// Pressure stiffness κ = (K + 4µ/3) L / A of the element under each outside segment, Pa/m.
-    under: BTreeMap<[u32; 2], f64>,
+    /// Pressure stiffness κ = (K + 4µ/3) L / A of the element behind each edge as an outside segment, Pa/m; sorted by nodes.
+    under: Vec<([u32; 2], f64)>,
 }
 
 impl Builder<'_> {
@@ -146,14 +145,16 @@ impl Builder<'_> {
                     let (a, b) = (x(c), x(c + 1));
                     let length = ((b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2)).sqrt();
                     // Outside segments run against the element's own direction.
-                    self.under.insert([cell[(c + 1) % cell.len()], cell[c]], block.wave_modulus() * length / area);
+                    self.under.push(([cell[(c + 1) % cell.len()], cell[c]], block.wave_modulus() * length / area));
                 }
             }
         }
+        self.under.sort_unstable_by_key(|&(nodes, _)| nodes);
     }
 
     fn stiffness_under(&self, surface: &Surface) -> Vec<f64> {
-        surface.segments.iter().map(|segment| self.under.get(segment).copied().unwrap_or(0.0)).collect()
+        let of = |segment: &[u32; 2]| self.under.binary_search_by_key(segment, |&(nodes, _)| nodes).map_or(0.0, |at| self.under[at].1);
+        surface.segments.iter().map(of).collect()
     }
 
     fn contacts(&mut self) -> Vec<Contact> {
@@ -211,24 +212,22 @@ impl Builder<'_> {
         let mut walls = Vec::new();
         for (i, wall) in self.model.walls.iter().enumerate() {
             let Some(normal) = unit(wall.normal) else { continue };
-            let mut stiffness: BTreeMap<u32, f64> = BTreeMap::new();
-            let mut spacing = 0.0;
-            for part in self.model.parts.iter().filter(|part| wall.parts.is_empty() || wall.parts.contains(&part.name)) {
-                match self.mesh.surface(&part.name, |_| false) {
-                    Ok(surface) => {
-                        let own = contact::node_stiffness(&surface, &self.stiffness_under(&surface), &self.mesh.positions);
-                        for (&node, &(length, own)) in surface.nodes.iter().zip(&own) {
-                            spacing += length;
-                            *stiffness.entry(node).or_default() += law::penalty::stiffness(wall.penalty, length, own, own, 1);
-                        }
-                    }
-                    Err(fault) => self.faults.push(Fault { path: format!("wall[{i}].parts"), ..fault }),
+            let surface = match self.mesh.outside(&wall.parts) {
+                Ok(surface) => surface,
+                Err(fault) => {
+                    self.faults.push(Fault { path: format!("wall[{i}].parts"), ..fault });
+                    continue;
                 }
-            }
+            };
+            let own = contact::node_stiffness(&surface, &self.stiffness_under(&surface), &self.mesh.positions);
             // Nodes that a symmetry line keeps on this wall need no spring.
             let held = |node: u32| self.constraints.mirror_normals(node).any(|m| (m[0] * normal[1] - m[1] * normal[0]).abs() < 1e-12);
-            let reach = contact::SKIN * spacing / stiffness.len().max(1) as f64;
-            let nodes = stiffness.into_iter().filter(|&(node, _)| !held(node)).collect();
+            let stiffness = |(&node, &(length, own)): (&u32, &(f64, f64))| {
+                let here = law::Node { tributary: length, own, other: own, share: self.constraints.share(node) };
+                (!held(node)).then(|| (node, law::penalty::stiffness(wall.penalty, here, 1)))
+            };
+            let reach = contact::SKIN * own.iter().map(|&(length, _)| length).sum::<f64>() / own.len().max(1) as f64;
+            let nodes = surface.nodes.iter().zip(&own).filter_map(stiffness).collect();
             walls.push(Wall::new(wall.name.clone(), wall.point, normal, nodes, reach));
         }
         walls

@@ -85,6 +85,10 @@ pub struct ContactInput {
 
 /// Skin as a fraction of the mean segment length: how far bodies may move before the next global search.
 pub const SKIN: f64 = 0.25;
+/// The first search looks this many skins far: bodies may overlap at the start.
+const FIRST: f64 = 4.0;
+/// The global search is asked for a little more than is kept, so that what is kept does not depend on how each search rounds.
+const SLACK: f64 = 1.001;
 
 impl Contact {
     /// Makes a contact ready; `positions` are the initial ones.
@@ -97,13 +101,17 @@ impl Contact {
         };
         let softest = |surface: usize| input.pressure_stiffness[surface].iter().copied().fold(f64::INFINITY, f64::min);
         let pass = |&slave: &usize| {
-            let surface = &input.targets[slave].surface;
+            let Target { surface, mirrors } = &input.targets[slave];
             let nodes = node_stiffness(surface, &input.pressure_stiffness[slave], positions);
-            let stiffness =
-                |&(length, own): &(f64, f64)| law::penalty::stiffness(input.penalty, length, own, softest(1 - slave), slaves.len());
+            let other = softest(1 - slave);
+            let stiffness = |(&(tributary, own), node): (&(f64, f64), &u32)| {
+                let on_line = mirrors.binary_search_by_key(node, |&(node, _)| node).is_ok();
+                let node = law::Node { tributary, own, other, share: if on_line { 0.5 } else { 1.0 } };
+                law::penalty::stiffness(input.penalty, node, slaves.len())
+            };
             Pass {
                 slave,
-                stiffness: nodes.iter().map(stiffness).collect(),
+                stiffness: nodes.iter().zip(&surface.nodes).map(stiffness).collect(),
                 memory: vec![NONE; surface.nodes.len()],
                 starts: vec![0; surface.nodes.len() + 1],
                 candidates: Vec::new(),
@@ -133,8 +141,10 @@ impl Contact {
     /// Adds the springs of the step to `springs`: of every slave node that is inside or within the skin, so that a spring is there before it is
     /// needed (one that closes unseen would give back what it never took).
     pub fn detect(&mut self, sweep: Sweep<'_>, springs: &mut Springs) {
-        if self.reach.is_left(sweep.new) {
-            self.search(sweep);
+        let at_start = self.reach.positions.is_empty();
+        if at_start || self.reach.is_left(sweep.new) {
+            let reach = if at_start { FIRST * self.reach.skin } else { self.reach.skin };
+            self.search(sweep, reach + 2.0 * self.reach.fastest(sweep));
         }
         self.penetration = 0.0;
         self.found.clear();
@@ -143,7 +153,7 @@ impl Contact {
             let nodes = &self.targets[pass.slave].surface.nodes;
             let first = springs.list.len();
             for (i, &node) in nodes.iter().enumerate() {
-                let Some(projection) = pass.locate(i, node, target, sweep) else { continue };
+                let Some(projection) = pass.locate(i, node, target, sweep, at_start) else { continue };
                 let segment = target.surface.segments[projection.segment as usize];
                 let [a, b] = projection.weights;
                 let (nodes, shares) = ([node, segment[0], segment[1]], [1.0, -a, -b]);
@@ -180,18 +190,31 @@ impl Contact {
         all.filter(|spring| spring.gap < 0.0).map(|spring| (spring.nodes[0], -spring.gap))
     }
 
-    fn search(&mut self, sweep: Sweep<'_>) {
+    /// Global search, then a filter by distance: candidates are the same whatever the search, and few.
+    fn search(&mut self, sweep: Sweep<'_>, reach: f64) {
         for pass in &mut self.passes {
-            let target = &self.targets[1 - pass.slave].surface;
+            let target = &self.targets[1 - pass.slave];
             let slaves = &self.targets[pass.slave].surface.nodes;
-            let query =
-                Query { positions_old: sweep.old, positions_new: sweep.new, slaves, facets: &target.segments, reach: self.reach.skin };
+            let query = Query {
+                positions_old: sweep.old,
+                positions_new: sweep.new,
+                slaves,
+                facets: &target.surface.segments,
+                reach: SLACK * reach,
+            };
             self.reach.search.pairs(&query, &mut self.reach.pairs);
             pass.candidates.clear();
-            pass.candidates.extend(self.reach.pairs.iter().map(|pair| pair.facet));
             pass.starts.fill(0);
             for pair in &self.reach.pairs {
-                pass.starts[pair.slave as usize + 1] += 1;
+                let node = slaves[pair.slave as usize];
+                let (x_old, x) = (sweep.old[node as usize], sweep.new[node as usize]);
+                let comes_near = target.distance(x, pair.facet, sweep.new).is_some_and(|distance| distance <= reach)
+                    || target.crossing(x_old, x, pair.facet, sweep.old, sweep.new).is_some();
+                // A node of both surfaces joins them: it can't go in.
+                if comes_near && target.surface.nodes.binary_search(&node).is_err() {
+                    pass.candidates.push(pair.facet);
+                    pass.starts[pair.slave as usize + 1] += 1;
+                }
             }
             for i in 1..pass.starts.len() {
                 pass.starts[i] += pass.starts[i - 1];
@@ -204,9 +227,11 @@ impl Contact {
 
 impl Pass {
     /// Where slave `i` lies: on the chain that it came in through while it is inside, else by crossing and nearest feature of its candidates.
-    fn locate(&mut self, i: usize, node: u32, target: &Target, sweep: Sweep<'_>) -> Option<Projection> {
+    /// `at_start`: nothing is known of the past.
+    fn locate(&mut self, i: usize, node: u32, target: &Target, sweep: Sweep<'_>, at_start: bool) -> Option<Projection> {
         let (x_old, x) = (sweep.old[node as usize], sweep.new[node as usize]);
-        if self.memory[i] != NONE {
+        let was_inside = self.memory[i] != NONE;
+        if was_inside {
             let projection = target.follow(x, self.memory[i], sweep.new);
             if let Some(inside) = projection.filter(|projection| projection.gap < 0.0) {
                 self.memory[i] = inside.segment;
@@ -218,7 +243,9 @@ impl Pass {
         if candidates.is_empty() {
             return None;
         }
-        let entered = candidates
+        // Who just left may have been beyond a thin body: on its way back it goes through the far side, but does not come in there.
+        let outside = if was_inside { &[] } else { candidates };
+        let entered = outside
             .iter()
             .filter_map(|&segment| Some((target.crossing(x_old, x, segment, sweep.old, sweep.new)?, segment)))
             .reduce(|first, other| if other.0 < first.0 { other } else { first });
@@ -227,6 +254,11 @@ impl Pass {
             None => target.nearest(x, candidates, sweep.new),
         }?;
         if projection.gap < 0.0 {
+            // Who was outside can't be deeper than it moved: a node that seems to be is behind a side on which it did not come in.
+            let segment = target.surface.segments[projection.segment as usize];
+            if entered.is_none() && !at_start && -projection.gap > motion(node, segment, sweep) {
+                return None;
+            }
             self.memory[i] = projection.segment;
         }
         Some(projection)
@@ -234,6 +266,11 @@ impl Pass {
 }
 
 impl Reach {
+    /// Longest way of a node in the step, m: so far a spring must be seen ahead.
+    fn fastest(&self, sweep: Sweep<'_>) -> f64 {
+        self.nodes.iter().map(|&node| way(node, sweep)).fold(0.0, f64::max)
+    }
+
     /// Whether some node has moved by more than half the skin since the last search (or there was none).
     fn is_left(&self, positions: &[Vector]) -> bool {
         let limit = 0.25 * self.skin * self.skin;
@@ -245,6 +282,17 @@ impl Reach {
                 !(moved[0] * moved[0] + moved[1] * moved[1] <= limit)
             })
     }
+}
+
+/// Bound of how much a gap changes in the step, m.
+fn motion(node: u32, segment: [u32; 2], sweep: Sweep<'_>) -> f64 {
+    way(node, sweep) + way(segment[0], sweep).max(way(segment[1], sweep))
+}
+
+/// Bound of how far a node moves in the step, m.
+fn way(node: u32, sweep: Sweep<'_>) -> f64 {
+    let (a, b) = (sweep.old[node as usize], sweep.new[node as usize]);
+    (b[0] - a[0]).abs() + (b[1] - a[1]).abs()
 }
 
 fn length(segment: [u32; 2], positions: &[Vector]) -> f64 {

@@ -15,10 +15,11 @@ pub struct Held<const D: usize> {
 impl<const D: usize> Held<D> {
     /// Adds a direction; `Err` holds the velocity that the earlier directions already prescribe along it.
     fn add(&mut self, direction: [f64; D], velocity: f64) -> Result<(), f64> {
-        let (mut rest, mut speed) = (direction, velocity);
+        let (mut rest, mut speed, mut largest) = (direction, velocity, velocity.abs());
         for (held, held_speed) in &self.directions {
             let along: f64 = (0..D).map(|d| held[d] * direction[d]).sum();
             speed -= along * held_speed;
+            largest = largest.max(held_speed.abs());
             for d in 0..D {
                 rest[d] -= along * held[d];
             }
@@ -27,7 +28,7 @@ impl<const D: usize> Held<D> {
         if length > 1e-9 {
             self.directions.push((rest.map(|r| r / length), speed / length));
             Ok(())
-        } else if speed.abs() <= 1e-9 * velocity.abs() {
+        } else if speed.abs() <= 1e-9 * largest {
             Ok(())
         } else {
             Err(velocity - speed)
@@ -66,8 +67,17 @@ pub struct Constraints<const D: usize> {
     /// Index into `held` per node; `u32::MAX`: free. Empty when nothing is held.
     index: Vec<u32>,
     held: Vec<Held<D>>,
-    /// Symmetry normals of each node on a symmetry line, (node, normal), ascending.
-    pub mirrors: Vec<(u32, [f64; D])>,
+    /// Nodes on symmetry lines, ascending.
+    mirrors: Vec<Mirror<D>>,
+}
+
+/// A node on a symmetry line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Mirror<const D: usize> {
+    node: u32,
+    /// Number of the symmetry: two lines can have the same normal.
+    line: usize,
+    normal: [f64; D],
 }
 
 /// Nodes nearer to a symmetry line than this fraction of the model's size lie on it.
@@ -97,11 +107,11 @@ impl Constraints<2> {
                 ));
             }
             for node in nodes {
-                result.mirrors.push((node, normal));
+                result.mirrors.push(Mirror { node, line: i, normal });
                 result.hold(node, normal, 0.0, &path, mesh, &mut faults);
             }
         }
-        result.mirrors.sort_by_key(|&(node, _)| node);
+        result.mirrors.sort_by_key(|mirror| mirror.node);
         for (i, constraint) in model.constraints.iter().enumerate() {
             let path = format!("constraint[{i}]");
             let Some(nodes) = mesh.nodes(&constraint.on) else {
@@ -160,14 +170,26 @@ impl<const D: usize> Constraints<D> {
 
     /// Normals of the symmetry lines that `node` lies on.
     pub fn mirror_normals(&self, node: u32) -> impl Iterator<Item = [f64; D]> {
-        let start = self.mirrors.partition_point(|&(n, _)| n < node);
-        self.mirrors[start..].iter().take_while(move |&&(n, _)| n == node).map(|&(_, normal)| normal)
+        self.mirrors_of(node).map(|mirror| mirror.normal)
+    }
+
+    fn mirrors_of(&self, node: u32) -> impl Iterator<Item = &Mirror<D>> {
+        let start = self.mirrors.partition_point(|mirror| mirror.node < node);
+        self.mirrors[start..].iter().take_while(move |mirror| mirror.node == node)
+    }
+
+    /// Part of a node that belongs to the model: a half on a symmetry line, a quarter where two lines meet.
+    #[must_use]
+    pub fn share(&self, node: u32) -> f64 {
+        let Some(first) = self.mirror_normals(node).next() else { return 1.0 };
+        let along = |normal: [f64; D]| (0..D).map(|d| first[d] * normal[d]).sum::<f64>().abs();
+        if self.mirror_normals(node).any(|normal| along(normal) < 1.0 - 1e-9) { 0.25 } else { 0.5 }
     }
 
     /// Whether both nodes lie on the same symmetry line.
     #[must_use]
     pub fn is_mirror(&self, segment: [u32; 2]) -> bool {
-        self.mirror_normals(segment[0]).any(|a| self.mirror_normals(segment[1]).any(|b| (0..D).all(|d| a[d] == b[d])))
+        self.mirrors_of(segment[0]).any(|a| self.mirrors_of(segment[1]).any(|b| a.line == b.line))
     }
 }
 

@@ -210,6 +210,14 @@ impl Mesh<2> {
         self.points.get(name).cloned()
     }
 
+    /// Outside of some parts together (all when `parts` is empty): an edge between two of them is inside.
+    ///
+    /// # Errors
+    /// A fault without path when elements overlap.
+    pub fn outside(&self, parts: &[String]) -> Result<Surface, Fault> {
+        Surface::outside(self.parts.iter().filter(|part| parts.is_empty() || parts.contains(&part.name)).flat_map(PartMesh::cells))
+    }
+
     /// Surface of a part (its whole outside), a `part.side` or a one-dimensional group, without the segments that `leave_out` names (those on
     /// a symmetry line, which are no outside of the whole body).
     ///

@@ -3,6 +3,9 @@
 #![allow(clippy::unwrap_used, unreachable_pub)]
 
 mod bars;
+mod bodies;
+mod conditions;
+mod contact;
 mod models;
 mod projection;
 mod search;

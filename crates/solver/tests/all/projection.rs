@@ -235,6 +235,29 @@ fn a_node_that_crosses_a_plate_within_one_step_is_found_at_any_speed() {
 }
 
 #[test]
+fn a_node_far_below_a_thin_plate_is_not_led_around_its_rounded_tip() {
+    // Thickness 0.01, a half circle of eight facets at the right end: no sharp edge anywhere near.
+    let mut points = vec![[0.0, 0.01], [0.5, 0.01], [0.9, 0.01]];
+    points.extend((0..=8).map(|k| {
+        let (s, c) = (std::f64::consts::PI * f64::from(k) / 8.0).sin_cos();
+        [1.0 + 0.005 * s, 0.005 + 0.005 * c]
+    }));
+    points.extend([[0.9, 0.0], [0.5, 0.0], [0.0, 0.0]]);
+    let target = chain(&points, true);
+    for depth in [0.03, 0.1, 0.3] {
+        for x in [0.95, 0.98, 0.995] {
+            let to = [x, 0.01 - depth];
+            let (_, segment) = entry(&target, [x, 0.02], to, &points, &points).unwrap();
+            let inside = target.follow(to, segment, &points).unwrap();
+            assert!((inside.gap + depth).abs() < 1e-12 && inside.normal[1] == 1.0, "{x} {depth}: {inside:?}");
+        }
+    }
+    // Within the thickness the nearest facet of something round decides.
+    let near = target.follow([1.004, 0.005], 2, &points).unwrap();
+    assert!(near.gap < 0.0 && near.gap > -0.0015 && near.normal[0] > 0.9, "{near:?}");
+}
+
+#[test]
 fn a_plate_that_moves_and_turns_over_a_node_finds_it() {
     let (target, old) = plate(4, 0.01);
     // Through 0.3 rad about (2, 0) while it rises by 0.5: ten or more thicknesses wherever the node is.

@@ -4,7 +4,7 @@
 //! κ = (K + 4µ/3) L / A of the elements under the surface (modulus over element height) times the tributary length, the softer of both
 //! bodies; half of it in a double pass, where both passes act.
 
-use super::ContactLawKind;
+use super::{ContactLawKind, Node};
 use crate::model::Penalty;
 use crate::quantity::{Dimension, Parameter, Range};
 
@@ -33,14 +33,13 @@ pub const KIND: ContactLawKind = ContactLawKind {
     ],
 };
 
-/// Spring stiffness of a slave node, N/m per metre of depth.
-///
-/// `tributary` is its length (m), `slave` and `target` the pressure stiffness κ (Pa/m) of the elements under both surfaces, `passes` 1 or 2.
+/// Spring stiffness of a slave node, N/m per metre of depth; `passes` 1 or 2.
 #[must_use]
-pub fn stiffness(penalty: Penalty, tributary: f64, slave: f64, target: f64, passes: usize) -> f64 {
+pub fn stiffness(penalty: Penalty, node: Node, passes: usize) -> f64 {
     match penalty {
-        Penalty::PerNode(stiffness) => stiffness,
-        Penalty::Pressure(pressure) => pressure * tributary,
-        Penalty::Automatic { scale } => scale * tributary * slave.min(target) / passes as f64,
+        Penalty::PerNode(stiffness) => stiffness * node.share,
+        // Tributary lengths end at the symmetry line already.
+        Penalty::Pressure(pressure) => pressure * node.tributary,
+        Penalty::Automatic { scale } => scale * node.tributary * node.own.min(node.other) / passes as f64,
     }
 }

@@ -272,3 +272,44 @@ fn unit(v: Vector, otherwise: Vector) -> Vector {
     let length = dot(v, v).sqrt();
     if length > 0.0 { [v[0] / length, v[1] / length] } else { otherwise }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// Winding number of a lattice triangle around the origin; `None` when that lies on it.
+    fn winding(triangle: &[[i32; 2]; 3]) -> Option<i32> {
+        let turns: Vec<i32> = (0..3)
+            .map(|i| {
+                let (a, b) = (triangle[i], triangle[(i + 1) % 3]);
+                (a[0] * b[1] - a[1] * b[0]).signum()
+            })
+            .collect();
+        let on = (0..3).any(|i| {
+            let (a, b) = (triangle[i], triangle[(i + 1) % 3]);
+            turns[i] == 0 && a[0] * b[0] + a[1] * b[1] <= 0
+        });
+        (!on).then(|| if turns.iter().all(|&turn| turn == turns[0]) { turns[0] } else { 0 })
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 20_000, failure_persistence: None, ..ProptestConfig::default() })]
+
+        #[test]
+        fn exits_through_the_sides_of_a_triangle_sum_up_to_the_change_of_its_winding(
+            corners in prop::collection::vec(prop::array::uniform2(-5..=5_i32), 6),
+        ) {
+            let of = |i: usize| [corners[i], corners[i + 1], corners[i + 2]];
+            if let (Some(before), Some(after)) = (winding(&of(0)), winding(&of(3))) {
+                // Ways through the origin and sides along the ray are common here; the scale makes products round.
+                let real = |i: usize| corners[i].map(|c| f64::from(c) * 0.1);
+                let sum: i32 = (0..3).map(|i| {
+                    let j = (i + 1) % 3;
+                    net_exits([real(i), real(j), real(3 + i), real(3 + j)])
+                }).sum();
+                prop_assert_eq!(sum, after - before, "{:?}", corners);
+            }
+        }
+    }
+}

@@ -1,0 +1,161 @@
+//! Models in code for the tests: short words for bodies, contacts and runs.
+#![allow(clippy::unwrap_used)] // what tests call may stop a test like the tests themselves
+
+use embate_solver::model::{Contact, ImportedMesh, Material, MeshGroup, Model, Part, Probe, ProbeAt, Run, Shape};
+use embate_solver::output::Frame;
+use embate_solver::simulation::{Control, Observer, ObserverError, Options, Progress, Simulation};
+use std::sync::Arc;
+
+/// Elastic with Poisson's ratio 0.3.
+pub(crate) fn elastic(young: f64, density: f64) -> Material {
+    let parameters = [("young", young), ("poisson", 0.3), ("density", density)];
+    Material { law: "elastic".into(), parameters: parameters.map(|(key, value)| (key.to_string(), value)).into() }
+}
+
+/// A model without bodies and a material `soft` with a sound speed of 1160 m/s.
+pub(crate) fn model(end: f64) -> Model {
+    let mut model = Model { run: Run { end, ..Run::default() }, ..Model::default() };
+    model.materials.insert("soft".into(), elastic(1e9, 1e3));
+    model.output.pictures = false;
+    model
+}
+
+pub(crate) fn rectangle(corner: [f64; 2], size: [f64; 2], elements: [usize; 2]) -> Shape {
+    Shape::Rectangle { corner, size, elements }
+}
+
+/// A small block.
+pub(crate) fn mapped_rectangle() -> Shape {
+    rectangle([0.0, 0.0], [0.08, 0.05], [5, 4])
+}
+
+/// Adds a body with a probe of its mean position and velocity.
+pub(crate) fn add(model: &mut Model, name: &str, shape: Shape, velocity: [f64; 2]) {
+    model.parts.push(Part { name: name.into(), material: "soft".into(), element: "quad4".into(), shape, velocity });
+    model.probes.push(Probe { name: name.into(), at: ProbeAt::Set { set: name.into() } });
+}
+
+pub(crate) fn probe(model: &mut Model, name: &str, part: &str, point: [f64; 2]) {
+    model.probes.push(Probe { name: name.into(), at: ProbeAt::Point { part: part.into(), point } });
+}
+
+pub(crate) fn touch(model: &mut Model, first: &str, second: &str) {
+    let name = format!("{first}-{second}").replace('.', "_");
+    model.contacts.push(Contact { name, between: [first.into(), second.into()], ..Contact::default() });
+}
+
+pub(crate) fn group(name: &str, dimension: u8, cells: impl Iterator<Item = Vec<u32>>) -> MeshGroup {
+    MeshGroup { name: name.into(), dimension, cells: cells.collect() }
+}
+
+/// Image of a grid on the unit square, as a mesh with the group `body`.
+pub(crate) fn mapped([nu, nv]: [usize; 2], place: impl Fn(f64, f64) -> [f64; 2]) -> ImportedMesh {
+    let positions = (0..=nv).flat_map(|j| (0..=nu).map(move |i| (i as f64 / nu as f64, j as f64 / nv as f64)));
+    let at = |i: usize, j: usize| (j * (nu + 1) + i) as u32;
+    let cells = (0..nv).flat_map(|j| (0..nu).map(move |i| vec![at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]));
+    let groups = vec![group("body", 2, cells)];
+    ImportedMesh { source: "test".into(), positions: positions.map(|(u, v)| place(u, v)).collect(), groups }
+}
+
+/// Image of a grid that closes in its second direction: u around from 0 to 1, v through the wall.
+pub(crate) fn closed_ring([through, around]: [usize; 2], place: impl Fn(f64, f64) -> [f64; 2]) -> ImportedMesh {
+    let positions = (0..around).flat_map(|j| (0..=through).map(move |i| (j as f64 / around as f64, i as f64 / through as f64)));
+    let at = |i: usize, j: usize| (j % around * (through + 1) + i) as u32;
+    let cells = (0..around).flat_map(|j| (0..through).map(move |i| vec![at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]));
+    let groups = vec![group("body", 2, cells)];
+    ImportedMesh { source: "test".into(), positions: positions.map(|(u, v)| place(u, v)).collect(), groups }
+}
+
+/// Adds the body of a mesh.
+pub(crate) fn add_mesh(model: &mut Model, name: &str, mesh: ImportedMesh, velocity: [f64; 2]) {
+    model.meshes.push(Arc::new(mesh));
+    let shape = Shape::Group { mesh: model.meshes.len() - 1, group: "body".into() };
+    add(model, name, shape, velocity);
+}
+
+/// Adds groups of a mesh as bodies of the same names that share nodes.
+pub(crate) fn add_groups(model: &mut Model, mesh: ImportedMesh, names: &[&str], velocity: [f64; 2]) {
+    model.meshes.push(Arc::new(mesh));
+    for name in names {
+        let shape = Shape::Group { mesh: model.meshes.len() - 1, group: (*name).into() };
+        add(model, name, shape, velocity);
+    }
+}
+
+/// Rows of a history by column name.
+pub(crate) struct History {
+    columns: Vec<String>,
+    rows: Vec<Vec<f64>>,
+}
+
+impl History {
+    pub(crate) fn column(&self, name: &str) -> Vec<f64> {
+        let at = self.columns.iter().position(|column| column == name).unwrap_or_else(|| panic!("{name}: {:?}", self.columns));
+        self.rows.iter().map(|row| row[at]).collect()
+    }
+    pub(crate) fn first(&self, name: &str) -> f64 {
+        self.column(name)[0]
+    }
+    pub(crate) fn last(&self, name: &str) -> f64 {
+        *self.column(name).last().unwrap()
+    }
+    pub(crate) fn largest(&self, name: &str) -> f64 {
+        self.column(name).into_iter().fold(f64::NEG_INFINITY, f64::max)
+    }
+}
+
+impl Observer for History {
+    fn frame(&mut self, _: &Frame<2>) -> Result<(), ObserverError> {
+        Ok(())
+    }
+    fn row(&mut self, row: &[f64]) -> Result<(), ObserverError> {
+        self.rows.push(row.to_vec());
+        Ok(())
+    }
+    fn progress(&mut self, _: &Progress<'_>) -> Control {
+        Control::Continue
+    }
+}
+
+/// One thread, best instruction set.
+pub(crate) fn simulation(model: &Model) -> Simulation {
+    Simulation::new(model, &Options { threads: 1, simd: None }).unwrap_or_else(|error| panic!("{error}"))
+}
+
+pub(crate) fn run(model: &Model) -> (Simulation, History) {
+    let mut simulation = simulation(model);
+    let mut history = History { columns: simulation.history_columns(), rows: vec![] };
+    simulation.run(&mut history).unwrap_or_else(|error| panic!("{error}"));
+    (simulation, history)
+}
+
+/// The history of every single step, and the mass of each part.
+pub(crate) struct Steps {
+    history: History,
+    pub(crate) masses: Vec<f64>,
+}
+
+pub(crate) fn every_step(model: &Model) -> Steps {
+    let mut simulation = simulation(model);
+    let mut history = History { columns: simulation.history_columns(), rows: vec![simulation.history_row()] };
+    while simulation.time() < model.run.end {
+        simulation.advance(f64::INFINITY, 1).unwrap_or_else(|error| panic!("{error}"));
+        history.rows.push(simulation.history_row());
+    }
+    Steps { history, masses: simulation.overview().parts.iter().map(|part| part.mass).collect() }
+}
+
+impl Steps {
+    pub(crate) fn column(&self, name: &str) -> Vec<f64> {
+        self.history.column(name)
+    }
+    /// Σ ½ (dt^n + dt^{n-1}) F^n; the force must be zero in the first and the last step.
+    pub(crate) fn impulse(&self, name: &str) -> f64 {
+        let (force, step) = (self.column(name), self.column("time_step"));
+        assert!(force[0] == 0.0 && force[force.len() - 1] == 0.0, "{name} acts at an end of the run");
+        (1..force.len()).map(|n| 0.5 * (step[n] + step[n - 1]) * force[n]).sum()
+    }
+    pub(crate) fn change(&self, name: &str) -> f64 {
+        self.history.last(name) - self.history.first(name)
+    }
+}

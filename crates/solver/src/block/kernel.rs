@@ -134,9 +134,9 @@ where
         self.forces(batch, at, &jacobians, &determinants, volume, &stresses);
 
         let element = &mut self.elements[batch];
-        let (mass, live) = (L::load(&element.mass, at), L::load(&element.live, at));
-        // dt² = (V / extent)² ρ / (K + 4µ/3) with ρ = m / V
-        let time_step_squared = volume * mass / (E::extent_squared(&x) * stresses.modulus);
+        let (mass, live) = (L::load(&element.mass_least, at), L::load(&element.live, at));
+        // dt² = h² ρ / (K + 4µ/3) with ρ = m / V, as if all corners were as heavy as the lightest
+        let time_step_squared = E::thickness_squared(&x, &determinants, volume) * mass / (volume * stresses.modulus);
         time_step_squared.store(&mut element.time_step_squared, at);
         let stored = match M::FAMILY {
             Family::Rate => L::load(&element.stored, at) + (stresses.stored - stresses.dissipated),

@@ -1,3 +1,8 @@
 //! Tests of the solver through its public face: contracts that every entry of a registry keeps.
 
+#![allow(clippy::unwrap_used)] // a test that meets nothing where something must be shall end there
+
+mod blocks;
+mod elements;
+mod patches;
 mod search;

@@ -29,6 +29,8 @@ pub trait SymmetricTensor<L: Lane>: Copy {
     fn trace(self) -> L;
     /// Double contraction A:B = Σ_ij A_ij B_ij.
     fn contract(self, other: Self) -> L;
+    /// Determinant.
+    fn determinant(self) -> L;
     /// Q T Qᵀ.
     #[must_use]
     fn rotated(self, rotation: &Self::Rotation) -> Self;
@@ -114,6 +116,12 @@ impl<L: Lane> SymmetricTensor<L> for Plane<L> {
     componentwise!(4);
 
     #[inline(always)]
+    fn determinant(self) -> L {
+        let [xx, yy, zz, xy] = self.0;
+        (xx * yy - xy * xy) * zz
+    }
+
+    #[inline(always)]
     fn rotated(self, rotation: &PlaneRotation<L>) -> Self {
         // σ' = σ + change, with the change written so that trace is kept to round-off: half difference and shear turn by 2θ.
         let [c, s] = rotation.0;
@@ -127,6 +135,12 @@ impl<L: Lane> SymmetricTensor<L> for Plane<L> {
 impl<L: Lane> SymmetricTensor<L> for Solid<L> {
     type Rotation = [[L; 3]; 3];
     componentwise!(6);
+
+    #[inline(always)]
+    fn determinant(self) -> L {
+        let [xx, yy, zz, xy, yz, zx] = self.0;
+        xx * (yy * zz - yz * yz) + xy * (yz * zx - xy * zz) + zx * (xy * yz - yy * zx)
+    }
 
     #[inline(always)]
     fn rotated(self, q: &[[L; 3]; 3]) -> Self {
@@ -255,6 +269,7 @@ mod tests {
             assert!((p[c] - s[c]).abs() < 1e-15, "{c}");
         }
         assert!(s[4].abs() + s[5].abs() < 1e-15);
+        assert_eq!((plane.determinant(), solid.determinant()), (-3.5, -3.5));
     }
 
     #[test]
@@ -263,6 +278,7 @@ mod tests {
         let r = t.rotated(&rotation_matrix(0, 0.3)).rotated(&rotation_matrix(1, -1.3));
         assert!((t.trace() - r.trace()).abs() < 1e-14);
         assert!((t.contract(t) - r.contract(r)).abs() < 1e-13);
+        assert!((t.determinant() - r.determinant()).abs() < 1e-13);
         assert!(t.deviator().trace().abs() < 1e-15);
     }
 

@@ -4,5 +4,6 @@
 
 mod blocks;
 mod elements;
+mod materials;
 mod patches;
 mod search;

@@ -107,9 +107,18 @@ macro_rules! componentwise {
     };
 }
 
-/// Rotation in the plane by an angle: [cos, sin].
+/// Rotation in the plane by an angle θ, as a symmetric tensor feels it: [cos 2θ, sin 2θ].
 #[derive(Clone, Copy, Debug)]
 pub struct PlaneRotation<L>(pub [L; 2]);
+
+impl<L: Lane> PlaneRotation<L> {
+    /// From cos θ and sin θ.
+    #[inline(always)]
+    pub fn new(cos: L, sin: L) -> Self {
+        let twice = sin + sin;
+        Self([L::splat(1.0) - sin * twice, cos * twice])
+    }
+}
 
 impl<L: Lane> SymmetricTensor<L> for Plane<L> {
     type Rotation = PlaneRotation<L>;
@@ -123,12 +132,12 @@ impl<L: Lane> SymmetricTensor<L> for Plane<L> {
 
     #[inline(always)]
     fn rotated(self, rotation: &PlaneRotation<L>) -> Self {
-        // σ' = σ + change, with the change written so that trace is kept to round-off: half difference and shear turn by 2θ.
+        // The sum stays; half difference and shear turn by 2θ.
         let [c, s] = rotation.0;
         let [xx, yy, zz, xy] = self.0;
-        let (cc, ss, cs) = (c * c, s * s, c * s);
-        let two = cs * (xy + xy);
-        Self([xx * cc + yy * ss - two, xx * ss + yy * cc + two, zz, cs * (xx - yy) + xy * (cc - ss)])
+        let difference = (xx - yy) * L::splat(0.5);
+        let change = (difference * c - xy * s) - difference;
+        Self([xx + change, yy - change, zz, difference * s + xy * c])
     }
 }
 
@@ -198,8 +207,9 @@ pub trait Space<const D: usize> {
     /// Symmetric part of a displacement gradient: the strain increment.
     fn symmetric<L: Lane>(gradient: &Matrix<L, D>) -> Self::Tensor<L>;
     /// Hughes and Winget's rotation (I − ½W)⁻¹ (I + ½W) of the skew part W of a displacement gradient taken in the mid-step
-    /// configuration; exact (and the strain increment zero) for a rigid rotation. Hughes and Winget 1980, eq. (15).
-    fn rotation<L: Lane>(gradient: &Matrix<L, D>) -> <Self::Tensor<L> as SymmetricTensor<L>>::Rotation;
+    /// configuration, [half of it, all of it]; exact (and the strain increment zero) for a rigid rotation. Half of it turns the mid-step
+    /// strain increment to the end of the step. Hughes and Winget 1980, eq. (15).
+    fn rotations<L: Lane>(gradient: &Matrix<L, D>) -> [<Self::Tensor<L> as SymmetricTensor<L>>::Rotation; 2];
     /// `scale` F Fᵀ, out-of-plane component `scale` in the plane.
     fn left_cauchy_green<L: Lane>(f: &Matrix<L, D>, scale: L) -> Self::Tensor<L>;
     /// T Aᵀ with the in-space part of T: `flux[i][k] = Σ_j T_ij A_kj`.
@@ -226,12 +236,14 @@ impl Space<2> for Dim<2> {
         Plane([g[0][0], g[1][1], L::splat(0.0), (g[0][1] + g[1][0]) * L::splat(0.5)])
     }
     #[inline(always)]
-    fn rotation<L: Lane>(g: &Matrix<L, 2>) -> PlaneRotation<L> {
+    fn rotations<L: Lane>(g: &Matrix<L, 2>) -> [PlaneRotation<L>; 2] {
         // tan(θ/2) = ω/2 with ω = ½(g_yx − g_xy)
         let half = (g[1][0] - g[0][1]) * L::splat(0.25);
         let square = half * half;
         let inverse = L::splat(1.0) / (L::splat(1.0) + square);
-        PlaneRotation([(L::splat(1.0) - square) * inverse, (half + half) * inverse])
+        let (cos, sin) = ((L::splat(1.0) - square) * inverse, (half + half) * inverse);
+        // A tensor feels twice the angle: half the rotation is θ to it.
+        [PlaneRotation([cos, sin]), PlaneRotation::new(cos, sin)]
     }
     #[inline(always)]
     fn left_cauchy_green<L: Lane>(f: &Matrix<L, 2>, scale: L) -> Plane<L> {
@@ -263,7 +275,7 @@ mod tests {
         let plane = Plane([3.0, -1.0, 0.5, 2.0]);
         let solid = Solid([3.0, -1.0, 0.5, 2.0, 0.0, 0.0]);
         let angle = 0.7f64;
-        let p = plane.rotated(&PlaneRotation([angle.cos(), angle.sin()])).0;
+        let p = plane.rotated(&PlaneRotation::new(angle.cos(), angle.sin())).0;
         let s = solid.rotated(&rotation_matrix(2, angle)).0;
         for c in 0..4 {
             assert!((p[c] - s[c]).abs() < 1e-15, "{c}");
@@ -294,8 +306,11 @@ mod tests {
         let gradient = product(&step, &inverse);
         let strain = Dim::<2>::symmetric(&gradient);
         assert!(strain.contract(strain) < 1e-31);
-        let PlaneRotation([cos, sin]) = Dim::<2>::rotation(&gradient);
+        let [PlaneRotation(half), PlaneRotation(whole)] = Dim::<2>::rotations(&gradient);
         // tan(θ/2) = half the spin: the mid-step spin of a rotation by θ is 2 tan(θ/2)
-        assert!((cos - c).abs() < 1e-15 && (sin - s).abs() < 1e-15);
+        for (rotation, angle) in [(half, 0.5 * angle), (whole, angle)] {
+            let (s, c) = (2.0 * angle).sin_cos();
+            assert!((rotation[0] - c).abs() < 1e-15 && (rotation[1] - s).abs() < 1e-15);
+        }
     }
 }

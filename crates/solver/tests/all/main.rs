@@ -6,4 +6,5 @@ mod blocks;
 mod elements;
 mod materials;
 mod patches;
+mod plasticity;
 mod search;

@@ -26,7 +26,7 @@ impl Shown for Plane<f64> {
         [[xx, xy, 0.0], [xy, yy, 0.0], [0.0, 0.0, zz]]
     }
     fn rotation(q: &Full) -> PlaneRotation<f64> {
-        PlaneRotation([q[0][0], q[1][0]])
+        PlaneRotation::new(q[0][0], q[1][0])
     }
 }
 

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used)] // a test that meets nothing where something must be shall end there
 
 mod blocks;
+mod bodies;
 mod elements;
 mod materials;
 mod patches;

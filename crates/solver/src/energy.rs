@@ -1,8 +1,9 @@
 //! The ledger: what every force took and gave (an identity that must close), and what is found in the stores (the energy drift).
 //!
 //! Momentum update times mean velocity: Δ ½Σ m|v^{n+1/2}|² = Σ_k ½(dt^n + dt^{n-1}) f_k^n · v̄^n for every kind k of force. The residual of this
-//! sum is round-off or a bug. The drift compares energies at the whole step n: kinetic energy ½ Σ m v^{n-1/2}·v^{n+1/2} (which makes the sum exactly
-//! constant for linear springs and a constant step), stored, dissipated and contact spring energy, less what came from outside.
+//! sum is round-off or a bug. The drift compares energies at the whole step n: kinetic energy ½ Σ m v^{n-1/2}·v^{n+1/2}, stored, dissipated and
+//! contact spring energy, less what came from outside by the trapezoidal rule in the displacement, Σ f·½(x^{n+1} − x^{n-1}). For linear springs, dead
+//! loads and a constant step this is exactly constant, from time zero on; there the velocity v^{-1/2} is the mirror image 2v⁰ − v^{1/2}.
 
 /// Works of one step by kind of force, J/m; each is force times mean velocity times ½(dt + dt_old).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -71,9 +72,11 @@ pub struct Ledger {
     pub works: Works,
     /// External work until the last whole step, J/m.
     pub external: f64,
+    /// External work until the last half step, J/m.
+    external_half: f64,
     /// Stores at the last whole step.
     pub stores: Stores,
-    /// Largest total energy so far, J/m.
+    /// Largest total energy so far, J/m; at least that of round-off.
     pub largest: f64,
     /// Largest residual of the identity so far, J/m.
     residual: f64,
@@ -88,26 +91,37 @@ pub struct Entry {
     pub kinetic_half: f64,
     /// Works of the update from v^{n-1/2} to v^{n+1/2}.
     pub works: Works,
-    /// Part of the update that lies before the whole step: dt^{n-1} / (dt^{n-1} + dt^n).
+    /// Impulses from outside times v^{n-1/2} instead of the mean velocity, J/m.
+    pub external_old: f64,
+    /// Part of the update that lies before the whole step: dt^{n-1} / (dt^{n-1} + dt^n); zero at time zero only.
     pub before: f64,
-    /// Stores at the whole step n, kinetic energy as ½ Σ m v^{n-1/2}·v^{n+1/2}.
+    /// Stores at the whole step n, kinetic energy as ½ Σ m v^{n-1/2}·v^{n+1/2}, at time zero as ½ Σ m v⁰·v^{1/2}.
     pub stores: Stores,
 }
 
 impl Ledger {
-    /// Books that begin with `kinetic` energy, J/m.
+    /// Books that begin with `kinetic` energy, J/m. Drift and residual are fractions of the largest total energy, but at least of `round_off`, the
+    /// energy that rounded positions alone can bring: a body at rest must not seem to gain energy.
     #[must_use]
-    pub fn new(kinetic: f64) -> Self {
-        Self { kinetic_start: kinetic, largest: kinetic, ..Self::default() }
+    pub fn new(kinetic: f64, round_off: f64) -> Self {
+        Self { kinetic_start: kinetic, largest: kinetic.max(round_off), ..Self::default() }
     }
 
     /// Books a step.
     pub fn enter(&mut self, entry: &Entry) {
-        self.external = self.works.external() + entry.before * entry.works.external();
+        // The impulse's part before the whole step went with v^{n-1/2}, the part after it with v^{n+1/2}.
+        let external_new = 2.0 * entry.works.external() - entry.external_old;
+        self.external = self.external_half + entry.before * entry.external_old;
+        self.external_half = self.external + (1.0 - entry.before) * external_new;
         self.works.add(&entry.works);
         self.stores = entry.stores;
-        // Unequal steps: v^{n-1/2} and v^{n+1/2} lie at unequal distances from n; the shift is ½ (dt^n − dt^{n-1})/(dt^n + dt^{n-1}) ΣW.
-        self.stores.kinetic -= (0.5 - entry.before) * entry.works.total();
+        if entry.before > 0.0 {
+            // Unequal steps: v^{n-1/2} and v^{n+1/2} lie at unequal distances from n; the shift is ½ (dt^n − dt^{n-1})/(dt^n + dt^{n-1}) ΣW.
+            self.stores.kinetic -= (0.5 - entry.before) * entry.works.total();
+        } else {
+            // Time zero: ½ Σ m (2v⁰ − v^{1/2})·v^{1/2}.
+            self.stores.kinetic = 2.0 * entry.stores.kinetic - entry.kinetic_half;
+        }
         self.largest = self.largest.max(self.stores.total().abs());
         let start = *self.total_start.get_or_insert(self.stores.total() - self.external);
         // NaN must not hide behind max: it is caught before, by the kinetic energy.

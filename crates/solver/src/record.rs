@@ -67,10 +67,7 @@ impl Recorded {
         row.push(stores.total() - external);
         for ((part, block), report) in system.mesh.parts.iter().zip(&system.blocks).zip(&system.reports) {
             let n = part.nodes_per_element;
-            let corner = |(k, &node): (usize, &u32)| {
-                let (a, b) = (system.velocities_old[node as usize], system.velocities[node as usize]);
-                0.5 * block.corner_mass(k / n, k % n) * (a[0] * b[0] + a[1] * b[1])
-            };
+            let corner = |(k, &node): (usize, &u32)| block.corner_mass(k / n, k % n) * system.specific_kinetic(node as usize);
             row.extend([part.connectivity.iter().enumerate().map(corner).sum(), report.stored + report.dissipated, report.dissipated]);
         }
         for contact in &system.contacts {
@@ -102,10 +99,10 @@ impl Recorded {
     }
 }
 
-/// Velocity at the whole step, m/s.
+/// Velocity at the whole step, m/s: v^{n-1/2} and v^{n+1/2} lie ½ dt^{n-1} before and ½ dt^n after it (v⁰ itself at time zero).
 fn velocity(system: &System, node: usize) -> Vector {
-    let (a, b) = (system.velocities_old[node], system.velocities[node]);
-    [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])]
+    let (a, b, before) = (system.velocities_old[node], system.velocities[node], system.before());
+    [a[0] + before * (b[0] - a[0]), a[1] + before * (b[1] - a[1])]
 }
 
 /// Values of one of [`FIELDS`], in the user's order.

@@ -29,6 +29,8 @@ pub trait SymmetricTensor<L: Lane>: Copy {
     fn trace(self) -> L;
     /// Double contraction A:B = Σ_ij A_ij B_ij.
     fn contract(self, other: Self) -> L;
+    /// Determinant.
+    fn determinant(self) -> L;
     /// Q T Qᵀ.
     #[must_use]
     fn rotated(self, rotation: &Self::Rotation) -> Self;
@@ -105,28 +107,49 @@ macro_rules! componentwise {
     };
 }
 
-/// Rotation in the plane by an angle: [cos, sin].
+/// Rotation in the plane by an angle θ, as a symmetric tensor feels it: [cos 2θ, sin 2θ].
 #[derive(Clone, Copy, Debug)]
 pub struct PlaneRotation<L>(pub [L; 2]);
+
+impl<L: Lane> PlaneRotation<L> {
+    /// From cos θ and sin θ.
+    #[inline(always)]
+    pub fn new(cos: L, sin: L) -> Self {
+        let twice = sin + sin;
+        Self([L::splat(1.0) - sin * twice, cos * twice])
+    }
+}
 
 impl<L: Lane> SymmetricTensor<L> for Plane<L> {
     type Rotation = PlaneRotation<L>;
     componentwise!(4);
 
     #[inline(always)]
+    fn determinant(self) -> L {
+        let [xx, yy, zz, xy] = self.0;
+        (xx * yy - xy * xy) * zz
+    }
+
+    #[inline(always)]
     fn rotated(self, rotation: &PlaneRotation<L>) -> Self {
-        // σ' = σ + change, with the change written so that trace is kept to round-off: half difference and shear turn by 2θ.
+        // The sum stays; half difference and shear turn by 2θ.
         let [c, s] = rotation.0;
         let [xx, yy, zz, xy] = self.0;
-        let (cc, ss, cs) = (c * c, s * s, c * s);
-        let two = cs * (xy + xy);
-        Self([xx * cc + yy * ss - two, xx * ss + yy * cc + two, zz, cs * (xx - yy) + xy * (cc - ss)])
+        let difference = (xx - yy) * L::splat(0.5);
+        let change = (difference * c - xy * s) - difference;
+        Self([xx + change, yy - change, zz, difference * s + xy * c])
     }
 }
 
 impl<L: Lane> SymmetricTensor<L> for Solid<L> {
     type Rotation = [[L; 3]; 3];
     componentwise!(6);
+
+    #[inline(always)]
+    fn determinant(self) -> L {
+        let [xx, yy, zz, xy, yz, zx] = self.0;
+        xx * (yy * zz - yz * yz) + xy * (yz * zx - xy * zz) + zx * (xy * yz - yy * zx)
+    }
 
     #[inline(always)]
     fn rotated(self, q: &[[L; 3]; 3]) -> Self {
@@ -184,8 +207,9 @@ pub trait Space<const D: usize> {
     /// Symmetric part of a displacement gradient: the strain increment.
     fn symmetric<L: Lane>(gradient: &Matrix<L, D>) -> Self::Tensor<L>;
     /// Hughes and Winget's rotation (I − ½W)⁻¹ (I + ½W) of the skew part W of a displacement gradient taken in the mid-step
-    /// configuration; exact (and the strain increment zero) for a rigid rotation. Hughes and Winget 1980.
-    fn rotation<L: Lane>(gradient: &Matrix<L, D>) -> <Self::Tensor<L> as SymmetricTensor<L>>::Rotation;
+    /// configuration, [half of it, all of it]; exact (and the strain increment zero) for a rigid rotation. Half of it turns the mid-step
+    /// strain increment to the end of the step. Hughes and Winget 1980.
+    fn rotations<L: Lane>(gradient: &Matrix<L, D>) -> [<Self::Tensor<L> as SymmetricTensor<L>>::Rotation; 2];
     /// `scale` F Fᵀ, out-of-plane component `scale` in the plane.
     fn left_cauchy_green<L: Lane>(f: &Matrix<L, D>, scale: L) -> Self::Tensor<L>;
     /// T Aᵀ with the in-space part of T: `flux[i][k] = Σ_j T_ij A_kj`.
@@ -212,12 +236,14 @@ impl Space<2> for Dim<2> {
         Plane([g[0][0], g[1][1], L::splat(0.0), (g[0][1] + g[1][0]) * L::splat(0.5)])
     }
     #[inline(always)]
-    fn rotation<L: Lane>(g: &Matrix<L, 2>) -> PlaneRotation<L> {
+    fn rotations<L: Lane>(g: &Matrix<L, 2>) -> [PlaneRotation<L>; 2] {
         // tan(θ/2) = ω/2 with ω = ½(g_yx − g_xy)
         let half = (g[1][0] - g[0][1]) * L::splat(0.25);
         let square = half * half;
         let inverse = L::splat(1.0) / (L::splat(1.0) + square);
-        PlaneRotation([(L::splat(1.0) - square) * inverse, (half + half) * inverse])
+        let (cos, sin) = ((L::splat(1.0) - square) * inverse, (half + half) * inverse);
+        // A tensor feels twice the angle: half the rotation is θ to it.
+        [PlaneRotation([cos, sin]), PlaneRotation::new(cos, sin)]
     }
     #[inline(always)]
     fn left_cauchy_green<L: Lane>(f: &Matrix<L, 2>, scale: L) -> Plane<L> {
@@ -249,12 +275,13 @@ mod tests {
         let plane = Plane([3.0, -1.0, 0.5, 2.0]);
         let solid = Solid([3.0, -1.0, 0.5, 2.0, 0.0, 0.0]);
         let angle = 0.7f64;
-        let p = plane.rotated(&PlaneRotation([angle.cos(), angle.sin()])).0;
+        let p = plane.rotated(&PlaneRotation::new(angle.cos(), angle.sin())).0;
         let s = solid.rotated(&rotation_matrix(2, angle)).0;
         for c in 0..4 {
             assert!((p[c] - s[c]).abs() < 1e-15, "{c}");
         }
         assert!(s[4].abs() + s[5].abs() < 1e-15);
+        assert_eq!((plane.determinant(), solid.determinant()), (-3.5, -3.5));
     }
 
     #[test]
@@ -263,6 +290,7 @@ mod tests {
         let r = t.rotated(&rotation_matrix(0, 0.3)).rotated(&rotation_matrix(1, -1.3));
         assert!((t.trace() - r.trace()).abs() < 1e-14);
         assert!((t.contract(t) - r.contract(r)).abs() < 1e-13);
+        assert!((t.determinant() - r.determinant()).abs() < 1e-13);
         assert!(t.deviator().trace().abs() < 1e-15);
     }
 
@@ -278,8 +306,11 @@ mod tests {
         let gradient = product(&step, &inverse);
         let strain = Dim::<2>::symmetric(&gradient);
         assert!(strain.contract(strain) < 1e-31);
-        let PlaneRotation([cos, sin]) = Dim::<2>::rotation(&gradient);
+        let [PlaneRotation(half), PlaneRotation(whole)] = Dim::<2>::rotations(&gradient);
         // tan(θ/2) = half the spin: the mid-step spin of a rotation by θ is 2 tan(θ/2)
-        assert!((cos - c).abs() < 1e-15 && (sin - s).abs() < 1e-15);
+        for (rotation, angle) in [(half, 0.5 * angle), (whole, angle)] {
+            let (s, c) = (2.0 * angle).sin_cos();
+            assert!((rotation[0] - c).abs() < 1e-15 && (rotation[1] - s).abs() < 1e-15);
+        }
     }
 }

@@ -5,8 +5,8 @@ use embate_lanes::{BATCH, Batch};
 /// What belongs to a batch of eight elements and does not depend on the law's number of values.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct ElementBatch {
-    /// Mass of each element; of a filled-up lane that of its original.
-    pub(crate) mass: Batch,
+    /// Smallest corner mass of each element times its corners: the mass in the stable step, which holds for any later form of the element.
+    pub(crate) mass_least: Batch,
     /// 1 for an element, 0 for a lane that only fills the batch up.
     pub(crate) live: Batch,
     /// Stored elastic energy of each element, J/m.

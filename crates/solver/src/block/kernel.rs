@@ -1,7 +1,7 @@
 //! The element kernel: gather, strain, stress, corner forces; one text for every element, law, dimension and instruction set.
 //!
-//! Rate laws: the displacement increment's gradient is taken in the mid-step configuration (second order; zero strain for a rigid
-//! rotation), forces in the end-of-step configuration. Hyperelastic laws: F from the stored inverse of the initial Jacobian.
+//! Rate laws: the displacement increment's gradient is taken in the mid-step configuration (zero strain for a rigid rotation) and turned
+//! to the end of the step by half the step's rotation (second order), forces in the end-of-step configuration. Hyperelastic laws: F from the stored inverse of the initial Jacobian.
 //! With mean dilatation (B-bar) the volumetric part of the strain and, consistently, of the force is averaged over the element:
 //! f_a = Σ_p w_p (dev σ_p) adj(J_p) ∇_ξ N_a + p̄ Σ_p adj(J_p) ∇_ξ N_a, which is the exact transpose of the averaged strain.
 
@@ -128,15 +128,15 @@ where
         }
 
         let stresses = match M::FAMILY {
-            Family::Rate => self.rate(batch, row, at, &x, &weights),
+            Family::Rate => self.rate(batch, row, at, &jacobians, &weights),
             Family::Hyperelastic => self.hyperelastic(batch, at, &jacobians, &determinants, volume, &weights),
         };
         self.forces(batch, at, &jacobians, &determinants, volume, &stresses);
 
         let element = &mut self.elements[batch];
-        let (mass, live) = (L::load(&element.mass, at), L::load(&element.live, at));
-        // dt² = (V / extent)² ρ / (K + 4µ/3) with ρ = m / V
-        let time_step_squared = volume * mass / (E::extent_squared(&x) * stresses.modulus);
+        let (mass, live) = (L::load(&element.mass_least, at), L::load(&element.live, at));
+        // dt² = h² ρ / (K + 4µ/3) with ρ = m / V, as if all corners were as heavy as the lightest
+        let time_step_squared = E::thickness_squared(&x, &determinants, volume) * mass / (volume * stresses.modulus);
         time_step_squared.store(&mut element.time_step_squared, at);
         let stored = match M::FAMILY {
             Family::Rate => L::load(&element.stored, at) + (stresses.stored - stresses.dissipated),
@@ -158,25 +158,40 @@ where
 
     /// Stresses of a rate law: strain increment and rotation from the mid-step configuration.
     #[inline(always)]
-    fn rate<L: Lane>(&mut self, batch: usize, row: usize, at: usize, x: &[[L; D]; N], weights: &[L; P]) -> Stresses<Tensor<D, L>, L, P> {
+    fn rate<L: Lane>(
+        &mut self,
+        batch: usize,
+        row: usize,
+        at: usize,
+        jacobians: &[Matrix<L, D>; P],
+        weights: &[L; P],
+    ) -> Stresses<Tensor<D, L>, L, P> {
         let (zero, half, third) = (L::splat(0.0), L::splat(0.5), L::splat(1.0 / 3.0));
         let dt = L::splat(self.motion.time_step);
-        let (mut step, mut middle) = ([[zero; D]; N], *x);
+        let mut step = [[zero; D]; N];
         for a in 0..N {
             step[a] = L::gather(self.motion.velocities, self.nodes, row + a, at);
             for i in 0..D {
                 step[a][i] = step[a][i] * dt;
-                middle[a][i] = middle[a][i] - step[a][i] * half;
             }
         }
-        let (jacobians, increments) = (E::gradients(&middle), E::gradients(&step));
+        let increments = E::gradients(&step);
+        // Positions at mid-step are x − ½ step, so the same holds for their gradients.
+        let mut middle = *jacobians;
+        for p in 0..P {
+            for i in 0..D {
+                for k in 0..D {
+                    middle[p][i][k] = middle[p][i][k] - increments[p][i][k] * half;
+                }
+            }
+        }
         let mut volumes = [zero; P];
         let mut gradients = increments;
         let (mut dilatation, mut volume) = (zero, zero);
         for p in 0..P {
-            let determinant = Dim::<D>::determinant(&jacobians[p]);
+            let determinant = Dim::<D>::determinant(&middle[p]);
             volumes[p] = determinant * weights[p];
-            let inverse = scaled(Dim::<D>::adjugate(&jacobians[p]), L::splat(1.0) / determinant);
+            let inverse = scaled(Dim::<D>::adjugate(&middle[p]), L::splat(1.0) / determinant);
             gradients[p] = product(&increments[p], &inverse);
             if E::MEAN_DILATATION {
                 dilatation += Dim::<D>::symmetric(&gradients[p]).trace() * volumes[p];
@@ -193,19 +208,22 @@ where
             Stresses { stress: [Tensor::<D, L>::isotropic(zero); P], weight: *weights, stored: zero, dissipated: zero, modulus: zero };
         for p in 0..P {
             let point = &mut points[p * width..(p + 1) * width];
-            let mut strain = Dim::<D>::symmetric(&gradients[p]);
+            let [half_way, rotation] = Dim::<D>::rotations(&gradients[p]);
+            let unturned = Dim::<D>::symmetric(&gradients[p]);
+            // Strain increment and old stress meet at the end of the step; without its half rotation the update is of first order only.
+            let mut strain = unturned.rotated(&half_way);
             if E::MEAN_DILATATION {
-                strain = strain.plus(Tensor::<D, L>::isotropic((dilatation - strain.trace()) * third));
+                strain = strain.plus(Tensor::<D, L>::isotropic((dilatation - unturned.trace()) * third));
             }
-            let rotation = Dim::<D>::rotation(&gradients[p]);
             let rotated = Tensor::<D, L>::load(point, at).rotated(&rotation);
             let kinematics =
                 Kinematics { strain_increment: strain, rotation, stress_rotated: rotated, left_cauchy_green: strain, volume_ratio: zero };
             let response = respond::<M, L, D>(self.law, &kinematics, &mut point[components..], at);
             response.stress.store(point, at);
             // Work of the stress over the step by the trapezoidal rule, as the nodal works of the ledger.
-            stresses.add(p, &response, rotated.plus(response.stress).contract(strain) * half * volumes[p], volumes[p]);
+            stresses.add(p, &response, rotated.plus(response.stress).contract(strain) * volumes[p], volumes[p]);
         }
+        stresses.stored = stresses.stored * half;
         stresses
     }
 
@@ -231,7 +249,7 @@ where
             volume_initial += volumes_initial[p];
         }
         let ratio_mean = volume / volume_initial;
-        let rotation: Rotation<D, L> = Dim::<D>::rotation(&[[zero; D]; D]);
+        let [_, rotation]: [Rotation<D, L>; 2] = Dim::<D>::rotations(&[[zero; D]; D]);
         let points = &mut self.points[batch * P * width..(batch + 1) * P * width];
         let mut stresses =
             Stresses { stress: [Tensor::<D, L>::isotropic(zero); P], weight: *weights, stored: zero, dissipated: zero, modulus: zero };
@@ -283,11 +301,10 @@ where
         }
         let mut flux = [[[zero; D]; D]; P];
         for p in 0..P {
-            let mut weighted = stresses.stress[p];
+            let mut weighted = stresses.stress[p].times(stresses.weight[p]);
             if E::MEAN_DILATATION {
-                weighted = weighted.deviator().times(stresses.weight[p]).plus(Tensor::<D, L>::isotropic(mean * L::splat(E::WEIGHTS[p])));
-            } else {
-                weighted = weighted.times(stresses.weight[p]);
+                let own = stresses.stress[p].trace() * L::splat(1.0 / 3.0) * stresses.weight[p];
+                weighted = weighted.plus(Tensor::<D, L>::isotropic(mean * L::splat(E::WEIGHTS[p]) - own));
             }
             flux[p] = Dim::<D>::flux(&weighted, &Dim::<D>::adjugate(&jacobians[p]));
         }

@@ -125,7 +125,8 @@ where
                 initial[D * D].0[lane] = point_volume;
             }
         }
-        self.elements[batch].mass.0[lane] = density * volume;
+        let least = (0..N).map(|a| self.corner_mass[batch * N + a].0[lane]).fold(f64::INFINITY, f64::min);
+        self.elements[batch].mass_least.0[lane] = N as f64 * least;
         self.elements[batch].live.0[lane] = if batch * BATCH + lane < self.count { 1.0 } else { 0.0 };
         self.volume_initial[batch].0[lane] = volume;
     }
@@ -182,7 +183,7 @@ where
     }
 
     fn mass(&self, element: usize) -> f64 {
-        self.elements[element / BATCH].mass.0[element % BATCH]
+        (0..N).map(|corner| self.corner_mass(element, corner)).sum()
     }
 
     fn corner_mass(&self, element: usize, corner: usize) -> f64 {

@@ -44,8 +44,9 @@ where
     fn gradients<L: Lane>(nodal: &[[L; D]; N]) -> [Matrix<L, D>; P];
     /// The transpose of [`Element::gradients`]: `out[a][i]` = Σ_p Σ_k flux_p,ik ∂N_a/∂ξ_k.
     fn divergence<L: Lane>(flux: &[Matrix<L, D>; P]) -> [[L; D]; N];
-    /// Square of the length that divides the volume to give the element's thickness in the stable step: the longest side or diagonal.
-    fn extent_squared<L: Lane>(nodal: &[[L; D]; N]) -> L;
+    /// Square of the element's thickness h, m²: dt = h / c is stable for waves of speed c when every corner has the mass share 1/N.
+    /// `determinants` are those of the Jacobian at the points, `volume` their weighted sum.
+    fn thickness_squared<L: Lane>(nodal: &[[L; D]; N], determinants: &[L; P], volume: L) -> L;
 }
 
 /// Someone who does something with every element's type.

@@ -66,14 +66,23 @@ fn distance_squared<L: Lane>(a: [L; 2], b: [L; 2]) -> L {
     dx * dx + dy * dy
 }
 
+/// h² = (V / ℓ)² (1 − q) / (1 + q/2), ℓ² = ½ (d₁₃² + d₂₄²) from the diagonals, q = (1 − 4 J_min / V)² from the smallest determinant at a point.
+///
+/// Parallelogram (q = 0): E = ½ uᵀKu splits into the linear modes and the bilinear one, which is three times softer. The linear part has two
+/// blocks, u_a = α ξ_a and u_a = β η_a; the largest eigenvalue of a positive matrix of blocks is at most the sum of those of its diagonal
+/// blocks, ρc² V |∇ξ|² / m and ρc² V |∇η|² / m (acoustic tensors of the two directions), and |∇ξ|² + |∇η|² = 4 ℓ² / V²: ω² ≤ 4 c² ℓ² / V².
+///
+/// Tapered: let the thickness grow along ξ as 1 + kξ. In a thin element only the stretch through the thickness counts, δ = ½(1−ξ) δ₁ + ½(1+ξ) δ₂
+/// with E ∝ Σ_p δ_p² / (1 + kξ_p), and ω² grows by (2 + √(1+k²)) / (3 − k²) ≤ (1 + q/2) / (1 − q), q = k²/3. Thicker elements and other forms
+/// stay below: k is the sum |j_ξ| + |j_η| of the determinant's relative slopes (`the_stable_step_bounds_the_largest_frequency` searches them all).
 #[inline(always)]
-fn extent_squared<L: Lane>(x: &[[L; 2]; 4]) -> L {
-    // Both diagonals and all four sides: in a dart-shaped element a side can be the longest.
-    let mut longest = distance_squared(x[0], x[2]).max(distance_squared(x[1], x[3]));
-    for a in 0..4 {
-        longest = longest.max(distance_squared(x[a], x[(a + 1) % 4]));
-    }
-    longest
+fn thickness_squared<L: Lane>(x: &[[L; 2]; 4], determinants: &[L; 4], volume: L) -> L {
+    let half = L::splat(0.5);
+    let extent = (distance_squared(x[0], x[2]) + distance_squared(x[1], x[3])) * half;
+    let least = determinants[0].min(determinants[1]).min(determinants[2].min(determinants[3]));
+    let taper = volume - least * L::splat(4.0);
+    let (square, taper) = (volume * volume, taper * taper);
+    square * (square - taper) / (extent * (square + taper * half))
 }
 
 macro_rules! quadrilateral {
@@ -101,8 +110,8 @@ macro_rules! quadrilateral {
                 divergence(flux)
             }
             #[inline(always)]
-            fn extent_squared<L: Lane>(nodal: &[[L; 2]; 4]) -> L {
-                extent_squared(nodal)
+            fn thickness_squared<L: Lane>(nodal: &[[L; 2]; 4], determinants: &[L; 4], volume: L) -> L {
+                thickness_squared(nodal, determinants, volume)
             }
         }
     };

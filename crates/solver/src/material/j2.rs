@@ -1,7 +1,7 @@
 //! J2 (von Mises) plasticity with linear isotropic hardening, rate form, radial return.
 //!
 //! Trial stress as in `elastic`; q = √(3/2 s:s). Where q > σ_y(ε_p) = σ_y0 + H ε_p:
-//! Δε_p = (q_trial − σ_y(ε_p)) / (3µ + H), s ← s (1 − 3µ Δε_p / q_trial), dissipation per volume q Δε_p.
+//! Δε_p = (q_trial − σ_y(ε_p)) / (3µ + H), s ← s (1 − 3µ Δε_p / q_trial), dissipation per volume ∫ σ_y dε_p = (σ_y(ε_p) + ½ H Δε_p) Δε_p.
 //! H is the plastic modulus dσ_y/dε_p, not the tangent modulus E_t = E H / (E + H).
 //! Source: Wilkins, Methods in Computational Physics 3 (1964); Simo and Hughes, Computational Inelasticity (1998), box 3.2.
 
@@ -60,8 +60,10 @@ impl Law for J2 {
     fn update<L: Lane, T: SymmetricTensor<L>>(&self, kinematics: &Kinematics<L, T>, state: &mut [L; 1]) -> Response<L, T> {
         let (bulk, shear, zero) = (L::splat(self.bulk), L::splat(self.shear), L::splat(0.0));
         let strain = kinematics.strain_increment;
-        let mean = kinematics.stress_rotated.trace() * L::splat(1.0 / 3.0) + bulk * strain.trace();
-        let trial = kinematics.stress_rotated.deviator().plus(strain.deviator().times(shear + shear));
+        let sum = kinematics.stress_rotated.plus(strain.times(shear + shear));
+        let third = sum.trace() * L::splat(1.0 / 3.0);
+        let mean = third + L::splat(self.bulk - 2.0 / 3.0 * self.shear) * strain.trace();
+        let trial = sum.plus(T::isotropic(-third));
         let square = trial.contract(trial) * L::splat(1.5);
         let flow = L::splat(self.yield_stress) + L::splat(self.hardening) * state[0];
         let yields = (flow * flow).less(square);
@@ -72,8 +74,7 @@ impl Law for J2 {
             let factor = L::select(yields, L::splat(1.0) - L::splat(3.0 * self.shear) * step / q, L::splat(1.0));
             deviator = trial.times(factor);
             state[0] += step;
-            // q at the end of the step is the new flow stress.
-            dissipated = (flow + L::splat(self.hardening) * step) * step;
+            dissipated = (flow + L::splat(0.5 * self.hardening) * step) * step;
         }
         Response { stress: deviator.plus(T::isotropic(mean)), stored: zero, dissipated, bulk, shear }
     }

@@ -42,7 +42,7 @@ pub enum Family {
 /// What the block tells a law about one point; only the measures of its family are set, the others are zero.
 #[derive(Clone, Copy, Debug)]
 pub struct Kinematics<L: Lane, T: SymmetricTensor<L>> {
-    /// Rate: Δε, symmetric part of the displacement increment's gradient in the mid-step configuration.
+    /// Rate: Δε, symmetric part of the displacement increment's gradient in the mid-step configuration, rotated to the end of the step.
     pub strain_increment: T,
     /// Rate: rotation over the step, for tensors in the law's own state (the stress is rotated already).
     pub rotation: T::Rotation,

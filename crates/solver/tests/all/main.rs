@@ -1,11 +1,19 @@
 //! Tests of the solver through its public face: contracts that every entry of a registry keeps, and closed forms.
 
-#![allow(clippy::unwrap_used, unreachable_pub)]
+#![allow(clippy::unwrap_used, unreachable_pub)] // a test that meets nothing where something must be shall end there
+
+// What the tests share.
+mod bodies;
+mod models;
+mod patches;
 
 mod bars;
-mod bodies;
+mod blocks;
 mod conditions;
 mod contact;
-mod models;
+mod elements;
+mod free_bodies;
+mod materials;
+mod plasticity;
 mod projection;
 mod search;

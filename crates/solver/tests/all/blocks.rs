@@ -1,0 +1,301 @@
+//! What every registered element with every registered law promises: constant strain, rigid motion, stiffness, masses, energy, the stable
+//! step, and the same bits on every instruction set.
+
+use crate::patches::*;
+use embate_lanes::Level;
+use embate_solver::element::ELEMENTS;
+use embate_solver::material::LAWS;
+
+type Gradient = [[f64; 2]; 2];
+
+fn apply(g: &Gradient, x: [f64; 2]) -> [f64; 2] {
+    [g[0][0] * x[0] + g[0][1] * x[1], g[1][0] * x[0] + g[1][1] * x[1]]
+}
+
+/// Unit tensor plus a random tensor of this size.
+fn near_one(size: f64, numbers: &mut Spread) -> Gradient {
+    let (a, b) = (numbers.vector(size), numbers.vector(size));
+    [[1.0 + a[0], a[1]], [b[0], 1.0 + b[1]]]
+}
+
+fn largest<'a>(values: impl IntoIterator<Item = &'a f64>) -> f64 {
+    values.into_iter().fold(0.0, |largest, value| largest.max(value.abs()))
+}
+
+#[test]
+fn a_distorted_patch_in_uniform_strain_has_uniform_stress_and_no_force_on_inner_nodes() {
+    every_pair(|element, law| {
+        let patch = patch(element, 4, 0.25);
+        let mut body = Body::of(element, &material(law, 0.3), &patch);
+        let mut numbers = Spread::new(11);
+        for step in 0..20 {
+            let (f, shift) = (near_one(0.02, &mut numbers), numbers.vector(1.0));
+            body.map(|x| {
+                let y = apply(&f, x);
+                [y[0] + shift[0], y[1] + shift[1]]
+            });
+            let first = body.block.state(0).stress;
+            let size = largest(&first);
+            assert!(size > 1e-4 * YOUNG, "{element} {law}: there is stress");
+            for k in 1..body.block.elements() {
+                let stress = body.block.state(k).stress;
+                assert!((0..6).all(|c| (stress[c] - first[c]).abs() < 1e-12 * YOUNG), "{element} {law} step {step}: {stress:?} {first:?}");
+            }
+            let forces = body.forces();
+            let (outer, inner) = (largest(forces.iter().flatten()), largest(patch.inner.iter().flat_map(|&node| &forces[node])));
+            assert!(outer > 0.1 * size && inner < 1e-11 * YOUNG, "{element} {law} step {step}: {inner} of {outer}");
+        }
+    });
+}
+
+/// A patch that has been brought under stress (below yield where there is one).
+fn prestressed(element: &str, law: &str) -> Body {
+    let mut body = Body::of(element, &material(law, 0.3), &patch(element, 3, 0.2));
+    for _ in 0..10 {
+        body.map(|[x, y]| [x * 1.0003 + 0.0002 * y, y * 0.9998 + 1e-5 * x * y]);
+    }
+    body
+}
+
+#[test]
+fn a_rigid_translation_changes_no_force() {
+    every_pair(|element, law| {
+        let mut body = prestressed(element, law);
+        let before = body.forces();
+        assert!(largest(before.iter().flatten()) > 1e-3 * YOUNG);
+        for _ in 0..10 {
+            body.map(|[x, y]| [x + 3.0, y - 2.0]);
+        }
+        for (a, b) in body.forces().iter().zip(&before) {
+            assert!((0..2).all(|d| (a[d] - b[d]).abs() < 1e-11 * YOUNG), "{element} {law}");
+        }
+    });
+}
+
+#[test]
+fn stress_and_forces_turn_with_the_body() {
+    const STEPS: u32 = 360;
+    every_pair(|element, law| {
+        let mut body = prestressed(element, law);
+        let (start, forces, energy) = (body.block.state(0).stress, body.forces(), body.energy());
+        let positions = body.positions.clone();
+        for step in 1..=STEPS {
+            let (s, c) = (std::f64::consts::TAU * f64::from(step) / f64::from(STEPS)).sin_cos();
+            let turned = |[x, y]: [f64; 2]| [c * x - s * y, s * x + c * y];
+            body.move_to(&positions.iter().map(|&x| turned(x)).collect::<Vec<_>>());
+            let [xx, yy, zz, xy, ..] = start;
+            let expected = [
+                c * c * xx + s * s * yy - 2.0 * c * s * xy,
+                s * s * xx + c * c * yy + 2.0 * c * s * xy,
+                zz,
+                c * s * (xx - yy) + (c * c - s * s) * xy,
+            ];
+            let stress = body.block.state(0).stress;
+            assert!((0..4).all(|k| (stress[k] - expected[k]).abs() < 1e-8 * YOUNG), "{element} {law} step {step}: {stress:?} {expected:?}");
+            for (f, &f0) in body.forces().iter().zip(&forces) {
+                assert!((0..2).all(|d| (f[d] - turned(f0)[d]).abs() < 1e-8 * YOUNG), "{element} {law} step {step}");
+            }
+        }
+        assert!((body.energy() - energy).abs() < 1e-9 * energy, "{element} {law}");
+    });
+}
+
+#[test]
+fn a_body_without_stress_turns_without_force() {
+    every_pair(|element, law| {
+        let mut body = Body::of(element, &material(law, 0.3), &patch(element, 3, 0.2));
+        let (s, c) = 0.3f64.sin_cos();
+        for _ in 0..50 {
+            body.map(|[x, y]| [c * x - s * y + 0.1, s * x + c * y]);
+            assert!(largest(body.forces().iter().flatten()) < 1e-11 * YOUNG, "{element} {law}");
+        }
+    });
+}
+
+#[test]
+fn the_stiffness_is_symmetric_and_only_rigid_modes_cost_nothing() {
+    every_pair(|element, law| {
+        let mut numbers = Spread::new(12);
+        for _ in 0..5 {
+            let x = distorted(element, 0.7, 3.0, &mut numbers);
+            let k = stiffness(|| Body::single(element, &material(law, 0.3), &x));
+            let n = k.len();
+            let size = largest(k.iter().flatten());
+            let skew = (0..n * n).map(|at| (k[at / n][at % n] - k[at % n][at / n]).abs()).fold(0.0, f64::max);
+            assert!(skew < 1e-6 * size, "{element} {law}: skew part {skew} of {size}");
+            let values = eigenvalues(k);
+            assert!(values[..3].iter().all(|v| v.abs() < 1e-6 * size), "{element} {law}: {values:?}");
+            assert!(values[3] > 1e-3 * size, "{element} {law}: {values:?}");
+        }
+    });
+}
+
+#[test]
+fn corner_masses_are_positive_and_sum_to_the_mass() {
+    for kind in ELEMENTS {
+        let mut numbers = Spread::new(13);
+        for _ in 0..100 {
+            let x = distorted(kind.name, 0.9, 20.0, &mut numbers);
+            let body = Body::single(kind.name, &material(LAWS[0].name, 0.3), &x);
+            let expected = DENSITY * shoelace(&x);
+            assert!((body.masses().iter().sum::<f64>() / expected - 1.0).abs() < 1e-13, "{}", kind.name);
+            assert!((body.block.mass(0) / expected - 1.0).abs() < 1e-13, "{}", kind.name);
+            assert!(body.masses().iter().all(|&m| m > 0.1 * expected / kind.nodes as f64));
+        }
+    }
+}
+
+#[test]
+fn corner_forces_do_the_work_that_the_energy_tells() {
+    // −f·u = dU for any small motion u from a state of uneven stress; this is what the force part of the mean dilatation is for.
+    every_pair(|element, law| {
+        let patch = patch(element, 3, 0.25);
+        let mut numbers = Spread::new(14);
+        let bumps: Vec<_> = patch.positions.iter().map(|_| numbers.vector(0.01)).collect();
+        let directions: Vec<_> = patch.positions.iter().map(|_| numbers.vector(1.0)).collect();
+        let moved = |by: &[[f64; 2]], size: f64, from: &[[f64; 2]]| -> Vec<[f64; 2]> {
+            from.iter().zip(by).map(|(x, u)| [x[0] + size * u[0], x[1] + size * u[1]]).collect()
+        };
+        let stressed = || {
+            let mut body = Body::of(element, &material(law, 0.3), &patch);
+            for step in 1..=5 {
+                body.move_to(&moved(&bumps, f64::from(step), &patch.positions));
+            }
+            body
+        };
+        let body = stressed();
+        let power: f64 = body.forces().iter().zip(&directions).map(|(f, u)| f[0] * u[0] + f[1] * u[1]).sum();
+        let change = |h: f64| {
+            let mut body = stressed();
+            let to = moved(&directions, h, &body.positions);
+            body.move_to(&to);
+            body.energy()
+        };
+        let h = 1e-6;
+        let slope = (change(h) - change(-h)) / (2.0 * h);
+        // A law with a flow rule is not smooth, but its stress power is.
+        assert!((slope + power).abs() < 1e-5 * power.abs().max(YOUNG * 0.01), "{element} {law}: {slope} against {}", -power);
+    });
+}
+
+/// Largest ω² dt²/4 over random elements; `later` moves the element from its initial form, in which it got its masses.
+fn worst_step(element: &str, law: &str, roughness: f64, later: impl Fn(&[[f64; 2]], &mut Spread) -> Vec<[f64; 2]>) -> f64 {
+    let mut numbers = Spread::new(15);
+    let mut worst = 0.0f64;
+    for round in 0..150 {
+        let material = material(law, [-0.5, 0.0, 0.3, 0.499][round % 4]);
+        let x = distorted(element, roughness, 20.0, &mut numbers);
+        let y = later(&x, &mut numbers);
+        let make_body = || {
+            let mut body = Body::single(element, &material, &x);
+            body.move_to(&y);
+            body
+        };
+        let body = make_body();
+        let ratio = frequency_squared(&stiffness(make_body), &body.masses()) * body.block.time_step_squared(0) / 4.0;
+        assert_eq!(body.block.time_step_squared(0), body.report.time_step_squared);
+        worst = worst.max(ratio);
+    }
+    worst
+}
+
+#[test]
+fn the_stable_step_bounds_the_largest_frequency() {
+    every_pair(|element, law| {
+        for (roughness, name) in [(0.0, "parallelograms"), (0.3, "moderate"), (0.95, "extreme")] {
+            let worst = worst_step(element, law, roughness, |x, _| x.to_vec());
+            println!("{element:<11} {law:<12} {name:<15} worst ω² dt²/4 = {worst:.4}");
+            assert!(worst < 1.0 + 1e-5, "{element} {law} {name}: {worst}");
+            assert!(worst > 0.9 || roughness > 0.0, "{element} {law} {name}: {worst} wastes steps");
+        }
+        // Under large strain the stress itself is stiff: what it adds to a single element mostly cancels between neighbours (next test), and the
+        // default safety of 0.9 covers a ratio of 1.23.
+        let worst = worst_step(element, law, 0.5, |x, numbers| {
+            let f = near_one(0.3, numbers);
+            x.iter().map(|&x| apply(&f, x)).collect()
+        });
+        println!("{element:<11} {law:<12} strained        worst ω² dt²/4 = {worst:.4}");
+        assert!(worst < 1.2, "{element} {law} strained: {worst}");
+    });
+}
+
+#[test]
+fn the_stable_step_bounds_the_frequencies_of_a_strained_body() {
+    every_pair(|element, law| {
+        let mut numbers = Spread::new(18);
+        let mut worst = 0.0f64;
+        for round in 0..24 {
+            let material = material(law, [-0.5, 0.0, 0.3, 0.499][round % 4]);
+            let (f, stretch) = (near_one(0.3, &mut numbers), numbers.between(0.2, 1.0));
+            let mut patch = patch(element, 3, 0.2);
+            patch.positions.iter_mut().for_each(|x| x[1] *= stretch);
+            let make_body = || {
+                let mut body = Body::of(element, &material, &patch);
+                body.map(|x| apply(&f, x));
+                body
+            };
+            let body = make_body();
+            worst = worst.max(frequency_squared(&stiffness(make_body), &body.masses()) * body.report.time_step_squared / 4.0);
+        }
+        println!("{element:<11} {law:<12} worst ω² dt²/4 = {worst:.4}");
+        assert!(worst < 1.0, "{element} {law}: {worst}");
+    });
+}
+
+#[test]
+fn the_stable_step_holds_when_an_element_takes_another_form_than_its_masses() {
+    for kind in ELEMENTS {
+        let mut numbers = Spread::new(16);
+        let material = material("elastic", 0.3);
+        let mut worst = 0.0f64;
+        for _ in 0..300 {
+            let (x, y) = (distorted(kind.name, 0.95, 5.0, &mut numbers), distorted(kind.name, 0.95, 5.0, &mut numbers));
+            let masses: Vec<f64> = Body::single(kind.name, &material, &x).masses();
+            let mut body = Body::single(kind.name, &material, &x);
+            body.move_to(&y);
+            // The stiffness of the new form without the stress that the way there has left.
+            let k = stiffness(|| Body::single(kind.name, &material, &y));
+            worst = worst.max(frequency_squared(&k, &masses) * body.block.time_step_squared(0) / 4.0);
+        }
+        println!("{}: {worst:.4}", kind.name);
+        assert!(worst < 1.0 + 1e-5, "{}: {worst}", kind.name);
+    }
+}
+
+/// Everything that a block tells, as bits.
+fn bits(body: &Body) -> Vec<u64> {
+    let report = [body.report.time_step_squared, body.report.determinant, body.report.stored, body.report.dissipated];
+    let state = |k: usize| {
+        let state = body.block.state(k);
+        state.stress.into_iter().chain([state.plastic_strain, state.energy_density, body.block.time_step_squared(k)])
+    };
+    let states = (0..body.block.elements()).flat_map(state);
+    let corners = body.corners.iter().flat_map(|batch| batch.0);
+    report.into_iter().chain(states).chain(corners).map(f64::to_bits).collect()
+}
+
+#[test]
+fn every_instruction_set_and_any_threads_give_the_same_bits() {
+    every_pair(|element, law| {
+        // 625 elements: more than one chunk, and a batch that is not full.
+        let patch = patch(element, 25, 0.2);
+        let run = |level: Level, parallel: bool| {
+            let mut body = Body::of(element, &material(law, 0.3), &patch);
+            (body.level, body.parallel) = (level, parallel);
+            let mut numbers = Spread::new(17);
+            for _ in 0..10 {
+                let (f, size) = (near_one(0.01, &mut numbers), 0.004);
+                let to: Vec<_> = body.positions.iter().map(|&x| (apply(&f, x), numbers.vector(size))).collect();
+                body.move_to(&to.iter().map(|(x, u)| [x[0] + u[0], x[1] + u[1]]).collect::<Vec<_>>());
+            }
+            assert!(body.block.state(0).stress[0] != 0.0 && (!body.block.is_plastic() || body.report.dissipated > 0.0));
+            bits(&body)
+        };
+        let reference = run(Level::SCALAR, false);
+        for level in Level::available() {
+            for parallel in [false, true] {
+                assert!(run(level, parallel) == reference, "{element} {law} {}, in parallel: {parallel}", level.name());
+            }
+        }
+    });
+}

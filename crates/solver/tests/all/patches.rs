@@ -1,0 +1,274 @@
+//! What the contract tests are made on: numbers, materials for any registered law, patches for any registered element, and a block with its nodes.
+
+use embate_lanes::{Batch, Level};
+use embate_solver::block::{Block, BlockInput, Motion, Report, corner_slot, make};
+use embate_solver::element::{ELEMENTS, Element, ElementVisitor, with_element};
+use embate_solver::material::{LAWS, LawKind};
+use embate_solver::model::Material;
+use embate_solver::quantity::{Parameter, Range};
+use std::collections::BTreeMap;
+
+pub(crate) const YOUNG: f64 = 1000.0;
+pub(crate) const DENSITY: f64 = 2.0;
+
+/// A deterministic spread of numbers.
+pub(crate) struct Spread(u64);
+
+impl Spread {
+    pub(crate) fn new(seed: u64) -> Self {
+        Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1)
+    }
+    /// Uniform between the two.
+    pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        low + (high - low) * ((self.0 >> 11) as f64 / (1u64 << 53) as f64)
+    }
+    pub(crate) fn vector(&mut self, size: f64) -> [f64; 2] {
+        [self.between(-size, size), self.between(-size, size)]
+    }
+}
+
+/// A value for any parameter: known ones as above, stresses a small part of Young's modulus, the rest by their range.
+fn value(parameter: &Parameter, poisson: f64) -> f64 {
+    match (parameter.name, parameter.range) {
+        ("density", _) => DENSITY,
+        ("young", _) => YOUNG,
+        ("poisson", _) => poisson,
+        (_, Range::Between(low, high)) => 0.5 * (low + high),
+        (_, Range::UpTo(_, high)) => high,
+        _ => 0.01 * YOUNG,
+    }
+}
+
+pub(crate) fn parameters(kind: &LawKind, poisson: f64) -> BTreeMap<String, f64> {
+    kind.parameters.iter().map(|parameter| (parameter.name.to_string(), value(parameter, poisson))).collect()
+}
+
+pub(crate) fn material(law: &str, poisson: f64) -> Material {
+    let kind = LAWS.iter().find(|kind| kind.name == law).unwrap();
+    Material { law: law.into(), parameters: parameters(kind, poisson) }
+}
+
+/// Calls `check(element, law)` for every pair of the registries.
+pub(crate) fn every_pair(mut check: impl FnMut(&'static str, &'static str)) {
+    for element in ELEMENTS {
+        for law in LAWS {
+            check(element.name, law.name);
+        }
+    }
+}
+
+pub(crate) fn nodes_of(element: &str) -> usize {
+    ELEMENTS.iter().find(|kind| kind.name == element).unwrap().nodes
+}
+
+struct ReferenceNodes;
+
+impl ElementVisitor for ReferenceNodes {
+    type Output = Vec<[f64; 2]>;
+    fn visit<E: Element<2, N, P>, const N: usize, const P: usize>(self) -> Self::Output {
+        E::NODES.to_vec()
+    }
+}
+
+/// Nodes of one undistorted element.
+pub(crate) fn reference_nodes(element: &str) -> Vec<[f64; 2]> {
+    with_element(element, ReferenceNodes).unwrap()
+}
+
+/// Area of a polygon, counter-clockwise, by the shoelace formula.
+pub(crate) fn shoelace(x: &[[f64; 2]]) -> f64 {
+    let edge = |a: usize, b: usize| x[a][0] * x[b][1] - x[a][1] * x[b][0];
+    0.5 * (0..x.len()).map(|a| edge(a, (a + 1) % x.len())).sum::<f64>()
+}
+
+/// Smallest cross product of the two edges at a corner: positive for a convex polygon.
+fn convexity(x: &[[f64; 2]]) -> f64 {
+    let n = x.len();
+    let corner = |a: usize| {
+        let (b, c) = (x[(a + 1) % n], x[(a + n - 1) % n]);
+        (b[0] - x[a][0]) * (c[1] - x[a][1]) - (b[1] - x[a][1]) * (c[0] - x[a][0])
+    };
+    (0..n).map(corner).fold(f64::INFINITY, f64::min)
+}
+
+/// A random convex element: corners moved by up to `roughness` of its half size, stretched by up to `aspect`, sheared, turned.
+pub(crate) fn distorted(element: &str, roughness: f64, aspect: f64, numbers: &mut Spread) -> Vec<[f64; 2]> {
+    let reference = reference_nodes(element);
+    loop {
+        let rough = numbers.between(0.0, roughness);
+        let (stretch, shear) = (numbers.between(0.0, aspect.ln()).exp(), numbers.between(-1.0, 1.0) * numbers.between(0.0, 1.5).floor());
+        let (sin, cos) = numbers.between(0.0, 6.3).sin_cos();
+        let corner = |&[xi, eta]: &[f64; 2], [dx, dy]: [f64; 2]| {
+            let (x, y) = (xi + dx, (eta + dy) * stretch);
+            let (x, y) = (x + shear * y, y);
+            [cos * x - sin * y, sin * x + cos * y]
+        };
+        let moved: Vec<_> = reference.iter().map(|x| corner(x, numbers.vector(rough))).collect();
+        if convexity(&moved) > 0.02 * stretch {
+            return moved;
+        }
+    }
+}
+
+/// A patch of `n` × `n` unit cells with displaced inner nodes.
+#[derive(Clone)]
+pub(crate) struct Patch {
+    pub(crate) positions: Vec<[f64; 2]>,
+    pub(crate) connectivity: Vec<u32>,
+    pub(crate) inner: Vec<usize>,
+}
+
+pub(crate) fn patch(element: &str, n: usize, roughness: f64) -> Patch {
+    let mut numbers = Spread::new(7);
+    let side = n + 1;
+    let is_inner = |k: usize| (1..n).contains(&(k % side)) && (1..n).contains(&(k / side));
+    let place = |k: usize| {
+        let [dx, dy] = if is_inner(k) { numbers.vector(roughness) } else { [0.0; 2] };
+        [(k % side) as f64 + dx, (k / side) as f64 + dy]
+    };
+    let positions = (0..side * side).map(place).collect();
+    let cells = (0..n * n).map(|k| ((k / n) * side + k % n) as u32);
+    let corners = cells.map(|a| [a, a + 1, a + 1 + side as u32, a + side as u32]);
+    let connectivity = match nodes_of(element) {
+        3 => corners.flat_map(|[a, b, c, d]| [a, b, c, a, c, d]).collect(),
+        4 => corners.flatten().collect(),
+        nodes => panic!("teach the patch an element of {nodes} nodes"),
+    };
+    Patch { positions, connectivity, inner: (0..side * side).filter(|&k| is_inner(k)).collect() }
+}
+
+/// A block with the state that its nodes have brought it to.
+pub(crate) struct Body {
+    pub(crate) block: Box<dyn Block<2>>,
+    pub(crate) positions: Vec<[f64; 2]>,
+    pub(crate) corners: Vec<Batch>,
+    pub(crate) report: Report,
+    pub(crate) level: Level,
+    pub(crate) parallel: bool,
+    connectivity: Vec<u32>,
+    nodes_per_element: usize,
+}
+
+impl Body {
+    pub(crate) fn new(element: &str, material: &Material, positions: &[[f64; 2]], connectivity: &[u32]) -> Self {
+        let block = make(&BlockInput { element, material, connectivity, positions }).unwrap();
+        let corners = vec![Batch::default(); block.corner_batches()];
+        let mut body = Self {
+            block,
+            positions: positions.to_vec(),
+            corners,
+            report: Report::NOTHING,
+            level: Level::SCALAR,
+            parallel: false,
+            connectivity: connectivity.to_vec(),
+            nodes_per_element: nodes_of(element),
+        };
+        body.move_to(positions);
+        body
+    }
+
+    /// One element with its own nodes.
+    pub(crate) fn single(element: &str, material: &Material, positions: &[[f64; 2]]) -> Self {
+        Self::new(element, material, positions, &(0..positions.len() as u32).collect::<Vec<_>>())
+    }
+
+    pub(crate) fn of(element: &str, material: &Material, patch: &Patch) -> Self {
+        Self::new(element, material, &patch.positions, &patch.connectivity)
+    }
+
+    /// One step to the new positions.
+    pub(crate) fn move_to(&mut self, positions: &[[f64; 2]]) {
+        let time_step = 1.0 / 64.0; // exact, so that velocities are as exact as displacements
+        let velocity = |(x, old): (&[f64; 2], &[f64; 2])| [(x[0] - old[0]) / time_step, (x[1] - old[1]) / time_step];
+        let velocities: Vec<_> = positions.iter().zip(&self.positions).map(velocity).collect();
+        let motion = Motion { positions, velocities: &velocities, time_step };
+        self.report = self.block.advance(&motion, self.level, &mut self.corners, self.parallel);
+        self.positions = positions.to_vec();
+    }
+
+    /// One step in which every node goes to `to(x)`.
+    pub(crate) fn map(&mut self, to: impl Fn([f64; 2]) -> [f64; 2]) {
+        let positions: Vec<_> = self.positions.iter().map(|&x| to(x)).collect();
+        self.move_to(&positions);
+    }
+
+    /// Sum of the corner forces at every node.
+    pub(crate) fn forces(&self) -> Vec<[f64; 2]> {
+        let mut forces = vec![[0.0; 2]; self.positions.len()];
+        for (k, &node) in self.connectivity.iter().enumerate() {
+            let (batch, lane) = corner_slot::<2>(self.nodes_per_element, k / self.nodes_per_element, k % self.nodes_per_element);
+            for d in 0..2 {
+                forces[node as usize][d] += self.corners[batch + d].0[lane];
+            }
+        }
+        forces
+    }
+
+    /// Mass of every node.
+    pub(crate) fn masses(&self) -> Vec<f64> {
+        let mut masses = vec![0.0; self.positions.len()];
+        for (k, &node) in self.connectivity.iter().enumerate() {
+            masses[node as usize] += self.block.corner_mass(k / self.nodes_per_element, k % self.nodes_per_element);
+        }
+        masses
+    }
+
+    /// Stored and dissipated energy.
+    pub(crate) fn energy(&self) -> f64 {
+        self.report.stored + self.report.dissipated
+    }
+}
+
+/// Tangent stiffness K_ij = −∂f_i/∂x_j by central differences; `make_body` must give the same body every time.
+pub(crate) fn stiffness(make_body: impl Fn() -> Body) -> Vec<Vec<f64>> {
+    let start = make_body().positions;
+    let size = start.iter().flatten().fold(0.0f64, |size, x| size.max(x.abs()));
+    let h = 1e-6 * size;
+    let columns = (0..2 * start.len()).map(|j| {
+        let side = |sign: f64| {
+            let mut body = make_body();
+            let mut positions = start.clone();
+            positions[j / 2][j % 2] += sign * h;
+            body.move_to(&positions);
+            body.forces()
+        };
+        let (plus, minus) = (side(1.0), side(-1.0));
+        (0..2 * start.len()).map(|i| (minus[i / 2][i % 2] - plus[i / 2][i % 2]) / (2.0 * h)).collect()
+    });
+    columns.collect()
+}
+
+/// Eigenvalues of a symmetric matrix, ascending, by Jacobi's rotations.
+pub(crate) fn eigenvalues(mut a: Vec<Vec<f64>>) -> Vec<f64> {
+    let n = a.len();
+    for _ in 0..30 {
+        for p in 0..n {
+            for q in p + 1..n {
+                if a[p][q] == 0.0 {
+                    continue;
+                }
+                let theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
+                let t = theta.signum() / (theta.abs() + (theta * theta + 1.0).sqrt());
+                let c = 1.0 / (t * t + 1.0).sqrt();
+                let s = t * c;
+                for k in 0..n {
+                    (a[k][p], a[k][q]) = (c * a[k][p] - s * a[k][q], s * a[k][p] + c * a[k][q]);
+                }
+                for k in 0..n {
+                    (a[p][k], a[q][k]) = (c * a[p][k] - s * a[q][k], s * a[p][k] + c * a[q][k]);
+                }
+            }
+        }
+    }
+    let mut values: Vec<f64> = (0..n).map(|k| a[k][k]).collect();
+    values.sort_by(f64::total_cmp);
+    values
+}
+
+/// Largest eigenvalue of M⁻¹K.
+pub(crate) fn frequency_squared(stiffness: &[Vec<f64>], masses: &[f64]) -> f64 {
+    let entry = |i: usize, j: usize| 0.5 * (stiffness[i][j] + stiffness[j][i]) / (masses[i / 2] * masses[j / 2]).sqrt();
+    let scaled = (0..stiffness.len()).map(|i| (0..stiffness.len()).map(|j| entry(i, j)).collect()).collect();
+    eigenvalues(scaled).pop().unwrap()
+}

@@ -88,6 +88,18 @@ fn a_node_inside_a_convex_corner_goes_to_the_nearest_side() {
 }
 
 #[test]
+fn a_node_below_a_ridge_is_pushed_straight_to_it() {
+    // Equally near to both sides: taking the first would push a symmetric body aside.
+    let points = [[0.0, 0.0], [1.0, 0.1], [2.0, 0.0]];
+    let target = chain(&points, false);
+    for projection in [nearest(&target, [1.0, 0.05], &points), target.follow([1.0, 0.05], 1, &points).unwrap()] {
+        assert!(close(projection.normal, [0.0, 1.0]) && (projection.gap + 0.05 / 1.01_f64.sqrt()).abs() < 1e-15, "{projection:?}");
+    }
+    let beside = nearest(&target, [1.0 + 1e-6, 0.05], &points);
+    assert!(beside.segment == 1 && beside.normal[0] > 0.0, "{beside:?}");
+}
+
+#[test]
 fn a_node_outside_a_convex_corner_is_outside() {
     let target = chain(&SQUARE, true);
     // With the sides that meet in the corner, 0 being the left side.

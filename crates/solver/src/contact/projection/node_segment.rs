@@ -34,6 +34,8 @@ pub struct Projection {
 /// Nodes that project beyond a segment's end by this fraction of its length still project on it. Two bars of one height meet corner on corner:
 /// round-off must not decide whether they touch.
 const END_TOLERANCE: f64 = 1e-6;
+/// Two sides are equally near when their distances differ by less than this fraction.
+const TIE: f64 = 1e-9;
 /// Cosine of the angle between two segments from which on their common node is an edge, not a facet of something round.
 const EDGE: f64 = 0.5;
 
@@ -110,7 +112,8 @@ impl Target {
 
     /// Nearest feature to `x` among `candidates`; of equally near ones the first. `None` where that is an end at which the surface is cut off.
     pub fn nearest(&self, x: Vector, candidates: &[u32], positions: &[Vector]) -> Option<Projection> {
-        candidates.iter().filter_map(|&segment| self.feature(x, segment, positions)).reduce(nearer)?.projection
+        let nearest = candidates.iter().filter_map(|&segment| self.feature(x, segment, positions)).reduce(nearer)?;
+        self.between_sides(x, nearest, positions, true)
     }
 
     /// Follows the chain from `start` to the nearest feature: the way to stay on the side of a thin body on which a node came in.
@@ -138,7 +141,31 @@ impl Target {
                 break;
             }
         }
-        best.projection
+        self.between_sides(x, best, positions, false)
+    }
+
+    /// The projection of a feature; of a node that is equally near to two sides, as far as rounding lets one tell, that on their common node:
+    /// what is symmetric stays so. Sides that meet at an edge count only with `over_edges`.
+    fn between_sides(&self, x: Vector, feature: Feature, positions: &[Vector], over_edges: bool) -> Option<Projection> {
+        let projection = feature.projection?;
+        if feature.at != Place::Inside || projection.gap >= 0.0 {
+            return Some(projection);
+        }
+        for (end, weights, corner) in [(Place::Begin, [1.0, 0.0], 0), (Place::End, [0.0, 1.0], 1)] {
+            let neighbour = self.neighbour(feature.segment, end);
+            if neighbour == NONE || (!over_edges && self.is_edge(feature.segment, neighbour, positions)) {
+                continue;
+            }
+            let other = self.feature(x, neighbour, positions).filter(|other| other.at == Place::Inside);
+            let tie = other.is_some_and(|other| (other.distance - feature.distance).abs() <= TIE * feature.distance);
+            if tie {
+                let node = self.surface.segments[feature.segment as usize][corner];
+                let out = minus(positions[node as usize], x);
+                // The depth is that of the sides: it does not jump where a node slides over the ridge.
+                return Some(Projection { weights, normal: unit(out, projection.normal), ..projection });
+            }
+        }
+        Some(projection)
     }
 
     /// Whether two segments meet at a sharp angle.

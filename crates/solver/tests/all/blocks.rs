@@ -131,7 +131,7 @@ fn the_stiffness_is_symmetric_and_only_rigid_modes_cost_nothing() {
 }
 
 #[test]
-fn corner_masses_are_positive_and_sum_to_the_mass() {
+fn corner_masses_are_positive_and_have_the_mass_and_its_centre() {
     for kind in ELEMENTS {
         let mut numbers = Spread::new(13);
         for _ in 0..100 {
@@ -140,6 +140,10 @@ fn corner_masses_are_positive_and_sum_to_the_mass() {
             let expected = DENSITY * shoelace(&x);
             assert!((body.masses().iter().sum::<f64>() / expected - 1.0).abs() < 1e-13, "{}", kind.name);
             assert!((body.block.mass(0) / expected - 1.0).abs() < 1e-13, "{}", kind.name);
+            for (d, place) in centroid(&x).into_iter().enumerate() {
+                let moment: f64 = body.masses().iter().zip(&x).map(|(m, x)| m * x[d]).sum();
+                assert!((moment / expected - place).abs() < 1e-12, "{}: row sums keep the centre", kind.name);
+            }
             assert!(body.masses().iter().all(|&m| m > 0.1 * expected / kind.nodes as f64));
         }
     }

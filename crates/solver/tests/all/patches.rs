@@ -82,6 +82,13 @@ pub(crate) fn shoelace(x: &[[f64; 2]]) -> f64 {
     0.5 * (0..x.len()).map(|a| edge(a, (a + 1) % x.len())).sum::<f64>()
 }
 
+/// Centroid of a polygon, counter-clockwise.
+pub(crate) fn centroid(x: &[[f64; 2]]) -> [f64; 2] {
+    let edge = |a: [f64; 2], b: [f64; 2]| (a[0] * b[1] - a[1] * b[0]) / (6.0 * shoelace(x));
+    let pairs = || x.iter().zip(x.iter().cycle().skip(1));
+    [0, 1].map(|d| pairs().map(|(a, b)| (a[d] + b[d]) * edge(*a, *b)).sum())
+}
+
 /// Smallest cross product of the two edges at a corner: positive for a convex polygon.
 fn convexity(x: &[[f64; 2]]) -> f64 {
     let n = x.len();

@@ -13,7 +13,7 @@ use crate::load::{gravity, wall::Wall};
 use crate::mesh::surface::{NONE, Surface};
 use crate::mesh::{Mesh, PartMesh};
 use crate::model::Model;
-use crate::step::{Governor, Limits, NodeSums, System};
+use crate::step::{CHUNK, Governor, Limits, NodeSums, System};
 use embate_lanes::{Batch, Level};
 
 /// Below so many elements threads cost more than they bring.
@@ -70,7 +70,7 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         contact_forces: vec![[0.0; 2]; nodes],
         springs: Springs::new(nodes),
         reports: vec![Report::NOTHING; blocks.len()],
-        sums: vec![NodeSums::default(); nodes.div_ceil(1024)],
+        sums: vec![NodeSums::default(); nodes.div_ceil(CHUNK)],
         ledger: Ledger::default(),
         penetration_max: 0.0,
         step: 0,

@@ -19,7 +19,7 @@ use rayon::prelude::*;
 pub type Vector = [f64; 2];
 
 /// Nodes that one task updates.
-const CHUNK: usize = 1024;
+pub(crate) const CHUNK: usize = 1024;
 /// Fraction by which the stable step must exceed the step before the step grows at all: a constant step keeps the energy of vibrations, one
 /// that follows them up and down pumps it (a soft disk that bounces 20 times: see `a_disk_bounces_between_two_walls...` in the tests).
 const HOLD: f64 = 1.05;

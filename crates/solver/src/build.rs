@@ -61,7 +61,7 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         Limits { end: model.run.end, safety: model.run.safety, energy: model.run.energy_limit, step: model.run.step_limit.unwrap_or(0.0) };
     let elements: usize = blocks.iter().map(|block| block.elements()).sum();
     Ok(System {
-        corners: vec![Batch::default(); assembly.corner_batches()],
+        corners: vec![Batch::default(); assembly.corner_batches],
         gravity: gravity::accelerations(model, &mesh, &mass, &part_mass),
         positions: mesh.positions.clone(),
         positions_old: mesh.positions.clone(),

@@ -104,8 +104,7 @@ pub struct Simulation {
     pub(crate) system: System,
     pub(crate) recorded: Recorded,
     pub(crate) momentum: Option<Momentum>,
-    pub(crate) time_step_min: f64,
-    pub(crate) governor_min: String,
+    shortest: Shortest,
     pub(crate) threads: usize,
     pub(crate) warnings: BTreeSet<String>,
     pub(crate) initial_penetrations: Vec<String>,
@@ -148,8 +147,7 @@ impl Simulation {
         let mut simulation = Self {
             momentum: None,
             recorded,
-            time_step_min: f64::INFINITY,
-            governor_min: String::new(),
+            shortest: Shortest::default(),
             threads: if pool.is_some() { threads } else { 1 },
             warnings: BTreeSet::new(),
             initial_penetrations: Vec::new(),
@@ -161,7 +159,7 @@ impl Simulation {
         };
         simulation.within_pool(System::start)?;
         simulation.momentum = Momentum::new(&simulation.system);
-        simulation.note_step();
+        simulation.shortest.note(&simulation.system);
         simulation.tell_initial_penetrations();
         Ok(simulation)
     }
@@ -226,31 +224,16 @@ impl Simulation {
     /// Those of a step.
     pub fn advance(&mut self, time: f64, steps: u64) -> Result<(), Error> {
         let last = self.system.step.saturating_add(steps).min(self.max_steps);
-        let mut least = self.time_step_min;
-        let mut governors = Vec::new();
+        let mut shortest = std::mem::take(&mut self.shortest);
         let result = self.within_pool(|system| {
             while system.time < time && system.time < system.limits.end && system.step < last {
                 system.step()?;
-                // Who governs is found by a search: only when the step falls noticeably.
-                if system.time_step < 0.999 * least && system.governor != Governor::Schedule {
-                    governors.push(system.governor_name(system.governor));
-                    least = system.time_step;
-                }
+                shortest.note(system);
             }
             Ok(())
         });
-        if let Some(governor) = governors.pop() {
-            self.governor_min = governor;
-            self.time_step_min = least;
-        }
+        self.shortest = shortest;
         result
-    }
-
-    fn note_step(&mut self) {
-        if self.system.time_step < self.time_step_min {
-            self.time_step_min = self.system.time_step;
-            self.governor_min = self.system.governor_name(self.system.governor);
-        }
     }
 
     /// Runs to the end, telling `observer` of rows, frames and progress.
@@ -375,8 +358,8 @@ impl Simulation {
             nodes: system.positions.len(),
             steps: system.step,
             time_end: system.time,
-            stable_time_step_min: self.time_step_min,
-            stable_time_step_governor: self.governor_min.clone(),
+            stable_time_step_min: self.shortest.time_step,
+            stable_time_step_governor: self.shortest.governor.clone(),
             energy_drift: system.ledger.drift(),
             ledger_residual: system.ledger.residual(),
             momentum_drift_linear: self.momentum.as_ref().map(Momentum::linear),
@@ -386,6 +369,29 @@ impl Simulation {
             threads: self.threads,
             simd: system.level.name().to_string(),
             warnings: self.warnings(),
+        }
+    }
+}
+
+/// The shortest step so far and who governed it.
+struct Shortest {
+    time_step: f64,
+    governor: String,
+}
+
+impl Default for Shortest {
+    fn default() -> Self {
+        Self { time_step: f64::INFINITY, governor: String::new() }
+    }
+}
+
+impl Shortest {
+    /// Takes the step of `system`. Who governs is found by a search: only when the step falls noticeably, and by more than the schedule.
+    fn note(&mut self, system: &System) {
+        let governed = system.governor != Governor::Schedule || self.time_step.is_infinite();
+        if governed && system.time_step < 0.999 * self.time_step {
+            self.time_step = system.time_step;
+            self.governor = system.governor_name(system.governor);
         }
     }
 }

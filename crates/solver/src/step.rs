@@ -108,11 +108,16 @@ impl System {
     /// An inverted element, a collapsed step, a value that is not finite, too much energy drift.
     pub fn step(&mut self) -> Result<(), Error> {
         self.move_nodes();
-        self.strain_elements();
-        let time_step = self.stable_step()?;
+        self.respond()
+    }
+
+    /// Everything that follows from the positions x^n.
+    fn respond(&mut self) -> Result<(), Error> {
+        let elements = self.strain_elements();
+        let time_step = self.stable_step(&elements)?;
         self.push_apart(time_step);
         self.accelerate(time_step);
-        self.close_books()
+        self.close_books(&elements)
     }
 
     /// Forces and velocities at time zero: v^{1/2} = v⁰ + ½ dt⁰ a⁰.
@@ -128,14 +133,11 @@ impl System {
         let kinetic = |(m, v): (&f64, &Vector)| 0.5 * m * (v[0] * v[0] + v[1] * v[1]);
         self.ledger = Ledger::new(self.mass.iter().zip(&self.velocities).map(kinetic).sum(), self.energy_of_round_off());
         self.positions_old.clone_from(&self.positions);
-        self.strain_elements();
-        let time_step = self.stable_step()?;
+        self.respond()?;
         if self.limits.step <= 0.0 {
-            self.limits.step = 1e-3 * time_step;
+            self.limits.step = 1e-3 * self.time_step;
         }
-        self.push_apart(time_step);
-        self.accelerate(time_step);
-        self.close_books()
+        Ok(())
     }
 
     /// x^{n+1} = x^n + dt^n v^{n+1/2}.
@@ -155,8 +157,8 @@ impl System {
         self.step += 1;
     }
 
-    /// Internal forces and element steps at x^n.
-    fn strain_elements(&mut self) {
+    /// Internal forces, energies and steps of the elements at x^n.
+    fn strain_elements(&mut self) -> Report {
         let motion = Motion { positions: &self.positions, velocities: &self.velocities, time_step: self.time_step_old };
         let mut rest = &mut self.corners[..];
         for (block, report) in self.blocks.iter_mut().zip(&mut self.reports) {
@@ -164,16 +166,16 @@ impl System {
             *report = block.advance(&motion, self.level, corners, self.parallel);
             rest = others;
         }
+        self.reports.iter().fold(Report::NOTHING, |sum, &report| sum.join(report))
     }
 
     /// The next step: the elements' bound (which is that of the nodes in contact too, see [`crate::contact::springs`]), growth, and the end.
-    fn stable_step(&mut self) -> Result<f64, Error> {
-        let blocks = self.reports.iter().fold(Report::NOTHING, |sum, &report| sum.join(report));
-        if blocks.determinant <= 0.0 {
+    fn stable_step(&mut self, elements: &Report) -> Result<f64, Error> {
+        if elements.determinant <= 0.0 {
             return Err(self.inverted());
         }
-        let mut time_step = self.limits.safety * blocks.time_step_squared.sqrt();
-        let mut governor = Governor::Element(blocks.time_step_squared);
+        let mut time_step = self.limits.safety * elements.time_step_squared.sqrt();
+        let mut governor = Governor::Element(elements.time_step_squared);
         if time_step < self.limits.step || time_step.is_nan() {
             return Err(self.collapsed(time_step, governor));
         }
@@ -249,7 +251,7 @@ impl System {
     }
 
     /// Enters the step in the ledger and checks that the run is still worth going on.
-    fn close_books(&mut self) -> Result<(), Error> {
+    fn close_books(&mut self, elements: &Report) -> Result<(), Error> {
         let mut sum = NodeSums::default();
         for part in &self.sums {
             sum.kinetic_half += part.kinetic_half;
@@ -259,7 +261,6 @@ impl System {
             sum.constraint += part.constraint;
             sum.external_old += part.external_old;
         }
-        let blocks = self.reports.iter().fold(Report::NOTHING, |sum, &report| sum.join(report));
         let works = Works {
             internal: sum.internal,
             contact: self.contacts.iter().map(|contact| contact.work).sum(),
@@ -269,7 +270,7 @@ impl System {
         };
         let springs =
             self.contacts.iter().map(|contact| contact.energy).sum::<f64>() + self.walls.iter().map(|wall| wall.energy).sum::<f64>();
-        let stores = Stores { kinetic: sum.kinetic, elastic: blocks.stored, plastic: blocks.dissipated, contact: springs };
+        let stores = Stores { kinetic: sum.kinetic, elastic: elements.stored, plastic: elements.dissipated, contact: springs };
         if !(sum.kinetic_half.is_finite() && stores.total().is_finite()) {
             return Err(self.not_finite());
         }

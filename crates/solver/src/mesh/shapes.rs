@@ -4,6 +4,7 @@
 //! exact zeros and ones on the axes (nodes that should lie on a symmetry line do), and mirror images that agree to the last bit.
 
 use crate::model::Shape;
+use crate::model::reference::is_full_turn;
 use std::f64::consts::FRAC_PI_2;
 
 /// The mesh of one body: nodes, counter-clockwise quadrilaterals, and named sides.
@@ -25,18 +26,6 @@ pub fn body(shape: &Shape) -> Option<Body> {
         Shape::Ring { centre, inner, outer, from, to, elements } => Some(ring(centre, inner, outer, from, to, elements)),
         Shape::Disk { centre, radius, elements } => Some(disk(centre, radius, elements)),
         Shape::Group { .. } => None,
-    }
-}
-
-/// Names of the sides that [`body`] gives to a shape, in its order; empty for a group of an imported mesh.
-#[must_use]
-pub fn sides(shape: &Shape) -> &'static [&'static str] {
-    match *shape {
-        Shape::Rectangle { .. } => &["left", "right", "bottom", "top"],
-        Shape::Ring { from, to, .. } if is_full_turn(from, to) => &["inner", "outer"],
-        Shape::Ring { .. } => &["inner", "outer", "start", "end"],
-        Shape::Disk { .. } => &["outer"],
-        Shape::Group { .. } => &[],
     }
 }
 
@@ -228,11 +217,6 @@ fn node(index: usize) -> u32 {
     u32::try_from(index).expect("the model has limited the number of nodes to 32 bits (shapes::count)")
 }
 
-/// Whether two angles (radians) are a full turn apart.
-fn is_full_turn(from: f64, to: f64) -> bool {
-    (quarters(to) - quarters(from) - 4.0).abs() < 1e-9
-}
-
 /// An angle in radians as a number of quarter turns; whole, half and quarter steps of a quarter turn that were meant are made exact.
 fn quarters(angle: f64) -> f64 {
     let q = angle / FRAC_PI_2;
@@ -358,7 +342,7 @@ mod tests {
             let body = body(&shape).unwrap();
             sides_cover_the_outside(&body);
             let names: Vec<_> = body.sides.iter().map(|s| s.0).collect();
-            assert_eq!(names, sides(&shape));
+            assert_eq!(names, shape.sides());
             assert_eq!(count(&shape), Some([body.positions.len(), body.quads.len()]));
             let mut used: Vec<u32> = body.quads.iter().flatten().copied().collect();
             used.sort_unstable();
@@ -370,7 +354,7 @@ mod tests {
     #[test]
     fn a_group_of_a_file_is_no_built_in_shape() {
         let group = Shape::Group { mesh: 0, group: "tube".into() };
-        assert_eq!((body(&group), sides(&group).len(), count(&group)), (None, 0, None));
+        assert_eq!((body(&group), group.sides().len(), count(&group)), (None, 0, None));
     }
 
     #[test]

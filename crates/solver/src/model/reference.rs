@@ -30,13 +30,18 @@ pub enum Reference {
 /// Angles (rad) nearer than this to a full turn close a ring.
 const FULL_TURN_TOLERANCE: f64 = 1e-9;
 
+/// Whether two angles (rad) are a full turn apart: then a ring closes on itself.
+pub(crate) fn is_full_turn(from: f64, to: f64) -> bool {
+    (to - from - std::f64::consts::TAU).abs() <= FULL_TURN_TOLERANCE
+}
+
 impl Shape {
     /// Names of the sides that `part.side` can mean.
     #[must_use]
     pub fn sides(&self) -> &'static [&'static str] {
         match self {
             Self::Rectangle { .. } => &["left", "right", "bottom", "top"],
-            Self::Ring { from, to, .. } if (to - from - std::f64::consts::TAU).abs() <= FULL_TURN_TOLERANCE => &["inner", "outer"],
+            Self::Ring { from, to, .. } if is_full_turn(*from, *to) => &["inner", "outer"],
             Self::Ring { .. } => &["inner", "outer", "start", "end"],
             Self::Disk { .. } => &["outer"],
             Self::Group { .. } => &[],

@@ -4,7 +4,6 @@
 
 // What the tests share.
 mod bodies;
-mod models;
 mod patches;
 
 mod bars;

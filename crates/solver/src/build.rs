@@ -12,7 +12,7 @@ use crate::load::constraint::{Constraints, unit};
 use crate::load::{gravity, wall::Wall};
 use crate::mesh::surface::{NONE, Surface};
 use crate::mesh::{Mesh, PartMesh};
-use crate::model::Model;
+use crate::model::{ContactLaw, Model, ObstacleShape, Partners};
 use crate::step::{CHUNK, Governor, Limits, NodeSums, System};
 use embate_lanes::{Batch, Level};
 
@@ -160,7 +160,9 @@ impl Builder<'_> {
     fn contacts(&mut self) -> Vec<Contact> {
         let mut contacts = Vec::new();
         for (i, contact) in self.model.contacts.iter().enumerate() {
-            let sides = [0, 1].map(|side| self.target(&contact.between[side]).map_err(|fault| (side, fault)));
+            let Partners::Between(between) = &contact.partners else { continue };
+            let ContactLaw::Penalty(penalty) = contact.interface.law else { continue };
+            let sides = [0, 1].map(|side| self.target(&between[side]).map_err(|fault| (side, fault)));
             let [first, second] = match sides {
                 [Ok(first), Ok(second)] => [first, second],
                 faulty => {
@@ -184,7 +186,7 @@ impl Builder<'_> {
                 targets: [first, second],
                 pressure_stiffness,
                 formulation: contact.formulation,
-                penalty: contact.penalty,
+                penalty,
                 search,
             };
             contacts.push(Contact::new(input, &self.mesh.positions));
@@ -210,12 +212,14 @@ impl Builder<'_> {
 
     fn walls(&mut self) -> Vec<Wall> {
         let mut walls = Vec::new();
-        for (i, wall) in self.model.walls.iter().enumerate() {
-            let Some(normal) = unit(wall.normal) else { continue };
+        for (i, wall) in self.model.obstacles.iter().enumerate() {
+            let ObstacleShape::Plane { point, normal, .. } = wall.shape else { continue };
+            let ContactLaw::Penalty(penalty) = wall.interface.law else { continue };
+            let Some(normal) = unit(normal) else { continue };
             let surface = match self.mesh.outside(&wall.parts) {
                 Ok(surface) => surface,
                 Err(fault) => {
-                    self.faults.push(Fault { path: format!("wall[{i}].parts"), ..fault });
+                    self.faults.push(Fault { path: format!("obstacle[{i}].parts"), ..fault });
                     continue;
                 }
             };
@@ -224,11 +228,11 @@ impl Builder<'_> {
             let held = |node: u32| self.constraints.mirror_normals(node).any(|m| (m[0] * normal[1] - m[1] * normal[0]).abs() < 1e-12);
             let stiffness = |(&node, &(length, own)): (&u32, &(f64, f64))| {
                 let here = law::Node { tributary: length, own, other: own, share: self.constraints.share(node) };
-                (!held(node)).then(|| (node, law::penalty::stiffness(wall.penalty, here, 1)))
+                (!held(node)).then(|| (node, law::penalty::stiffness(penalty, here, 1)))
             };
             let reach = contact::SKIN * own.iter().map(|&(length, _)| length).sum::<f64>() / own.len().max(1) as f64;
             let nodes = surface.nodes.iter().zip(&own).filter_map(stiffness).collect();
-            walls.push(Wall::new(wall.name.clone(), wall.point, normal, nodes, reach));
+            walls.push(Wall::new(wall.name.clone(), point, normal, nodes, reach));
         }
         walls
     }

@@ -9,8 +9,8 @@ use super::units::shorten;
 use super::value::Datum;
 use crate::gmsh;
 use embate_solver::model::{
-    Cadence, Constraint, Contact, Formulation, ImportedMesh, Load, Material, Model, Output, Part, Penalty, Probe, ProbeAt, Run, Shape,
-    Symmetry, Wall,
+    Cadence, Constraint, Contact, ContactLaw, Drive, Formulation, ImportedMesh, Interface, Load, Material, Model, Motion, Obstacle,
+    ObstacleShape, Output, Part, Partners, Penalty, PenaltySource, Probe, ProbeAt, Run, Shape, Symmetry,
 };
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -27,7 +27,7 @@ pub(super) fn model(document: &Document, name: &str, folder: &Path, faults: &mut
     model.materials = document.section("material").iter().map(|record| (record.name.clone(), material(record))).collect();
     model.parts = parts;
     model.contacts = document.section("contact").iter().map(|record| contact(record, faults)).collect();
-    model.walls = document.section("wall").iter().map(wall).collect();
+    model.obstacles = document.section("wall").iter().map(wall).collect();
     model.symmetries = document.section("symmetry").iter().map(symmetry).collect();
     model.constraints = document.section("constraint").iter().map(|record| constraint(record, faults)).collect();
     model.loads = document.section("load").iter().map(load).collect();
@@ -55,6 +55,8 @@ fn part(record: &Record, meshes: &mut Meshes<'_>, faults: &mut Faults) -> Part {
         element: record.text("element"),
         shape: shape(record, meshes, faults),
         velocity: record.vector("velocity"),
+        spin: 0.0,
+        rigid: None,
     }
 }
 
@@ -130,7 +132,7 @@ impl Meshes<'_> {
 fn penalty(record: &Record) -> Penalty {
     match record.datum("penalty") {
         Some(Datum::Penalty(penalty)) => *penalty,
-        _ => Penalty::Automatic { scale: record.number("penalty_scale").unwrap_or(1.0) },
+        _ => Penalty::Automatic { source: PenaltySource::WaveModulus, scale: record.number("penalty_scale").unwrap_or(1.0) },
     }
 }
 
@@ -140,9 +142,10 @@ fn contact(record: &Record, faults: &mut Faults) -> Contact {
     Contact {
         name: record.text("name"),
         formulation: formulation(record, &between, faults),
-        penalty: penalty(record),
+        interface: Interface { law: ContactLaw::Penalty(penalty(record)), ..Interface::default() },
         search: record.text("search"),
-        between,
+        partners: Partners::Between(between),
+        tied: None,
     }
 }
 
@@ -178,13 +181,18 @@ fn formulation(record: &Record, between: &[String; 2], faults: &mut Faults) -> F
     }
 }
 
-fn wall(record: &Record) -> Wall {
-    Wall {
+fn wall(record: &Record) -> Obstacle {
+    Obstacle {
         name: record.text("name"),
         parts: record.texts("parts"),
-        point: record.vector("point"),
-        normal: record.vector("normal"),
-        penalty: penalty(record),
+        shape: ObstacleShape::Plane { point: record.vector("point"), normal: record.vector("normal"), length: None },
+        motion: Motion::fixed(),
+        reference: None,
+        mass: None,
+        inertia: None,
+        velocity: [0.0; 2],
+        spin: 0.0,
+        interface: Interface { law: ContactLaw::Penalty(penalty(record)), ..Interface::default() },
     }
 }
 
@@ -208,7 +216,7 @@ fn constraint(record: &Record, faults: &mut Faults) -> Constraint {
         // Nothing sound was given: the reader has said so.
         velocity = [Some(0.0), None];
     }
-    Constraint { on: record.text("on"), velocity }
+    Constraint { on: record.text("on"), velocity: velocity.map(|velocity| velocity.map(Drive::Constant)) }
 }
 
 fn load(record: &Record) -> Load {
@@ -251,12 +259,13 @@ fn name_the_nameless(model: &mut Model) {
         |name: &str| -> String { name.chars().map(|c| if c.is_alphanumeric() || matches!(c, '_' | '-') { c } else { '_' }).collect() };
     let mut taken: BTreeSet<String> = model.contacts.iter().map(|contact| contact.name.clone()).collect();
     for contact in model.contacts.iter_mut().filter(|contact| contact.name.is_empty()) {
-        let joined: String = format!("{}-{}", plain(&contact.between[0]), plain(&contact.between[1])).chars().take(60).collect();
+        let Partners::Between(between) = &contact.partners else { continue };
+        let joined: String = format!("{}-{}", plain(&between[0]), plain(&between[1])).chars().take(60).collect();
         contact.name = free(&joined, &taken);
         taken.insert(contact.name.clone());
     }
-    let mut taken: BTreeSet<String> = model.walls.iter().map(|wall| wall.name.clone()).collect();
-    for wall in model.walls.iter_mut().filter(|wall| wall.name.is_empty()) {
+    let mut taken: BTreeSet<String> = model.obstacles.iter().map(|wall| wall.name.clone()).collect();
+    for wall in model.obstacles.iter_mut().filter(|wall| wall.name.is_empty()) {
         wall.name = free("wall", &taken);
         taken.insert(wall.name.clone());
     }

@@ -95,7 +95,7 @@ impl Contact {
     #[must_use]
     pub fn new(input: ContactInput, positions: &[Vector]) -> Self {
         let slaves: &[usize] = match input.formulation {
-            Formulation::DoublePass => &[0, 1],
+            Formulation::DoublePass | Formulation::Segment | Formulation::Pinball => &[0, 1],
             Formulation::SinglePass { slave: 0 } => &[0],
             Formulation::SinglePass { .. } => &[1],
         };

@@ -3,7 +3,7 @@
 
 use crate::error::Fault;
 use crate::mesh::Mesh;
-use crate::model::{Model, Symmetry};
+use crate::model::{Drive, Model, Symmetry};
 
 /// Prescribed directions of one node, orthonormal.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -124,7 +124,7 @@ impl Constraints<2> {
             };
             for node in nodes {
                 for (d, velocity) in constraint.velocity.iter().enumerate() {
-                    if let Some(velocity) = *velocity {
+                    if let Some(Drive::Constant(velocity)) = *velocity {
                         let mut direction = [0.0; 2];
                         direction[d] = 1.0;
                         result.hold(node, direction, velocity, &path, mesh, &mut faults);

@@ -5,7 +5,9 @@
 
 use super::describe::{self, ELEMENTS_MAX, out_of_range, suggestion};
 use super::reference::{Reference, dimension_word, excerpt};
-use super::{Cadence, Contact, Formulation, Load, Model, Part, Penalty, Probe, ProbeAt, Shape};
+use super::{
+    Cadence, Contact, ContactLaw, Drive, Formulation, Interface, Load, Model, ObstacleShape, Part, Partners, Penalty, Probe, ProbeAt, Shape,
+};
 use crate::error::Fault;
 use crate::quantity::{Dimension, Range};
 use crate::{contact, element, material, output};
@@ -25,7 +27,8 @@ impl Model {
         check.materials();
         check.parts();
         check.contacts();
-        check.walls_and_symmetries();
+        check.obstacles();
+        check.symmetries();
         check.constraints();
         check.loads();
         check.probes();
@@ -309,7 +312,7 @@ impl Check<'_> {
 
     fn penalty(&mut self, path: &str, penalty: Penalty) {
         match penalty {
-            Penalty::Automatic { scale } => self.number(&format!("{path}.penalty_scale"), scale),
+            Penalty::Automatic { scale, .. } => self.number(&format!("{path}.penalty_scale"), scale),
             Penalty::PerNode(value) => self.number(&format!("{path}.penalty"), value),
             Penalty::Pressure(value) => {
                 self.within(&format!("{path}.penalty"), value, Dimension::PRESSURE_PER_LENGTH, Range::Positive);
@@ -325,7 +328,7 @@ impl Check<'_> {
         for (index, contact) in model.contacts.iter().enumerate() {
             let path = format!("contact[{index}]");
             self.surfaces(&path, contact);
-            self.penalty(&path, contact.penalty);
+            self.interface(&path, &contact.interface);
             if let Formulation::SinglePass { slave } = contact.formulation
                 && slave > 1
             {
@@ -334,7 +337,8 @@ impl Check<'_> {
             if !contact.search.is_empty() {
                 self.known(&format!("{path}.search"), "search", &contact.search, &searches);
             }
-            let pair = sorted(&contact.between);
+            let Partners::Between(between) = &contact.partners else { continue };
+            let pair = sorted(between);
             let first = *pairs.entry(pair).or_insert(index);
             if first != index {
                 self.fault(
@@ -347,8 +351,9 @@ impl Check<'_> {
     }
 
     fn surfaces(&mut self, path: &str, contact: &Contact) {
+        let Partners::Between(between) = &contact.partners else { return };
         let mut found = [None, None];
-        for (side, name) in contact.between.iter().enumerate() {
+        for (side, name) in between.iter().enumerate() {
             found[side] = self.reference(&format!("{path}.between[{side}]"), name, Some(1));
         }
         let [Some(a), Some(b)] = found else { return };
@@ -361,24 +366,36 @@ impl Check<'_> {
                 format!("{path}.between"),
                 format!(
                     "`{}` and `{}` share a surface: contact of a body with itself is not available",
-                    excerpt(&contact.between[0]),
-                    excerpt(&contact.between[1])
+                    excerpt(&between[0]),
+                    excerpt(&between[1])
                 ),
                 "name two different bodies or two different sides",
             );
         }
     }
 
-    fn walls_and_symmetries(&mut self) {
-        let model = self.model;
-        self.names("wall", model.walls.iter().map(|wall| wall.name.as_str()));
-        for (index, wall) in model.walls.iter().enumerate() {
-            let path = format!("wall[{index}]");
-            self.part_list(&format!("{path}.parts"), &wall.parts);
-            self.vector(&format!("{path}.point"), wall.point);
-            self.direction(&format!("{path}.normal"), wall.normal);
-            self.penalty(&path, wall.penalty);
+    fn interface(&mut self, path: &str, interface: &Interface) {
+        if let ContactLaw::Penalty(penalty) = interface.law {
+            self.penalty(path, penalty);
         }
+    }
+
+    fn obstacles(&mut self) {
+        let model = self.model;
+        self.names("obstacle", model.obstacles.iter().map(|obstacle| obstacle.name.as_str()));
+        for (index, obstacle) in model.obstacles.iter().enumerate() {
+            let path = format!("obstacle[{index}]");
+            self.part_list(&format!("{path}.parts"), &obstacle.parts);
+            if let ObstacleShape::Plane { point, normal, .. } = obstacle.shape {
+                self.vector(&format!("{path}.plane.point"), point);
+                self.direction(&format!("{path}.plane.normal"), normal);
+            }
+            self.interface(&path, &obstacle.interface);
+        }
+    }
+
+    fn symmetries(&mut self) {
+        let model = self.model;
         for (index, symmetry) in model.symmetries.iter().enumerate() {
             let path = format!("symmetry[{index}]");
             self.part_list(&format!("{path}.parts"), &symmetry.parts);
@@ -391,9 +408,9 @@ impl Check<'_> {
         for (index, constraint) in self.model.constraints.iter().enumerate() {
             let path = format!("constraint[{index}]");
             self.reference(&format!("{path}.on"), &constraint.on, None);
-            for (axis, velocity) in ["x", "y"].iter().zip(constraint.velocity) {
-                if let Some(velocity) = velocity {
-                    self.number(&format!("{path}.velocity.{axis}"), velocity);
+            for (axis, velocity) in ["x", "y"].iter().zip(&constraint.velocity) {
+                if let Some(Drive::Constant(velocity)) = velocity {
+                    self.number(&format!("{path}.velocity.{axis}"), *velocity);
                 }
             }
             if constraint.velocity == [None, None] {
@@ -413,6 +430,10 @@ impl Check<'_> {
                 Load::Gravity { parts, acceleration } => {
                     self.part_list(&format!("{path}.parts"), parts);
                     self.vector(&format!("{path}.gravity"), *acceleration);
+                }
+                Load::Damping { parts, rate, .. } => {
+                    self.part_list(&format!("{path}.parts"), parts);
+                    self.number(&format!("{path}.damping"), *rate);
                 }
             }
         }

@@ -4,7 +4,7 @@
 //! (Carpenter, Taylor and Katona 1991). Two equal bars: force ½ ρ c Δv A for 2L/c, then the velocities are exchanged.
 
 use crate::bodies::{add, elastic, model, rectangle, simulation};
-use embate_solver::model::{Contact, Formulation, Model, Penalty, Wall};
+use embate_solver::model::{Contact, Formulation, Model, Obstacle, Penalty};
 use embate_solver::simulation::Simulation;
 
 const YOUNG: f64 = 200e9;
@@ -25,13 +25,8 @@ fn bar_and_wall(elements: usize, scale: f64, axis: usize) -> Model {
     let turn = |along: f64, across: f64| if axis == 0 { [along, across] } else { [across, along] };
     let count = if axis == 0 { [elements, 1] } else { [1, elements] };
     add(&mut model, "bar", rectangle(turn(1e-3, 0.0), turn(2.0, 0.5), count), turn(-1.5, 0.0));
-    model.walls.push(Wall {
-        name: "wall".into(),
-        parts: Vec::new(),
-        point: [0.0, 0.0],
-        normal: turn(1.0, 0.0),
-        penalty: Penalty::Automatic { scale },
-    });
+    let wall = Obstacle::wall("wall", [0.0; 2], turn(1.0, 0.0));
+    model.obstacles.push(Obstacle { interface: Penalty::automatic(scale).into(), ..wall });
     model
 }
 
@@ -106,13 +101,8 @@ fn two_equal_bars_exchange_their_velocities() {
         let mut model = slender(3.2e-4, young, density);
         add(&mut model, "left", rectangle([-length, 0.0], [length, height], [50, 1]), [10.0, 0.0]);
         add(&mut model, "right", rectangle([1e-6, 0.0], [length, height], [50, 1]), [-10.0, 0.0]);
-        model.contacts.push(Contact {
-            name: "ends".into(),
-            between: ["left".into(), "right".into()],
-            formulation,
-            penalty: Penalty::Automatic { scale },
-            search: String::new(),
-        });
+        let ends = Contact::between("ends", "left", "right");
+        model.contacts.push(Contact { formulation, interface: Penalty::automatic(scale).into(), ..ends });
         let (simulation, rows) = history(&model, 1e-6, &["time", "contact.force_x[ends]", "left.vx", "right.vx"]);
         let force = 0.5 * density * c * 20.0 * height;
         let duration = 2.0 * length / c;

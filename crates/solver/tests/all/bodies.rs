@@ -31,7 +31,7 @@ pub(crate) fn mapped_rectangle() -> Shape {
 
 /// Adds a body with a probe of its mean position and velocity.
 pub(crate) fn add(model: &mut Model, name: &str, shape: Shape, velocity: [f64; 2]) {
-    model.parts.push(Part { name: name.into(), material: "soft".into(), element: "quad4".into(), shape, velocity });
+    model.parts.push(Part { name: name.into(), material: "soft".into(), element: "quad4".into(), shape, velocity, spin: 0.0, rigid: None });
     model.probes.push(Probe { name: name.into(), at: ProbeAt::Set { set: name.into() } });
 }
 
@@ -41,7 +41,7 @@ pub(crate) fn probe(model: &mut Model, name: &str, part: &str, point: [f64; 2]) 
 
 pub(crate) fn touch(model: &mut Model, first: &str, second: &str) {
     let name = format!("{first}-{second}").replace('.', "_");
-    model.contacts.push(Contact { name, between: [first.into(), second.into()], ..Contact::default() });
+    model.contacts.push(Contact::between(&name, first, second));
 }
 
 pub(crate) fn group(name: &str, dimension: u8, cells: impl Iterator<Item = Vec<u32>>) -> MeshGroup {

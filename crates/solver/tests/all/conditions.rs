@@ -2,11 +2,11 @@
 
 use crate::bodies::*;
 use embate_solver::error::Error;
-use embate_solver::model::{Constraint, Load, Model, Penalty, Symmetry, Wall};
+use embate_solver::model::{Constraint, Load, Model, Obstacle, Penalty, Symmetry};
 use embate_solver::simulation::{Options, Simulation};
 
 fn fix(model: &mut Model, on: &str, velocity: [Option<f64>; 2]) {
-    model.constraints.push(Constraint { on: on.into(), velocity });
+    model.constraints.push(Constraint { on: on.into(), velocity: velocity.map(|velocity| velocity.map(Into::into)) });
 }
 
 fn faults(model: &Model) -> Vec<String> {
@@ -46,7 +46,7 @@ fn a_skew_symmetry_line_is_as_good_as_a_straight_one() {
         let mesh = mapped([6, 4], |u, v| turn([0.08 * u, v * (0.03 + 0.02 * u)]));
         add_mesh(&mut model, "wedge", mesh, turn([-20.0, 0.0]));
         model.symmetries.push(Symmetry { normal: turn([0.0, 1.0]), ..Symmetry::default() });
-        model.walls.push(Wall { name: "end".into(), point: turn([-0.001, 0.0]), normal: turn([1.0, 0.0]), ..Wall::default() });
+        model.obstacles.push(Obstacle::wall("end", turn([-0.001, 0.0]), turn([1.0, 0.0])));
         let mut simulation = simulation(&model);
         let on_line: Vec<usize> = (0..35).filter(|&i| across(simulation.frame().positions[i], angle).abs() < 1e-15).collect();
         assert_eq!(on_line.len(), 7);
@@ -120,7 +120,7 @@ fn contradictions_are_told_with_condition_and_place() {
         assert!(told[0].contains(word), "{word}: {told:?}");
     }
     // The same velocity twice is no contradiction, nor is another direction.
-    model.constraints[1].velocity = [Some(1.0), Some(0.0)];
+    model.constraints[1].velocity = [Some(1.0.into()), Some(0.0.into())];
     assert_eq!(faults(&model), Vec::<String>::new());
     // A symmetry line and a drive across it; where nothing lies on a line; a name of nothing.
     model.symmetries.push(Symmetry { normal: [1.0, 0.0], ..Symmetry::default() });
@@ -183,7 +183,7 @@ fn gravity_acts_on_the_parts_it_names_and_on_their_share_of_common_nodes() {
 #[test]
 fn a_wall_holds_the_nodes_of_bonded_parts_with_one_spring_each() {
     // One block cut in two bonded parts bounces off a wall exactly like the uncut one.
-    let run = |cut: bool, penalty| {
+    let run = |cut: bool, penalty: Penalty| {
         let mut model = model(6e-4);
         let mut mesh = mapped([6, 3], |u, v| [0.1 * u, 0.001 + 0.05 * v]);
         if cut {
@@ -195,7 +195,7 @@ fn a_wall_holds_the_nodes_of_bonded_parts_with_one_spring_each() {
         } else {
             add_mesh(&mut model, "whole", mesh, [0.0, -10.0]);
         }
-        model.walls.push(Wall { name: "floor".into(), normal: [0.0, 1.0], penalty, ..Wall::default() });
+        model.obstacles.push(Obstacle { interface: penalty.into(), ..Obstacle::wall("floor", [0.0; 2], [0.0, 1.0]) });
         let mut simulation = simulation(&model);
         simulation.advance(f64::INFINITY, u64::MAX).unwrap();
         assert!(simulation.summary().penetration_max > 0.0);

@@ -3,7 +3,7 @@
 
 use crate::bodies::*;
 use embate_solver::contact::search::registry;
-use embate_solver::model::{Formulation, Model, Penalty, Shape, Symmetry, Wall};
+use embate_solver::model::{Formulation, Model, Obstacle, Penalty, Shape, Symmetry};
 use embate_solver::simulation::{Options, Simulation};
 
 /// Two blocks that meet obliquely, corner against side.
@@ -275,7 +275,7 @@ fn a_half_model_is_half_of_the_whole() {
                 if half { rectangle([0.0, -0.011], [0.12, 0.01], [12, 2]) } else { rectangle([-0.12, -0.011], [0.24, 0.01], [24, 2]) };
             add(&mut model, "plate", plate, [0.0, 0.0]);
             touch(&mut model, "disc", "plate");
-            model.contacts[0].penalty = penalty;
+            model.contacts[0].interface = penalty.into();
             for (name, part, point) in
                 [("A", "disc", [0.0, 0.0]), ("T", "disc", [0.0, 0.1]), ("B", "plate", [0.0, -0.001]), ("E", "plate", [0.12, -0.011])]
             {
@@ -305,7 +305,7 @@ fn a_half_model_is_half_of_the_whole() {
 fn the_impulse_of_a_wall_is_the_change_of_momentum() {
     let mut model = model(1.2e-3);
     add(&mut model, "block", mapped_rectangle(), [8.0, -20.0]);
-    model.walls.push(Wall { name: "floor".into(), point: [3.0, -0.001], normal: [0.0, 2.0], ..Wall::default() });
+    model.obstacles.push(Obstacle::wall("floor", [3.0, -0.001], [0.0, 2.0]));
     let steps = every_step(&model);
     let change = steps.masses[0] * steps.change("block.vy");
     let impulse = steps.impulse("wall.force_y[floor]");
@@ -319,7 +319,7 @@ fn a_disk_bounces_between_two_walls_many_times_and_keeps_its_energy() {
     let mut model = model(0.05);
     add(&mut model, "disk", Shape::Disk { centre: [0.0, 0.0], radius: 0.05, elements: 4 }, [0.0, 20.0]);
     for (name, y) in [("floor", -0.06), ("ceiling", 0.06)] {
-        model.walls.push(Wall { name: name.into(), point: [0.0, y], normal: [0.0, -y], ..Wall::default() });
+        model.obstacles.push(Obstacle::wall(name, [0.0, y], [0.0, -y]));
     }
     let (simulation, history) = run(&model);
     let speeds = history.column("disk.vy");
@@ -372,7 +372,7 @@ fn a_projectile_that_moves_several_plate_thicknesses_in_a_step_does_not_pass() {
         let height = 0.005 + 0.0003 * f64::from(k);
         add(&mut model, "block", rectangle([-0.0231, height], [0.05, 0.03], [5, 3]), [0.0, -speed]);
         touch(&mut model, "foil", "block");
-        model.contacts[0].penalty = Penalty::Pressure(1e11);
+        model.contacts[0].interface = Penalty::Pressure(1e11).into();
         model.contacts[0].formulation = Formulation::SinglePass { slave: 1 };
         model.run.energy_limit = 0.5;
         let mut simulation = simulation(&model);

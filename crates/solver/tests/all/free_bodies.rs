@@ -22,6 +22,8 @@ fn bar(element: &str, law: &str, size: [f64; 2], elements: [usize; 2], end: f64)
             element: element.into(),
             shape: Shape::Rectangle { corner: [0.0; 2], size, elements },
             velocity: [0.0; 2],
+            spin: 0.0,
+            rigid: None,
         }],
         ..Model::default()
     }
@@ -47,6 +49,8 @@ fn bar_of_parts(law: &str, size: [f64; 2], elements: [usize; 2], end: f64, veloc
             element: "quad4".into(),
             shape: Shape::Group { mesh: 0, group: name },
             velocity,
+            spin: 0.0,
+            rigid: None,
         });
     }
     model.meshes.push(Arc::new(ImportedMesh { source: "bar".into(), positions, groups }));
@@ -54,7 +58,7 @@ fn bar_of_parts(law: &str, size: [f64; 2], elements: [usize; 2], end: f64, veloc
 }
 
 fn hold(model: &mut Model, on: &str, velocity: [Option<f64>; 2]) {
-    model.constraints.push(Constraint { on: on.into(), velocity });
+    model.constraints.push(Constraint { on: on.into(), velocity: velocity.map(|velocity| velocity.map(Into::into)) });
 }
 
 fn gravity(model: &mut Model) {

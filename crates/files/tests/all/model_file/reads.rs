@@ -31,11 +31,11 @@ fn the_tube_plate_example_has_exactly_the_values_that_it_shows() {
     assert_eq!((plate.name.as_str(), &plate.shape, plate.velocity), ("plate", &rectangle, [0.0, 50.0]));
     let contact = &model.contacts[0];
     assert_eq!(
-        (contact.name.as_str(), contact.penalty, contact.formulation),
+        (contact.name.as_str(), contact.interface.law.clone(), contact.formulation),
         ("impact", Penalty::PerNode(3.5e11), Formulation::DoublePass)
     );
-    assert_eq!(contact.between, ["tube", "plate"]);
-    let wall = &model.walls[0];
+    assert_eq!(contact.partners, Partners::Between(["tube".into(), "plate".into()]));
+    let wall = &model.obstacles[0];
     assert_eq!((wall.name.as_str(), wall.parts.as_slice(), wall.normal), ("wall", &["plate".to_string()][..], [1.0, 0.0]));
     assert_eq!(model.symmetries, [Symmetry { parts: vec![], point: [0.0, 0.0], normal: [1.0, 0.0] }]);
     let probes: Vec<_> = model.probes.iter().map(|probe| (probe.name.as_str(), probe.at.clone())).collect();
@@ -54,8 +54,8 @@ fn what_is_left_out_has_the_default_of_the_solver() {
     assert_eq!(model.output, Output { fields: Cadence::Count(10), ..Output::default() });
     assert_eq!(sound(&changed("[output]\nfields = 10\n", "")).output, Output::default());
     assert_eq!(model.parts[0].velocity, [0.0, 0.0]);
-    assert_eq!(model.contacts[0].penalty, Penalty::default());
-    assert_eq!((model.contacts[0].name.as_str(), model.walls[0].name.as_str()), ("tube-plate", "wall"));
+    assert_eq!(model.contacts[0].interface, Interface::default());
+    assert_eq!((model.contacts[0].name.as_str(), model.obstacles[0].name.as_str()), ("tube-plate", "wall"));
     assert_eq!(model.constraints[0].velocity, [Some(0.0), None]);
     assert_eq!(model.loads, [Load::Gravity { parts: vec![], acceleration: [0.0, -9.81] }]);
     let full = sound(&changed("from = \"-90 deg\", to = \"90 deg\", ", ""));
@@ -67,7 +67,7 @@ fn names_that_are_left_out_do_not_collide() {
     let text = changed("[[wall]]\n", "[[wall]]\nname = \"wall2\"\nnormal = [0, 1]\n[[wall]]\nnormal = [0, 1]\n[[wall]]\n");
     let text = text.replace("[[symmetry]]", "[[contact]]\nbetween = [\"tube.outer\", \"plate.top\"]\n[[symmetry]]");
     let model = sound(&text);
-    assert_eq!(model.walls.iter().map(|wall| wall.name.as_str()).collect::<Vec<_>>(), ["wall2", "wall", "wall3"]);
+    assert_eq!(model.obstacles.iter().map(|wall| wall.name.as_str()).collect::<Vec<_>>(), ["wall2", "wall", "wall3"]);
     assert_eq!(model.contacts[1].name, "tube_outer-plate_top");
 }
 

@@ -40,6 +40,6 @@ pub fn stiffness(penalty: Penalty, node: Node, passes: usize) -> f64 {
         Penalty::PerNode(stiffness) => stiffness * node.share,
         // Tributary lengths end at the symmetry line already.
         Penalty::Pressure(pressure) => pressure * node.tributary,
-        Penalty::Automatic { scale } => scale * node.tributary * node.own.min(node.other) / passes as f64,
+        Penalty::Automatic { scale, .. } => scale * node.tributary * node.own.min(node.other) / passes as f64,
     }
 }

@@ -1,13 +1,21 @@
 //! Models made by code, each with one fault.
 
 use super::*;
-use crate::model::{Constraint, ImportedMesh, Material, MeshGroup, Symmetry, Wall};
+use crate::model::{Constraint, Drive, ImportedMesh, Material, MeshGroup, Obstacle, Symmetry};
 use std::sync::Arc;
 
 /// A sound model made by code: a ring, a block of a mesh, everything that acts on them.
 fn sound() -> Model {
     let parameters = [("density", 7800.0), ("young", 2e11), ("poisson", 0.3)].map(|(key, value)| (key.to_string(), value));
-    let part = |name: &str, shape| Part { name: name.into(), material: "steel".into(), element: "quad4".into(), shape, velocity: [0.0; 2] };
+    let part = |name: &str, shape| Part {
+        name: name.into(),
+        material: "steel".into(),
+        element: "quad4".into(),
+        shape,
+        velocity: [0.0; 2],
+        spin: 0.0,
+        rigid: None,
+    };
     let group = |name: &str, dimension, cells| MeshGroup { name: name.into(), dimension, cells };
     let mesh = ImportedMesh {
         source: "block.msh".into(),
@@ -19,10 +27,10 @@ fn sound() -> Model {
     model.run.end = 1.0;
     model.materials.insert("steel".into(), Material { law: "elastic".into(), parameters: parameters.into_iter().collect() });
     model.parts = vec![part("ring", ring), part("block", Shape::Group { mesh: 0, group: "body".into() })];
-    model.contacts = vec![Contact { name: "hit".into(), between: ["ring.outer".into(), "upper".into()], ..Contact::default() }];
-    model.walls = vec![Wall { name: "wall".into(), normal: [1.0, 0.0], ..Wall::default() }];
+    model.contacts = vec![Contact::between("hit", "ring.outer", "upper")];
+    model.obstacles = vec![Obstacle::wall("wall", [0.0; 2], [1.0, 0.0])];
     model.symmetries = vec![Symmetry { normal: [1.0, 0.0], ..Symmetry::default() }];
-    model.constraints = vec![Constraint { on: "upper".into(), velocity: [Some(0.0), None] }];
+    model.constraints = vec![Constraint { on: "upper".into(), velocity: [Some(0.0.into()), None] }];
     model.loads = vec![Load::Gravity { parts: vec![], acceleration: [0.0, -9.81] }];
     model.probes = vec![Probe { name: "A".into(), at: ProbeAt::Point { part: "ring".into(), point: [0.0; 2] } }];
     model
@@ -47,7 +55,7 @@ fn a_number_that_is_not_finite_is_found_wherever_it_is() {
         let Shape::Ring { centre, inner, outer, from, to, .. } = &mut model.parts[0].shape else { unreachable!("part 0 is the ring") };
         [&mut centre[1], inner, outer, from, to].into_iter().nth(which).expect("five numbers")
     }
-    let places: [(&str, Place); 18] = [
+    let places: [(&str, Place); 16] = [
         ("run.end", |m| &mut m.run.end),
         ("run.safety", |m| &mut m.run.safety),
         ("run.energy_limit", |m| &mut m.run.energy_limit),
@@ -59,13 +67,15 @@ fn a_number_that_is_not_finite_is_found_wherever_it_is() {
         ("part[0].ring.outer", |m| ring(m, 2)),
         ("part[0].ring.from", |m| ring(m, 3)),
         ("part[0].ring.to", |m| ring(m, 4)),
-        ("wall[0].point[0]", |m| &mut m.walls[0].point[0]),
-        ("wall[0].normal[0]", |m| &mut m.walls[0].normal[0]),
         ("symmetry[0].point[1]", |m| &mut m.symmetries[0].point[1]),
         ("symmetry[0].normal[1]", |m| &mut m.symmetries[0].normal[1]),
-        ("constraint[0].velocity.x", |m| m.constraints[0].velocity[0].get_or_insert(0.0)),
+        ("constraint[0].velocity.x", |m| match m.constraints[0].velocity[0].get_or_insert(0.0.into()) {
+            Drive::Constant(velocity) => velocity,
+            Drive::Curve(_) => unreachable!("it is constant"),
+        }),
         ("load[0].gravity[0]", |m| match &mut m.loads[0] {
             Load::Gravity { acceleration, .. } => &mut acceleration[0],
+            Load::Damping { .. } => unreachable!("it is gravity"),
         }),
         ("probe[0].point[0]", |m| match &mut m.probes[0].at {
             ProbeAt::Point { point, .. } => &mut point[0],
@@ -79,9 +89,9 @@ fn a_number_that_is_not_finite_is_found_wherever_it_is() {
         }
     }
     for penalty in [Penalty::PerNode(f64::NAN), Penalty::Pressure(-1.0)] {
-        assert_eq!(paths(|model| model.contacts[0].penalty = penalty), ["contact[0].penalty"]);
+        assert_eq!(paths(|model| model.contacts[0].interface = penalty.into()), ["contact[0].penalty"]);
     }
-    assert_eq!(paths(|model| model.walls[0].penalty = Penalty::Automatic { scale: 0.0 }), ["wall[0].penalty_scale"]);
+    assert_eq!(paths(|model| model.obstacles[0].interface = Penalty::automatic(0.0).into()), ["obstacle[0].penalty_scale"]);
     assert_eq!(paths(|model| model.output.history = Cadence::Interval(f64::NAN)), ["output.history"]);
 }
 

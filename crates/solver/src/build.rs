@@ -9,6 +9,7 @@ use crate::contact::projection::node_segment::Target;
 use crate::contact::search::Search;
 use crate::contact::springs::friction::Friction;
 use crate::contact::springs::{Springs, Tangential, Terms};
+use crate::contact::traces::Traces;
 use crate::contact::tracker::{SKIN, Tracker};
 use crate::contact::{self, Contact, ContactKind, search};
 use crate::energy::Ledger;
@@ -71,6 +72,8 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         }
     }
     let velocities: Vec<[f64; 2]> = momentum.iter().zip(&mass).map(|(p, &m)| p.map(|p| p / m)).collect();
+    let outside = if contacts.is_empty() { Surface::default() } else { mesh.outside(&[]).map_err(|fault| vec![fault])? };
+    let traces = Traces::new(outside, &mesh.positions);
     let limits =
         Limits { end: model.run.end, safety: model.run.safety, energy: model.run.energy_limit, step: model.run.step_limit.unwrap_or(0.0) };
     let elements: usize = blocks.iter().map(|block| block.elements()).sum();
@@ -100,6 +103,7 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         contacts,
         terms,
         bodies,
+        traces,
         constraints,
         limits,
         level,
@@ -220,7 +224,7 @@ impl Builder<'_> {
             let of = |(&(tributary, own), node): (&(f64, f64), &u32)| {
                 let on_line = mirrors.binary_search_by_key(node, |&(node, _)| node).is_ok();
                 let node = law::Node { tributary, own, other, share: if on_line { 0.5 } else { 1.0 } };
-                Slave { stiffness: stiffness_of(&contact.interface, node, passes.len()), area: tributary, slip: 0.0 }
+                Slave { stiffness: stiffness_of(&contact.interface, node, passes.len()), area: tributary / passes.len() as f64, slip: 0.0 }
             };
             nodes.iter().zip(&surface.nodes).map(of).collect()
         };

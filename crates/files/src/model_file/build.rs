@@ -27,7 +27,7 @@ pub(super) fn model(document: &Document, name: &str, folder: &Path, faults: &mut
     model.materials = document.section("material").iter().map(|record| (record.name.clone(), material(record))).collect();
     model.parts = parts;
     model.contacts = document.section("contact").iter().map(|record| contact(record, faults)).collect();
-    model.obstacles = document.section("wall").iter().map(wall).collect();
+    model.obstacles = document.section("obstacle").iter().map(obstacle).collect();
     model.symmetries = document.section("symmetry").iter().map(symmetry).collect();
     model.constraints = document.section("constraint").iter().map(|record| constraint(record, faults)).collect();
     model.loads = document.section("load").iter().map(load).collect();
@@ -181,11 +181,12 @@ fn formulation(record: &Record, between: &[String; 2], faults: &mut Faults) -> F
     }
 }
 
-fn wall(record: &Record) -> Obstacle {
+fn obstacle(record: &Record) -> Obstacle {
+    let (point, normal) = record.table("plane").map_or(([f64::NAN; 2], [f64::NAN; 2]), |it| (it.vector("point"), it.vector("normal")));
     Obstacle {
         name: record.text("name"),
         parts: record.texts("parts"),
-        shape: ObstacleShape::Plane { point: record.vector("point"), normal: record.vector("normal"), length: None },
+        shape: ObstacleShape::Plane { point, normal, length: None },
         motion: Motion::fixed(),
         reference: None,
         mass: None,
@@ -253,7 +254,7 @@ fn output(record: &Record) -> Output {
     }
 }
 
-/// Names for contacts and walls that have none: the two surfaces' names, or `wall`, `wall2`, ...
+/// Names for contacts and obstacles that have none: the two surfaces' names, or `obstacle`, `obstacle2`, ...
 fn name_the_nameless(model: &mut Model) {
     let plain =
         |name: &str| -> String { name.chars().map(|c| if c.is_alphanumeric() || matches!(c, '_' | '-') { c } else { '_' }).collect() };
@@ -264,10 +265,10 @@ fn name_the_nameless(model: &mut Model) {
         contact.name = free(&joined, &taken);
         taken.insert(contact.name.clone());
     }
-    let mut taken: BTreeSet<String> = model.obstacles.iter().map(|wall| wall.name.clone()).collect();
-    for wall in model.obstacles.iter_mut().filter(|wall| wall.name.is_empty()) {
-        wall.name = free("wall", &taken);
-        taken.insert(wall.name.clone());
+    let mut taken: BTreeSet<String> = model.obstacles.iter().map(|obstacle| obstacle.name.clone()).collect();
+    for obstacle in model.obstacles.iter_mut().filter(|obstacle| obstacle.name.is_empty()) {
+        obstacle.name = free("obstacle", &taken);
+        taken.insert(obstacle.name.clone());
     }
 }
 

@@ -151,7 +151,7 @@ pub static TOP: Section = Section {
 };
 
 /// Every section, in the order of the documentation.
-pub static SECTIONS: &[&Section] = &[&RUN, &MATERIAL, &PART, &CONTACT, &WALL, &SYMMETRY, &CONSTRAINT, &LOAD, &PROBE, &OUTPUT];
+pub static SECTIONS: &[&Section] = &[&RUN, &MATERIAL, &PART, &CONTACT, &OBSTACLE, &SYMMETRY, &CONSTRAINT, &LOAD, &PROBE, &OUTPUT];
 
 static RUN: Section = Section {
     name: "run",
@@ -295,16 +295,15 @@ static CONTACT: Section = Section {
     more: None,
 };
 
-static WALL: Section = Section {
-    name: "wall",
-    doc: "A rigid plane wall that the nodes of some parts can't cross.",
+static OBSTACLE: Section = Section {
+    name: "obstacle",
+    doc: "A rigid body without elements that some parts can't cross.",
     form: Form::Repeated,
     required: false,
     keys: &[
-        key("name", Name, Optional("`wall`, `wall2`, ..."), "Unique name."),
+        key("name", Name, Optional("`obstacle`, `obstacle2`, ..."), "Unique name."),
         key("parts", References(None), Optional("all parts"), "Parts that it stops."),
-        key("point", Vector(Dimension::LENGTH, Finite), Default("[0, 0]"), "A point of the wall."),
-        key("normal", Vector(Dimension::NONE, Finite), Required, "Normal that points to the free side; any length but zero."),
+        key("plane", Table(&PLANE), Required, "A straight line."),
         key(
             "penalty",
             Stiffness(Positive),
@@ -314,6 +313,19 @@ static WALL: Section = Section {
         key("penalty_scale", Quantity(Dimension::NONE, Positive), Optional("1"), "Factor on the automatic penalty."),
     ],
     rules: &[Rule::NotBoth("penalty", "penalty_scale")],
+    more: None,
+};
+
+static PLANE: Section = Section {
+    name: "plane",
+    doc: "A straight line.",
+    form: Form::Inline,
+    required: false,
+    keys: &[
+        key("point", Vector(Dimension::LENGTH, Finite), Default("[0, 0]"), "A point of the line."),
+        key("normal", Vector(Dimension::NONE, Finite), Required, "Normal that points to the free side; any length but zero."),
+    ],
+    rules: &[],
     more: None,
 };
 

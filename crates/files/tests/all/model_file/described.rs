@@ -126,7 +126,7 @@ fn every_key_refuses_every_bad_value_at_its_place() {
             if let Kind::Table(inner) = key.kind {
                 let index = ["ring", "rectangle", "disk", "mesh"].iter().position(|name| *name == inner.name).unwrap_or(0) % 3;
                 for key in inner.keys {
-                    count += try_all(key, &format!("part.{index}.{}.{}", inner.name, key.name), &[]);
+                    count += try_all(key, &format!("{}.{index}.{}.{}", section.name, inner.name, key.name), &[]);
                 }
             }
         }

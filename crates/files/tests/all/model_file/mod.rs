@@ -33,9 +33,9 @@ material = "steel"
 disk = { centre = [0, 0.1], radius = "9 mm", elements = 4 }
 [[contact]]
 between = ["tube", "plate"]
-[[wall]]
+[[obstacle]]
 parts = ["plate"]
-normal = [1, 0]
+plane = { normal = [1, 0] }
 [[symmetry]]
 normal = [1, 0]
 [[constraint]]

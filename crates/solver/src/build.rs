@@ -4,7 +4,7 @@ use crate::assembly::Assembly;
 use crate::block::{Block, BlockInput, Report, make};
 use crate::contact::law::{self, Law};
 use crate::contact::node_segment::{NodeSegment, Slave};
-use crate::contact::obstacle::{NodeObstacle, plane::Plane};
+use crate::contact::obstacle::{NodeObstacle, OutlineShape, plane::Plane};
 use crate::contact::projection::node_segment::Target;
 use crate::contact::search::Search;
 use crate::contact::springs::friction::Friction;
@@ -43,6 +43,7 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         under: Vec::new(),
         bodies: Bodies::default(),
         terms: Vec::new(),
+        outlines: Vec::new(),
         mesh,
     };
     let blocks = builder.blocks();
@@ -55,7 +56,7 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
     if !builder.faults.is_empty() {
         return Err(builder.faults);
     }
-    let Builder { mesh, constraints, bodies, terms, .. } = builder;
+    let Builder { mesh, constraints, bodies, terms, outlines, .. } = builder;
     let inputs: Vec<(&dyn Block<2>, usize, &[u32])> =
         blocks.iter().zip(&mesh.parts).map(|(block, part)| (block.as_ref(), part.nodes_per_element, &part.connectivity[..])).collect();
     let nodes = mesh.positions.len();
@@ -103,6 +104,7 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         contacts,
         terms,
         bodies,
+        outlines,
         traces,
         constraints,
         limits,
@@ -134,6 +136,7 @@ struct Builder<'a> {
     bodies: Bodies,
     /// What acts in each contact, then in each obstacle.
     terms: Vec<Terms>,
+    outlines: Vec<OutlineShape>,
 }
 
 impl Builder<'_> {
@@ -274,6 +277,10 @@ impl Builder<'_> {
             self.terms.push(terms);
             let body = self.bodies.add(Body { centre: point, ..Body::default() });
             let shape = Plane { normal, half: length.map_or(f64::INFINITY, |length| 0.5 * length) };
+            // Beyond every picture of the model.
+            let far = shape.half.min(20.0 * self.mesh.positions.iter().flatten().fold(0.0f64, |size, x| size.max(x.abs())));
+            let points = [1.0, -1.0].map(|side| [-side * far * normal[1], side * far * normal[0]]);
+            self.outlines.push(OutlineShape { name: obstacle.name.clone(), body, points: points.into() });
             let formulation = NodeObstacle::new(Box::new(shape), body, nodes, reach, obstacle.interface.thickness);
             contacts.push(Contact::new(
                 obstacle.name.clone(),

@@ -99,6 +99,15 @@ pub struct Field {
     pub values: Vec<f64>,
 }
 
+/// Where an obstacle is at one output time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outline<const D: usize> {
+    /// Name of the obstacle.
+    pub name: String,
+    /// Its surface from point to point, the solid on the right, m; a plane without end reaches far beyond the model, a closed line ends at its first point.
+    pub points: Vec<[f64; D]>,
+}
+
 /// The state at one output time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame<const D: usize> {
@@ -110,6 +119,8 @@ pub struct Frame<const D: usize> {
     pub positions: Vec<[f64; D]>,
     /// Fields in the order of [`FIELDS`].
     pub fields: Vec<Field>,
+    /// Obstacles in model order.
+    pub outlines: Vec<Outline<D>>,
 }
 
 /// Components of a plane vector.

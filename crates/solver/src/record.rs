@@ -100,7 +100,8 @@ impl Recorded {
         for (x, &user) in system.positions.iter().zip(&system.mesh.user_nodes) {
             positions[user as usize] = *x;
         }
-        Frame { time: system.time, step: system.step, positions, fields }
+        let outlines = system.outlines.iter().map(|outline| outline.now(&system.bodies)).collect();
+        Frame { time: system.time, step: system.step, positions, fields, outlines }
     }
 }
 

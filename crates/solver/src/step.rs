@@ -5,6 +5,7 @@
 
 use crate::assembly::Assembly;
 use crate::block::{Block, Motion, Report};
+use crate::contact::obstacle::OutlineShape;
 use crate::contact::springs::{Lost, Springs, Terms, Update};
 use crate::contact::traces::Traces;
 use crate::contact::{Contact, Scene, Sweep};
@@ -63,6 +64,8 @@ pub struct System {
     /// What acts in the springs of each.
     pub(crate) terms: Vec<Terms>,
     pub(crate) bodies: Bodies,
+    /// Shapes of the obstacles, for pictures.
+    pub(crate) outlines: Vec<OutlineShape>,
     /// What contacts leave on the surfaces.
     pub(crate) traces: Traces,
     pub(crate) constraints: Constraints<2>,

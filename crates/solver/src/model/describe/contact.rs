@@ -3,7 +3,7 @@
 use super::Kind::{Angle, Choice, Flag, Name, Points, Quantities, Quantity, Reference, References, Stiffness, Table, Vector};
 use super::Need::{Default, Optional, Required};
 use super::{Form, Group, Kind, Rule, Section, key};
-use crate::contact::search;
+use crate::contact::{law, search};
 use crate::quantity::Dimension;
 use crate::quantity::Range::{Finite, NotNegative, Positive};
 
@@ -184,10 +184,8 @@ static INTERFACE: Group = Group {
     ],
 };
 
-/// Names of the contact laws.
-#[must_use]
-pub fn contact_laws() -> Vec<&'static str> {
-    vec!["penalty", "pressure_gap", "multiplier"]
+fn contact_laws() -> Vec<&'static str> {
+    law::LAWS.iter().map(|kind| kind.name).collect()
 }
 
 fn searches() -> Vec<&'static str> {

@@ -7,7 +7,6 @@
 mod contact;
 mod sections;
 
-pub use contact::contact_laws;
 pub use sections::{ELEMENTS_MAX, MOVED, SECTIONS, TOP};
 
 use super::reference::excerpt;

@@ -3,7 +3,7 @@
 use crate::assembly::Assembly;
 use crate::block::{Block, BlockInput, Report, make};
 use crate::contact::law::{self, Law};
-use crate::contact::node_segment::{NodeSegment, Slave};
+use crate::contact::node_segment::{NodeSegment, PassInput, Slave};
 use crate::contact::obstacle::{NodeObstacle, OutlineShape, plane::Plane};
 use crate::contact::projection::node_segment::Target;
 use crate::contact::search::Search;
@@ -18,10 +18,11 @@ use crate::load::constraint::{Constraints, unit};
 use crate::load::gravity;
 use crate::mesh::surface::{NONE, Surface};
 use crate::mesh::{Mesh, PartMesh};
-use crate::model::{self, ContactLaw, Formulation, Interface, Model, ObstacleShape, Partners, Penalty};
+use crate::model::{self, ContactLaw, Formulation, InitialPenetration, Interface, Model, ObstacleShape, Partners, Penalty};
 use crate::rigid::{Bodies, Body};
 use crate::step::{CHUNK, Governor, Limits, NodeSums, System};
 use embate_lanes::{Batch, Level};
+use std::cell::RefCell;
 
 /// Below so many elements threads cost more than they bring.
 const SERIAL: usize = 4096;
@@ -131,8 +132,8 @@ struct Builder<'a> {
     mesh: Mesh<2>,
     constraints: Constraints<2>,
     faults: Vec<Fault>,
-    /// Pressure stiffness κ = (K + 4µ/3) L / A of the element behind each edge as an outside segment, Pa/m; sorted by nodes.
-    under: Vec<([u32; 2], f64)>,
+    /// Pressure stiffness κ = (K + 4µ/3) L / A of the element behind each edge as an outside segment, Pa/m, and its part; sorted by nodes.
+    under: Vec<([u32; 2], f64, u32)>,
     bodies: Bodies,
     /// What acts in each contact, then in each obstacle.
     terms: Vec<Terms>,
@@ -162,7 +163,7 @@ impl Builder<'_> {
 
     /// Stiffness of the elements behind every edge, for the automatic penalty.
     fn find_elements_under_surfaces(&mut self, blocks: &[Box<dyn Block<2>>]) {
-        for (part, block) in self.mesh.parts.iter().zip(blocks) {
+        for (number, (part, block)) in (0..).zip(self.mesh.parts.iter().zip(blocks)) {
             for cell in part.connectivity.chunks_exact(part.nodes_per_element) {
                 let x = |corner: usize| self.mesh.positions[cell[corner % cell.len()] as usize];
                 let area = 0.5 * (0..cell.len()).map(|c| x(c)[0] * x(c + 1)[1] - x(c)[1] * x(c + 1)[0]).sum::<f64>();
@@ -170,29 +171,40 @@ impl Builder<'_> {
                     let (a, b) = (x(c), x(c + 1));
                     let length = ((b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2)).sqrt();
                     // Outside segments run against the element's own direction.
-                    self.under.push(([cell[(c + 1) % cell.len()], cell[c]], block.wave_modulus() * length / area));
+                    self.under.push(([cell[(c + 1) % cell.len()], cell[c]], block.wave_modulus() * length / area, number));
                 }
             }
         }
-        self.under.sort_unstable_by_key(|&(nodes, _)| nodes);
+        self.under.sort_unstable_by_key(|&(nodes, ..)| nodes);
+    }
+
+    /// Pressure stiffness κ behind each segment, Pa/m, and the part that it belongs to.
+    fn behind(&self, surface: &Surface) -> Vec<(f64, u32)> {
+        let find = |segment: &[u32; 2]| self.under.binary_search_by_key(segment, |&(nodes, ..)| nodes).ok();
+        surface.segments.iter().map(|segment| find(segment).map_or((0.0, 0), |at| (self.under[at].1, self.under[at].2))).collect()
     }
 
     fn stiffness_under(&self, surface: &Surface) -> Vec<f64> {
-        let of = |segment: &[u32; 2]| self.under.binary_search_by_key(segment, |&(nodes, _)| nodes).map_or(0.0, |at| self.under[at].1);
-        surface.segments.iter().map(of).collect()
+        self.behind(surface).into_iter().map(|(stiffness, _)| stiffness).collect()
+    }
+
+    /// Smallest κ of the segments of the same part, for each segment, Pa/m.
+    fn softest_under(&self, surface: &Surface) -> Vec<f64> {
+        let behind = self.behind(surface);
+        let mut softest = vec![f64::INFINITY; self.mesh.parts.len()];
+        for &(stiffness, part) in &behind {
+            softest[part as usize] = stiffness.min(softest[part as usize]);
+        }
+        behind.into_iter().map(|(_, part)| softest[part as usize]).collect()
     }
 
     fn contacts(&mut self) -> Vec<Contact> {
         let mut contacts = Vec::new();
         for (i, contact) in self.model.contacts.iter().enumerate() {
-            let Partners::Between(between) = &contact.partners else { continue };
-            let sides = [0, 1].map(|side| self.target(&between[side]).map_err(|fault| (side, fault)));
-            let targets = match sides {
-                [Ok(first), Ok(second)] => [first, second],
-                faulty => {
-                    for (side, fault) in faulty.into_iter().filter_map(Result::err) {
-                        self.faults.push(Fault { path: format!("contact[{i}].between[{side}]"), ..fault });
-                    }
+            let outlines = match self.outlines_of(contact) {
+                Ok(outlines) => outlines,
+                Err(faults) => {
+                    self.faults.extend(faults.into_iter().map(|fault| Fault { path: format!("contact[{i}].{}", fault.path), ..fault }));
                     continue;
                 }
             };
@@ -205,42 +217,80 @@ impl Builder<'_> {
                 continue;
             };
             let terms = terms(&contact.interface);
-            let formulation = self.node_segment(contact, targets, search, terms.law.reach());
+            let formulation = self.node_segment(contact, outlines, search, terms.law.reach());
             self.terms.push(terms);
             contacts.push(Contact::new(contact.name.clone(), ContactKind::Contact, Box::new(formulation), contact.interface.active));
         }
         contacts
     }
 
-    fn node_segment(&self, contact: &model::Contact, targets: [Target; 2], search: Box<dyn Search<2>>, reach: f64) -> NodeSegment {
-        let passes: &[(usize, usize)] = match contact.formulation {
-            Formulation::SinglePass { slave: 0 } => &[(0, 1)],
-            Formulation::SinglePass { .. } => &[(1, 0)],
-            _ => &[(0, 1), (1, 0)],
+    fn node_segment(&self, contact: &model::Contact, outlines: Vec<Outlined>, search: Box<dyn Search<2>>, reach: f64) -> NodeSegment {
+        let passes = passes_of(contact);
+        let stiffness: Vec<_> = outlines.iter().map(|outline| self.stiffness_under(&outline.target.surface)).collect();
+        // A surface that meets itself is met from both sides.
+        let sides = if outlines.len() == 1 { 2 } else { passes.len() };
+        let interface = &contact.interface;
+        let scale = match interface.law {
+            ContactLaw::Penalty(Penalty::PerNode(_) | Penalty::Pressure(_)) => None,
+            ContactLaw::Penalty(Penalty::Automatic { scale, .. }) => Some(scale),
+            _ => Some(1.0),
         };
-        let stiffness = [0, 1].map(|surface: usize| self.stiffness_under(&targets[surface].surface));
-        let softest = |surface: usize| stiffness[surface].iter().copied().fold(f64::INFINITY, f64::min);
         let pass = |&(slave, target): &(usize, usize)| {
-            let Target { surface, mirrors } = &targets[slave];
+            let Target { surface, mirrors } = &outlines[slave].target;
             let nodes = contact::node_stiffness(surface, &stiffness[slave], &self.mesh.positions);
-            let other = softest(target);
             let of = |(&(tributary, own), node): (&(f64, f64), &u32)| {
                 let on_line = mirrors.binary_search_by_key(node, |&(node, _)| node).is_ok();
-                let node = law::Node { tributary, own, other, share: if on_line { 0.5 } else { 1.0 } };
-                Slave { stiffness: stiffness_of(&contact.interface, node, passes.len()), area: tributary / passes.len() as f64, slip: 0.0 }
+                let node = law::Node { tributary, own, other: f64::INFINITY, share: if on_line { 0.5 } else { 1.0 } };
+                Slave { stiffness: stiffness_of(interface, node, sides), area: tributary / sides as f64, slip: 0.0 }
             };
-            nodes.iter().zip(&surface.nodes).map(of).collect()
+            let per_modulus = scale.map(|scale| nodes.iter().map(|&(tributary, _)| scale * tributary / sides as f64).collect());
+            PassInput {
+                slaves: nodes.iter().zip(&surface.nodes).map(of).collect(),
+                per_modulus: per_modulus.unwrap_or_default(),
+                moduli: self.softest_under(&outlines[target].target.surface),
+            }
         };
-        let slaves = passes.iter().map(pass).collect();
-        let tracker = Tracker::new(targets.into(), passes, search, &self.mesh.positions);
-        NodeSegment::new(tracker, slaves, contact.interface.thickness, reach)
+        let inputs = passes.iter().map(pass).collect();
+        let tracker = tracker(outlines, passes, search, &self.mesh);
+        // Nobody can say where bodies are when a contact begins later.
+        let ignores_start = interface.initial_penetration == InitialPenetration::Ignore || interface.active[0] > 0.0;
+        NodeSegment::new(tracker, inputs, [interface.thickness, reach], ignores_start, &self.mesh.positions)
+    }
+
+    /// The surfaces of a contact: two, or one that meets itself. Faults have paths relative to the contact.
+    fn outlines_of(&self, contact: &model::Contact) -> Result<Vec<Outlined>, Vec<Fault>> {
+        match &contact.partners {
+            Partners::Between(between) => {
+                let sides = (0..).zip(between).map(|(side, name)| {
+                    let outline = self.outlined(|leave_out| self.mesh.surface(name, leave_out), &format!("surface \"{name}\""));
+                    outline.map_err(|fault| Fault { path: format!("between[{side}]"), ..fault })
+                });
+                let (good, faulty): (Vec<_>, Vec<_>) = sides.partition(Result::is_ok);
+                if faulty.is_empty() {
+                    Ok(good.into_iter().flatten().collect())
+                } else {
+                    Err(faulty.into_iter().filter_map(Result::err).collect())
+                }
+            }
+            Partners::Bodies(parts) => {
+                let outline = self.outlined(|leave_out| self.mesh.outside_without(parts, leave_out), "the outside of the bodies");
+                outline.map(|outline| vec![outline]).map_err(|fault| vec![Fault { path: "bodies".into(), ..fault }])
+            }
+        }
     }
 
     /// A surface without the segments on symmetry lines, and the normals of the lines at the ends that this leaves open.
-    fn target(&self, name: &str) -> Result<Target, Fault> {
-        let surface = self.mesh.surface(name, |segment| self.constraints.is_mirror(segment))?;
+    fn outlined(&self, surface: impl Fn(&dyn Fn([u32; 2]) -> bool) -> Result<Surface, Fault>, what: &str) -> Result<Outlined, Fault> {
+        let lids = RefCell::new(Vec::new());
+        let surface = surface(&|segment| {
+            let is_lid = self.constraints.is_mirror(segment);
+            if is_lid {
+                lids.borrow_mut().push(segment);
+            }
+            is_lid
+        })?;
         if surface.segments.is_empty() {
-            return Err(Fault::new("", format!("surface \"{name}\" lies on a symmetry line altogether"), "name another surface"));
+            return Err(Fault::new("", format!("{what} lies on a symmetry line altogether"), "name another surface"));
         }
         let starts =
             surface.segments.iter().zip(&surface.previous).filter(|(_, previous)| **previous == NONE).map(|(segment, _)| segment[0]);
@@ -249,7 +299,7 @@ impl Builder<'_> {
         let mut mirrors: Vec<(u32, [f64; 2])> =
             open.filter_map(|node| Some((node, self.constraints.mirror_normals(node).next()?))).collect();
         mirrors.sort_by_key(|&(node, _)| node);
-        Ok(Target { surface, mirrors })
+        Ok(Outlined { target: Target { surface, mirrors }, lids: lids.into_inner() })
     }
 
     fn obstacles(&mut self) -> Vec<Contact> {
@@ -291,6 +341,28 @@ impl Builder<'_> {
         }
         contacts
     }
+}
+
+/// A surface of a contact.
+pub(crate) struct Outlined {
+    target: Target,
+    /// Segments that were left out because they lie on a symmetry line.
+    lids: Vec<[u32; 2]>,
+}
+
+/// Which nodes meet which surface: (slave, target).
+fn passes_of(contact: &model::Contact) -> &'static [(usize, usize)] {
+    match (&contact.partners, contact.formulation) {
+        (Partners::Bodies(_), _) => &[(0, 0)],
+        (_, Formulation::SinglePass { slave: 0 }) => &[(0, 1)],
+        (_, Formulation::SinglePass { .. }) => &[(1, 0)],
+        _ => &[(0, 1), (1, 0)],
+    }
+}
+
+fn tracker(outlines: Vec<Outlined>, passes: &[(usize, usize)], search: Box<dyn Search<2>>, mesh: &Mesh<2>) -> Tracker {
+    let (targets, lids): (Vec<_>, Vec<_>) = outlines.into_iter().map(|Outlined { target, lids }| (target, lids)).unzip();
+    Tracker::new(targets, passes, search, &mesh.positions).with_bodies(&mesh.bodies(), &lids)
 }
 
 /// What acts in the springs of an interface.

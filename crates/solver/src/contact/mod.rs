@@ -18,6 +18,7 @@ use crate::rigid::Bodies;
 use springs::{Spring, Springs, Totals};
 use std::ops::Range;
 use traces::Traces;
+use tracker::{Certificate, SearchReport};
 
 /// A vector of the plane.
 pub type Vector = [f64; 2];
@@ -30,6 +31,16 @@ pub trait Formulation: Send {
 
     /// Keeps what the next step needs of the solved springs, in the order of [`Formulation::detect`].
     fn remember(&mut self, solved: &[Spring]);
+
+    /// What was checked so far, and whether a contact was missed.
+    fn certificate(&self) -> Certificate {
+        Certificate::default()
+    }
+
+    /// What the global search did, if there is one.
+    fn search_report(&self) -> Option<SearchReport> {
+        None
+    }
 }
 
 /// What a step shows to contacts.
@@ -114,6 +125,18 @@ impl Contact {
             traces.mark(springs, spring, time_step);
         }
         self.formulation.remember(&springs.list[self.found.clone()]);
+    }
+
+    /// What was checked so far, and whether a contact was missed.
+    #[must_use]
+    pub fn certificate(&self) -> Certificate {
+        self.formulation.certificate()
+    }
+
+    /// What the global search did, if there is one.
+    #[must_use]
+    pub fn search_report(&self) -> Option<SearchReport> {
+        self.formulation.search_report()
     }
 
     /// Slave nodes that are inside in the last step, with their depth, m.

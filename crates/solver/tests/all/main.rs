@@ -17,3 +17,4 @@ mod materials;
 mod plasticity;
 mod projection;
 mod search;
+mod self_contact;

@@ -110,10 +110,18 @@ impl Target {
         if end == Place::Begin { self.surface.previous[segment as usize] } else { self.surface.next[segment as usize] }
     }
 
+    /// Nearest feature to `x` among those of `candidates` that `x` is in front of, or behind by no more than `rounding` (m): a node above a thin plate sees neither the
+    /// plate's far side nor that of its own body. `None` where the nearest is an end at which the surface is cut off.
+    #[must_use]
+    pub fn ahead(&self, x: Vector, candidates: &[u32], rounding: f64, positions: &[Vector]) -> Option<Projection> {
+        let features = candidates.iter().filter_map(|&segment| self.feature(x, segment, positions));
+        features.filter(|feature| feature.projection.is_none_or(|projection| projection.gap >= -rounding)).reduce(nearer)?.projection
+    }
+
     /// Nearest feature to `x` among `candidates`; of equally near ones the first. `None` where that is an end at which the surface is cut off.
     pub fn nearest(&self, x: Vector, candidates: &[u32], positions: &[Vector]) -> Option<Projection> {
         let nearest = candidates.iter().filter_map(|&segment| self.feature(x, segment, positions)).reduce(nearer)?;
-        self.between_sides(x, nearest, positions, true)
+        self.between_sides(x, nearest, NONE, positions, true)
     }
 
     /// Follows the chain from `start` to the nearest feature: the way to stay on the side of a thin body on which a node came in.
@@ -126,12 +134,18 @@ impl Target {
     /// node deep below a thin body would be led around the body's edge to the far side.
     #[must_use]
     pub fn follow(&self, x: Vector, start: u32, positions: &[Vector]) -> Option<Projection> {
+        self.follow_without(x, start, NONE, positions)
+    }
+
+    /// As [`Target::follow`], but the chain ends at the segments of node `own`: those of the slave itself, in a contact of a surface with itself.
+    #[must_use]
+    pub fn follow_without(&self, x: Vector, start: u32, own: u32, positions: &[Vector]) -> Option<Projection> {
         let mut best = self.feature(x, start, positions)?;
         for _ in 0..self.surface.segments.len() {
             let here = best;
             for end in [Place::Begin, Place::End] {
                 let neighbour = self.neighbour(here.segment, end);
-                if neighbour == NONE || (here.at == Place::Inside && self.is_edge(here.segment, neighbour, positions)) {
+                if !self.goes_on(neighbour, own) || (here.at == Place::Inside && self.is_edge(here.segment, neighbour, positions)) {
                     continue;
                 }
                 let other = self.feature(x, neighbour, positions).filter(|other| other.at != end || here.at == end);
@@ -141,19 +155,24 @@ impl Target {
                 break;
             }
         }
-        self.between_sides(x, best, positions, false)
+        self.between_sides(x, best, own, positions, false)
+    }
+
+    /// Whether there is a segment, and not one of node `own`.
+    fn goes_on(&self, segment: u32, own: u32) -> bool {
+        segment != NONE && (own == NONE || !self.surface.segments[segment as usize].contains(&own))
     }
 
     /// The projection of a feature; of a node that is equally near to two sides, as far as rounding lets one tell, that on their common node:
     /// what is symmetric stays so. Sides that meet at an edge count only with `over_edges`.
-    fn between_sides(&self, x: Vector, feature: Feature, positions: &[Vector], over_edges: bool) -> Option<Projection> {
+    fn between_sides(&self, x: Vector, feature: Feature, own: u32, positions: &[Vector], over_edges: bool) -> Option<Projection> {
         let projection = feature.projection?;
         if feature.at != Place::Inside || projection.gap >= 0.0 {
             return Some(projection);
         }
         for (end, weights, corner) in [(Place::Begin, [1.0, 0.0], 0), (Place::End, [0.0, 1.0], 1)] {
             let neighbour = self.neighbour(feature.segment, end);
-            if neighbour == NONE || (!over_edges && self.is_edge(feature.segment, neighbour, positions)) {
+            if !self.goes_on(neighbour, own) || (!over_edges && self.is_edge(feature.segment, neighbour, positions)) {
                 continue;
             }
             let other = self.feature(x, neighbour, positions).filter(|other| other.at == Place::Inside);
@@ -183,13 +202,28 @@ impl Target {
     /// path through a shared node from both neighbours, so what decides in the end is `net_exits`, which can lose nothing.
     #[must_use]
     pub fn crossing(&self, x_old: Vector, x_new: Vector, segment: u32, positions_old: &[Vector], positions_new: &[Vector]) -> Option<f64> {
+        self.passage(x_old, x_new, segment, positions_old, positions_new)?.entered
+    }
+
+    /// What a node does to `segment` on its way from `x_old` to `x_new`; `None` where it stays on one side of the segment's line.
+    #[inline]
+    #[must_use]
+    pub fn passage(
+        &self,
+        x_old: Vector,
+        x_new: Vector,
+        segment: u32,
+        positions_old: &[Vector],
+        positions_new: &[Vector],
+    ) -> Option<Passage> {
         let [n1, n2] = self.surface.segments[segment as usize].map(|node| node as usize);
         let e0 = minus(positions_old[n2], positions_old[n1]);
         let r0 = minus(x_old, positions_old[n1]);
         let de = minus(minus(positions_new[n2], positions_new[n1]), e0);
         let dr = minus(minus(x_new, positions_new[n1]), r0);
         let (c, b, a) = (cross(e0, r0), cross(e0, dr) + cross(de, r0), cross(de, dr));
-        let rounding = 16.0 * f64::EPSILON * (e0[0].abs() + e0[1].abs()) * (r0[0].abs() + r0[1].abs());
+        let size = |v: Vector, change: Vector| v[0].abs() + v[1].abs() + change[0].abs() + change[1].abs();
+        let rounding = 16.0 * f64::EPSILON * size(e0, de) * size(r0, dr);
         // NaN fails the comparison too
         if !(c.abs() <= b.abs() + a.abs() + rounding) {
             return None;
@@ -205,13 +239,29 @@ impl Target {
                 && whole > 0.0
                 && (-END_TOLERANCE * whole..=(1.0 + END_TOLERANCE) * whole).contains(&along)
         };
+        let seen = [(n1, x_old, positions_old), (n2, x_old, positions_old), (n1, x_new, positions_new), (n2, x_new, positions_new)];
+        let exits = net_exits(seen.map(|(n, x, positions)| minus(positions[n], x)));
         let time = roots.into_iter().flatten().find(within);
-        time.or_else(|| {
-            let seen = [(n1, x_old, positions_old), (n2, x_old, positions_old), (n1, x_new, positions_new), (n2, x_new, positions_new)];
-            let entered = net_exits(seen.map(|(n, x, positions)| minus(positions[n], x))) < 0;
-            entered.then(|| roots.into_iter().flatten().find(|time| (0.0..=1.0).contains(time)).unwrap_or(1.0))
-        })
+        let entered =
+            time.or_else(|| (exits < 0).then(|| roots.into_iter().flatten().find(|time| (0.0..=1.0).contains(time)).unwrap_or(1.0)));
+        Some(Passage { entered, exits })
     }
+
+    /// Part of the winding number of `segment` around `x`, as [`Passage::exits`] counts it: summed over a closed surface it is minus the number of bodies that `x` is in.
+    #[must_use]
+    pub fn turn(x: Vector, segment: [u32; 2], positions: &[Vector]) -> i32 {
+        let [a, b] = segment.map(|node| minus(positions[node as usize], x));
+        side(a, b)
+    }
+}
+
+/// What a node did to a segment in a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Passage {
+    /// Time (0 to 1) at which it went in.
+    pub entered: Option<f64>,
+    /// How often it went out less how often it went in.
+    pub exits: i32,
 }
 
 /// The nearest feature of one segment: its inside or an end.
@@ -243,13 +293,16 @@ fn net_exits([a0, b0, a1, b1]: [Vector; 4]) -> i32 {
         (false, true) => -i32::from(cross(from, to) < 0.0),
         _ => 0,
     };
-    // A node on the segment itself is outside, as its gap of zero says.
-    let side = |a: Vector, b: Vector| match (a[1] <= 0.0, b[1] <= 0.0) {
+    way(a0, a1) + side(a1, b1) - way(b0, b1) - side(a0, b0)
+}
+
+/// How often the segment a → b goes through the ray along +x from the origin: 1 upwards, −1 downwards. A node on the segment itself is outside, as its gap of zero says.
+fn side(a: Vector, b: Vector) -> i32 {
+    match (a[1] <= 0.0, b[1] <= 0.0) {
         (true, false) => i32::from(cross(a, b) >= 0.0),
         (false, true) => -i32::from(cross(a, b) < 0.0),
         _ => 0,
-    };
-    way(a0, a1) + side(a1, b1) - way(b0, b1) - side(a0, b0)
+    }
 }
 
 /// Real roots of a t² + b t + c = 0 in ascending order, without cancellation.

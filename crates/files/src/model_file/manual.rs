@@ -57,7 +57,8 @@ pub fn reference_markdown() -> String {
     out
 }
 
-fn table(out: &mut String, section: &Section, keys: &[Key]) {
+/// A table of keys, and the rules between them.
+pub(crate) fn table(out: &mut String, section: &Section, keys: &[Key]) {
     out.push_str("| key | value | left out | meaning |\n|---|---|---|---|\n");
     for key in keys {
         let left_out = match key.need {

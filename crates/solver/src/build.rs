@@ -2,17 +2,23 @@
 
 use crate::assembly::Assembly;
 use crate::block::{Block, BlockInput, Report, make};
+use crate::contact::law::{self, Law};
+use crate::contact::node_segment::{NodeSegment, Slave};
+use crate::contact::obstacle::{NodeObstacle, plane::Plane};
 use crate::contact::projection::node_segment::Target;
 use crate::contact::search::Search;
-use crate::contact::springs::Springs;
-use crate::contact::{self, Contact, ContactInput, law, search};
+use crate::contact::springs::friction::Friction;
+use crate::contact::springs::{Springs, Tangential, Terms};
+use crate::contact::tracker::{SKIN, Tracker};
+use crate::contact::{self, Contact, ContactKind, search};
 use crate::energy::Ledger;
 use crate::error::Fault;
 use crate::load::constraint::{Constraints, unit};
-use crate::load::{gravity, wall::Wall};
+use crate::load::gravity;
 use crate::mesh::surface::{NONE, Surface};
 use crate::mesh::{Mesh, PartMesh};
-use crate::model::{ContactLaw, Model, ObstacleShape, Partners};
+use crate::model::{self, ContactLaw, Formulation, Interface, Model, ObstacleShape, Partners, Penalty};
+use crate::rigid::{Bodies, Body};
 use crate::step::{CHUNK, Governor, Limits, NodeSums, System};
 use embate_lanes::{Batch, Level};
 
@@ -29,18 +35,26 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         return Err(faults);
     }
     let mesh = Mesh::new(model)?;
-    let mut builder = Builder { model, faults: Vec::new(), constraints: Constraints::new(model, &mesh)?, under: Vec::new(), mesh };
+    let mut builder = Builder {
+        model,
+        faults: Vec::new(),
+        constraints: Constraints::new(model, &mesh)?,
+        under: Vec::new(),
+        bodies: Bodies::default(),
+        terms: Vec::new(),
+        mesh,
+    };
     let blocks = builder.blocks();
     if blocks.len() < model.parts.len() {
         return Err(builder.faults);
     }
     builder.find_elements_under_surfaces(&blocks);
-    let contacts = builder.contacts();
-    let walls = builder.walls();
+    let mut contacts = builder.contacts();
+    contacts.extend(builder.obstacles());
     if !builder.faults.is_empty() {
         return Err(builder.faults);
     }
-    let Builder { mesh, constraints, .. } = builder;
+    let Builder { mesh, constraints, bodies, terms, .. } = builder;
     let inputs: Vec<(&dyn Block<2>, usize, &[u32])> =
         blocks.iter().zip(&mesh.parts).map(|(block, part)| (block.as_ref(), part.nodes_per_element, &part.connectivity[..])).collect();
     let nodes = mesh.positions.len();
@@ -68,7 +82,7 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         velocities_old: velocities.clone(),
         velocities,
         contact_forces: vec![[0.0; 2]; nodes],
-        springs: Springs::new(nodes),
+        springs: Springs::new(nodes, bodies.len()),
         reports: vec![Report::NOTHING; blocks.len()],
         sums: vec![NodeSums::default(); nodes.div_ceil(CHUNK)],
         ledger: Ledger::default(),
@@ -84,7 +98,8 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         assembly,
         mass,
         contacts,
-        walls,
+        terms,
+        bodies,
         constraints,
         limits,
         level,
@@ -112,6 +127,9 @@ struct Builder<'a> {
     faults: Vec<Fault>,
     /// Pressure stiffness κ = (K + 4µ/3) L / A of the element behind each edge as an outside segment, Pa/m; sorted by nodes.
     under: Vec<([u32; 2], f64)>,
+    bodies: Bodies,
+    /// What acts in each contact, then in each obstacle.
+    terms: Vec<Terms>,
 }
 
 impl Builder<'_> {
@@ -161,9 +179,8 @@ impl Builder<'_> {
         let mut contacts = Vec::new();
         for (i, contact) in self.model.contacts.iter().enumerate() {
             let Partners::Between(between) = &contact.partners else { continue };
-            let ContactLaw::Penalty(penalty) = contact.interface.law else { continue };
             let sides = [0, 1].map(|side| self.target(&between[side]).map_err(|fault| (side, fault)));
-            let [first, second] = match sides {
+            let targets = match sides {
                 [Ok(first), Ok(second)] => [first, second],
                 faulty => {
                     for (side, fault) in faulty.into_iter().filter_map(Result::err) {
@@ -180,18 +197,36 @@ impl Builder<'_> {
                 ));
                 continue;
             };
-            let pressure_stiffness = [self.stiffness_under(&first.surface), self.stiffness_under(&second.surface)];
-            let input = ContactInput {
-                name: contact.name.clone(),
-                targets: [first, second],
-                pressure_stiffness,
-                formulation: contact.formulation,
-                penalty,
-                search,
-            };
-            contacts.push(Contact::new(input, &self.mesh.positions));
+            let terms = terms(&contact.interface);
+            let formulation = self.node_segment(contact, targets, search, terms.law.reach());
+            self.terms.push(terms);
+            contacts.push(Contact::new(contact.name.clone(), ContactKind::Contact, Box::new(formulation), contact.interface.active));
         }
         contacts
+    }
+
+    fn node_segment(&self, contact: &model::Contact, targets: [Target; 2], search: Box<dyn Search<2>>, reach: f64) -> NodeSegment {
+        let passes: &[(usize, usize)] = match contact.formulation {
+            Formulation::SinglePass { slave: 0 } => &[(0, 1)],
+            Formulation::SinglePass { .. } => &[(1, 0)],
+            _ => &[(0, 1), (1, 0)],
+        };
+        let stiffness = [0, 1].map(|surface: usize| self.stiffness_under(&targets[surface].surface));
+        let softest = |surface: usize| stiffness[surface].iter().copied().fold(f64::INFINITY, f64::min);
+        let pass = |&(slave, target): &(usize, usize)| {
+            let Target { surface, mirrors } = &targets[slave];
+            let nodes = contact::node_stiffness(surface, &stiffness[slave], &self.mesh.positions);
+            let other = softest(target);
+            let of = |(&(tributary, own), node): (&(f64, f64), &u32)| {
+                let on_line = mirrors.binary_search_by_key(node, |&(node, _)| node).is_ok();
+                let node = law::Node { tributary, own, other, share: if on_line { 0.5 } else { 1.0 } };
+                Slave { stiffness: stiffness_of(&contact.interface, node, passes.len()), area: tributary, slip: 0.0 }
+            };
+            nodes.iter().zip(&surface.nodes).map(of).collect()
+        };
+        let slaves = passes.iter().map(pass).collect();
+        let tracker = Tracker::new(targets.into(), passes, search, &self.mesh.positions);
+        NodeSegment::new(tracker, slaves, contact.interface.thickness, reach)
     }
 
     /// A surface without the segments on symmetry lines, and the normals of the lines at the ends that this leaves open.
@@ -210,13 +245,12 @@ impl Builder<'_> {
         Ok(Target { surface, mirrors })
     }
 
-    fn walls(&mut self) -> Vec<Wall> {
-        let mut walls = Vec::new();
-        for (i, wall) in self.model.obstacles.iter().enumerate() {
-            let ObstacleShape::Plane { point, normal, .. } = wall.shape else { continue };
-            let ContactLaw::Penalty(penalty) = wall.interface.law else { continue };
+    fn obstacles(&mut self) -> Vec<Contact> {
+        let mut contacts = Vec::new();
+        for (i, obstacle) in self.model.obstacles.iter().enumerate() {
+            let ObstacleShape::Plane { point, normal, length } = obstacle.shape else { continue };
             let Some(normal) = unit(normal) else { continue };
-            let surface = match self.mesh.outside(&wall.parts) {
+            let surface = match self.mesh.outside(&obstacle.parts) {
                 Ok(surface) => surface,
                 Err(fault) => {
                     self.faults.push(Fault { path: format!("obstacle[{i}].parts"), ..fault });
@@ -224,18 +258,48 @@ impl Builder<'_> {
                 }
             };
             let own = contact::node_stiffness(&surface, &self.stiffness_under(&surface), &self.mesh.positions);
-            // Nodes that a symmetry line keeps on this wall need no spring.
+            // Nodes that a symmetry line keeps on this plane need no spring.
             let held = |node: u32| self.constraints.mirror_normals(node).any(|m| (m[0] * normal[1] - m[1] * normal[0]).abs() < 1e-12);
-            let stiffness = |(&node, &(length, own)): (&u32, &(f64, f64))| {
+            let slave = |(&node, &(length, own)): (&u32, &(f64, f64))| {
                 let here = law::Node { tributary: length, own, other: own, share: self.constraints.share(node) };
-                (!held(node)).then(|| (node, law::penalty::stiffness(penalty, here, 1)))
+                (!held(node)).then(|| (node, Slave { stiffness: stiffness_of(&obstacle.interface, here, 1), area: length, slip: 0.0 }))
             };
-            let reach = contact::SKIN * own.iter().map(|&(length, _)| length).sum::<f64>() / own.len().max(1) as f64;
-            let nodes = surface.nodes.iter().zip(&own).filter_map(stiffness).collect();
-            walls.push(Wall::new(wall.name.clone(), point, normal, nodes, reach));
+            let terms = terms(&obstacle.interface);
+            let reach = SKIN * own.iter().map(|&(length, _)| length).sum::<f64>() / own.len().max(1) as f64 + terms.law.reach();
+            let nodes = surface.nodes.iter().zip(&own).filter_map(slave).collect();
+            self.terms.push(terms);
+            let body = self.bodies.add(Body { centre: point, ..Body::default() });
+            let shape = Plane { normal, half: length.map_or(f64::INFINITY, |length| 0.5 * length) };
+            let formulation = NodeObstacle::new(Box::new(shape), body, nodes, reach, obstacle.interface.thickness);
+            contacts.push(Contact::new(
+                obstacle.name.clone(),
+                ContactKind::Obstacle(body),
+                Box::new(formulation),
+                obstacle.interface.active,
+            ));
         }
-        walls
+        contacts
     }
+}
+
+/// What acts in the springs of an interface.
+fn terms(interface: &Interface) -> Terms {
+    let law: Box<dyn Law> = match &interface.law {
+        ContactLaw::Penalty(_) => Box::new(law::penalty::Penalty),
+        ContactLaw::PressureGap { gaps, pressures } => Box::new(law::pressure_gap::PressureGap::new(gaps, pressures)),
+        ContactLaw::Multiplier => Box::new(law::multiplier::Multiplier),
+    };
+    let tangential = interface.friction.map_or(Tangential::Free, |friction| {
+        let model::Friction { coefficient, dynamic, decay, viscosity, limit } = friction;
+        Tangential::Friction(Friction { coefficient, dynamic: dynamic.unwrap_or(coefficient), decay, viscosity, limit })
+    });
+    Terms { law, tangential, damping: interface.damping }
+}
+
+/// Stiffness of a slave node; of laws without a penalty that of the automatic one, for what needs a scale.
+fn stiffness_of(interface: &Interface, node: law::Node, passes: usize) -> f64 {
+    let penalty = if let ContactLaw::Penalty(penalty) = interface.law { penalty } else { Penalty::default() };
+    law::penalty::stiffness(penalty, node, passes)
 }
 
 fn search_by_name(name: &str) -> Option<Box<dyn Search<2>>> {

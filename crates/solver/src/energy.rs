@@ -2,41 +2,47 @@
 //!
 //! Momentum update times mean velocity: Δ ½Σ m|v^{n+1/2}|² = Σ_k ½(dt^n + dt^{n-1}) f_k^n · v̄^n for every kind k of force. The residual of this
 //! sum is round-off or a bug. The drift compares energies at the whole step n: kinetic energy ½ Σ m v^{n-1/2}·v^{n+1/2}, stored, dissipated and
-//! contact spring energy, less what came from outside by the trapezoidal rule in the displacement, Σ f·½(x^{n+1} − x^{n-1}). For linear springs, dead
-//! loads and a constant step this is exactly constant, from time zero on; there the velocity v^{-1/2} is the mirror image 2v⁰ − v^{1/2}.
+//! contact spring energy and what friction and damping took, less what came from outside by the trapezoidal rule in the displacement, Σ f·½(x^{n+1} − x^{n-1}). For linear springs, dead
+//! loads and a constant step this is exactly constant, from time zero on; there the velocity v^{-1/2} is the mirror image 2v⁰ − v^{1/2}. What friction,
+//! damping and multipliers take is their work with its sign turned, by the same rule: the drift can't judge it, its sign can.
+
+use crate::contact::springs::Lost;
 
 /// Works of one step by kind of force, J/m; each is force times mean velocity times ½(dt + dt_old).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Works {
     /// Internal forces.
     pub internal: f64,
-    /// Contacts.
+    /// Contacts and obstacles.
     pub contact: f64,
-    /// Walls.
-    pub wall: f64,
     /// Gravity.
     pub gravity: f64,
+    /// Damping loads.
+    pub damping: f64,
     /// Reactions of prescribed motion and symmetry.
     pub constraint: f64,
+    /// What drives rigid bodies.
+    pub drive: f64,
 }
 
 impl Works {
     /// Everything.
     #[must_use]
     pub fn total(&self) -> f64 {
-        self.internal + self.contact + self.wall + self.gravity + self.constraint
+        self.internal + self.contact + self.gravity + self.damping + self.constraint + self.drive
     }
     /// What comes from outside the model: it changes the sum of the stores.
     #[must_use]
     pub fn external(&self) -> f64 {
-        self.gravity + self.constraint
+        self.gravity + self.constraint + self.drive
     }
     fn add(&mut self, other: &Self) {
         self.internal += other.internal;
         self.contact += other.contact;
-        self.wall += other.wall;
         self.gravity += other.gravity;
+        self.damping += other.damping;
         self.constraint += other.constraint;
+        self.drive += other.drive;
     }
 }
 
@@ -49,15 +55,21 @@ pub struct Stores {
     pub elastic: f64,
     /// Dissipated by the material.
     pub plastic: f64,
-    /// Springs of contacts and walls.
+    /// Springs of contacts and obstacles, elastic slip included.
     pub contact: f64,
+    /// Lost by friction so far.
+    pub friction: f64,
+    /// Lost by damping in contacts, and by impacts on multipliers, so far.
+    pub contact_damping: f64,
+    /// Lost by damping loads so far.
+    pub damping: f64,
 }
 
 impl Stores {
     /// Sum of all stores.
     #[must_use]
     pub fn total(&self) -> f64 {
-        self.kinetic + self.elastic + self.plastic + self.contact
+        self.kinetic + self.elastic + self.plastic + self.contact + self.friction + self.contact_damping + self.damping
     }
 }
 
@@ -72,8 +84,8 @@ pub struct Ledger {
     pub works: Works,
     /// External work until the last whole step, J/m.
     pub external: f64,
-    /// External work until the last half step, J/m.
-    external_half: f64,
+    /// External work, and what friction, contact damping and damping loads took, until the last half step, J/m.
+    halves: [f64; 4],
     /// Stores at the last whole step.
     pub stores: Stores,
     /// Largest total energy so far, J/m; at least that of round-off.
@@ -93,9 +105,15 @@ pub struct Entry {
     pub works: Works,
     /// Impulses from outside times v^{n-1/2} instead of the mean velocity, J/m.
     pub external_old: f64,
+    /// What friction and damping took in contacts.
+    pub lost: Lost,
+    /// Energy of the elastic slip of friction, at the whole step, J/m; part of what friction took, but not lost.
+    pub slip_energy: f64,
+    /// Impulses of damping loads times v^{n-1/2}, J/m.
+    pub damping_old: f64,
     /// Part of the update that lies before the whole step: dt^{n-1} / (dt^{n-1} + dt^n); zero at time zero only.
     pub before: f64,
-    /// Stores at the whole step n, kinetic energy as ½ Σ m v^{n-1/2}·v^{n+1/2}, at time zero as ½ Σ m v⁰·v^{1/2}.
+    /// Stores at the whole step n without what is lost, kinetic energy as ½ Σ m v^{n-1/2}·v^{n+1/2}, at time zero as ½ Σ m v⁰·v^{1/2}.
     pub stores: Stores,
 }
 
@@ -110,11 +128,18 @@ impl Ledger {
     /// Books a step.
     pub fn enter(&mut self, entry: &Entry) {
         // The impulse's part before the whole step went with v^{n-1/2}, the part after it with v^{n+1/2}.
-        let external_new = 2.0 * entry.works.external() - entry.external_old;
-        self.external = self.external_half + entry.before * entry.external_old;
-        self.external_half = self.external + (1.0 - entry.before) * external_new;
+        let lost = &entry.lost;
+        let works = [entry.works.external(), lost.friction, lost.damping, -entry.works.damping];
+        let olds = [entry.external_old, lost.old[0], lost.old[1], -entry.damping_old];
+        let mut wholes = [0.0; 4];
+        for (k, whole) in wholes.iter_mut().enumerate() {
+            *whole = self.halves[k] + entry.before * olds[k];
+            self.halves[k] = *whole + (1.0 - entry.before) * (2.0 * works[k] - olds[k]);
+        }
+        self.external = wholes[0];
         self.works.add(&entry.works);
         self.stores = entry.stores;
+        (self.stores.friction, self.stores.contact_damping, self.stores.damping) = (wholes[1] - entry.slip_energy, wholes[2], wholes[3]);
         if entry.before > 0.0 {
             // Unequal steps: v^{n-1/2} and v^{n+1/2} lie at unequal distances from n; the shift is ½ (dt^n − dt^{n-1})/(dt^n + dt^{n-1}) ΣW.
             self.stores.kinetic -= (0.5 - entry.before) * entry.works.total();

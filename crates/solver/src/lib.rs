@@ -12,6 +12,7 @@ pub mod element;
 pub mod block;
 pub mod contact;
 pub mod load;
+pub mod rigid;
 pub mod assembly;
 pub mod energy;
 pub mod step;

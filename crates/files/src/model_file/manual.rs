@@ -77,6 +77,7 @@ pub(crate) fn table(out: &mut String, section: &Section, keys: &[Key]) {
         };
         let _ = match rule {
             Rule::OneOf(names) => writeln!(out, "- Exactly one of {}.", list(names, "and")),
+            Rule::SomeOf(names) if names.len() > 2 => writeln!(out, "- At least one of {}.", list(names, "and")),
             Rule::SomeOf(names) => writeln!(out, "- {}, or both.", list(names, "or")),
             Rule::NotBoth(one, other) => writeln!(out, "- Not `{one}` and `{other}` at once."),
             Rule::Needs(one, other) => writeln!(out, "- `{one}` needs `{other}`."),

@@ -9,7 +9,7 @@ use embate_solver::output::{Cells, Field, Frame, Location};
 use embate_solver::simulation::Simulation;
 
 /// A frame that is further than this fraction of the run from the time that is wanted is another one.
-const FRAME_TOLERANCE: f64 = 1e-3;
+const FRAME_TOLERANCE: f64 = 1e-2;
 
 /// What is kept of a run.
 #[derive(Debug)]

@@ -4,11 +4,12 @@ use crate::assembly::Assembly;
 use crate::block::{Block, BlockInput, Report, make};
 use crate::contact::law::{self, Law};
 use crate::contact::node_segment::{NodeSegment, Slave};
-use crate::contact::obstacle::{NodeObstacle, plane::Plane};
+use crate::contact::obstacle::{NodeObstacle, OutlineShape, plane::Plane};
 use crate::contact::projection::node_segment::Target;
 use crate::contact::search::Search;
 use crate::contact::springs::friction::Friction;
 use crate::contact::springs::{Springs, Tangential, Terms};
+use crate::contact::traces::Traces;
 use crate::contact::tracker::{SKIN, Tracker};
 use crate::contact::{self, Contact, ContactKind, search};
 use crate::energy::Ledger;
@@ -42,6 +43,7 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         under: Vec::new(),
         bodies: Bodies::default(),
         terms: Vec::new(),
+        outlines: Vec::new(),
         mesh,
     };
     let blocks = builder.blocks();
@@ -54,7 +56,7 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
     if !builder.faults.is_empty() {
         return Err(builder.faults);
     }
-    let Builder { mesh, constraints, bodies, terms, .. } = builder;
+    let Builder { mesh, constraints, bodies, terms, outlines, .. } = builder;
     let inputs: Vec<(&dyn Block<2>, usize, &[u32])> =
         blocks.iter().zip(&mesh.parts).map(|(block, part)| (block.as_ref(), part.nodes_per_element, &part.connectivity[..])).collect();
     let nodes = mesh.positions.len();
@@ -71,6 +73,8 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         }
     }
     let velocities: Vec<[f64; 2]> = momentum.iter().zip(&mass).map(|(p, &m)| p.map(|p| p / m)).collect();
+    let outside = if contacts.is_empty() { Surface::default() } else { mesh.outside(&[]).map_err(|fault| vec![fault])? };
+    let traces = Traces::new(outside, &mesh.positions);
     let limits =
         Limits { end: model.run.end, safety: model.run.safety, energy: model.run.energy_limit, step: model.run.step_limit.unwrap_or(0.0) };
     let elements: usize = blocks.iter().map(|block| block.elements()).sum();
@@ -100,6 +104,8 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         contacts,
         terms,
         bodies,
+        outlines,
+        traces,
         constraints,
         limits,
         level,
@@ -130,6 +136,7 @@ struct Builder<'a> {
     bodies: Bodies,
     /// What acts in each contact, then in each obstacle.
     terms: Vec<Terms>,
+    outlines: Vec<OutlineShape>,
 }
 
 impl Builder<'_> {
@@ -220,7 +227,7 @@ impl Builder<'_> {
             let of = |(&(tributary, own), node): (&(f64, f64), &u32)| {
                 let on_line = mirrors.binary_search_by_key(node, |&(node, _)| node).is_ok();
                 let node = law::Node { tributary, own, other, share: if on_line { 0.5 } else { 1.0 } };
-                Slave { stiffness: stiffness_of(&contact.interface, node, passes.len()), area: tributary, slip: 0.0 }
+                Slave { stiffness: stiffness_of(&contact.interface, node, passes.len()), area: tributary / passes.len() as f64, slip: 0.0 }
             };
             nodes.iter().zip(&surface.nodes).map(of).collect()
         };
@@ -270,6 +277,10 @@ impl Builder<'_> {
             self.terms.push(terms);
             let body = self.bodies.add(Body { centre: point, ..Body::default() });
             let shape = Plane { normal, half: length.map_or(f64::INFINITY, |length| 0.5 * length) };
+            // Beyond every picture of the model.
+            let far = shape.half.min(20.0 * self.mesh.positions.iter().flatten().fold(0.0f64, |size, x| size.max(x.abs())));
+            let points = [1.0, -1.0].map(|side| [-side * far * normal[1], side * far * normal[0]]);
+            self.outlines.push(OutlineShape { name: obstacle.name.clone(), body, points: points.into() });
             let formulation = NodeObstacle::new(Box::new(shape), body, nodes, reach, obstacle.interface.thickness);
             contacts.push(Contact::new(
                 obstacle.name.clone(),

@@ -164,7 +164,7 @@ fn no_number_never_passes() {
 
 #[test]
 fn a_run_that_fails_fails_its_checks() {
-    let crushed = "[variant.crushed]\nset = [\"part.block.velocity=[2500, 0]\", \"run.energy_limit=0.9\", \"run.step_limit=\\\"0.5 us\\\"\", \"wall=[{ point = [\\\"10 mm\\\", 0], normal = [-1, 0] }]\"]\n";
+    let crushed = "[variant.crushed]\nset = [\"part.block.velocity=[2500, 0]\", \"run.energy_limit=0.9\", \"run.step_limit=\\\"0.5 us\\\"\", \"obstacle=[{ plane = { point = [\\\"10 mm\\\", 0], normal = [-1, 0] } }]\"]\n";
     let answer = verify(
         "verify-crushed",
         &(crushed.to_string() + &check("model = \"crushed\"\nquantity = { summary = \"elements\" }\nexpect = 4\ntolerance = 0")),

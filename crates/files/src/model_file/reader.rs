@@ -6,7 +6,7 @@ use super::diagnostics::Faults;
 use super::tree::{Entry, Node, Place, Value};
 use super::value::{self, Datum, Wrong};
 use embate_solver::model::describe::{
-    Form, Key, Kind, Need, Rule, SECTIONS, Section, TOP, nearest, section as section_by_name, suggestion,
+    Form, Key, Kind, MOVED, Need, Rule, SECTIONS, Section, TOP, nearest, section as section_by_name, suggestion,
 };
 use std::collections::BTreeMap;
 
@@ -86,6 +86,15 @@ impl Record {
         self.values.get(name)
     }
 
+    /// Whether a key has this value, a text or a flag; `None` where its value is not sound.
+    fn has(&self, name: &str, value: &str) -> Option<bool> {
+        match self.datum(name) {
+            Some(Datum::Text(text)) => Some(text == value),
+            Some(Datum::Flag(flag)) => Some(flag.to_string() == value),
+            _ => None,
+        }
+    }
+
     /// All keys with numbers.
     pub(super) fn numbers(&self) -> BTreeMap<String, f64> {
         let number = |(key, datum): (&String, &Datum)| if let Datum::Number(value) = datum { Some((key.clone(), *value)) } else { None };
@@ -94,6 +103,14 @@ impl Record {
 
     pub(crate) fn number(&self, name: &str) -> Option<f64> {
         if let Some(Datum::Number(value)) = self.datum(name) { Some(*value) } else { None }
+    }
+
+    pub(super) fn list(&self, name: &str) -> Vec<f64> {
+        if let Some(Datum::Numbers(values)) = self.datum(name) { values.clone() } else { Vec::new() }
+    }
+
+    pub(super) fn is(&self, name: &str) -> bool {
+        matches!(self.datum(name), Some(Datum::Flag(true)))
     }
 
     pub(crate) fn vector(&self, name: &str) -> [f64; 2] {
@@ -229,7 +246,7 @@ impl Reader<'_> {
                 Need::Optional(_) => {}
             }
         }
-        for rule in section.rules {
+        for rule in section.all_rules() {
             self.rule(rule, section, &record, place);
         }
         record
@@ -264,9 +281,13 @@ impl Reader<'_> {
             known.extend(self.vocabulary.sections.iter().map(|section| section.name));
         }
         let name = entry.key.as_str();
-        let home = |other: &&&Section| other.name != section.name && other.keys.iter().any(|key| key.name == name);
+        let home = |other: &&&Section| other.name != section.name && other.all_keys().any(|key| key.name == name);
+        let within = |key: &&Key| matches!(key.kind, Kind::Table(inner) if inner.all_keys().any(|key| key.name == name));
+        let moved = MOVED.iter().find(|(old, _)| section.name.is_empty() && *old == name);
         let help = match nearest(name, known.iter().copied()) {
+            _ if moved.is_some() => moved.map_or(String::new(), |(_, help)| (*help).to_string()),
             Some(near) => format!("did you mean `{near}`?"),
+            None if let Some(key) = keys.iter().find(within) => format!("`{name}` belongs in `{} = {{ ... }}`", key.name),
             None if self.vocabulary.top.keys.iter().any(|key| key.name == name) => format!("`{name}` stands above all sections"),
             None => match self.vocabulary.sections.iter().find(home) {
                 Some(other) => format!("`{name}` belongs in {}", header(other)),
@@ -278,6 +299,11 @@ impl Reader<'_> {
     }
 
     fn rule(&mut self, rule: &Rule, section: &Section, record: &Record, place: Place) {
+        match rule {
+            Rule::Only { keys, by, value } => return self.only(section, record, keys, (by, value)),
+            Rule::With { by, value, keys } => return self.with(section, record, (by, value), keys),
+            Rule::OneOf(_) | Rule::SomeOf(_) | Rule::NotBoth(..) | Rule::Needs(..) => {}
+        }
         let has = |name: &&str| record.written.contains_key(*name);
         let list = |names: &[&str], last: &str| {
             let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
@@ -318,11 +344,45 @@ impl Reader<'_> {
             self.faults.cover(&record.key(other));
         }
     }
+
+    /// Keys that go only with a value of another one.
+    fn only(&mut self, section: &Section, record: &Record, keys: &[&str], (by, value): (&str, &str)) {
+        if record.has(by, value) != Some(false) {
+            return;
+        }
+        for name in keys {
+            if let Some(place) = record.written(name) {
+                let only = written((by, value));
+                let texts = (
+                    format!("`{name}` in {} goes only with {only}", called(section, &record.path)),
+                    format!("add {only}, or leave `{name}` out"),
+                );
+                self.faults.value("rule", &record.key(name), place, texts);
+            }
+        }
+    }
+
+    /// Keys that must be there with a value of another one.
+    fn with(&mut self, section: &Section, record: &Record, (by, value): (&str, &str), keys: &[&str]) {
+        let Some(place) = record.written(by).filter(|_| record.has(by, value) == Some(true)) else { return };
+        for name in keys.iter().filter(|name| record.written(name).is_none()) {
+            let message = format!("{} has {} but no `{name}`", called(section, &record.path), written((by, value)));
+            let example =
+                section.all_keys().find(|key| key.name == *name).map_or(String::new(), |key| format!(" = {}", value::example(key)));
+            self.faults.beside("rule", &record.path, Some(place), (message, format!("add `{name}{example}`")));
+            self.faults.cover(&record.key(name));
+        }
+    }
+}
+
+/// A key with a value, as a file has it.
+pub(super) fn written((by, value): (&str, &str)) -> String {
+    if matches!(value, "true" | "false") { format!("`{by} = {value}`") } else { format!("`{by} = \"{value}\"`") }
 }
 
 /// The keys that a table may have, and whether these are all: not while the key that decides over the others is unknown.
 fn keys_of(section: &Section, entries: &[Entry]) -> (Vec<Key>, bool) {
-    let mut keys = section.keys.to_vec();
+    let mut keys: Vec<Key> = section.all_keys().copied().collect();
     let Some(more) = section.more else { return (keys, true) };
     let chosen = entries.iter().find(|entry| entry.key == more.by).map(|entry| &entry.node.value);
     let further = if let Some(Value::Text(text)) = chosen { (more.keys)(text) } else { None };

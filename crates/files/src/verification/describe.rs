@@ -2,7 +2,7 @@
 
 use super::case::{TAKES, Take};
 use crate::model_file::{Vocabulary, keys_table};
-use embate_solver::model::describe::{Form, Key, Kind, Need, Rule, Section};
+use embate_solver::model::describe::{Form, Group, Key, Kind, Need, Rule, Section};
 use embate_solver::quantity::{Dimension, Range};
 use std::fmt::Write;
 
@@ -22,26 +22,22 @@ static TOP: Section = Section {
     name: "",
     doc: "Keys that stand above all sections.",
     form: Form::Single,
-    required: false,
     keys: &[
         key("title", Text, Required, "What is verified."),
         key("tier", Choice(tiers), Required, "`every`: run by default; `all`: only with `--all` or by name."),
     ],
-    rules: &[],
-    more: None,
+    ..Section::EMPTY
 };
 
 static VARIANT: Section = Section {
     name: "variant",
     doc: "A model file with some of its keys changed, under a name of its own.",
     form: Form::Named,
-    required: false,
     keys: &[
         key("model", Reference, Optional("`model`"), "The model file, without `.toml`."),
         key("set", References(None), Required, "Changes, each written as after `--set`."),
     ],
-    rules: &[],
-    more: None,
+    ..Section::EMPTY
 };
 
 static CHECK: Section = Section {
@@ -82,71 +78,72 @@ static CHECK: Section = Section {
         Rule::Needs("tolerance", "expect"),
         Rule::Needs("converges", "expect"),
     ],
-    more: None,
+    ..Section::EMPTY
 };
 
-/// A section of the keys of a quantity and some more.
-macro_rules! quantity_section {
-    ($name:expr, $doc:expr, $($more:expr),*) => {
-        Section {
-            name: $name,
-            doc: $doc,
-            form: Form::Inline,
-            required: false,
-            keys: &[
-                key("summary", Text, Optional("another source"), "A figure of summary.json; keys within keys are joined by dots."),
-                key("history", Text, Optional("another source"), "A column of history.csv."),
-                key("field", Text, Optional("another source"), "A field of a frame: `von_mises`, or with its component `stress.yy`."),
-                key("take", Choice(takes), Optional("`at` or `nearest`"), "What is made of the many values of a column or a field."),
-                key(
-                    "at",
-                    Quantity(Dimension::TIME, Range::NotNegative),
-                    Optional("for a field: the end"),
-                    "Time: of a history, between two rows on a straight line; of a field, that of an output.",
-                ),
-                key("from", Quantity(Dimension::TIME, Range::NotNegative), Optional("the start"), "Begin of what `take` sees of a history."),
-                key("to", Quantity(Dimension::TIME, Range::NotNegative), Optional("the end"), "End of what `take` sees of a history."),
-                key("level", NUMBER, Optional("for takes without a level"), "Level that a column rises above or falls below, in SI units."),
-                key("part", Reference, Optional("all parts"), "Only nodes or elements of this part."),
-                key("box", Table(&BOX), Optional("all"), "Only nodes, or elements with their centre, in this box at the start."),
-                key("nearest", Vector(Dimension::LENGTH, Range::Finite), Optional("`take`"), "The node or element centre nearest to this point at the start."),
-                $($more),*
-            ],
-            rules: &[
-                Rule::OneOf(&["summary", "history", "field"]),
-                Rule::NotBoth("nearest", "take"),
-                Rule::NotBoth("nearest", "box"),
-                Rule::NotBoth("at", "from"),
-                Rule::NotBoth("at", "to"),
-            ],
-            more: None,
-        }
-    };
-}
+static QUANTITY: Section = Section {
+    name: "quantity",
+    doc: "One number of a run: where it comes from, and what is made of many values.",
+    groups: &[&NUMBERS],
+    ..Section::EMPTY
+};
 
-static QUANTITY: Section = quantity_section!("quantity", "One number of a run: where it comes from, and what is made of many values.",);
-static OVER: Section = quantity_section!("over", "A quantity, perhaps of another model.", OTHER_MODEL);
-static MINUS: Section = quantity_section!("minus", "A quantity, perhaps of another model.", OTHER_MODEL);
+static OVER: Section =
+    Section { name: "over", doc: "A quantity, perhaps of another model.", keys: &[OTHER_MODEL], groups: &[&NUMBERS], ..Section::EMPTY };
+
+static MINUS: Section =
+    Section { name: "minus", doc: "A quantity, perhaps of another model.", keys: &[OTHER_MODEL], groups: &[&NUMBERS], ..Section::EMPTY };
+
 const OTHER_MODEL: Key = key("model", Reference, Optional("that of the check"), "Model file or variant.");
+
+static NUMBERS: Group = Group {
+    title: "One number",
+    doc: "Where a number of a run comes from, and what is made of many values.",
+    keys: &[
+        key("summary", Text, Optional("another source"), "A figure of summary.json; keys within keys are joined by dots."),
+        key("history", Text, Optional("another source"), "A column of history.csv."),
+        key("field", Text, Optional("another source"), "A field of a frame: `von_mises`, or with its component `stress.yy`."),
+        key("take", Choice(takes), Optional("`at` or `nearest`"), "What is made of the many values of a column or a field."),
+        key(
+            "at",
+            Quantity(Dimension::TIME, Range::NotNegative),
+            Optional("for a field: the end"),
+            "Time: of a history, between two rows on a straight line; of a field, that of an output.",
+        ),
+        key("from", Quantity(Dimension::TIME, Range::NotNegative), Optional("the start"), "Begin of what `take` sees of a history."),
+        key("to", Quantity(Dimension::TIME, Range::NotNegative), Optional("the end"), "End of what `take` sees of a history."),
+        key("level", NUMBER, Optional("for takes without a level"), "Level that a column rises above or falls below, in SI units."),
+        key("part", Reference, Optional("all parts"), "Only nodes or elements of this part."),
+        key("box", Table(&BOX), Optional("all"), "Only nodes, or elements with their centre, in this box at the start."),
+        key(
+            "nearest",
+            Vector(Dimension::LENGTH, Range::Finite),
+            Optional("`take`"),
+            "The node or element centre nearest to this point at the start.",
+        ),
+    ],
+    rules: &[
+        Rule::OneOf(&["summary", "history", "field"]),
+        Rule::NotBoth("nearest", "take"),
+        Rule::NotBoth("nearest", "box"),
+        Rule::NotBoth("at", "from"),
+        Rule::NotBoth("at", "to"),
+    ],
+};
 
 static BOX: Section = Section {
     name: "box",
     doc: "An axis-parallel box; its border belongs to it.",
-    form: Form::Inline,
-    required: false,
     keys: &[
         key("low", Vector(Dimension::LENGTH, Range::Finite), Required, "Lower left corner."),
         key("high", Vector(Dimension::LENGTH, Range::Finite), Required, "Upper right corner."),
     ],
-    rules: &[],
-    more: None,
+    ..Section::EMPTY
 };
 
 static CONVERGES: Section = Section {
     name: "converges",
     doc: "How much smaller the deviation must be than that of a coarser model.",
-    form: Form::Inline,
-    required: false,
     keys: &[
         key("model", Reference, Required, "The coarser model or variant."),
         key(
@@ -156,8 +153,7 @@ static CONVERGES: Section = Section {
             "The deviation is at most this fraction of the coarser one's.",
         ),
     ],
-    rules: &[],
-    more: None,
+    ..Section::EMPTY
 };
 
 fn tiers() -> Vec<&'static str> {
@@ -172,14 +168,16 @@ fn takes() -> Vec<&'static str> {
 #[must_use]
 pub fn expected_markdown() -> String {
     let mut out = String::from("### Above all sections\n\n");
-    keys_table(&mut out, &TOP, TOP.keys);
+    keys_table(&mut out, TOP.keys, TOP.rules);
     for (header, section) in [("[variant.NAME]", &VARIANT), ("[[check]]", &CHECK)] {
         let _ = writeln!(out, "### `{header}`\n\n{}{}\n", section.doc, if section.required { " Required." } else { "" });
-        keys_table(&mut out, section, section.keys);
+        keys_table(&mut out, section.keys, section.rules);
     }
-    for section in [&QUANTITY, &BOX, &CONVERGES] {
+    for (section, keys, rules) in
+        [(&QUANTITY, NUMBERS.keys, NUMBERS.rules), (&BOX, BOX.keys, BOX.rules), (&CONVERGES, CONVERGES.keys, CONVERGES.rules)]
+    {
         let _ = writeln!(out, "### `{} = {{ ... }}`\n\n{}\n", section.name, section.doc);
-        keys_table(&mut out, section, section.keys);
+        keys_table(&mut out, keys, rules);
     }
     out.push_str("`over` and `minus` have the keys of `quantity`, and `model`: a model file or variant, left out: that of the check.\n\n");
     out.push_str("### `take`\n\n| `take` | of | meaning |\n|---|---|---|\n");

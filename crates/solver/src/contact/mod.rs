@@ -11,11 +11,13 @@ pub mod law;
 pub mod springs;
 pub mod node_segment;
 pub mod obstacle;
+pub mod traces;
 
 use crate::mesh::surface::Surface;
 use crate::rigid::Bodies;
 use springs::{Spring, Springs, Totals};
 use std::ops::Range;
+use traces::Traces;
 
 /// A vector of the plane.
 pub type Vector = [f64; 2];
@@ -105,9 +107,12 @@ impl Contact {
         self.penetration = springs.list[self.found.clone()].iter().fold(0.0, |deepest, spring| f64::max(deepest, -spring.gap));
     }
 
-    /// Sums up the solved springs: adds their forces to `forces` and `bodies`.
-    pub fn collect(&mut self, springs: &Springs, forces: &mut [Vector], bodies: &mut Bodies) {
+    /// Sums up the solved springs: adds their forces to `forces` and `bodies`, and what they did in the update of `time_step` (s) to `traces`.
+    pub fn collect(&mut self, springs: &Springs, forces: &mut [Vector], bodies: &mut Bodies, traces: &mut Traces, time_step: f64) {
         self.totals = springs.collect(self.found.clone(), forces, bodies);
+        for spring in &springs.list[self.found.clone()] {
+            traces.mark(springs, spring, time_step);
+        }
         self.formulation.remember(&springs.list[self.found.clone()]);
     }
 

@@ -25,7 +25,7 @@ pub struct NodeSegment {
 pub struct Slave {
     /// Stiffness, N/m per metre of depth.
     pub stiffness: f64,
-    /// Length of surface that is its own, m.
+    /// Length of surface that it stands for, m: its own, half of that where both surfaces are slaves.
     pub area: f64,
     /// Elastic slip at n − ½, m.
     pub slip: f64,

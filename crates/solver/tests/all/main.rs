@@ -14,5 +14,7 @@ mod elements;
 mod free_bodies;
 mod materials;
 mod plasticity;
+mod projectiles;
 mod projection;
 mod search;
+mod swept;

@@ -213,8 +213,11 @@ impl Target {
         // Time counts from that end of the step where f is smaller: tiny segments that a fast node hits late are seen sharply.
         let (e, r, f, forth) = if end.abs() < begin.abs() { (e1, r1, end, -1.0) } else { (e0, r0, begin, 1.0) };
         let from_begin = |time: f64| if forth < 0.0 { 1.0 - time } else { time };
+        // Down and up within the step, or up and down: where f has roots at all, they are in it, however they round.
+        let turn = -0.5 * b / a;
+        let turns = turn > 0.0 && turn < 1.0 && (begin >= 0.0) == (a > 0.0) && (end >= 0.0) == (a > 0.0);
         // Who ends on it did not go in yet.
-        let in_step = |&time: &f64| changes || ((0.0..=1.0).contains(&time) && (forth > 0.0 || time > 0.0));
+        let in_step = |&time: &f64| changes || turns || ((0.0..=1.0).contains(&time) && (forth > 0.0 || time > 0.0));
         let fall = fall(forth * a, cross(e, dr) + cross(de, r), forth * f, changes).filter(in_step).map(|time| time.clamp(0.0, 1.0));
         let between = |time: &f64| {
             let (e, r) = (plus(e, times(forth * time, de)), plus(r, times(forth * time, dr)));

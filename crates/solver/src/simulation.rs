@@ -233,6 +233,7 @@ impl Simulation {
             Ok(())
         });
         self.shortest = shortest;
+        self.note_momentum();
         result
     }
 

@@ -251,6 +251,7 @@ impl Simulation {
             Ok(())
         });
         self.shortest = shortest;
+        self.note_momentum();
         result
     }
 

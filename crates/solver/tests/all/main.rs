@@ -15,6 +15,8 @@ mod friction;
 mod free_bodies;
 mod materials;
 mod plasticity;
+mod projectiles;
 mod projection;
 mod search;
 mod self_contact;
+mod swept;

@@ -11,7 +11,7 @@ use crate::contact::springs::friction::Friction;
 use crate::contact::springs::{Springs, Tangential, Terms};
 use crate::contact::traces::Traces;
 use crate::contact::tracker::{SKIN, Tracker};
-use crate::contact::{self, Contact, ContactKind, search};
+use crate::contact::{self, Contact, ContactKind, initial, search};
 use crate::energy::Ledger;
 use crate::error::Fault;
 use crate::load::constraint::{Constraints, unit};
@@ -47,6 +47,10 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         outlines: Vec::new(),
         mesh,
     };
+    let initial_penetrations = builder.part_at_start();
+    if !builder.faults.is_empty() {
+        return Err(builder.faults);
+    }
     let blocks = builder.blocks();
     if blocks.len() < model.parts.len() {
         return Err(builder.faults);
@@ -92,6 +96,7 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         sums: vec![NodeSums::default(); nodes.div_ceil(CHUNK)],
         ledger: Ledger::default(),
         penetration_max: 0.0,
+        initial_penetrations,
         step: 0,
         time: 0.0,
         time_step_old: 0.0,
@@ -196,6 +201,42 @@ impl Builder<'_> {
             softest[part as usize] = stiffness.min(softest[part as usize]);
         }
         behind.into_iter().map(|(_, part)| softest[part as usize]).collect()
+    }
+
+    /// Penetrations of the contacts at the start: faults, or lines for the overview. Those that shall be pushed out are, in the mesh.
+    fn part_at_start(&mut self) -> Vec<String> {
+        let mut lines = Vec::new();
+        let mut is_moved = false;
+        for (i, contact) in self.model.contacts.iter().enumerate() {
+            let Interface { initial_penetration, thickness, active, .. } = contact.interface;
+            // Ties hold what is there; who begins later can't know. Wrong surfaces are told when contacts are made.
+            if contact.tied.is_some() || active[0] > 0.0 {
+                continue;
+            }
+            let (Ok(outlines), Some(search)) = (self.outlines_of(contact), search_by_name(&contact.search)) else { continue };
+            let mut tracker = tracker(outlines, passes_of(contact), search, &self.mesh);
+            let tolerance = initial::TOLERANCE * initial::size(&self.mesh.positions);
+            let found = initial::penetrations(&mut tracker, thickness, &self.mesh.positions, tolerance);
+            let path = format!("contact[{i}]");
+            match initial_penetration {
+                InitialPenetration::Error => self.faults.extend(initial::faults(&path, &contact.name, &found)),
+                InitialPenetration::Ignore => lines.extend(initial::lines(&contact.name, &found, "this counts as zero")),
+                InitialPenetration::PushOut => {
+                    lines.extend(initial::lines(&contact.name, &found, "it was pushed out"));
+                    is_moved |= !found.is_empty();
+                    let left = initial::push_out(&mut tracker, thickness, &mut self.mesh.positions, &self.constraints, tolerance);
+                    self.faults.extend(initial::faults(&path, &contact.name, &left).into_iter().map(|fault| Fault {
+                        message: format!("{} and can't be pushed out", fault.message),
+                        help: "move the bodies apart".into(),
+                        ..fault
+                    }));
+                }
+            }
+        }
+        if is_moved && self.faults.is_empty() {
+            self.faults.extend(self.mesh.faults_of_elements());
+        }
+        lines
     }
 
     fn contacts(&mut self) -> Vec<Contact> {

@@ -96,6 +96,8 @@ pub struct System {
     pub(crate) sums: Vec<NodeSums>,
     pub(crate) ledger: Ledger,
     pub(crate) penetration_max: f64,
+    /// Penetrations of contacts at the start, one line each.
+    pub(crate) initial_penetrations: Vec<String>,
 }
 
 /// Sums over the nodes of a chunk.

@@ -13,6 +13,7 @@ mod contact;
 mod elements;
 mod friction;
 mod free_bodies;
+mod initial;
 mod materials;
 mod plasticity;
 mod projectiles;

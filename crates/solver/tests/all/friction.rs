@@ -137,7 +137,15 @@ fn a_multiplier_holds_the_gap_at_round_off_and_loses_only_in_impacts() {
             simulation.advance(f64::INFINITY, 1).unwrap();
             deepest = deepest.max(history_end(&simulation, "contact.penetration[left-right]"));
             let now = simulation.ledger().stores.contact_damping;
-            eprintln!("{} t {:.4e} dt {:.4e} pen {:.3e} F {:.4e} loss {:.4e}", simulation.steps(), simulation.time(), simulation.time_step(), history_end(&simulation, "contact.penetration[left-right]"), history_end(&simulation, "contact.force_x[left-right]"), now);
+            eprintln!(
+                "{} t {:.4e} dt {:.4e} pen {:.3e} F {:.4e} loss {:.4e}",
+                simulation.steps(),
+                simulation.time(),
+                simulation.time_step(),
+                history_end(&simulation, "contact.penetration[left-right]"),
+                history_end(&simulation, "contact.force_x[left-right]"),
+                now
+            );
             assert!(now >= lost - 1e-12, "it gives energy back: {lost} {now} in step {} {deepest}", simulation.steps());
             lost = lost.max(now);
         }

@@ -5,4 +5,5 @@ pub mod model_file;
 mod outline;
 pub mod picture;
 pub mod results;
+pub mod verification;
 pub mod vtu;

@@ -9,7 +9,7 @@ pub(super) const NOTHING: Extent = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
 const WHOLE: f64 = 2.0;
 /// Obstacles count as far as this fraction of the bodies' size away on each side.
 const ROOM: f64 = 0.5;
-/// Of other obstacles the nearest point is shown when a body is closer than this fraction of the bodies' size.
+/// Of other obstacles the points below nodes are shown that are closer than this fraction of the bodies' size.
 const NEAR: f64 = 0.35;
 /// Nodes times segments that are looked at in one frame.
 const LOOKS_MAX: usize = 20_000;
@@ -86,9 +86,8 @@ pub(super) fn obstacles(lines: &[Line], nodes: impl ExactSizeIterator<Item = [f6
         }
         let stride = (nodes.len() * line.points.len()).div_ceil(LOOKS_MAX).max(1);
         let finite = nodes.clone().step_by(stride).filter(|p| p[0].is_finite() && p[1].is_finite());
-        let feet = finite.filter_map(|x| line.nearest(x).map(|foot| ((foot[0] - x[0]).hypot(foot[1] - x[1]), foot)));
-        let nearest = feet.reduce(|best, next| if next.0 < best.0 { next } else { best });
-        if let Some((_, foot)) = nearest.filter(|(distance, _)| *distance < NEAR * large) {
+        let feet = finite.filter_map(|x| line.nearest(x).filter(|foot| (foot[0] - x[0]).hypot(foot[1] - x[1]) < NEAR * large));
+        for foot in feet {
             let foot = [0, 1].map(|k| foot[k].clamp(room[0][k].min(room[1][k]), room[1][k].max(room[0][k])));
             seen = joined(seen, [foot, foot]);
         }

@@ -197,7 +197,7 @@ fn vectors_and_components_can_be_shown() {
     }
 }
 
-/// A line around a point, `from` a radius and an angle that grows by `turn` in `count` steps.
+/// A line around a point, from the angle `start` on, by `turn` in `count` steps; closed.
 fn arc(centre: [f64; 2], radius: f64, start: f64, turn: f64, count: u32) -> Vec<[f64; 2]> {
     let at = |k: u32| start + turn * f64::from(k % count) / f64::from(count);
     (0..=count).map(|k| [centre[0] + radius * at(k).cos(), centre[1] + radius * at(k).sin()]).collect()

@@ -67,6 +67,7 @@ fn summary(steps: u64) -> Summary {
         momentum_drift_linear: Some(1e-16),
         momentum_drift_angular: None,
         penetration_max: 0.0,
+        contact: embate_solver::contact::tracker::Certificate::default(),
         state_hash: "0123456789abcdef".into(),
         threads: 1,
         simd: "scalar".into(),
@@ -146,6 +147,7 @@ fn the_summary_has_its_keys_in_order() {
             "ledger_residual",
             "momentum_drift",
             "penetration_max",
+            "contact",
             "state_hash",
             "warnings"
         ]

@@ -16,4 +16,5 @@ mod free_bodies;
 mod materials;
 mod plasticity;
 mod projection;
+mod rigid;
 mod search;

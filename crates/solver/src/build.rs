@@ -1,26 +1,31 @@
 //! From a model to a [`System`]: mesh, blocks, masses, contacts, walls, conditions. All faults are collected before anything runs.
 
+mod bodies;
+mod obstacles;
+
 use crate::assembly::Assembly;
 use crate::block::{Block, BlockInput, Report, make};
 use crate::contact::law::{self, Law};
 use crate::contact::node_segment::{NodeSegment, PassInput, Slave};
-use crate::contact::obstacle::{NodeObstacle, OutlineShape, plane::Plane};
+use crate::contact::obstacle::OutlineShape;
 use crate::contact::projection::node_segment::Target;
 use crate::contact::search::Search;
 use crate::contact::springs::friction::Friction;
 use crate::contact::springs::{Springs, Tangential, Terms};
 use crate::contact::traces::Traces;
-use crate::contact::tracker::{SKIN, Tracker};
+use crate::contact::tracker::Tracker;
 use crate::contact::{self, Contact, ContactKind, search};
-use crate::energy::Ledger;
+use crate::energy::{Ledger, Sums};
 use crate::error::Fault;
-use crate::load::constraint::{Constraints, unit};
+use crate::load::constraint::Constraints;
+use crate::load::curve::Curves;
+use crate::load::damping::Damping;
 use crate::load::gravity;
 use crate::mesh::surface::{NONE, Surface};
 use crate::mesh::{Mesh, PartMesh};
-use crate::model::{self, ContactLaw, Formulation, InitialPenetration, Interface, Model, ObstacleShape, Partners, Penalty};
-use crate::rigid::{Bodies, Body};
-use crate::step::{CHUNK, Governor, Limits, NodeSums, System};
+use crate::model::{self, ContactLaw, Formulation, InitialPenetration, Interface, Model, Partners, Penalty};
+use crate::rigid::Bodies;
+use crate::step::{CHUNK, Governor, Limits, System};
 use embate_lanes::{Batch, Level};
 use std::cell::RefCell;
 
@@ -37,10 +42,15 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         return Err(faults);
     }
     let mesh = Mesh::new(model)?;
+    let curves = Curves::new(model);
     let mut builder = Builder {
         model,
         faults: Vec::new(),
-        constraints: Constraints::new(model, &mesh)?,
+        constraints: Constraints::new(model, &mesh, &curves)?,
+        curves,
+        positions: mesh.positions.clone(),
+        mass: vec![0.0; mesh.positions.len()],
+        body_parts: Vec::new(),
         under: Vec::new(),
         bodies: Bodies::default(),
         terms: Vec::new(),
@@ -51,29 +61,26 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
     if blocks.len() < model.parts.len() {
         return Err(builder.faults);
     }
+    let part_mass = part_masses(&builder.mesh, &blocks);
+    for &(node, share) in part_mass.iter().flatten() {
+        builder.mass[node as usize] += share;
+    }
+    let gravity = gravity::accelerations(model, &builder.mesh, &builder.mass, &part_mass);
+    let damping = Damping::new(model, &builder.mesh, &builder.mass, &part_mass);
+    let mut velocities = builder.velocities(&part_mass);
+    builder.rigid_parts(&part_mass, &gravity);
     builder.find_elements_under_surfaces(&blocks);
     let mut contacts = builder.contacts();
     contacts.extend(builder.obstacles());
     if !builder.faults.is_empty() {
         return Err(builder.faults);
     }
-    let Builder { mesh, constraints, bodies, terms, outlines, .. } = builder;
+    let Builder { mesh, constraints, curves, positions, mass, body_parts, bodies, terms, outlines, .. } = builder;
     let inputs: Vec<(&dyn Block<2>, usize, &[u32])> =
         blocks.iter().zip(&mesh.parts).map(|(block, part)| (block.as_ref(), part.nodes_per_element, &part.connectivity[..])).collect();
-    let nodes = mesh.positions.len();
+    let nodes = positions.len();
     let assembly = Assembly::new(nodes, &inputs);
-    let part_mass = part_masses(&mesh, &blocks);
-    let mut mass = vec![0.0; nodes];
-    let mut momentum = vec![[0.0; 2]; nodes];
-    for (masses, part) in part_mass.iter().zip(&model.parts) {
-        for &(node, share) in masses {
-            mass[node as usize] += share;
-            for d in 0..2 {
-                momentum[node as usize][d] += share * part.velocity[d];
-            }
-        }
-    }
-    let velocities: Vec<[f64; 2]> = momentum.iter().zip(&mass).map(|(p, &m)| p.map(|p| p / m)).collect();
+    velocities.resize(nodes, [0.0; 2]);
     let outside = if contacts.is_empty() { Surface::default() } else { mesh.outside(&[]).map_err(|fault| vec![fault])? };
     let traces = Traces::new(outside, &mesh.positions);
     let limits =
@@ -81,15 +88,16 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
     let elements: usize = blocks.iter().map(|block| block.elements()).sum();
     Ok(System {
         corners: vec![Batch::default(); assembly.corner_batches],
-        gravity: gravity::accelerations(model, &mesh, &mass, &part_mass),
-        positions: mesh.positions.clone(),
-        positions_old: mesh.positions.clone(),
+        rigid: model.parts.iter().map(|part| part.rigid.is_some()).collect(),
+        positions_old: positions.clone(),
+        positions,
         velocities_old: velocities.clone(),
         velocities,
         contact_forces: vec![[0.0; 2]; nodes],
         springs: Springs::new(nodes, bodies.len()),
         reports: vec![Report::NOTHING; blocks.len()],
-        sums: vec![NodeSums::default(); nodes.div_ceil(CHUNK)],
+        sums: vec![Sums::default(); nodes.div_ceil(CHUNK)],
+        of_bodies: Sums::default(),
         ledger: Ledger::default(),
         penetration_max: 0.0,
         step: 0,
@@ -105,6 +113,10 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         contacts,
         terms,
         bodies,
+        body_parts,
+        curves,
+        damping,
+        gravity,
         outlines,
         traces,
         constraints,
@@ -131,10 +143,17 @@ struct Builder<'a> {
     model: &'a Model,
     mesh: Mesh<2>,
     constraints: Constraints<2>,
+    curves: Curves,
     faults: Vec<Fault>,
+    /// Initial positions of all nodes, m: those of elements, then those of obstacles.
+    positions: Vec<[f64; 2]>,
+    /// Their masses, kg/m; 1 where an obstacle has a node.
+    mass: Vec<f64>,
     /// Pressure stiffness κ = (K + 4µ/3) L / A of the element behind each edge as an outside segment, Pa/m, and its part; sorted by nodes.
     under: Vec<([u32; 2], f64, u32)>,
     bodies: Bodies,
+    /// Rigid parts and their bodies.
+    body_parts: Vec<(usize, usize)>,
     /// What acts in each contact, then in each obstacle.
     terms: Vec<Terms>,
     outlines: Vec<OutlineShape>,
@@ -300,46 +319,6 @@ impl Builder<'_> {
             open.filter_map(|node| Some((node, self.constraints.mirror_normals(node).next()?))).collect();
         mirrors.sort_by_key(|&(node, _)| node);
         Ok(Outlined { target: Target { surface, mirrors }, lids: lids.into_inner() })
-    }
-
-    fn obstacles(&mut self) -> Vec<Contact> {
-        let mut contacts = Vec::new();
-        for (i, obstacle) in self.model.obstacles.iter().enumerate() {
-            let ObstacleShape::Plane { point, normal, length } = obstacle.shape else { continue };
-            let Some(normal) = unit(normal) else { continue };
-            let surface = match self.mesh.outside(&obstacle.parts) {
-                Ok(surface) => surface,
-                Err(fault) => {
-                    self.faults.push(Fault { path: format!("obstacle[{i}].parts"), ..fault });
-                    continue;
-                }
-            };
-            let own = contact::node_stiffness(&surface, &self.stiffness_under(&surface), &self.mesh.positions);
-            // Nodes that a symmetry line keeps on this plane need no spring.
-            let held = |node: u32| self.constraints.mirror_normals(node).any(|m| (m[0] * normal[1] - m[1] * normal[0]).abs() < 1e-12);
-            let slave = |(&node, &(length, own)): (&u32, &(f64, f64))| {
-                let here = law::Node { tributary: length, own, other: own, share: self.constraints.share(node) };
-                (!held(node)).then(|| (node, Slave { stiffness: stiffness_of(&obstacle.interface, here, 1), area: length, slip: 0.0 }))
-            };
-            let terms = terms(&obstacle.interface);
-            let reach = SKIN * own.iter().map(|&(length, _)| length).sum::<f64>() / own.len().max(1) as f64 + terms.law.reach();
-            let nodes = surface.nodes.iter().zip(&own).filter_map(slave).collect();
-            self.terms.push(terms);
-            let body = self.bodies.add(Body { centre: point, ..Body::default() });
-            let shape = Plane { normal, half: length.map_or(f64::INFINITY, |length| 0.5 * length) };
-            // Beyond every picture of the model.
-            let far = shape.half.min(20.0 * self.mesh.positions.iter().flatten().fold(0.0f64, |size, x| size.max(x.abs())));
-            let points = [1.0, -1.0].map(|side| [-side * far * normal[1], side * far * normal[0]]);
-            self.outlines.push(OutlineShape { name: obstacle.name.clone(), body, points: points.into() });
-            let formulation = NodeObstacle::new(Box::new(shape), body, nodes, reach, obstacle.interface.thickness);
-            contacts.push(Contact::new(
-                obstacle.name.clone(),
-                ContactKind::Obstacle(body),
-                Box::new(formulation),
-                obstacle.interface.active,
-            ));
-        }
-        contacts
     }
 }
 

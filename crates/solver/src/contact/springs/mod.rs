@@ -105,6 +105,13 @@ impl End {
     pub fn node(node: u32, share: f64) -> Self {
         Self { at: node, share, ..Self::default() }
     }
+
+    /// Force of a solved spring on this end, N/m.
+    #[must_use]
+    pub fn force(&self, spring: &Spring) -> Vector {
+        let t = tangent(spring.normal);
+        [0, 1].map(|d| self.share * spring.normal[d] * spring.force + (self.share * t[d] + self.turn[d]) * spring.friction)
+    }
 }
 
 /// Tangent of a spring: the normal turned clockwise, along the target segment.
@@ -480,10 +487,8 @@ impl Springs {
                 continue;
             }
             totals.pressing += spring.force.abs();
-            let t = tangent(spring.normal);
             for end in self.ends(spring) {
-                let force =
-                    [0, 1].map(|d| end.share * spring.normal[d] * spring.force + (end.share * t[d] + end.turn[d]) * spring.friction);
+                let force = end.force(spring);
                 if end.share > 0.0 {
                     totals.resultant = [totals.resultant[0] + spring.side * force[0], totals.resultant[1] + spring.side * force[1]];
                 }

@@ -1,23 +1,24 @@
 //! From a model to a [`System`]: mesh, blocks, masses, contacts, walls, conditions. All faults are collected before anything runs.
 
 use crate::assembly::Assembly;
-use crate::block::{Block, BlockInput, Report, make};
+use crate::block::{Block, BlockInput, Motion, Report, make};
+use crate::contact::formulation::{self, Setup, Side};
 use crate::contact::law::{self, Law};
-use crate::contact::node_segment::{NodeSegment, Slave};
+use crate::contact::node_segment::Slave;
 use crate::contact::obstacle::{NodeObstacle, plane::Plane};
 use crate::contact::projection::node_segment::Target;
-use crate::contact::search::Search;
+use crate::contact::search::SearchKind;
 use crate::contact::springs::friction::Friction;
 use crate::contact::springs::{Springs, Tangential, Terms};
-use crate::contact::tracker::{SKIN, Tracker};
+use crate::contact::tracker::SKIN;
 use crate::contact::{self, Contact, ContactKind, search};
 use crate::energy::Ledger;
 use crate::error::Fault;
 use crate::load::constraint::{Constraints, unit};
 use crate::load::gravity;
-use crate::mesh::surface::{NONE, Surface};
+use crate::mesh::surface::NONE;
 use crate::mesh::{Mesh, PartMesh};
-use crate::model::{self, ContactLaw, Formulation, Interface, Model, ObstacleShape, Partners, Penalty};
+use crate::model::{self, ContactLaw, Interface, Model, ObstacleShape, Partners, Penalty, PenaltySource};
 use crate::rigid::{Bodies, Body};
 use crate::step::{CHUNK, Governor, Limits, NodeSums, System};
 use embate_lanes::{Batch, Level};
@@ -40,31 +41,32 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         faults: Vec::new(),
         constraints: Constraints::new(model, &mesh)?,
         under: Vec::new(),
+        moduli: Vec::new(),
+        mass: Vec::new(),
+        time_step: 0.0,
         bodies: Bodies::default(),
         terms: Vec::new(),
         mesh,
     };
-    let blocks = builder.blocks();
+    let mut blocks = builder.blocks();
     if blocks.len() < model.parts.len() {
         return Err(builder.faults);
     }
-    builder.find_elements_under_surfaces(&blocks);
+    let part_mass = part_masses(&builder.mesh, &blocks);
+    builder.find_elements_under_surfaces(&mut blocks, &part_mass, level);
     let mut contacts = builder.contacts();
     contacts.extend(builder.obstacles());
     if !builder.faults.is_empty() {
         return Err(builder.faults);
     }
-    let Builder { mesh, constraints, bodies, terms, .. } = builder;
+    let Builder { mesh, constraints, bodies, terms, mass, .. } = builder;
     let inputs: Vec<(&dyn Block<2>, usize, &[u32])> =
         blocks.iter().zip(&mesh.parts).map(|(block, part)| (block.as_ref(), part.nodes_per_element, &part.connectivity[..])).collect();
     let nodes = mesh.positions.len();
     let assembly = Assembly::new(nodes, &inputs);
-    let part_mass = part_masses(&mesh, &blocks);
-    let mut mass = vec![0.0; nodes];
     let mut momentum = vec![[0.0; 2]; nodes];
     for (masses, part) in part_mass.iter().zip(&model.parts) {
         for &(node, share) in masses {
-            mass[node as usize] += share;
             for d in 0..2 {
                 momentum[node as usize][d] += share * part.velocity[d];
             }
@@ -125,11 +127,27 @@ struct Builder<'a> {
     mesh: Mesh<2>,
     constraints: Constraints<2>,
     faults: Vec<Fault>,
-    /// Pressure stiffness κ = (K + 4µ/3) L / A of the element behind each edge as an outside segment, Pa/m; sorted by nodes.
-    under: Vec<([u32; 2], f64)>,
+    /// The elements behind all edges, sorted by the nodes of the edge.
+    under: Vec<Under>,
+    /// Wave modulus and bulk modulus of each part, Pa.
+    moduli: Vec<[f64; 2]>,
+    /// Mass of each node, kg/m.
+    mass: Vec<f64>,
+    /// First time step, s; only where a contact asks for it.
+    time_step: f64,
     bodies: Bodies,
     /// What acts in each contact, then in each obstacle.
     terms: Vec<Terms>,
+}
+
+/// The element behind an edge.
+struct Under {
+    /// The edge as an outside segment.
+    nodes: [u32; 2],
+    /// L / A: one over the height of the element, 1/m.
+    flatness: f64,
+    part: u32,
+    element: u32,
 }
 
 impl Builder<'_> {
@@ -153,80 +171,113 @@ impl Builder<'_> {
         blocks
     }
 
-    /// Stiffness of the elements behind every edge, for the automatic penalty.
-    fn find_elements_under_surfaces(&mut self, blocks: &[Box<dyn Block<2>>]) {
-        for (part, block) in self.mesh.parts.iter().zip(blocks) {
-            for cell in part.connectivity.chunks_exact(part.nodes_per_element) {
+    /// What the stiffness of contacts is made from: elements behind every edge, moduli, masses and the first step.
+    fn find_elements_under_surfaces(&mut self, blocks: &mut [Box<dyn Block<2>>], part_mass: &[Vec<(u32, f64)>], level: Level) {
+        for (part_index, part) in self.mesh.parts.iter().enumerate() {
+            for (element, cell) in part.connectivity.chunks_exact(part.nodes_per_element).enumerate() {
                 let x = |corner: usize| self.mesh.positions[cell[corner % cell.len()] as usize];
                 let area = 0.5 * (0..cell.len()).map(|c| x(c)[0] * x(c + 1)[1] - x(c)[1] * x(c + 1)[0]).sum::<f64>();
                 for c in 0..cell.len() {
                     let (a, b) = (x(c), x(c + 1));
                     let length = ((b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2)).sqrt();
                     // Outside segments run against the element's own direction.
-                    self.under.push(([cell[(c + 1) % cell.len()], cell[c]], block.wave_modulus() * length / area));
+                    let nodes = [cell[(c + 1) % cell.len()], cell[c]];
+                    self.under.push(Under { nodes, flatness: length / area, part: part_index as u32, element: element as u32 });
                 }
             }
         }
-        self.under.sort_unstable_by_key(|&(nodes, _)| nodes);
+        self.under.sort_unstable_by_key(|under| under.nodes);
+        self.moduli = blocks.iter().map(|block| [block.wave_modulus(), block.bulk_modulus()]).collect();
+        self.mass = vec![0.0; self.mesh.positions.len()];
+        for &(node, share) in part_mass.iter().flatten() {
+            self.mass[node as usize] += share;
+        }
+        let interfaces = self.model.contacts.iter().map(|c| &c.interface).chain(self.model.obstacles.iter().map(|o| &o.interface));
+        if interfaces.into_iter().any(|interface| source_of(interface) == PenaltySource::TimeStep) {
+            let velocities = vec![[0.0; 2]; self.mesh.positions.len()];
+            let motion = Motion { positions: &self.mesh.positions, velocities: &velocities, time_step: 0.0 };
+            let stable = |block: &mut Box<dyn Block<2>>| {
+                let mut corners = vec![Batch::default(); block.corner_batches()];
+                block.advance(&motion, level, &mut corners, false).time_step_squared
+            };
+            self.time_step = self.model.run.safety * blocks.iter_mut().map(stable).fold(f64::INFINITY, f64::min).sqrt();
+        }
     }
 
-    fn stiffness_under(&self, surface: &Surface) -> Vec<f64> {
-        let of = |segment: &[u32; 2]| self.under.binary_search_by_key(segment, |&(nodes, _)| nodes).map_or(0.0, |at| self.under[at].1);
-        surface.segments.iter().map(of).collect()
+    fn under(&self, segment: [u32; 2]) -> Option<&Under> {
+        self.under.binary_search_by_key(&segment, |under| under.nodes).ok().map(|at| &self.under[at])
+    }
+
+    /// What is behind a surface, with the stiffness that an interface asks for.
+    fn side(&self, target: Target, interface: &Interface) -> Side<'_> {
+        let (surface, positions, source) = (&target.surface, &self.mesh.positions, source_of(interface));
+        let modulus = |under: &Under| self.moduli[under.part as usize][usize::from(source == PenaltySource::BulkModulus)] * under.flatness;
+        let mut segments: Vec<f64> = surface.segments.iter().map(|&segment| self.under(segment).map_or(0.0, modulus)).collect();
+        let mut nodes = contact::node_stiffness(surface, &segments, positions);
+        if source == PenaltySource::TimeStep {
+            for (&node, (length, stiffness)) in surface.nodes.iter().zip(&mut nodes) {
+                *stiffness = law::penalty::of_time_step(self.mass[node as usize], self.time_step, *length);
+            }
+            let of = |node: u32| surface.nodes.binary_search(&node).map_or(0.0, |at| nodes[at].1);
+            segments = surface.segments.iter().map(|&[a, b]| 0.5 * (of(a) + of(b))).collect();
+        }
+        let cell = |&segment: &[u32; 2]| {
+            self.under(segment).map_or(&[][..], |under| {
+                let part = &self.mesh.parts[under.part as usize];
+                &part.connectivity[under.element as usize * part.nodes_per_element..][..part.nodes_per_element]
+            })
+        };
+        let cells = surface.segments.iter().map(cell).collect();
+        Side { segments, nodes, cells, target }
     }
 
     fn contacts(&mut self) -> Vec<Contact> {
         let mut contacts = Vec::new();
         for (i, contact) in self.model.contacts.iter().enumerate() {
-            let Partners::Between(between) = &contact.partners else { continue };
-            let sides = [0, 1].map(|side| self.target(&between[side]).map_err(|fault| (side, fault)));
-            let targets = match sides {
-                [Ok(first), Ok(second)] => [first, second],
-                faulty => {
-                    for (side, fault) in faulty.into_iter().filter_map(Result::err) {
-                        self.faults.push(Fault { path: format!("contact[{i}].between[{side}]"), ..fault });
-                    }
-                    continue;
+            match self.contact(contact) {
+                Ok((made, terms)) => {
+                    self.terms.push(terms);
+                    contacts.push(made);
                 }
-            };
-            let Some(search) = search_by_name(&contact.search) else {
-                self.faults.push(Fault::new(
-                    format!("contact[{i}].search"),
-                    format!("there is no search \"{}\"", contact.search),
-                    "see `embate list searches`",
-                ));
-                continue;
-            };
-            let terms = terms(&contact.interface);
-            let formulation = self.node_segment(contact, targets, search, terms.law.reach());
-            self.terms.push(terms);
-            contacts.push(Contact::new(contact.name.clone(), ContactKind::Contact, Box::new(formulation), contact.interface.active));
+                Err(faults) => self.faults.extend(faults.into_iter().map(|fault| {
+                    let dot = if fault.path.is_empty() { "" } else { "." };
+                    Fault { path: format!("contact[{i}]{dot}{}", fault.path), ..fault }
+                })),
+            }
         }
         contacts
     }
 
-    fn node_segment(&self, contact: &model::Contact, targets: [Target; 2], search: Box<dyn Search<2>>, reach: f64) -> NodeSegment {
-        let passes: &[(usize, usize)] = match contact.formulation {
-            Formulation::SinglePass { slave: 0 } => &[(0, 1)],
-            Formulation::SinglePass { .. } => &[(1, 0)],
-            _ => &[(0, 1), (1, 0)],
+    /// A contact and what acts in its springs; faults have paths relative to the contact.
+    fn contact(&self, contact: &model::Contact) -> Result<(Contact, Terms), Vec<Fault>> {
+        let Partners::Between(between) = &contact.partners else {
+            return Err(vec![Fault::new(
+                "bodies",
+                "contact of bodies with themselves is not available",
+                "name two surfaces with `between`",
+            )]);
         };
-        let stiffness = [0, 1].map(|surface: usize| self.stiffness_under(&targets[surface].surface));
-        let softest = |surface: usize| stiffness[surface].iter().copied().fold(f64::INFINITY, f64::min);
-        let pass = |&(slave, target): &(usize, usize)| {
-            let Target { surface, mirrors } = &targets[slave];
-            let nodes = contact::node_stiffness(surface, &stiffness[slave], &self.mesh.positions);
-            let other = softest(target);
-            let of = |(&(tributary, own), node): (&(f64, f64), &u32)| {
-                let on_line = mirrors.binary_search_by_key(node, |&(node, _)| node).is_ok();
-                let node = law::Node { tributary, own, other, share: if on_line { 0.5 } else { 1.0 } };
-                Slave { stiffness: stiffness_of(&contact.interface, node, passes.len()), area: tributary, slip: 0.0 }
-            };
-            nodes.iter().zip(&surface.nodes).map(of).collect()
+        let sides: Vec<_> = between
+            .iter()
+            .enumerate()
+            .map(|(side, name)| self.target(name).map_err(|fault| Fault { path: format!("between[{side}]"), ..fault }))
+            .collect();
+        if sides.iter().any(Result::is_err) {
+            return Err(sides.into_iter().filter_map(Result::err).collect());
+        }
+        let sides = sides.into_iter().flatten().map(|target| self.side(target, &contact.interface)).collect();
+        let Some(search) = search_by_name(&contact.search) else {
+            let message = format!("there is no search \"{}\"", contact.search);
+            return Err(vec![Fault::new("search", message, "see `embate list searches`")]);
         };
-        let slaves = passes.iter().map(pass).collect();
-        let tracker = Tracker::new(targets.into(), passes, search, &self.mesh.positions);
-        NodeSegment::new(tracker, slaves, contact.interface.thickness, reach)
+        let Some(kind) = formulation::kind_of(contact) else {
+            let message = format!("there is no formulation \"{}\"", contact.formulation.name());
+            return Err(vec![Fault::new("formulation", message, "see `embate list`")]);
+        };
+        let terms = terms(&contact.interface);
+        let setup = Setup { contact, sides, positions: &self.mesh.positions, terms: &terms, search: &|| (search.make)() };
+        let made = (kind.make)(setup).map_err(|fault| vec![fault])?;
+        Ok((Contact::new(contact.name.clone(), ContactKind::Contact, made, contact.interface.active), terms))
     }
 
     /// A surface without the segments on symmetry lines, and the normals of the lines at the ends that this leaves open.
@@ -257,7 +308,8 @@ impl Builder<'_> {
                     continue;
                 }
             };
-            let own = contact::node_stiffness(&surface, &self.stiffness_under(&surface), &self.mesh.positions);
+            let Side { target: Target { surface, .. }, nodes: own, .. } =
+                self.side(Target { surface, mirrors: Vec::new() }, &obstacle.interface);
             // Nodes that a symmetry line keeps on this plane need no spring.
             let held = |node: u32| self.constraints.mirror_normals(node).any(|m| (m[0] * normal[1] - m[1] * normal[0]).abs() < 1e-12);
             let slave = |(&node, &(length, own)): (&u32, &(f64, f64))| {
@@ -302,8 +354,15 @@ fn stiffness_of(interface: &Interface, node: law::Node, passes: usize) -> f64 {
     law::penalty::stiffness(penalty, node, passes)
 }
 
-fn search_by_name(name: &str) -> Option<Box<dyn Search<2>>> {
+/// What an automatic penalty is made from; of laws without a penalty the default.
+fn source_of(interface: &Interface) -> PenaltySource {
+    match interface.law {
+        ContactLaw::Penalty(Penalty::Automatic { source, .. }) => source,
+        _ => PenaltySource::default(),
+    }
+}
+
+fn search_by_name(name: &str) -> Option<SearchKind<2>> {
     let registry = search::registry::<2>();
-    let kind = if name.is_empty() { registry.first() } else { registry.iter().find(|kind| kind.name == name) };
-    kind.map(|kind| (kind.make)())
+    if name.is_empty() { registry.first().copied() } else { registry.into_iter().find(|kind| kind.name == name) }
 }

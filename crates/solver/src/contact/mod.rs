@@ -9,7 +9,9 @@ pub mod projection;
 pub mod tracker;
 pub mod law;
 pub mod springs;
+pub mod formulation;
 pub mod node_segment;
+pub mod segment;
 pub mod obstacle;
 
 use crate::mesh::surface::Surface;

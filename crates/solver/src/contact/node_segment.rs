@@ -2,10 +2,42 @@
 //!
 //! Where the nodes lie comes from the [`Tracker`]; stiffness, friction and thickness are those of the slave node.
 
+use super::formulation::{FormulationKind, Setup};
 use super::projection::node_segment::{Projection, Target};
 use super::springs::{End, Spring, Springs};
 use super::tracker::{Touch, Tracker};
 use super::{Formulation, Scene, Vector};
+use crate::error::Fault;
+use crate::model;
+
+/// Registry entry.
+pub const DOUBLE_PASS: FormulationKind = FormulationKind {
+    name: "double_pass",
+    doc: "nodes against segments; each surface is slave once and target once in every force evaluation",
+    source: "Bittencourt and Creus (1995)",
+    make: |setup| {
+        let passes = setup.both_passes();
+        Ok(Box::new(NodeSegment::of(setup, passes)))
+    },
+};
+
+/// Registry entry.
+pub const SINGLE_PASS: FormulationKind = FormulationKind {
+    name: "single_pass",
+    doc: "nodes against segments; only the nodes of the slave surface are checked against the other one",
+    source: "Bittencourt and Creus (1995)",
+    make: |setup| {
+        let slave = if let model::Formulation::SinglePass { slave } = setup.contact.formulation { slave } else { 0 };
+        if setup.sides.len() == 1 {
+            return Err(Fault::new(
+                "formulation",
+                "a surface that meets itself has no slave and no target",
+                "take \"double_pass\" or \"segment\"",
+            ));
+        }
+        Ok(Box::new(NodeSegment::of(setup, [&[(0, 1)], &[(1, 0)]][slave.min(1)])))
+    },
+};
 
 /// The formulation.
 pub struct NodeSegment {
@@ -32,6 +64,23 @@ pub struct Slave {
 }
 
 impl NodeSegment {
+    /// For a contact with these passes (slave, target).
+    #[must_use]
+    pub fn of(setup: Setup<'_>, passes: &[(usize, usize)]) -> Self {
+        let pass = |&(slave, target): &(usize, usize)| {
+            let other = setup.sides[target].softest();
+            let of = |(index, &(area, _)): (usize, &(f64, f64))| {
+                let stiffness = setup.node_stiffness(slave, index, other, passes.len());
+                Slave { stiffness, area, slip: 0.0 }
+            };
+            setup.sides[slave].nodes.iter().enumerate().map(of).collect()
+        };
+        let slaves = passes.iter().map(pass).collect();
+        let (interface, reach, positions, search) = (&setup.contact.interface, setup.terms.law.reach(), setup.positions, (setup.search)());
+        let targets = setup.sides.into_iter().map(|side| side.target).collect();
+        Self::new(Tracker::new(targets, passes, search, positions), slaves, interface.thickness, reach)
+    }
+
     /// For the passes of `tracker`; `slaves` per pass in the order of the slave surface's nodes, `reach` of the law, m.
     #[must_use]
     pub fn new(tracker: Tracker, slaves: Vec<Vec<Slave>>, thickness: f64, reach: f64) -> Self {

@@ -1,0 +1,319 @@
+//! Segments against segments: the pressure of two surfaces is integrated over what they have in common, on the line between both.
+//!
+//! Two segments a (of the first surface) and b that face each other have the common direction t = (t_a − t_b)/|t_a − t_b| and the normal n ⟂ t. Their common part
+//! is where both projections on t overlap; at each of its Gauss points stand the points x_a and x_b of the segments with the same coordinate along t, and between
+//! them a spring with the gap g = n·(x_a − x_b) and the stiffness κ w ℓ (weight w, length ℓ of the common part). Forces act on x_a and x_b along the line that joins
+//! them: both momenta are exact. A uniform gap gives the consistent loads of a uniform pressure on both meshes, so flat surfaces pass the patch test whatever
+//! their nodes; node-to-segment contact does not. After Papadopoulos and Taylor, Comput. Meth. Appl. Mech. Engng 94 (1992) 373-389 (integration over the parts that
+//! segments have in common) and Puso and Laursen, Comput. Meth. Appl. Mech. Engng 193 (2004) 601-629 (common plane of both).
+//!
+//! Which pairs there are comes from the [`Tracker`], nodes of each surface against the other: the two segments at a node that touches, with the segment it touches and its neighbours.
+//! So nothing is paired with the back side of a thin body.
+
+use super::formulation::{FormulationKind, Setup};
+use super::law::penalty;
+use super::springs::{End, Spring, Springs};
+use super::tracker::Tracker;
+use super::{Formulation, Scene, Vector};
+use crate::mesh::surface::{NONE, Surface};
+use crate::model::{ContactLaw, Penalty};
+
+/// Registry entry.
+pub const KIND: FormulationKind = FormulationKind {
+    name: "segment",
+    doc: "segments against segments, integrated over their common part: passes the contact patch test on any meshes",
+    source: "Papadopoulos and Taylor (1992); common plane as in Puso and Laursen (2004)",
+    make: |setup| {
+        setup.no_stiffness_per_node()?;
+        Ok(Box::new(Segment::of(setup)))
+    },
+};
+
+/// Place (0 to 1) and weight of integration points.
+type Rule = &'static [[f64; 2]];
+const TWO: Rule = &[[0.211_324_865_405_187_13, 0.5], [0.788_675_134_594_812_9, 0.5]];
+const ONE: Rule = &[[0.5, 1.0]];
+/// Common parts shorter than this fraction of a segment are round-off.
+const SLIVER: f64 = 1e-9;
+/// A pair may be deeper than its nodes by this factor. Normals of segments that face each other differ from the common one by less than 45 degrees, 1/cos 45° = 1.41;
+/// what is deeper by more belongs to another side of a corner.
+const DEEPER: f64 = 2.0;
+
+/// The formulation.
+pub struct Segment {
+    tracker: Tracker,
+    /// Per surface.
+    chains: Vec<Chain>,
+    penalty: Penalty,
+    rule: Rule,
+    /// Distance that the surfaces keep, m.
+    thickness: f64,
+    /// Largest gap at which the law pushes, m.
+    reach: f64,
+    /// Pairs of this step, ascending.
+    pairs: Vec<[u32; 2]>,
+    /// Pairs with springs in this step, and in the last one.
+    facing: Vec<Facing>,
+    before: Vec<Facing>,
+}
+
+/// What is known of a surface beyond its tracking.
+struct Chain {
+    /// κ behind each segment, Pa/m.
+    stiffness: Vec<f64>,
+    /// Indices of each segment's nodes among the surface's nodes.
+    local: Vec<[u32; 2]>,
+    /// Segments at node `i`: `around[starts[i]..starts[i + 1]]`.
+    starts: Vec<u32>,
+    around: Vec<u32>,
+    /// Depth of each node in this step, m; negative where it is outside.
+    depth: Vec<f64>,
+    /// Nodes whose depth is set.
+    deep: Vec<u32>,
+}
+
+/// Two segments with springs, and the elastic slips of these: they stay with the integration points of their pair. Points move along the segments
+/// only as fast as the surfaces slide, and where they slide friction sets the slip anew.
+#[derive(Clone, Copy, Debug, Default)]
+struct Facing {
+    pair: [u32; 2],
+    length: f64,
+    slips: [f64; 2],
+}
+
+impl Chain {
+    fn new(surface: &Surface, stiffness: Vec<f64>) -> Self {
+        // Nodes of segments are nodes of the surface.
+        let local: Vec<[u32; 2]> = surface
+            .segments
+            .iter()
+            .map(|segment| segment.map(|node| surface.nodes.partition_point(|&other| other < node) as u32))
+            .collect();
+        let mut starts = vec![0; surface.nodes.len() + 1];
+        for &node in local.iter().flatten() {
+            starts[node as usize + 1] += 1;
+        }
+        for i in 1..starts.len() {
+            starts[i] += starts[i - 1];
+        }
+        let mut next = starts.clone();
+        let mut around = vec![0; 2 * local.len()];
+        for (segment, nodes) in local.iter().enumerate() {
+            for &node in nodes {
+                around[next[node as usize] as usize] = segment as u32;
+                next[node as usize] += 1;
+            }
+        }
+        let depth = vec![f64::NEG_INFINITY; surface.nodes.len()];
+        Self { stiffness, local, starts, around, depth, deep: Vec::new() }
+    }
+
+    fn around(&self, node: usize) -> &[u32] {
+        &self.around[self.starts[node] as usize..self.starts[node + 1] as usize]
+    }
+}
+
+impl Segment {
+    fn of(setup: Setup<'_>) -> Self {
+        let passes = setup.both_passes();
+        // With springs that don't give way two points a pair were more conditions than the nodes can meet.
+        let rule = if matches!(setup.contact.interface.law, ContactLaw::Multiplier) { ONE } else { TWO };
+        let (penalty, thickness, reach) = (setup.penalty(), setup.contact.interface.thickness, setup.terms.law.reach());
+        let (positions, search) = (setup.positions, (setup.search)());
+        let chains = setup.sides.iter().map(|side| Chain::new(&side.target.surface, side.segments.clone())).collect();
+        let targets = setup.sides.into_iter().map(|side| side.target).collect();
+        let tracker = Tracker::new(targets, passes, search, positions);
+        Self { tracker, chains, penalty, rule, thickness, reach, pairs: Vec::new(), facing: Vec::new(), before: Vec::new() }
+    }
+
+    /// Surfaces of the segments of a pair.
+    fn surfaces(&self) -> [usize; 2] {
+        [0, self.chains.len() - 1]
+    }
+
+    /// The pairs that touching nodes lead to.
+    fn pair_up(&mut self, scene: &Scene<'_>) {
+        self.pairs.clear();
+        for chain in &mut self.chains {
+            for node in chain.deep.drain(..) {
+                chain.depth[node as usize] = f64::NEG_INFINITY;
+            }
+        }
+        let touches = self.tracker.track(scene.sweep, self.thickness + self.reach).to_vec();
+        for touch in touches {
+            let side = self.tracker.side(touch.pass);
+            let [slave, target] = if side > 0.0 { [0, 1] } else { [self.chains.len() - 1, 0] };
+            let chain = &mut self.chains[slave];
+            chain.depth[touch.slave] = chain.depth[touch.slave].max(-touch.projection.gap);
+            chain.deep.push(touch.slave as u32);
+            let (surface, b) = (&self.tracker.targets()[target].surface, touch.projection.segment);
+            for &a in self.chains[slave].around(touch.slave) {
+                for b in [surface.previous[b as usize], b, surface.next[b as usize]] {
+                    if b != NONE {
+                        let forward = if side == 0.0 { a < b } else { slave == 0 };
+                        self.pairs.push(if forward { [a, b] } else { [b, a] });
+                    }
+                }
+            }
+        }
+        self.pairs.sort_unstable();
+        self.pairs.dedup();
+    }
+
+    /// What two segments have in common; `None` where they don't face each other.
+    fn common(&self, pair: [u32; 2], positions: &[Vector]) -> Option<Common> {
+        let surfaces = self.surfaces();
+        let nodes = [0, 1].map(|k| self.tracker.targets()[surfaces[k]].surface.segments[pair[k] as usize]);
+        if nodes[0].iter().any(|node| nodes[1].contains(node)) {
+            return None;
+        }
+        let common = Common::new(nodes, positions)?;
+        for [gap, whose, end] in common.ends {
+            let (whose, end) = (whose as usize, end as usize);
+            let chain = &self.chains[surfaces[whose]];
+            let depth = chain.depth[chain.local[pair[whose] as usize][end] as usize];
+            if gap < 0.0 && -gap > DEEPER * depth + SLIVER * common.length {
+                return None;
+            }
+        }
+        Some(common)
+    }
+
+    /// Elastic slip of the points of a pair: what they had, or what its first segment had in the mean.
+    fn slips(&self, pair: [u32; 2]) -> [f64; 2] {
+        if let Ok(at) = self.before.binary_search_by_key(&pair, |facing| facing.pair) {
+            return self.before[at].slips;
+        }
+        let first = self.before.partition_point(|facing| facing.pair[0] < pair[0]);
+        let same = self.before[first..].iter().take_while(|facing| facing.pair[0] == pair[0]);
+        let (mut sum, mut length) = (0.0, 0.0);
+        for facing in same {
+            let mean = facing.slips[..self.rule.len()].iter().sum::<f64>() / self.rule.len() as f64;
+            sum += facing.length * mean;
+            length += facing.length;
+        }
+        if length > 0.0 { [sum / length; 2] } else { [0.0; 2] }
+    }
+}
+
+impl Formulation for Segment {
+    fn detect(&mut self, scene: &Scene<'_>, springs: &mut Springs) {
+        self.pair_up(scene);
+        std::mem::swap(&mut self.facing, &mut self.before);
+        self.facing.clear();
+        let (positions, surfaces) = (scene.sweep.new, self.surfaces());
+        let side = if self.chains.len() == 1 { 0.0 } else { 1.0 };
+        for index in 0..self.pairs.len() {
+            let pair = self.pairs[index];
+            let Some(common) = self.common(pair, positions) else { continue };
+            let [own, other] = [0, 1].map(|k| self.chains[surfaces[k]].stiffness[pair[k] as usize]);
+            let pressure = penalty::pressure(self.penalty, own, other);
+            let slips = self.slips(pair);
+            for (&[place, weight], slip) in self.rule.iter().zip(slips) {
+                let (gap, ends) = common.point(place);
+                let area = weight * common.area;
+                let spring = Spring {
+                    normal: common.normal,
+                    gap: gap - self.thickness,
+                    stiffness: pressure * area,
+                    area,
+                    side,
+                    slip,
+                    ..Spring::default()
+                };
+                springs.push(spring, &ends);
+            }
+            self.facing.push(Facing { pair, length: common.length, slips });
+        }
+    }
+
+    fn remember(&mut self, solved: &[Spring]) {
+        for (facing, springs) in self.facing.iter_mut().zip(solved.chunks_exact(self.rule.len())) {
+            for (slip, spring) in facing.slips.iter_mut().zip(springs) {
+                *slip = spring.slip_new;
+            }
+        }
+    }
+}
+
+/// The common part of two segments.
+#[derive(Clone, Copy, Debug)]
+struct Common {
+    nodes: [[u32; 2]; 2],
+    positions: [[Vector; 2]; 2],
+    /// Points from the second segment to the first.
+    normal: Vector,
+    /// Coordinates along t of the nodes of both segments.
+    along: [[f64; 2]; 2],
+    /// Where the common part begins, and its length, m.
+    begin: f64,
+    length: f64,
+    /// Length times −t_a·t_b, m: segments that turn away from each other fade out instead of being dropped at a right angle.
+    area: f64,
+    /// Gap at the beginning and the end, and whose node is there: segment (0, 1) and its end (0, 1).
+    ends: [[f64; 3]; 2],
+}
+
+impl Common {
+    fn new(nodes: [[u32; 2]; 2], positions: &[Vector]) -> Option<Self> {
+        let positions = nodes.map(|nodes| nodes.map(|node| positions[node as usize]));
+        let [ta, tb] = positions.map(|[begin, end]| {
+            let along = minus(end, begin);
+            let length = dot(along, along).sqrt();
+            ([along[0] / length, along[1] / length], length)
+        });
+        let facing = -dot(ta.0, tb.0);
+        // NaN (a segment without length) fails the comparison too
+        if !(facing > 0.0) {
+            return None;
+        }
+        let sum = minus(ta.0, tb.0);
+        let size = dot(sum, sum).sqrt();
+        let t = [sum[0] / size, sum[1] / size];
+        let origin = positions[0][0];
+        let along = positions.map(|ends| ends.map(|x| dot(minus(x, origin), t)));
+        let [[a0, a1], [b0, b1]] = along;
+        // The first runs along t, the second against it.
+        let (begin, first) = if a0 >= b1 { (a0, [0.0, 0.0]) } else { (b1, [1.0, 1.0]) };
+        let (end, last) = if a1 <= b0 { (a1, [0.0, 1.0]) } else { (b0, [1.0, 0.0]) };
+        let length = end - begin;
+        if !(length > SLIVER * ta.1.min(tb.1)) {
+            return None;
+        }
+        let mut common = Self { nodes, positions, normal: [t[1], -t[0]], along, begin, length, area: length * facing, ends: [[0.0; 3]; 2] };
+        common.ends = [(0.0, first), (1.0, last)].map(|(place, [whose, end])| [common.point(place).0, whose, end]);
+        Some(common)
+    }
+
+    /// Gap at a place (0 to 1), and the ends of a spring there.
+    ///
+    /// Friction acts along t at both points, which are the gap apart; its couple is taken by forces across both segments, half of it each. So the slip rate
+    /// ṡ = t·(v_a − v_b) + ½ g (θ̇_a + θ̇_b) does not see rotations of both together, and friction keeps the angular momentum.
+    fn point(&self, place: f64) -> (f64, [End; 4]) {
+        let s = self.begin + place * self.length;
+        let weights = self.along.map(|[begin, end]| {
+            let share = (s - begin) / (end - begin);
+            [1.0 - share, share]
+        });
+        let [xa, xb] = [0, 1].map(|k| [0, 1].map(|d| weights[k][0] * self.positions[k][0][d] + weights[k][1] * self.positions[k][1][d]));
+        let gap = dot(minus(xa, xb), self.normal);
+        let end = |k: usize, i: usize| {
+            let along = minus(self.positions[k][1], self.positions[k][0]);
+            let turn = (i as f64 - 0.5) * gap / dot(along, along);
+            let share = if k == 0 { weights[k][i] } else { -weights[k][i] };
+            End { at: self.nodes[k][i], share, turn: [-along[1] * turn, along[0] * turn], ..End::default() }
+        };
+        (gap, [end(0, 0), end(0, 1), end(1, 0), end(1, 1)])
+    }
+}
+
+fn minus(a: Vector, b: Vector) -> Vector {
+    [a[0] - b[0], a[1] - b[1]]
+}
+
+fn dot(a: Vector, b: Vector) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+#[cfg(test)]
+mod tests;

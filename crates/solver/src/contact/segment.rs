@@ -2,8 +2,8 @@
 //!
 //! Two segments a (of the first surface) and b that face each other have the common direction t = (t_a − t_b)/|t_a − t_b| and the normal n ⟂ t. Their common part
 //! is where both projections on t overlap; at each of its Gauss points stand the points x_a and x_b of the segments with the same coordinate along t, and between
-//! them a spring with the gap g = n·(x_a − x_b) and the stiffness κ w ℓ (weight w, length ℓ of the common part). Forces act on x_a and x_b along the line that joins
-//! them: both momenta are exact. A uniform gap gives the consistent loads of a uniform pressure on both meshes, so flat surfaces pass the patch test whatever
+//! them a spring with the gap g = n·(x_a − x_b) and the stiffness κ w ℓ (weight w, length ℓ of the common part). The forces are F ∂g/∂x of the four nodes: the gap does not
+//! change when both segments move together, so both momenta are exact. A uniform gap gives the consistent loads of a uniform pressure on both meshes, so flat surfaces pass the patch test whatever
 //! their nodes; node-to-segment contact does not. After Papadopoulos and Taylor, Comput. Meth. Appl. Mech. Engng 94 (1992) 373-389 (integration over the parts that
 //! segments have in common) and Puso and Laursen, Comput. Meth. Appl. Mech. Engng 193 (2004) 601-629 (common plane of both).
 //!
@@ -281,27 +281,48 @@ impl Common {
             return None;
         }
         let mut common = Self { nodes, positions, normal: [t[1], -t[0]], along, begin, length, area: length * facing, ends: [[0.0; 3]; 2] };
-        common.ends = [(0.0, first), (1.0, last)].map(|(place, [whose, end])| [common.point(place).0, whose, end]);
+        common.ends = [first, last].map(|[whose, end]| [0.0, whose, end]);
+        common.ends = [0.0, 1.0].map(|place| [common.point(place).0, common.ends[place as usize][1], common.ends[place as usize][2]]);
         Some(common)
     }
 
-    /// Gap at a place (0 to 1), and the ends of a spring there.
+    /// Gap at a place q (0 to 1) of the common part, and the ends of a spring there. The row of the gap is its whole derivative.
+    ///
+    /// The point of segment a is at ξ_a = (s − s_a0)/(s_a1 − s_a0) with s = (1 − q) s_begin + q s_end, of the nodes where the common part begins and ends;
+    /// coordinates change by ds_k = t·dx_k + h_k dφ (h_k: height of node k above t), where t turns by dφ = ½ (dφ_a + dφ_b). So
+    ///
+    /// dg = n·(Σ N dx_a − Σ M dx_b) + n·d_a dξ_a − n·d_b dξ_b        with d = x_1 − x_0 of a segment:
+    ///
+    /// where segments are inclined to each other, points that slide along them open or close the gap. (n turns too, but x_a − x_b is parallel to it.)
     ///
     /// Friction acts along t at both points, which are the gap apart; its couple is taken by forces across both segments, half of it each. So the slip rate
     /// ṡ = t·(v_a − v_b) + ½ g (θ̇_a + θ̇_b) does not see rotations of both together, and friction keeps the angular momentum.
     fn point(&self, place: f64) -> (f64, [End; 4]) {
+        let (n, origin) = (self.normal, self.positions[0][0]);
+        let t = [-n[1], n[0]];
         let s = self.begin + place * self.length;
         let weights = self.along.map(|[begin, end]| {
             let share = (s - begin) / (end - begin);
             [1.0 - share, share]
         });
         let [xa, xb] = [0, 1].map(|k| [0, 1].map(|d| weights[k][0] * self.positions[k][0][d] + weights[k][1] * self.positions[k][1][d]));
-        let gap = dot(minus(xa, xb), self.normal);
+        let gap = dot(minus(xa, xb), n);
+        let chord = self.positions.map(|[begin, end]| minus(end, begin));
+        // Derivative of the gap by the coordinate of each node along t: by s at the nodes of the ends, by the segments' own nodes.
+        let slopes = [0, 1].map(|k| dot(n, chord[k]) / (self.along[k][1] - self.along[k][0]) * if k == 0 { 1.0 } else { -1.0 });
+        let mut by_place = [0, 1].map(|k| weights[k].map(|weight| -slopes[k] * weight));
+        for ([_, whose, end], part) in self.ends.into_iter().zip([1.0 - place, place]) {
+            by_place[whose as usize][end as usize] += part * (slopes[0] + slopes[1]);
+        }
+        let height = |x: Vector| -dot(minus(x, origin), n);
+        let by_angle: f64 = (0..4).map(|i| by_place[i / 2][i % 2] * height(self.positions[i / 2][i % 2])).sum();
         let end = |k: usize, i: usize| {
-            let along = minus(self.positions[k][1], self.positions[k][0]);
-            let turn = (i as f64 - 0.5) * gap / dot(along, along);
+            // ½ dφ_k by the position of the end
+            let per_length = (i as f64 - 0.5) / dot(chord[k], chord[k]);
+            let half = [-chord[k][1] * per_length, chord[k][0] * per_length];
             let share = if k == 0 { weights[k][i] } else { -weights[k][i] };
-            End { at: self.nodes[k][i], share, turn: [-along[1] * turn, along[0] * turn], ..End::default() }
+            let lean = [0, 1].map(|d| by_place[k][i] * t[d] + by_angle * half[d]);
+            End { at: self.nodes[k][i], share, lean, turn: half.map(|half| gap * half), ..End::default() }
         };
         (gap, [end(0, 0), end(0, 1), end(1, 0), end(1, 1)])
     }

@@ -62,7 +62,7 @@ fn forces(model: &Facing2, springs: &Springs) -> Vec<Vector> {
         let force = spring.stiffness * (-spring.gap).max(0.0);
         for end in springs.ends(spring) {
             for d in 0..2 {
-                forces[end.at as usize][d] += end.share * force * spring.normal[d];
+                forces[end.at as usize][d] += (end.share * spring.normal[d] + end.lean[d]) * force;
             }
         }
     }
@@ -108,33 +108,51 @@ fn only_the_common_part_carries() {
     assert!((length - 0.5).abs() < 1e-14, "{length}");
 }
 
-/// Rates of gap and slip against difference quotients of a motion.
+/// Each node at the end of a common part once from each segment.
+fn inclined() -> [[Vector; 4]; 3] {
+    [
+        [[0.0, 0.0], [1.0, 0.1], [1.3, 0.25], [0.2, 0.15]],
+        [[0.0, 0.0], [1.0, -0.3], [0.7, 0.25], [-0.5, 0.35]],
+        [[0.1, 0.0], [0.8, 0.4], [1.1, 0.05], [-0.3, -0.25]],
+    ]
+}
+
 #[test]
 fn rates_are_those_of_the_motion_and_blind_to_rotations() {
     let nodes = [[0, 1], [2, 3]];
-    let positions = [[0.0, 0.0], [1.0, 0.1], [1.3, 0.25], [0.2, 0.15]];
-    let common = Common::new(nodes, &positions).unwrap();
-    let normal = common.normal;
-    let t = crate::contact::springs::tangent(normal);
-    for place in [0.2, 0.9] {
-        let (_, ends) = common.point(place);
-        let rates = |v: &dyn Fn(usize) -> Vector| {
-            ends.iter().fold([0.0; 2], |sum: Vector, end| {
-                let v = v(end.at as usize);
-                let row = [0, 1].map(|d| end.share * t[d] + end.turn[d]);
-                [sum[0] + end.share * dot(normal, v), sum[1] + dot(row, v)]
-            })
-        };
-        for v in [[1.0, 0.0], [0.0, 1.0]] {
-            let [gap, slip] = rates(&|_| v);
-            assert!(gap.abs() < 1e-15 && slip.abs() < 1e-15);
+    for positions in inclined() {
+        let common = Common::new(nodes, &positions).unwrap();
+        let normal = common.normal;
+        let t = crate::contact::springs::tangent(normal);
+        for place in [0.2, 0.9] {
+            let (gap, ends) = common.point(place);
+            let rates = |v: &dyn Fn(usize) -> Vector| {
+                ends.iter().fold([0.0; 2], |sum: Vector, end| {
+                    let v = v(end.at as usize);
+                    let row = [0, 1].map(|d| end.share * t[d] + end.turn[d]);
+                    [sum[0] + end.share * dot(normal, v) + dot(end.lean, v), sum[1] + dot(row, v)]
+                })
+            };
+            for v in [[1.0, 0.0], [0.0, 1.0]] {
+                assert!(rates(&|_| v).iter().all(|rate| rate.abs() < 1e-14));
+            }
+            let turned = rates(&|node| [-positions[node][1], positions[node][0]]);
+            assert!(turned.iter().all(|rate| rate.abs() < 1e-14), "a rotation of both: {turned:?}");
+            assert!((rates(&|node| if node < 2 { t } else { [0.0; 2] })[1] - 1.0).abs() < 1e-14);
+            for node in 0..4 {
+                for d in 0..2 {
+                    let h = 1e-6;
+                    let moved = [h, -h].map(|h| {
+                        let mut positions = positions;
+                        positions[node][d] += h;
+                        Common::new(nodes, &positions).unwrap().point(place).0
+                    });
+                    let quotient = (moved[0] - moved[1]) / (2.0 * h);
+                    let rate = rates(&|other| if other == node { [0, 1].map(|e| f64::from(e == d)) } else { [0.0; 2] })[0];
+                    assert!((rate - quotient).abs() < 1e-8, "{gap} at {place} by node {node} {d}: {rate} {quotient}");
+                }
+            }
         }
-        let [gap, slip] = rates(&|node| [-positions[node][1], positions[node][0]]);
-        assert!(gap.abs() < 1e-15 && slip.abs() < 1e-15, "a rotation of both: {gap} {slip}");
-        let [gap, slip] = rates(&|node| if node < 2 { normal } else { [0.0; 2] });
-        assert!((gap - 1.0).abs() < 1e-15 && slip.abs() < 1e-15);
-        let [gap, slip] = rates(&|node| if node < 2 { t } else { [0.0; 2] });
-        assert!(gap.abs() < 1e-15 && (slip - 1.0).abs() < 1e-15);
     }
 }
 

@@ -86,13 +86,15 @@ impl std::ops::AddAssign for Lost {
 
 /// What a spring does to one node or rigid body: rows of the rates of gap and slip.
 ///
-/// ġ = Σ share n·v, ṡ = Σ (share t + turn)·v with t = (n₂, −n₁). On a rigid body v is its velocity at `point`.
+/// ġ = Σ (share n + lean)·v, ṡ = Σ (share t + turn)·v with t = (n₂, −n₁). On a rigid body v is its velocity at `point`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct End {
     /// Node, or number of nodes + rigid body.
     pub at: u32,
     /// Share in the gap.
     pub share: f64,
+    /// What the gap's rate has beyond: of points that move along segments which are inclined to the tangent.
+    pub lean: Vector,
     /// What makes the slip rate blind to rotation of both surfaces together, and friction keep the angular momentum.
     pub turn: Vector,
     /// Where the forces act on a rigid body without nodes, m.
@@ -104,6 +106,18 @@ impl End {
     #[must_use]
     pub fn node(node: u32, share: f64) -> Self {
         Self { at: node, share, ..Self::default() }
+    }
+
+    /// Row of the gap's rate.
+    #[inline]
+    fn gap_row(&self, normal: Vector) -> Vector {
+        [0, 1].map(|d| self.share * normal[d] + self.lean[d])
+    }
+
+    /// Row of the slip's rate.
+    #[inline]
+    fn slip_row(&self, tangent: Vector) -> Vector {
+        [0, 1].map(|d| self.share * tangent[d] + self.turn[d])
     }
 }
 
@@ -380,11 +394,11 @@ impl Springs {
             let mut link = Link::default();
             for k in spring.first as usize..(spring.first + spring.count) as usize {
                 let (end, movable) = (&self.ends[k], &self.movables[self.places[k] as usize]);
-                let row = movable.row([end.share * spring.normal[0], end.share * spring.normal[1]], end.point);
+                let row = movable.row(end.gap_row(spring.normal), end.point);
                 link.rate_old += dot(row, movable.velocity_old);
                 link.compliance += 0.5 * after * dot(row, movable.response(row));
                 if slips {
-                    let row = movable.row([end.share * t[0] + end.turn[0], end.share * t[1] + end.turn[1]], end.point);
+                    let row = movable.row(end.slip_row(t), end.point);
                     link.slip_rate_old += dot(row, movable.velocity_old);
                     link.slip_compliance += dot(row, movable.response(row));
                 }
@@ -458,9 +472,9 @@ impl Springs {
         let mut rates = [0.0; 2];
         for k in spring.first as usize..(spring.first + spring.count) as usize {
             let (end, movable) = (&self.ends[k], &self.movables[self.places[k] as usize]);
-            rates[0] += dot(movable.row([end.share * spring.normal[0], end.share * spring.normal[1]], end.point), movable.velocity);
+            rates[0] += dot(movable.row(end.gap_row(spring.normal), end.point), movable.velocity);
             if slips {
-                let row = movable.row([end.share * t[0] + end.turn[0], end.share * t[1] + end.turn[1]], end.point);
+                let row = movable.row(end.slip_row(t), end.point);
                 rates[1] += dot(row, movable.velocity);
             }
         }
@@ -481,8 +495,8 @@ impl Springs {
             totals.pressing += spring.force.abs();
             let t = tangent(spring.normal);
             for end in self.ends(spring) {
-                let force =
-                    [0, 1].map(|d| end.share * spring.normal[d] * spring.force + (end.share * t[d] + end.turn[d]) * spring.friction);
+                let (gap_row, slip_row) = (end.gap_row(spring.normal), end.slip_row(t));
+                let force = [0, 1].map(|d| gap_row[d] * spring.force + slip_row[d] * spring.friction);
                 if end.share > 0.0 {
                     totals.resultant = [totals.resultant[0] + spring.side * force[0], totals.resultant[1] + spring.side * force[1]];
                 }
@@ -587,7 +601,8 @@ impl Relaxing<'_> {
         let (n, t) = (spring.normal, tangent(spring.normal));
         for k in spring.first as usize..(spring.first + spring.count) as usize {
             let (end, movable) = (&springs.ends[k], &mut springs.movables[springs.places[k] as usize]);
-            let row = [0, 1].map(|d| end.share * n[d] * force + (end.share * t[d] + end.turn[d]) * friction);
+            let (gap_row, slip_row) = (end.gap_row(n), end.slip_row(t));
+            let row = [0, 1].map(|d| gap_row[d] * force + slip_row[d] * friction);
             let response = movable.response(movable.row(row, end.point));
             for d in 0..3 {
                 movable.velocity[d] += response[d];

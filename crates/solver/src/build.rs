@@ -274,10 +274,10 @@ impl Builder<'_> {
             let message = format!("there is no formulation \"{}\"", contact.formulation.name());
             return Err(vec![Fault::new("formulation", message, "see `embate list`")]);
         };
-        let terms = terms(&contact.interface);
-        let setup = Setup { contact, sides, positions: &self.mesh.positions, terms: &terms, search: &|| (search.make)() };
+        let terms = || terms(&contact.interface);
+        let setup = Setup { contact, sides, positions: &self.mesh.positions, terms: terms(), search: &|| (search.make)() };
         let made = (kind.make)(setup).map_err(|fault| vec![fault])?;
-        Ok((Contact::new(contact.name.clone(), ContactKind::Contact, made, contact.interface.active), terms))
+        Ok((Contact::new(contact.name.clone(), ContactKind::Contact, made, contact.interface.active), terms()))
     }
 
     /// A surface without the segments on symmetry lines, and the normals of the lines at the ends that this leaves open.

@@ -63,7 +63,7 @@ pub struct Setup<'a> {
     /// Initial positions, m.
     pub positions: &'a [Vector],
     /// What acts in its springs.
-    pub terms: &'a Terms,
+    pub terms: Terms,
     /// Makes a search of the kind that the contact names.
     pub search: &'a dyn Fn() -> Box<dyn Search<2>>,
 }

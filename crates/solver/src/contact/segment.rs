@@ -11,7 +11,7 @@
 //! So nothing is paired with the back side of a thin body.
 
 use super::formulation::{FormulationKind, Setup};
-use super::law::penalty;
+use super::law::{Law, penalty};
 use super::springs::{End, Spring, Springs};
 use super::tracker::Tracker;
 use super::{Formulation, Scene, Vector};
@@ -44,6 +44,7 @@ pub struct Segment {
     tracker: Tracker,
     /// Per surface.
     chains: Vec<Chain>,
+    law: Box<dyn Law>,
     penalty: Penalty,
     rule: Rule,
     /// Distance that the surfaces keep, m.
@@ -52,6 +53,11 @@ pub struct Segment {
     reach: f64,
     /// Pairs of this step, ascending.
     pairs: Vec<[u32; 2]>,
+    /// Their common parts, with the pressure per depth (Pa/m).
+    commons: Vec<([u32; 2], Common, f64)>,
+    /// Nodes that pairs join, as a forest by index of the first surface's nodes, then of the second's; and the least energy per area at ends in each tree, J/m².
+    tree: Vec<u32>,
+    least: Vec<f64>,
     /// Pairs with springs in this step, and in the last one.
     facing: Vec<Facing>,
     before: Vec<Facing>,
@@ -119,11 +125,26 @@ impl Segment {
         // With springs that don't give way two points a pair were more conditions than the nodes can meet.
         let rule = if matches!(setup.contact.interface.law, ContactLaw::Multiplier) { ONE } else { TWO };
         let (penalty, thickness, reach) = (setup.penalty(), setup.contact.interface.thickness, setup.terms.law.reach());
-        let (positions, search) = (setup.positions, (setup.search)());
-        let chains = setup.sides.iter().map(|side| Chain::new(&side.target.surface, side.segments.clone())).collect();
+        let (positions, search, law) = (setup.positions, (setup.search)(), setup.terms.law);
+        let chains: Vec<Chain> = setup.sides.iter().map(|side| Chain::new(&side.target.surface, side.segments.clone())).collect();
+        let count = chains.iter().map(|chain| chain.depth.len()).sum();
         let targets = setup.sides.into_iter().map(|side| side.target).collect();
         let tracker = Tracker::new(targets, passes, search, positions);
-        Self { tracker, chains, penalty, rule, thickness, reach, pairs: Vec::new(), facing: Vec::new(), before: Vec::new() }
+        Self {
+            tracker,
+            chains,
+            law,
+            penalty,
+            rule,
+            thickness,
+            reach,
+            pairs: Vec::new(),
+            commons: Vec::new(),
+            tree: vec![0; count],
+            least: vec![0.0; count],
+            facing: Vec::new(),
+            before: Vec::new(),
+        }
     }
 
     /// Surfaces of the segments of a pair.
@@ -196,32 +217,93 @@ impl Segment {
     }
 }
 
+impl Segment {
+    /// Energy (J/m²) and pressure (Pa) of the law at a gap.
+    fn density(&self, gap: f64, pressure: f64) -> [f64; 2] {
+        let spring = Spring { stiffness: pressure, area: 1.0, ..Spring::default() };
+        let gap = gap - self.thickness;
+        let small = 1e-6 * gap.abs();
+        // The slope of the energy by differences: exact for parabolas, and all laws are made of them.
+        let slope = |small: f64| 0.5 * (self.law.stored(&spring, gap - small) - self.law.stored(&spring, gap + small)) / small;
+        [self.law.stored(&spring, gap), if small > 0.0 { slope(small) } else { 0.0 }]
+    }
+
+    /// Index of a pair's first node in the forest.
+    fn place(&self, pair: [u32; 2], k: usize, end: usize) -> u32 {
+        let before = if self.surfaces()[k] == 0 { 0 } else { self.chains[0].depth.len() as u32 };
+        before + self.chains[self.surfaces()[k]].local[pair[k] as usize][end]
+    }
+
+    /// The region of a pair.
+    fn root(&mut self, pair: [u32; 2]) -> u32 {
+        let at = self.place(pair, 0, 0);
+        root(&mut self.tree, at)
+    }
+
+    /// Joins the pairs that share nodes to regions, and finds the least energy per area at ends of common parts in each.
+    fn join(&mut self) {
+        for (i, root) in self.tree.iter_mut().enumerate() {
+            *root = i as u32;
+        }
+        self.least.fill(f64::INFINITY);
+        for index in 0..self.commons.len() {
+            let (pair, ..) = self.commons[index];
+            let first = self.root(pair);
+            for (k, end) in [(0, 1), (1, 0), (1, 1)] {
+                let at = self.place(pair, k, end);
+                let other = root(&mut self.tree, at);
+                let (low, high) = (first.min(other), first.max(other));
+                self.tree[high as usize] = low;
+            }
+        }
+        for index in 0..self.commons.len() {
+            let (pair, common, pressure) = self.commons[index];
+            let at = self.root(pair) as usize;
+            for [gap, ..] in common.ends {
+                self.least[at] = self.least[at].min(self.density(gap, pressure)[0]);
+            }
+        }
+    }
+}
+
+fn root(tree: &mut [u32], mut at: u32) -> u32 {
+    while tree[at as usize] != at {
+        tree[at as usize] = tree[tree[at as usize] as usize];
+        at = tree[at as usize];
+    }
+    at
+}
+
 impl Formulation for Segment {
     fn detect(&mut self, scene: &Scene<'_>, springs: &mut Springs) {
         self.pair_up(scene);
-        std::mem::swap(&mut self.facing, &mut self.before);
-        self.facing.clear();
-        let (positions, surfaces) = (scene.sweep.new, self.surfaces());
-        let side = if self.chains.len() == 1 { 0.0 } else { 1.0 };
+        let surfaces = self.surfaces();
+        self.commons.clear();
         for index in 0..self.pairs.len() {
             let pair = self.pairs[index];
-            let Some(common) = self.common(pair, positions) else { continue };
-            let [own, other] = [0, 1].map(|k| self.chains[surfaces[k]].stiffness[pair[k] as usize]);
-            let pressure = penalty::pressure(self.penalty, own, other);
+            if let Some(common) = self.common(pair, scene.sweep.new) {
+                let [own, other] = [0, 1].map(|k| self.chains[surfaces[k]].stiffness[pair[k] as usize]);
+                self.commons.push((pair, common, penalty::pressure(self.penalty, own, other)));
+            }
+        }
+        self.join();
+        std::mem::swap(&mut self.facing, &mut self.before);
+        self.facing.clear();
+        let side = if self.chains.len() == 1 { 0.0 } else { 1.0 };
+        for index in 0..self.commons.len() {
+            let (pair, common, pressure) = self.commons[index];
+            let at = self.root(pair);
+            let least = self.least[at as usize];
             let slips = self.slips(pair);
             for (&[place, weight], slip) in self.rule.iter().zip(slips) {
-                let (gap, ends) = common.point(place);
-                let area = weight * common.area;
-                let spring = Spring {
-                    normal: common.normal,
-                    gap: gap - self.thickness,
-                    stiffness: pressure * area,
-                    area,
-                    side,
-                    slip,
-                    ..Spring::default()
-                };
-                springs.push(spring, &ends);
+                let (gap, mut ends) = common.point(place);
+                let [energy, push] = self.density(gap, pressure);
+                if energy > least && push > 0.0 {
+                    common.vary_area(&mut ends, -(energy - least) / push);
+                }
+                let (normal, area) = (common.normal, weight * common.area);
+                let stiffness = pressure * area;
+                springs.push(Spring { normal, gap: gap - self.thickness, stiffness, area, side, slip, ..Spring::default() }, &ends);
             }
             self.facing.push(Facing { pair, length: common.length, slips });
         }
@@ -317,14 +399,45 @@ impl Common {
         let height = |x: Vector| -dot(minus(x, origin), n);
         let by_angle: f64 = (0..4).map(|i| by_place[i / 2][i % 2] * height(self.positions[i / 2][i % 2])).sum();
         let end = |k: usize, i: usize| {
-            // ½ dφ_k by the position of the end
-            let per_length = (i as f64 - 0.5) / dot(chord[k], chord[k]);
-            let half = [-chord[k][1] * per_length, chord[k][0] * per_length];
+            let half = self.half_angle(k, i);
             let share = if k == 0 { weights[k][i] } else { -weights[k][i] };
             let lean = [0, 1].map(|d| by_place[k][i] * t[d] + by_angle * half[d]);
             End { at: self.nodes[k][i], share, lean, turn: half.map(|half| gap * half), ..End::default() }
         };
         (gap, [end(0, 0), end(0, 1), end(1, 0), end(1, 1)])
+    }
+
+    /// ½ dφ_k of segment k by the position of its end i.
+    fn half_angle(&self, k: usize, i: usize) -> Vector {
+        let chord = minus(self.positions[k][1], self.positions[k][0]);
+        let per_length = (i as f64 - 0.5) / dot(chord, chord);
+        [-chord[1] * per_length, chord[0] * per_length]
+    }
+
+    /// Adds `factor` times the derivative of ln(area) to the rows of the gap.
+    ///
+    /// d area / area = dℓ/ℓ − tan θ (dφ_a − dφ_b) with the angle θ between the segments, dℓ = t·(dx_end − dx_begin) + (h_end − h_begin) dφ.
+    fn vary_area(&self, ends: &mut [End; 4], factor: f64) {
+        let (n, per_length) = (self.normal, factor / self.length);
+        let t = [-n[1], n[0]];
+        let [da, db] = self.positions.map(|[begin, end]| minus(end, begin));
+        let tangent = (da[0] * db[1] - da[1] * db[0]) / -dot(da, db);
+        let mut rise = 0.0;
+        for ([_, whose, end], sign) in self.ends.into_iter().zip([-1.0, 1.0]) {
+            let (k, i) = (whose as usize, end as usize);
+            rise -= sign * dot(minus(self.positions[k][i], self.positions[0][0]), n);
+            for d in 0..2 {
+                ends[2 * k + i].lean[d] += sign * per_length * t[d];
+            }
+        }
+        for (index, end) in ends.iter_mut().enumerate() {
+            let (k, i) = (index / 2, index % 2);
+            let half = self.half_angle(k, i);
+            let turned = per_length * rise - 2.0 * factor * tangent * if k == 0 { 1.0 } else { -1.0 };
+            for d in 0..2 {
+                end.lean[d] += turned * half[d];
+            }
+        }
     }
 }
 

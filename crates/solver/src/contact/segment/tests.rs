@@ -47,7 +47,7 @@ fn springs_of(model: &Facing2, penalty: Penalty) -> Springs {
     };
     let search = || (search::registry::<2>()[0].make)();
     let sides = model.surfaces.iter().map(side).collect();
-    let setup = Setup { contact: &contact, sides, positions: &model.positions, terms: &terms, search: &search };
+    let setup = Setup { contact: &contact, sides, positions: &model.positions, terms, search: &search };
     let mut formulation = (KIND.make)(setup).unwrap();
     let mut springs = Springs::new(model.positions.len(), 0);
     let sweep = Sweep { old: &model.positions, new: &model.positions };
@@ -151,6 +151,29 @@ fn rates_are_those_of_the_motion_and_blind_to_rotations() {
                     let rate = rates(&|other| if other == node { [0, 1].map(|e| f64::from(e == d)) } else { [0.0; 2] })[0];
                     assert!((rate - quotient).abs() < 1e-8, "{gap} at {place} by node {node} {d}: {rate} {quotient}");
                 }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_area_varies_as_difference_quotients_say() {
+    let nodes = [[0, 1], [2, 3]];
+    for positions in inclined() {
+        let area = |positions: &[Vector; 4]| Common::new(nodes, positions).unwrap().area;
+        let common = Common::new(nodes, &positions).unwrap();
+        let mut ends = [End::default(); 4];
+        common.vary_area(&mut ends, 3.0);
+        for node in 0..4 {
+            for d in 0..2 {
+                let h = 1e-6;
+                let moved = [h, -h].map(|h| {
+                    let mut positions = positions;
+                    positions[node][d] += h;
+                    area(&positions)
+                });
+                let quotient = 3.0 * (moved[0] - moved[1]) / (2.0 * h) / area(&positions);
+                assert!((ends[node].lean[d] - quotient).abs() < 1e-8, "{node} {d}: {} {quotient}", ends[node].lean[d]);
             }
         }
     }

@@ -6,7 +6,7 @@
 use super::projection::node_segment::Target;
 use super::search::Search;
 use super::springs::Terms;
-use super::{Formulation, Vector, law, node_segment, segment};
+use super::{Formulation, Vector, law, node_segment, pinball, segment};
 use crate::error::Fault;
 use crate::model::{self, ContactLaw, Penalty};
 
@@ -24,7 +24,7 @@ pub struct FormulationKind {
 }
 
 /// Every formulation.
-pub const FORMULATIONS: &[FormulationKind] = &[node_segment::DOUBLE_PASS, node_segment::SINGLE_PASS, segment::KIND];
+pub const FORMULATIONS: &[FormulationKind] = &[node_segment::DOUBLE_PASS, node_segment::SINGLE_PASS, segment::KIND, pinball::KIND];
 
 /// The formulation of a contact.
 #[must_use]

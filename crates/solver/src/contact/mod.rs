@@ -11,6 +11,7 @@ pub mod law;
 pub mod springs;
 pub mod formulation;
 pub mod node_segment;
+pub mod pinball;
 pub mod segment;
 pub mod obstacle;
 

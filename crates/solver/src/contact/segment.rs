@@ -189,11 +189,13 @@ impl Segment {
             return None;
         }
         let common = Common::new(nodes, positions)?;
-        for [gap, whose, end] in common.ends {
-            let (whose, end) = (whose as usize, end as usize);
-            let chain = &self.chains[surfaces[whose]];
-            let depth = chain.depth[chain.local[pair[whose] as usize][end] as usize];
-            if gap < 0.0 && -gap > DEEPER * depth + SLIVER * common.length {
+        let depth = |k: usize, end: usize| {
+            let chain = &self.chains[surfaces[k]];
+            chain.depth[chain.local[pair[k] as usize][end] as usize]
+        };
+        // The nodes at the beginning are a_0 and b_1, at the end a_1 and b_0.
+        for ([gap, ..], end) in common.ends.into_iter().zip([0, 1]) {
+            if gap < 0.0 && -gap > DEEPER * f64::max(depth(0, end), depth(1, 1 - end)) + SLIVER * common.length {
                 return None;
             }
         }

@@ -22,6 +22,7 @@ use crate::model::{self, ContactLaw, Interface, Model, ObstacleShape, Partners, 
 use crate::rigid::{Bodies, Body};
 use crate::step::{CHUNK, Governor, Limits, NodeSums, System};
 use embate_lanes::{Batch, Level};
+use std::collections::BTreeMap;
 
 /// Below so many elements threads cost more than they bring.
 const SERIAL: usize = 4096;
@@ -46,6 +47,7 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         time_step: 0.0,
         bodies: Bodies::default(),
         terms: Vec::new(),
+        ties: Vec::new(),
         mesh,
     };
     let mut blocks = builder.blocks();
@@ -59,7 +61,9 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
     if !builder.faults.is_empty() {
         return Err(builder.faults);
     }
-    let Builder { mesh, constraints, bodies, terms, mass, .. } = builder;
+    let Builder { mesh, constraints, bodies, mut terms, ties, mass, .. } = builder;
+    terms.resize_with(first_of_ties(model), || terms_of(&Interface::default()));
+    terms.extend(ties);
     let inputs: Vec<(&dyn Block<2>, usize, &[u32])> =
         blocks.iter().zip(&mesh.parts).map(|(block, part)| (block.as_ref(), part.nodes_per_element, &part.connectivity[..])).collect();
     let nodes = mesh.positions.len();
@@ -138,6 +142,8 @@ struct Builder<'a> {
     bodies: Bodies,
     /// What acts in each contact, then in each obstacle.
     terms: Vec<Terms>,
+    /// What acts in ties.
+    ties: Vec<Terms>,
 }
 
 /// The element behind an edge.
@@ -233,10 +239,15 @@ impl Builder<'_> {
 
     fn contacts(&mut self) -> Vec<Contact> {
         let mut contacts = Vec::new();
+        let mut tied = BTreeMap::new();
         for (i, contact) in self.model.contacts.iter().enumerate() {
             match self.contact(contact) {
                 Ok((made, terms)) => {
                     self.terms.push(terms);
+                    if let Some(ties) = made.ties() {
+                        self.ties.push(terms_of_ties(&contact.interface));
+                        self.tied_once(&format!("contact[{i}].tied"), &contact.name, &ties.nodes, &mut tied);
+                    }
                     contacts.push(made);
                 }
                 Err(faults) => self.faults.extend(faults.into_iter().map(|fault| {
@@ -246,6 +257,20 @@ impl Builder<'_> {
             }
         }
         contacts
+    }
+
+    /// Tells if nodes are bound already (`tied`: which contact binds a node): two ties would hold against each other.
+    fn tied_once<'m>(&mut self, path: &str, contact: &'m str, nodes: &[u32], tied: &mut BTreeMap<u32, &'m str>) {
+        let twice = nodes.iter().find_map(|&node| Some((node, *tied.get(&node)?)));
+        if let Some((node, other)) = twice {
+            let [x, y] = self.mesh.positions[node as usize];
+            self.faults.push(Fault::new(
+                path,
+                format!("the node at ({x:.6e}, {y:.6e}) m is tied already by contact \"{other}\""),
+                "leave one of the two ties out, name smaller surfaces, or let the other surface be the slave",
+            ));
+        }
+        tied.extend(nodes.iter().map(|&node| (node, contact)));
     }
 
     /// A contact and what acts in its springs; faults have paths relative to the contact.
@@ -274,8 +299,15 @@ impl Builder<'_> {
             let message = format!("there is no formulation \"{}\"", contact.formulation.name());
             return Err(vec![Fault::new("formulation", message, "see `embate list`")]);
         };
-        let terms = || terms(&contact.interface);
-        let setup = Setup { contact, sides, positions: &self.mesh.positions, terms: terms(), search: &|| (search.make)() };
+        let terms = || terms_of(&contact.interface);
+        let setup = Setup {
+            contact,
+            sides,
+            positions: &self.mesh.positions,
+            terms: terms(),
+            tie_terms: first_of_ties(self.model) + self.ties.len(),
+            search: &|| (search.make)(),
+        };
         let made = (kind.make)(setup).map_err(|fault| vec![fault])?;
         Ok((Contact::new(contact.name.clone(), ContactKind::Contact, made, contact.interface.active), terms()))
     }
@@ -316,7 +348,7 @@ impl Builder<'_> {
                 let here = law::Node { tributary: length, own, other: own, share: self.constraints.share(node) };
                 (!held(node)).then(|| (node, Slave { stiffness: stiffness_of(&obstacle.interface, here, 1), area: length, slip: 0.0 }))
             };
-            let terms = terms(&obstacle.interface);
+            let terms = terms_of(&obstacle.interface);
             let reach = SKIN * own.iter().map(|&(length, _)| length).sum::<f64>() / own.len().max(1) as f64 + terms.law.reach();
             let nodes = surface.nodes.iter().zip(&own).filter_map(slave).collect();
             self.terms.push(terms);
@@ -335,7 +367,7 @@ impl Builder<'_> {
 }
 
 /// What acts in the springs of an interface.
-fn terms(interface: &Interface) -> Terms {
+fn terms_of(interface: &Interface) -> Terms {
     let law: Box<dyn Law> = match &interface.law {
         ContactLaw::Penalty(_) => Box::new(law::penalty::Penalty),
         ContactLaw::PressureGap { gaps, pressures } => Box::new(law::pressure_gap::PressureGap::new(gaps, pressures)),
@@ -346,6 +378,17 @@ fn terms(interface: &Interface) -> Terms {
         Tangential::Friction(Friction { coefficient, dynamic: dynamic.unwrap_or(coefficient), decay, viscosity, limit })
     });
     Terms { law, tangential, damping: interface.damping }
+}
+
+/// What acts in the ties of an interface.
+fn terms_of_ties(interface: &Interface) -> Terms {
+    let rigid = matches!(interface.law, ContactLaw::Multiplier);
+    Terms { law: Box::new(law::tie::Tie { rigid }), tangential: Tangential::Tied, damping: 0.0 }
+}
+
+/// Terms of ties follow those of contacts and obstacles.
+fn first_of_ties(model: &Model) -> usize {
+    model.contacts.len() + model.obstacles.len()
 }
 
 /// Stiffness of a slave node; of laws without a penalty that of the automatic one, for what needs a scale.

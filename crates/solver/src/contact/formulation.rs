@@ -6,7 +6,7 @@
 use super::projection::node_segment::Target;
 use super::search::Search;
 use super::springs::Terms;
-use super::{Formulation, Vector, law, node_segment, pinball, segment};
+use super::{Formulation, Vector, law, node_segment, pinball, segment, tied};
 use crate::error::Fault;
 use crate::model::{self, ContactLaw, Penalty};
 
@@ -29,6 +29,9 @@ pub const FORMULATIONS: &[FormulationKind] = &[node_segment::DOUBLE_PASS, node_s
 /// The formulation of a contact.
 #[must_use]
 pub fn kind_of(contact: &model::Contact) -> Option<&'static FormulationKind> {
+    if contact.tied.is_some() {
+        return Some(&tied::KIND);
+    }
     let name = contact.formulation.name();
     FORMULATIONS.iter().find(|kind| kind.name == name)
 }
@@ -64,6 +67,8 @@ pub struct Setup<'a> {
     pub positions: &'a [Vector],
     /// What acts in its springs.
     pub terms: Terms,
+    /// Number of the terms that its ties follow, where it is tied.
+    pub tie_terms: usize,
     /// Makes a search of the kind that the contact names.
     pub search: &'a dyn Fn() -> Box<dyn Search<2>>,
 }

@@ -13,12 +13,14 @@ pub mod formulation;
 pub mod node_segment;
 pub mod pinball;
 pub mod segment;
+pub mod tied;
 pub mod obstacle;
 
 use crate::mesh::surface::Surface;
 use crate::rigid::Bodies;
 use springs::{Spring, Springs, Totals};
 use std::ops::Range;
+use tied::Ties;
 
 /// A vector of the plane.
 pub type Vector = [f64; 2];
@@ -31,6 +33,16 @@ pub trait Formulation: Send {
 
     /// Keeps what the next step needs of the solved springs, in the order of [`Formulation::detect`].
     fn remember(&mut self, solved: &[Spring]);
+
+    /// Energy of springs that broke in the last step and will not come back, J/m.
+    fn freed(&self) -> f64 {
+        0.0
+    }
+
+    /// Its ties, if it has such.
+    fn ties(&self) -> Option<Ties> {
+        None
+    }
 }
 
 /// What a step shows to contacts.
@@ -112,6 +124,13 @@ impl Contact {
     pub fn collect(&mut self, springs: &Springs, forces: &mut [Vector], bodies: &mut Bodies) {
         self.totals = springs.collect(self.found.clone(), forces, bodies);
         self.formulation.remember(&springs.list[self.found.clone()]);
+        self.totals.lost.freed = self.formulation.freed();
+    }
+
+    /// Its ties, if it has such.
+    #[must_use]
+    pub fn ties(&self) -> Option<Ties> {
+        self.formulation.ties()
     }
 
     /// Slave nodes that are inside in the last step, with their depth, m.

@@ -88,10 +88,12 @@ impl NodeSegment {
     }
 }
 
-impl Formulation for NodeSegment {
-    fn detect(&mut self, scene: &Scene<'_>, springs: &mut Springs) {
+impl NodeSegment {
+    /// [`Formulation::detect`] for those slaves of the first pass that are not bound otherwise (`bound` by index; empty: all).
+    pub(super) fn detect_free(&mut self, bound: &[bool], scene: &Scene<'_>, springs: &mut Springs) {
         self.touches.clear();
         self.touches.extend_from_slice(self.tracker.track(scene.sweep, self.thickness + self.reach));
+        self.touches.retain(|touch| touch.pass > 0 || !bound.get(touch.slave).copied().unwrap_or(false));
         for touch in &self.touches {
             let slave = self.slaves[touch.pass][touch.slave];
             let ends = ends(touch.node, &touch.projection, self.tracker.target(touch.pass), scene.sweep.new);
@@ -100,6 +102,12 @@ impl Formulation for NodeSegment {
             let side = self.tracker.side(touch.pass);
             springs.push(Spring { normal, gap: gap - self.thickness, stiffness, area, side, slip, ..Spring::default() }, &ends);
         }
+    }
+}
+
+impl Formulation for NodeSegment {
+    fn detect(&mut self, scene: &Scene<'_>, springs: &mut Springs) {
+        self.detect_free(&[], scene, springs);
     }
 
     fn remember(&mut self, solved: &[Spring]) {

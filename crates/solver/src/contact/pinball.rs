@@ -277,10 +277,10 @@ mod tests {
     use super::*;
     use crate::contact::projection::node_segment::Target;
     use crate::contact::springs::tangent;
-    use crate::mesh::shapes::{BodyMesh, rectangle};
+    use crate::mesh::shapes::{Body, rectangle};
     use crate::mesh::surface::Surface;
 
-    fn disks_of(body: &BodyMesh) -> Vec<Disk> {
+    fn disks_of(body: &Body) -> Vec<Disk> {
         let surface = Surface::outside(body.quads.iter().map(<[u32; 4]>::as_slice)).unwrap();
         let cell = |segment: &[u32; 2]| {
             let quad = body.quads.iter().find(|quad| (0..4).any(|k| [quad[(k + 1) % 4], quad[k]] == *segment));

@@ -47,7 +47,7 @@ fn springs_of(model: &Facing2, penalty: Penalty) -> Springs {
     };
     let search = || (search::registry::<2>()[0].make)();
     let sides = model.surfaces.iter().map(side).collect();
-    let setup = Setup { contact: &contact, sides, positions: &model.positions, terms, search: &search };
+    let setup = Setup { contact: &contact, sides, positions: &model.positions, terms, tie_terms: 0, search: &search };
     let mut formulation = (KIND.make)(setup).unwrap();
     let mut springs = Springs::new(model.positions.len(), 0);
     let sweep = Sweep { old: &model.positions, new: &model.positions };

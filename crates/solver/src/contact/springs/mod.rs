@@ -54,6 +54,8 @@ pub struct Spring {
     pub slides: bool,
     /// Energy at the whole step n, J/m, in step with ½ Σ m v^{n-1/2}·v^{n+1/2}: ½ (V(g^{n−½}) + V(g^{n+½})) + ½ F (g^{n+½} + g^{n−½} − 2 g^n).
     pub energy: f64,
+    /// Energy at n + ½ of the gap, and of a tie's slip, J/m.
+    pub stored: [f64; 2],
     /// Energy of the elastic slip at n, J/m: ¼ k (s^{n−½}² + s^{n+½}²).
     pub slip_energy: f64,
     /// Work of both forces in the velocity update, J/m.
@@ -73,6 +75,8 @@ pub struct Lost {
     pub damping: f64,
     /// The same two impulses times the old rates instead of the mean ones.
     pub old: [f64; 2],
+    /// Energy at n + ½ of springs that are no more at n + 1: ties that broke.
+    pub freed: f64,
 }
 
 impl std::ops::AddAssign for Lost {
@@ -81,6 +85,7 @@ impl std::ops::AddAssign for Lost {
         self.damping += other.damping;
         self.old[0] += other.old[0];
         self.old[1] += other.old[1];
+        self.freed += other.freed;
     }
 }
 
@@ -431,6 +436,7 @@ impl Springs {
                 };
                 let bend = gap_new + link.gap_old - 2.0 * spring.gap;
                 spring_new.energy = 0.5 * (stored_old + stored_new) + 0.5 * elastic * bend;
+                spring_new.stored = [stored_new, 0.0];
                 let rate_mean = 0.5 * (link.rate_old + rates[0]);
                 let slip_mean = 0.5 * (link.slip_rate_old + rates[1]);
                 spring_new.work = mean_step * (spring.force * rate_mean + spring.friction * slip_mean);
@@ -452,6 +458,7 @@ impl Springs {
                         let stiffness = terms.law.slip_stiffness(&spring);
                         if stiffness.is_finite() {
                             let (old, new) = (spring.slip - 0.5 * before * link.slip_rate_old, spring.slip + 0.5 * after * rates[1]);
+                            spring_new.stored[1] = 0.5 * stiffness * new * new;
                             spring_new.energy +=
                                 0.25 * stiffness * (old * old + new * new) + 0.5 * spring.friction * (old + new - 2.0 * spring.slip);
                         } else {

@@ -71,7 +71,8 @@ impl NodeSegment {
             let other = setup.sides[target].softest();
             let of = |(index, &(area, _)): (usize, &(f64, f64))| {
                 let stiffness = setup.node_stiffness(slave, index, other, passes.len());
-                Slave { stiffness, area, slip: 0.0 }
+                // In a double pass each side carries half of the pressure.
+                Slave { stiffness, area: area / passes.len() as f64, slip: 0.0 }
             };
             setup.sides[slave].nodes.iter().enumerate().map(of).collect()
         };

@@ -149,8 +149,11 @@ fn disks_under(side: &Side<'_>, positions: &[Vector], disks: &mut Vec<Disk>) {
                 theirs.sort_unstable();
                 mine == theirs && (x[0] - centre[0]).hypot(x[1] - centre[1]) < SAME * disk.radius.min(other.radius)
             };
-            if !disks[first..].iter().any(same) {
-                disks.push(disk);
+            // The larger one stays, whatever the order of the segments.
+            match disks[first..].iter().position(same) {
+                Some(at) if disks[first + at].radius < disk.radius => disks[first + at] = disk,
+                Some(_) => {}
+                None => disks.push(disk),
             }
         }
     }

@@ -73,7 +73,7 @@ fn searches() -> String {
 }
 
 fn laws() -> String {
-    let mut text = String::from("Contact laws (contact, wall)\n");
+    let mut text = String::from("Contact laws (contact, obstacle)\n");
     for law in contact::law::LAWS {
         entry(&mut text, law.name, law.doc, law.source);
         text.push_str(&table(&law.parameters.iter().map(|parameter| parameter_row(parameter, "optional")).collect::<Vec<_>>(), "      "));

@@ -4,4 +4,5 @@ pub mod gmsh;
 pub mod model_file;
 pub mod picture;
 pub mod results;
+pub mod verification;
 pub mod vtu;

@@ -250,6 +250,7 @@ mod tests {
                 field("stress", vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0]),
                 field("plastic_strain", vec![0.25, 0.5]),
             ],
+            outlines: vec![],
         }
     }
 
@@ -325,7 +326,7 @@ mod tests {
         };
         for nodes in [BLOCK / 24, BLOCK / 8, 40_000] {
             let positions: Vec<[f64; 2]> = (0..nodes).map(|_| [noise(), noise()]).collect();
-            let frame = Frame { time: 0.0, step: 0, positions, fields: vec![] };
+            let frame = Frame { time: 0.0, step: 0, positions, fields: vec![], outlines: vec![] };
             let file = VtuWriter::new(&Cells::default()).bytes(&frame, &[]).unwrap();
             let points = floats(&array(&file, "Points"));
             assert!(points.chunks(3).map(|p| [p[0], p[1]]).eq(frame.positions.iter().copied()));
@@ -334,7 +335,7 @@ mod tests {
 
     #[test]
     fn no_cells_are_no_problem() {
-        let frame = Frame { time: 0.0, step: 0, positions: vec![], fields: vec![] };
+        let frame = Frame { time: 0.0, step: 0, positions: vec![], fields: vec![], outlines: vec![] };
         let file = VtuWriter::new(&Cells::default()).bytes(&frame, &[]).unwrap();
         assert!(array(&file, "connectivity").is_empty());
     }

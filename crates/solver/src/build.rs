@@ -5,23 +5,25 @@ use crate::block::{Block, BlockInput, Motion, Report, make};
 use crate::contact::formulation::{self, Setup, Side};
 use crate::contact::law::{self, Law};
 use crate::contact::node_segment::Slave;
-use crate::contact::obstacle::{NodeObstacle, plane::Plane};
+use crate::contact::obstacle::{NodeObstacle, OutlineShape, plane::Plane};
 use crate::contact::projection::node_segment::Target;
 use crate::contact::search::SearchKind;
 use crate::contact::springs::friction::Friction;
 use crate::contact::springs::{Springs, Tangential, Terms};
+use crate::contact::traces::Traces;
 use crate::contact::tracker::SKIN;
 use crate::contact::{self, Contact, ContactKind, search};
 use crate::energy::Ledger;
 use crate::error::Fault;
 use crate::load::constraint::{Constraints, unit};
 use crate::load::gravity;
-use crate::mesh::surface::NONE;
+use crate::mesh::surface::{NONE, Surface};
 use crate::mesh::{Mesh, PartMesh};
 use crate::model::{self, ContactLaw, Interface, Model, ObstacleShape, Partners, Penalty, PenaltySource};
 use crate::rigid::{Bodies, Body};
 use crate::step::{CHUNK, Governor, Limits, NodeSums, System};
 use embate_lanes::{Batch, Level};
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 
 /// Below so many elements threads cost more than they bring.
@@ -48,6 +50,7 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         bodies: Bodies::default(),
         terms: Vec::new(),
         ties: Vec::new(),
+        outlines: Vec::new(),
         mesh,
     };
     let mut blocks = builder.blocks();
@@ -61,7 +64,7 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
     if !builder.faults.is_empty() {
         return Err(builder.faults);
     }
-    let Builder { mesh, constraints, bodies, mut terms, ties, mass, .. } = builder;
+    let Builder { mesh, constraints, bodies, mut terms, ties, outlines, mass, .. } = builder;
     terms.resize_with(first_of_ties(model), || terms_of(&Interface::default()));
     terms.extend(ties);
     let inputs: Vec<(&dyn Block<2>, usize, &[u32])> =
@@ -77,6 +80,8 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         }
     }
     let velocities: Vec<[f64; 2]> = momentum.iter().zip(&mass).map(|(p, &m)| p.map(|p| p / m)).collect();
+    let outside = if contacts.is_empty() { Surface::default() } else { mesh.outside(&[]).map_err(|fault| vec![fault])? };
+    let traces = Traces::new(outside, &mesh.positions);
     let limits =
         Limits { end: model.run.end, safety: model.run.safety, energy: model.run.energy_limit, step: model.run.step_limit.unwrap_or(0.0) };
     let elements: usize = blocks.iter().map(|block| block.elements()).sum();
@@ -106,6 +111,8 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         contacts,
         terms,
         bodies,
+        outlines,
+        traces,
         constraints,
         limits,
         level,
@@ -144,6 +151,7 @@ struct Builder<'a> {
     terms: Vec<Terms>,
     /// What acts in ties.
     ties: Vec<Terms>,
+    outlines: Vec<OutlineShape>,
 }
 
 /// The element behind an edge.
@@ -215,7 +223,7 @@ impl Builder<'_> {
     }
 
     /// What is behind a surface, with the stiffness that an interface asks for.
-    fn side(&self, target: Target, interface: &Interface) -> Side<'_> {
+    fn side(&self, Outlined { target, lids }: Outlined, interface: &Interface) -> Side<'_> {
         let (surface, positions, source) = (&target.surface, &self.mesh.positions, source_of(interface));
         let modulus = |under: &Under| self.moduli[under.part as usize][usize::from(source == PenaltySource::BulkModulus)] * under.flatness;
         let mut segments: Vec<f64> = surface.segments.iter().map(|&segment| self.under(segment).map_or(0.0, modulus)).collect();
@@ -234,14 +242,16 @@ impl Builder<'_> {
             })
         };
         let cells = surface.segments.iter().map(cell).collect();
-        Side { segments, nodes, cells, target }
+        let parts = surface.segments.iter().map(|&segment| self.under(segment).map_or(0, |under| under.part)).collect();
+        Side { lids, segments, parts, nodes, cells, target }
     }
 
     fn contacts(&mut self) -> Vec<Contact> {
         let mut contacts = Vec::new();
         let mut tied = BTreeMap::new();
+        let bodies = self.mesh.bodies();
         for (i, contact) in self.model.contacts.iter().enumerate() {
-            match self.contact(contact) {
+            match self.contact(contact, &bodies) {
                 Ok((made, terms)) => {
                     self.terms.push(terms);
                     if let Some(ties) = made.ties() {
@@ -274,23 +284,8 @@ impl Builder<'_> {
     }
 
     /// A contact and what acts in its springs; faults have paths relative to the contact.
-    fn contact(&self, contact: &model::Contact) -> Result<(Contact, Terms), Vec<Fault>> {
-        let Partners::Between(between) = &contact.partners else {
-            return Err(vec![Fault::new(
-                "bodies",
-                "contact of bodies with themselves is not available",
-                "name two surfaces with `between`",
-            )]);
-        };
-        let sides: Vec<_> = between
-            .iter()
-            .enumerate()
-            .map(|(side, name)| self.target(name).map_err(|fault| Fault { path: format!("between[{side}]"), ..fault }))
-            .collect();
-        if sides.iter().any(Result::is_err) {
-            return Err(sides.into_iter().filter_map(Result::err).collect());
-        }
-        let sides = sides.into_iter().flatten().map(|target| self.side(target, &contact.interface)).collect();
+    fn contact(&self, contact: &model::Contact, bodies: &[u32]) -> Result<(Contact, Terms), Vec<Fault>> {
+        let sides = self.outlines_of(contact)?.into_iter().map(|outline| self.side(outline, &contact.interface)).collect();
         let Some(search) = search_by_name(&contact.search) else {
             let message = format!("there is no search \"{}\"", contact.search);
             return Err(vec![Fault::new("search", message, "see `embate list searches`")]);
@@ -299,24 +294,53 @@ impl Builder<'_> {
             let message = format!("there is no formulation \"{}\"", contact.formulation.name());
             return Err(vec![Fault::new("formulation", message, "see `embate list`")]);
         };
-        let terms = || terms_of(&contact.interface);
         let setup = Setup {
             contact,
             sides,
+            bodies,
             positions: &self.mesh.positions,
-            terms: terms(),
+            law: &|| law_of(&contact.interface),
             tie_terms: first_of_ties(self.model) + self.ties.len(),
             search: &|| (search.make)(),
         };
         let made = (kind.make)(setup).map_err(|fault| vec![fault])?;
-        Ok((Contact::new(contact.name.clone(), ContactKind::Contact, made, contact.interface.active), terms()))
+        Ok((Contact::new(contact.name.clone(), ContactKind::Contact, made, contact.interface.active), terms_of(&contact.interface)))
+    }
+
+    /// The surfaces of a contact: two, or one that meets itself. Faults have paths relative to the contact.
+    fn outlines_of(&self, contact: &model::Contact) -> Result<Vec<Outlined>, Vec<Fault>> {
+        match &contact.partners {
+            Partners::Between(between) => {
+                let sides = (0..).zip(between).map(|(side, name)| {
+                    let outline = self.outlined(|leave_out| self.mesh.surface(name, leave_out), &format!("surface \"{name}\""));
+                    outline.map_err(|fault| Fault { path: format!("between[{side}]"), ..fault })
+                });
+                let (good, faulty): (Vec<_>, Vec<_>) = sides.partition(Result::is_ok);
+                if faulty.is_empty() {
+                    Ok(good.into_iter().flatten().collect())
+                } else {
+                    Err(faulty.into_iter().filter_map(Result::err).collect())
+                }
+            }
+            Partners::Bodies(parts) => {
+                let outline = self.outlined(|leave_out| self.mesh.outside_without(parts, leave_out), "the outside of the bodies");
+                outline.map(|outline| vec![outline]).map_err(|fault| vec![Fault { path: "bodies".into(), ..fault }])
+            }
+        }
     }
 
     /// A surface without the segments on symmetry lines, and the normals of the lines at the ends that this leaves open.
-    fn target(&self, name: &str) -> Result<Target, Fault> {
-        let surface = self.mesh.surface(name, |segment| self.constraints.is_mirror(segment))?;
+    fn outlined(&self, surface: impl Fn(&dyn Fn([u32; 2]) -> bool) -> Result<Surface, Fault>, what: &str) -> Result<Outlined, Fault> {
+        let lids = RefCell::new(Vec::new());
+        let surface = surface(&|segment| {
+            let is_lid = self.constraints.is_mirror(segment);
+            if is_lid {
+                lids.borrow_mut().push(segment);
+            }
+            is_lid
+        })?;
         if surface.segments.is_empty() {
-            return Err(Fault::new("", format!("surface \"{name}\" lies on a symmetry line altogether"), "name another surface"));
+            return Err(Fault::new("", format!("{what} lies on a symmetry line altogether"), "name another surface"));
         }
         let starts =
             surface.segments.iter().zip(&surface.previous).filter(|(_, previous)| **previous == NONE).map(|(segment, _)| segment[0]);
@@ -325,7 +349,7 @@ impl Builder<'_> {
         let mut mirrors: Vec<(u32, [f64; 2])> =
             open.filter_map(|node| Some((node, self.constraints.mirror_normals(node).next()?))).collect();
         mirrors.sort_by_key(|&(node, _)| node);
-        Ok(Target { surface, mirrors })
+        Ok(Outlined { target: Target { surface, mirrors }, lids: lids.into_inner() })
     }
 
     fn obstacles(&mut self) -> Vec<Contact> {
@@ -340,8 +364,8 @@ impl Builder<'_> {
                     continue;
                 }
             };
-            let Side { target: Target { surface, .. }, nodes: own, .. } =
-                self.side(Target { surface, mirrors: Vec::new() }, &obstacle.interface);
+            let outline = Outlined { target: Target { surface, mirrors: Vec::new() }, lids: Vec::new() };
+            let Side { target: Target { surface, .. }, nodes: own, .. } = self.side(outline, &obstacle.interface);
             // Nodes that a symmetry line keeps on this plane need no spring.
             let held = |node: u32| self.constraints.mirror_normals(node).any(|m| (m[0] * normal[1] - m[1] * normal[0]).abs() < 1e-12);
             let slave = |(&node, &(length, own)): (&u32, &(f64, f64))| {
@@ -354,6 +378,10 @@ impl Builder<'_> {
             self.terms.push(terms);
             let body = self.bodies.add(Body { centre: point, ..Body::default() });
             let shape = Plane { normal, half: length.map_or(f64::INFINITY, |length| 0.5 * length) };
+            // Beyond every picture of the model.
+            let far = shape.half.min(20.0 * self.mesh.positions.iter().flatten().fold(0.0f64, |size, x| size.max(x.abs())));
+            let points = [1.0, -1.0].map(|side| [-side * far * normal[1], side * far * normal[0]]);
+            self.outlines.push(OutlineShape { name: obstacle.name.clone(), body, points: points.into() });
             let formulation = NodeObstacle::new(Box::new(shape), body, nodes, reach, obstacle.interface.thickness);
             contacts.push(Contact::new(
                 obstacle.name.clone(),
@@ -366,18 +394,28 @@ impl Builder<'_> {
     }
 }
 
-/// What acts in the springs of an interface.
-fn terms_of(interface: &Interface) -> Terms {
-    let law: Box<dyn Law> = match &interface.law {
+/// A surface of a contact.
+pub(crate) struct Outlined {
+    target: Target,
+    /// Segments that were left out because they lie on a symmetry line.
+    lids: Vec<[u32; 2]>,
+}
+
+fn law_of(interface: &Interface) -> Box<dyn Law> {
+    match &interface.law {
         ContactLaw::Penalty(_) => Box::new(law::penalty::Penalty),
         ContactLaw::PressureGap { gaps, pressures } => Box::new(law::pressure_gap::PressureGap::new(gaps, pressures)),
         ContactLaw::Multiplier => Box::new(law::multiplier::Multiplier),
-    };
+    }
+}
+
+/// What acts in the springs of an interface.
+fn terms_of(interface: &Interface) -> Terms {
     let tangential = interface.friction.map_or(Tangential::Free, |friction| {
         let model::Friction { coefficient, dynamic, decay, viscosity, limit } = friction;
         Tangential::Friction(Friction { coefficient, dynamic: dynamic.unwrap_or(coefficient), decay, viscosity, limit })
     });
-    Terms { law, tangential, damping: interface.damping }
+    Terms { law: law_of(interface), tangential, damping: interface.damping }
 }
 
 /// What acts in the ties of an interface.

@@ -52,6 +52,19 @@ pub enum Location {
     Cell,
 }
 
+/// What a model must have for a field to say something; without it the field is left out unless it is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Needs {
+    /// Nothing.
+    Nothing,
+    /// A material that flows.
+    Plasticity,
+    /// A contact or an obstacle.
+    Contact,
+    /// A contact or an obstacle with friction.
+    Friction,
+}
+
 /// Description of a field: the same for all its frames.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FieldKind {
@@ -63,6 +76,8 @@ pub struct FieldKind {
     pub components: &'static [&'static str],
     /// SI unit, `Pa` for example; empty for a pure number.
     pub unit: &'static str,
+    /// What must be there.
+    pub needs: Needs,
     /// One line: what it is.
     pub doc: &'static str,
 }
@@ -84,6 +99,15 @@ pub struct Field {
     pub values: Vec<f64>,
 }
 
+/// Where an obstacle is at one output time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outline<const D: usize> {
+    /// Name of the obstacle.
+    pub name: String,
+    /// Its surface from point to point, the solid on the right, m; a plane without end reaches far beyond the model, a closed line ends at its first point.
+    pub points: Vec<[f64; D]>,
+}
+
 /// The state at one output time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame<const D: usize> {
@@ -95,6 +119,8 @@ pub struct Frame<const D: usize> {
     pub positions: Vec<[f64; D]>,
     /// Fields in the order of [`FIELDS`].
     pub fields: Vec<Field>,
+    /// Obstacles in model order.
+    pub outlines: Vec<Outline<D>>,
 }
 
 /// Components of a plane vector.
@@ -102,46 +128,50 @@ const VECTOR: &[&str] = &["x", "y"];
 /// Components of a stress in the plane, out-of-plane normal stress included.
 const STRESS: &[&str] = &["xx", "yy", "zz", "xy"];
 
+/// A field at the nodes.
+const fn at_nodes(
+    name: &'static str,
+    components: &'static [&'static str],
+    unit: &'static str,
+    needs: Needs,
+    doc: &'static str,
+) -> FieldKind {
+    FieldKind { name, location: Location::Node, components, unit, needs, doc }
+}
+
+/// A field at the cells.
+const fn at_cells(
+    name: &'static str,
+    components: &'static [&'static str],
+    unit: &'static str,
+    needs: Needs,
+    doc: &'static str,
+) -> FieldKind {
+    FieldKind { name, location: Location::Cell, components, unit, needs, doc }
+}
+
 /// Every field that can be written.
 pub static FIELDS: &[FieldKind] = &[
-    FieldKind { name: "displacement", location: Location::Node, components: VECTOR, unit: "m", doc: "current minus initial position" },
-    FieldKind { name: "velocity", location: Location::Node, components: VECTOR, unit: "m/s", doc: "velocity at the frame's time" },
-    FieldKind {
-        name: "contact_force",
-        location: Location::Node,
-        components: VECTOR,
-        unit: "N/m",
-        doc: "sum of the contact and wall forces on the node, per metre of depth",
-    },
-    FieldKind {
-        name: "stress",
-        location: Location::Cell,
-        components: STRESS,
-        unit: "Pa",
-        doc: "Cauchy stress, mean over the element's points",
-    },
-    FieldKind {
-        name: "von_mises",
-        location: Location::Cell,
-        components: &[],
-        unit: "Pa",
-        doc: "equivalent stress √(3/2 s:s) of the mean stress",
-    },
-    FieldKind { name: "pressure", location: Location::Cell, components: &[], unit: "Pa", doc: "minus a third of the stress trace" },
-    FieldKind {
-        name: "plastic_strain",
-        location: Location::Cell,
-        components: &[],
-        unit: "",
-        doc: "equivalent plastic strain, mean over the element's points",
-    },
-    FieldKind {
-        name: "energy_density",
-        location: Location::Cell,
-        components: &[],
-        unit: "J/m^3",
-        doc: "stored elastic energy per initial volume",
-    },
+    at_nodes("displacement", VECTOR, "m", Needs::Nothing, "current minus initial position"),
+    at_nodes("velocity", VECTOR, "m/s", Needs::Nothing, "velocity at the frame's time"),
+    at_nodes("contact_force", VECTOR, "N/m", Needs::Contact, "sum of the contact and obstacle forces on the node, per metre of depth"),
+    at_nodes("contact_pressure", &[], "Pa", Needs::Contact, "normal part of the contact force over the node's current length of surface"),
+    at_nodes("contact_shear", &[], "Pa", Needs::Friction, "tangential part, along the surface with the body on its right"),
+    at_nodes(
+        "contact_gap",
+        &[],
+        "m",
+        Needs::Contact,
+        "distance from what is opposite, negative where it penetrates; not a number where nothing is near",
+    ),
+    at_nodes("contact_slip", &[], "m", Needs::Contact, "distance that the surfaces have slid on each other"),
+    at_nodes("contact_status", &[], "", Needs::Contact, "0 open, 1 stick, 2 slip (closed without friction counts as slip)"),
+    at_nodes("friction_heat", &[], "J/m^2", Needs::Friction, "friction work so far, half of it on either surface, per initial surface"),
+    at_cells("stress", STRESS, "Pa", Needs::Nothing, "Cauchy stress, mean over the element's points"),
+    at_cells("von_mises", &[], "Pa", Needs::Nothing, "equivalent stress √(3/2 s:s) of the mean stress"),
+    at_cells("pressure", &[], "Pa", Needs::Nothing, "minus a third of the stress trace"),
+    at_cells("plastic_strain", &[], "", Needs::Plasticity, "equivalent plastic strain, mean over the element's points"),
+    at_cells("energy_density", &[], "J/m^3", Needs::Nothing, "stored elastic energy per initial volume"),
 ];
 
 /// Position of a field in [`FIELDS`] by name.

@@ -36,6 +36,16 @@ impl Dimension {
     pub const PRESSURE: Self = Self::new(1, -1, -2);
     /// Pa/m = N/m³: pressure per penetration.
     pub const PRESSURE_PER_LENGTH: Self = Self::new(1, -2, -2);
+    /// 1/s; also an angular velocity (rad/s).
+    pub const RATE: Self = Self::new(0, 0, -1);
+    /// s/m.
+    pub const SLOWNESS: Self = Self::new(0, -1, 1);
+    /// Pa s/m: shear stress per slip rate.
+    pub const VISCOSITY_PER_LENGTH: Self = Self::new(1, -2, -1);
+    /// kg/m: mass per metre of depth.
+    pub const MASS_PER_LENGTH: Self = Self::new(1, -1, 0);
+    /// kg m = kg m²/m: moment of inertia per metre of depth.
+    pub const INERTIA_PER_LENGTH: Self = Self::new(1, 1, 0);
 
     /// The SI unit in plain text, `kg/m^3` for example; empty for a pure number.
     #[must_use]
@@ -44,6 +54,7 @@ impl Dimension {
             Self::NONE => return String::new(),
             Self::PRESSURE => return "Pa".into(),
             Self::PRESSURE_PER_LENGTH => return "Pa/m".into(),
+            Self::VISCOSITY_PER_LENGTH => return "Pa s/m".into(),
             _ => {}
         }
         let power = |(name, exponent): &(&str, i8)| match exponent.abs() {

@@ -2,9 +2,10 @@
 
 use crate::block::ElementState;
 use crate::contact::ContactKind;
+use crate::contact::springs::Tangential;
 use crate::error::Fault;
 use crate::model::{Model, ProbeAt};
-use crate::output::{CellKind, Cells, FIELDS, Field, FieldKind, Frame};
+use crate::output::{CellKind, Cells, FIELDS, Field, FieldKind, Frame, Needs};
 use crate::step::{System, Vector};
 
 /// Fields and probes of a model, resolved to nodes.
@@ -25,10 +26,16 @@ impl Recorded {
     pub(crate) fn new(model: &Model, system: &System) -> Result<Self, Vec<Fault>> {
         let has_plastic = system.blocks.iter().any(|block| block.is_plastic());
         let has_contact = !system.contacts.is_empty();
+        let has_friction = system.terms.iter().any(|terms| matches!(terms.tangential, Tangential::Friction(_)));
         let wanted = |kind: &&FieldKind| {
             let include = &model.output.include;
             let named = include.iter().any(|name| name == kind.name) || model.output.picture_field == kind.name;
-            let sensible = (kind.name != "plastic_strain" || has_plastic) && (kind.name != "contact_force" || has_contact);
+            let sensible = match kind.needs {
+                Needs::Nothing => true,
+                Needs::Plasticity => has_plastic,
+                Needs::Contact => has_contact,
+                Needs::Friction => has_friction,
+            };
             // Pictures fall back on these two.
             let pictured = model.output.pictures && (kind.name == "von_mises" || (kind.name == "plastic_strain" && has_plastic));
             named || pictured || (include.is_empty() && sensible)
@@ -93,7 +100,8 @@ impl Recorded {
         for (x, &user) in system.positions.iter().zip(&system.mesh.user_nodes) {
             positions[user as usize] = *x;
         }
-        Frame { time: system.time, step: system.step, positions, fields }
+        let outlines = system.outlines.iter().map(|outline| outline.now(&system.bodies)).collect();
+        Frame { time: system.time, step: system.step, positions, fields, outlines }
     }
 }
 
@@ -110,6 +118,21 @@ fn values(name: &str, system: &System) -> Vec<f64> {
         "displacement" => by_node(system, moved),
         "velocity" => by_node(system, |node| velocity(system, node)),
         "contact_force" => by_node(system, |node| system.contact_forces[node]),
+        "contact_pressure" | "contact_shear" => {
+            let tractions = system.traces.tractions(&system.contact_forces, &system.positions);
+            let component = usize::from(name == "contact_shear");
+            by_node(system, |node| [tractions[node][component]])
+        }
+        "contact_gap" => {
+            let states = system.traces.states(&system.springs);
+            by_node(system, |node| [states[node].gap])
+        }
+        "contact_status" => {
+            let states = system.traces.states(&system.springs);
+            by_node(system, |node| [states[node].status])
+        }
+        "contact_slip" => by_node(system, |node| [system.traces.slip(node)]),
+        "friction_heat" => by_node(system, |node| [system.traces.heat(node)]),
         "stress" => by_element(system, |state| [state.stress[0], state.stress[1], state.stress[2], state.stress[3]]),
         "von_mises" => by_element(system, |state| [von_mises(&state.stress)]),
         "pressure" => by_element(system, |state| [-(state.stress[0] + state.stress[1] + state.stress[2]) / 3.0]),
@@ -119,11 +142,11 @@ fn values(name: &str, system: &System) -> Vec<f64> {
     }
 }
 
-/// A vector of every node, in the user's order.
-fn by_node(system: &System, value: impl Fn(usize) -> Vector) -> Vec<f64> {
-    let mut values = vec![0.0; 2 * system.positions.len()];
+/// Values of every node, in the user's order.
+fn by_node<const N: usize>(system: &System, value: impl Fn(usize) -> [f64; N]) -> Vec<f64> {
+    let mut values = vec![0.0; N * system.positions.len()];
     for (node, &user) in system.mesh.user_nodes.iter().enumerate() {
-        values[2 * user as usize..][..2].copy_from_slice(&value(node));
+        values[N * user as usize..][..N].copy_from_slice(&value(node));
     }
     values
 }

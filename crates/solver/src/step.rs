@@ -5,7 +5,9 @@
 
 use crate::assembly::Assembly;
 use crate::block::{Block, Motion, Report};
+use crate::contact::obstacle::OutlineShape;
 use crate::contact::springs::{Lost, Springs, Terms, Update};
+use crate::contact::traces::Traces;
 use crate::contact::{Contact, Scene, Sweep};
 use crate::energy::{Entry, Ledger, Stores, Works};
 use crate::error::Error;
@@ -62,6 +64,10 @@ pub struct System {
     /// What acts in the springs of each.
     pub(crate) terms: Vec<Terms>,
     pub(crate) bodies: Bodies,
+    /// Shapes of the obstacles, for pictures.
+    pub(crate) outlines: Vec<OutlineShape>,
+    /// What contacts leave on the surfaces.
+    pub(crate) traces: Traces,
     pub(crate) constraints: Constraints<2>,
     /// Acceleration of every node by gravity, m/s²; empty without.
     pub(crate) gravity: Vec<Vector>,
@@ -222,7 +228,7 @@ impl System {
         self.springs.solve(&update, &self.terms);
         self.contact_forces.fill([0.0; 2]);
         for contact in &mut self.contacts {
-            contact.collect(&self.springs, &mut self.contact_forces, &mut self.bodies);
+            contact.collect(&self.springs, &mut self.contact_forces, &mut self.bodies, &mut self.traces, time_step);
         }
     }
 

@@ -67,7 +67,7 @@ fn a_run_leaves_its_results_and_says_where() {
 fn a_run_that_fails_keeps_its_results() {
     let folder = fresh("collapsed");
     // At half the speed of sound the block is crushed at the wall: its elements get thinner, and their step falls below the limit.
-    let wall = "wall=[{ point = [\"10 mm\", 0], normal = [-1, 0] }]";
+    let wall = "obstacle=[{ plane = { point = [\"10 mm\", 0], normal = [-1, 0] } }]";
     let crush =
         ["--set", wall, "--set", "part.block.velocity=[2500, 0]", "--set", "run.energy_limit=0.9", "--set", "run.step_limit=\"0.5 us\""];
     let answer = run(&folder, &crush);

@@ -1,8 +1,8 @@
 //! The reference of the model file, `docs/model-file.md`: the tables come from the descriptions of sections and keys and from the registries.
 
-use super::reader::header;
+use super::reader::{header, written};
 use super::{units, value};
-use embate_solver::model::describe::{Form, Key, Kind, Need, Rule, SECTIONS, Section, TOP};
+use embate_solver::model::describe::{Key, Kind, Need, Rule, SECTIONS, Section, TOP};
 use embate_solver::quantity::{Dimension, Range};
 use embate_solver::{contact, element, material, output};
 use std::fmt::Write;
@@ -32,22 +32,26 @@ pub fn reference_markdown() -> String {
         "Units: {}. Those with a star take prefixes, from `f` (1e-15) to `P` (1e15) where usual; micro is `u` or `µ`.\n",
         units::names()
     );
-    out.push_str("## Names\n\nParts, materials, contacts, walls and probes have names of letters, digits, `_` and `-`. A contact, a constraint or a probe may name a part\n");
+    out.push_str("## Names\n\nParts, materials, contacts, obstacles and probes have names of letters, digits, `_` and `-`. A contact, a constraint or a probe may name a part\n");
     out.push_str("(its whole outside, or all its nodes), a side of a built-in shape such as `plate.top`, or a group of a mesh file; a part comes before a group of the same name.\n\n");
     let _ = writeln!(out, "## Above all sections\n");
-    table(&mut out, &TOP, TOP.keys);
+    table(&mut out, TOP.keys, TOP.rules);
     for section in SECTIONS {
         let _ = writeln!(out, "## `{}`\n\n{}{}\n", header(section), section.doc, if section.required { " Required." } else { "" });
-        table(&mut out, section, section.keys);
+        table(&mut out, section.keys, section.rules);
+        for group in section.groups {
+            let _ = writeln!(out, "And the keys of [{}](#{}).\n", group.title, group.title.to_lowercase().replace(' ', "-"));
+        }
         for key in section.keys {
             if let Kind::Table(inner) = key.kind {
                 let _ = writeln!(out, "### `{}`\n\n{}\n", header(inner), inner.doc);
-                table(&mut out, inner, inner.keys);
+                table(&mut out, inner.keys, inner.rules);
             }
         }
         if let Some(more) = section.more {
-            laws(&mut out, section, more.keys);
+            laws(&mut out, more.keys);
         }
+        groups_after(&mut out, section);
     }
     registries(&mut out);
     overrides(&mut out);
@@ -57,7 +61,20 @@ pub fn reference_markdown() -> String {
     out
 }
 
-fn table(out: &mut String, section: &Section, keys: &[Key]) {
+/// The groups of keys whose last section this is.
+fn groups_after(out: &mut String, section: &Section) {
+    let has = |section: &Section, title: &str| section.groups.iter().any(|group| group.title == title);
+    for group in section.groups {
+        let last = SECTIONS.iter().rev().find(|other| has(other, group.title));
+        if last.is_some_and(|last| last.name == section.name) {
+            let _ = writeln!(out, "## {}\n\n{}\n", group.title, group.doc);
+            table(out, group.keys, group.rules);
+        }
+    }
+}
+
+/// A table of keys, and the rules between them.
+pub(crate) fn table(out: &mut String, keys: &[Key], rules: &[Rule]) {
     out.push_str("| key | value | left out | meaning |\n|---|---|---|---|\n");
     for key in keys {
         let left_out = match key.need {
@@ -69,22 +86,31 @@ fn table(out: &mut String, section: &Section, keys: &[Key]) {
         let _ = writeln!(out, "| `{}` | {} | {left_out} | {} |", key.name, words(key), key.doc);
     }
     out.push('\n');
-    for rule in section.rules {
+    for rule in rules {
         let list = |names: &[&str], last: &str| {
             let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
-            quoted.split_last().map_or(String::new(), |(end, rest)| format!("{} {last} {end}", rest.join(", ")))
+            match quoted.split_last() {
+                Some((end, rest)) if !rest.is_empty() => format!("{} {last} {end}", rest.join(", ")),
+                _ => quoted.concat(),
+            }
         };
         let _ = match rule {
             Rule::OneOf(names) => writeln!(out, "- Exactly one of {}.", list(names, "and")),
+            Rule::SomeOf(names) if names.len() > 2 => writeln!(out, "- At least one of {}.", list(names, "and")),
             Rule::SomeOf(names) => writeln!(out, "- {}, or both.", list(names, "or")),
             Rule::NotBoth(one, other) => writeln!(out, "- Not `{one}` and `{other}` at once."),
             Rule::Needs(one, other) => writeln!(out, "- `{one}` needs `{other}`."),
+            Rule::Only { keys, by, value } => writeln!(out, "- {} only with {}.", list(keys, "and"), written((by, value))),
+            Rule::With { by, value, keys } => writeln!(out, "- {} needs {}.", written((by, value)), list(keys, "and")),
         };
     }
-    if !section.rules.is_empty() {
+    if !rules.is_empty() {
         out.push('\n');
     }
 }
+
+/// What prescribes the motion of a rigid body.
+const MOTION: &str = "`{ x, y, rotation }`: each a velocity, m/s (rad/s), the name of a curve, or `\"free\"`";
 
 fn words(key: &Key) -> String {
     let of = |dimension: Dimension| match dimension {
@@ -97,12 +123,18 @@ fn words(key: &Key) -> String {
     };
     match key.kind {
         Kind::Quantity(dimension, range) => format!("{}{}", of(dimension), within(range)),
-        Kind::Angle(_) => "angle, rad".to_string(),
+        Kind::Angle(Dimension::RATE, _) => "angular velocity, rad/s".to_string(),
+        Kind::Angle(..) => "angle, rad".to_string(),
         Kind::Vector(dimension, range) => format!("`[x, y]`: {}{}", of(dimension), within(range)),
-        Kind::Components(dimension, _) => format!("`{{ x, y }}`: {}", of(dimension)),
+        Kind::Quantities(dimension, range, least) => format!("list of {least} or more: {}{}", of(dimension), within(range)),
+        Kind::Values => "list of 1 or more: numbers, or quantities of one dimension".to_string(),
+        Kind::Points(least) => format!("list of {least} or more `[x, y]`: {}", of(Dimension::LENGTH)),
+        Kind::Velocities => "`{ x, y }`: each a velocity, m/s, or the name of a curve".to_string(),
+        Kind::Motion => MOTION.to_string(),
+        Kind::Rigid => format!("true, false, or {MOTION}"),
         Kind::Integer(least) => format!("whole number from {least}"),
         Kind::Integers(count, least) => format!("{count} whole numbers from {least}"),
-        Kind::Choice(known) if known().len() <= 3 => known().iter().map(|name| format!("`\"{name}\"`")).collect::<Vec<_>>().join(" or "),
+        Kind::Choice(known) if known().len() <= 4 => known().iter().map(|name| format!("`\"{name}\"`")).collect::<Vec<_>>().join(" or "),
         Kind::Choices(known) if known().len() <= 3 => {
             format!("{}, or a list of them", known().iter().map(|name| format!("`\"{name}\"`")).collect::<Vec<_>>().join(" or "))
         }
@@ -111,12 +143,11 @@ fn words(key: &Key) -> String {
     }
 }
 
-fn laws(out: &mut String, section: &Section, keys: fn(&str) -> Option<Vec<Key>>) {
+fn laws(out: &mut String, keys: fn(&str) -> Option<Vec<Key>>) {
     for kind in material::registry() {
         let _ = writeln!(out, "### `law = \"{}\"`\n\n{}\n", kind.name, kind.doc);
         let own: Vec<Key> = keys(kind.name).unwrap_or_default();
-        let plain = Section { name: section.name, doc: "", form: Form::Named, required: false, keys: &[], rules: &[], more: None };
-        table(out, &plain, &own);
+        table(out, &own, &[]);
     }
 }
 

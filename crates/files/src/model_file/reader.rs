@@ -6,17 +6,37 @@ use super::diagnostics::Faults;
 use super::tree::{Entry, Node, Place, Value};
 use super::value::{self, Datum, Wrong};
 use embate_solver::model::describe::{
-    Form, Key, Kind, Need, Rule, SECTIONS, Section, TOP, nearest, section as section_by_name, suggestion,
+    Form, Key, Kind, MOVED, Need, Rule, SECTIONS, Section, TOP, nearest, section as section_by_name, suggestion,
 };
 use std::collections::BTreeMap;
 
+/// What a kind of file may hold.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Vocabulary {
+    /// What the file describes, for messages: `model`.
+    pub(crate) what: &'static str,
+    /// Keys above all sections.
+    pub(crate) top: &'static Section,
+    /// Its sections.
+    pub(crate) sections: &'static [&'static Section],
+}
+
+/// The model file.
+pub(super) static MODEL: Vocabulary = Vocabulary { what: "model", top: &TOP, sections: SECTIONS };
+
+impl Vocabulary {
+    fn section(&self, name: &str) -> Option<&'static Section> {
+        self.sections.iter().find(|section| section.name == name).copied()
+    }
+}
+
 /// The values of one table: those of the file that are sound, and defaults.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Record {
+pub(crate) struct Record {
     /// Path of the table.
-    pub path: String,
+    pub(crate) path: String,
     /// Name in `[section.NAME]`; empty elsewhere.
-    pub name: String,
+    pub(crate) name: String,
     values: BTreeMap<String, Datum>,
     /// Keys that the file has, sound or not, with the places of their values.
     written: BTreeMap<String, Place>,
@@ -24,15 +44,15 @@ pub(super) struct Record {
 
 /// All tables of a file.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Document {
+pub(crate) struct Document {
     /// Keys above all sections.
-    pub top: Record,
+    pub(crate) top: Record,
     sections: BTreeMap<&'static str, Vec<Record>>,
 }
 
 impl Document {
     /// The tables of a section, in the order of the file.
-    pub(super) fn section(&self, name: &str) -> &[Record] {
+    pub(crate) fn section(&self, name: &str) -> &[Record] {
         self.sections.get(name).map_or(&[], Vec::as_slice)
     }
 
@@ -40,9 +60,12 @@ impl Document {
     pub(super) fn single(&self, name: &str) -> Record {
         match (self.section(name).first(), section_by_name(name)) {
             (Some(record), _) => record.clone(),
-            (None, Some(section)) => {
-                Reader { faults: &mut Faults::default() }.table(section, &[], name, Place { source: 0, start: 0, end: 0 })
-            }
+            (None, Some(section)) => Reader { vocabulary: &MODEL, faults: &mut Faults::default() }.table(
+                section,
+                &[],
+                name,
+                Place { source: 0, start: 0, end: 0 },
+            ),
             (None, None) => Record::default(),
         }
     }
@@ -50,17 +73,26 @@ impl Document {
 
 impl Record {
     /// Path of one of its keys.
-    pub(super) fn key(&self, name: &str) -> String {
+    pub(crate) fn key(&self, name: &str) -> String {
         format!("{}.{name}", self.path)
     }
 
     /// Where a key's value stands, if the file has it.
-    pub(super) fn written(&self, name: &str) -> Option<Place> {
+    pub(crate) fn written(&self, name: &str) -> Option<Place> {
         self.written.get(name).copied()
     }
 
     pub(super) fn datum(&self, name: &str) -> Option<&Datum> {
         self.values.get(name)
+    }
+
+    /// Whether a key has this value, a text or a flag; `None` where its value is not sound.
+    fn has(&self, name: &str, value: &str) -> Option<bool> {
+        match self.datum(name) {
+            Some(Datum::Text(text)) => Some(text == value),
+            Some(Datum::Flag(flag)) => Some(flag.to_string() == value),
+            _ => None,
+        }
     }
 
     /// All keys with numbers.
@@ -69,11 +101,19 @@ impl Record {
         self.values.iter().filter_map(number).collect()
     }
 
-    pub(super) fn number(&self, name: &str) -> Option<f64> {
+    pub(crate) fn number(&self, name: &str) -> Option<f64> {
         if let Some(Datum::Number(value)) = self.datum(name) { Some(*value) } else { None }
     }
 
-    pub(super) fn vector(&self, name: &str) -> [f64; 2] {
+    pub(super) fn list(&self, name: &str) -> Vec<f64> {
+        if let Some(Datum::Numbers(values)) = self.datum(name) { values.clone() } else { Vec::new() }
+    }
+
+    pub(super) fn is(&self, name: &str) -> bool {
+        matches!(self.datum(name), Some(Datum::Flag(true)))
+    }
+
+    pub(crate) fn vector(&self, name: &str) -> [f64; 2] {
         if let Some(Datum::Vector(value)) = self.datum(name) { *value } else { [f64::NAN; 2] }
     }
 
@@ -86,34 +126,34 @@ impl Record {
         [0, 1].map(|index| values.get(index).map_or(usize::MAX, |value| usize::try_from(*value).unwrap_or(usize::MAX)))
     }
 
-    pub(super) fn text(&self, name: &str) -> String {
+    pub(crate) fn text(&self, name: &str) -> String {
         if let Some(Datum::Text(value)) = self.datum(name) { value.clone() } else { String::new() }
     }
 
-    pub(super) fn texts(&self, name: &str) -> Vec<String> {
+    pub(crate) fn texts(&self, name: &str) -> Vec<String> {
         if let Some(Datum::Texts(values)) = self.datum(name) { values.clone() } else { Vec::new() }
     }
 
-    pub(super) fn table(&self, name: &str) -> Option<&Record> {
+    pub(crate) fn table(&self, name: &str) -> Option<&Record> {
         if let Some(Datum::Table(record)) = self.datum(name) { Some(record) } else { None }
     }
 }
 
 /// Reads all sections.
-pub(super) fn read(root: &Node, faults: &mut Faults) -> Document {
-    let mut reader = Reader { faults };
+pub(super) fn read(root: &Node, vocabulary: &Vocabulary, faults: &mut Faults) -> Document {
+    let mut reader = Reader { vocabulary, faults };
     let mut document = Document::default();
     let Value::Table(entries) = &root.value else { return document };
-    let (sections, others): (Vec<&Entry>, Vec<&Entry>) = entries.iter().partition(|entry| section_by_name(&entry.key).is_some());
+    let (sections, others): (Vec<&Entry>, Vec<&Entry>) = entries.iter().partition(|entry| vocabulary.section(&entry.key).is_some());
     let others: Vec<Entry> = others.into_iter().cloned().collect();
-    document.top = reader.table(&TOP, &others, "", root.place);
+    document.top = reader.table(vocabulary.top, &others, "", root.place);
     for entry in sections {
-        if let Some(section) = section_by_name(&entry.key) {
+        if let Some(section) = vocabulary.section(&entry.key) {
             document.sections.insert(section.name, reader.section(section, entry));
         }
     }
-    for section in SECTIONS.iter().filter(|section| section.required && !document.sections.contains_key(section.name)) {
-        let message = format!("the model has no {}", header(section));
+    for section in vocabulary.sections.iter().filter(|section| section.required && !document.sections.contains_key(section.name)) {
+        let message = format!("the {} has no {}", vocabulary.what, header(section));
         reader.faults.cover(section.name);
         reader.faults.beside("missing section", section.name, None, (message, section.doc.to_string()));
     }
@@ -131,6 +171,7 @@ pub(super) fn header(section: &Section) -> String {
 }
 
 struct Reader<'a> {
+    vocabulary: &'a Vocabulary,
     faults: &'a mut Faults,
 }
 
@@ -205,7 +246,7 @@ impl Reader<'_> {
                 Need::Optional(_) => {}
             }
         }
-        for rule in section.rules {
+        for rule in section.all_rules() {
             self.rule(rule, section, &record, place);
         }
         record
@@ -228,7 +269,8 @@ impl Reader<'_> {
     }
 
     fn missing(&mut self, section: &Section, key: &Key, path: &str, place: Place) {
-        let message = format!("{} has no `{}`", called(section, path), key.name);
+        let what = if section.name.is_empty() { format!("the {}", self.vocabulary.what) } else { called(section, path) };
+        let message = format!("{what} has no `{}`", key.name);
         let help = format!("add `{} = {}`: {}", key.name, value::example(key), lower(key.doc));
         self.faults.value("missing key", path, place, (message, help));
     }
@@ -236,23 +278,32 @@ impl Reader<'_> {
     fn unknown(&mut self, section: &Section, keys: &[Key], entry: &Entry, path: &str) {
         let mut known: Vec<&str> = keys.iter().map(|key| key.name).collect();
         if section.name.is_empty() {
-            known.extend(SECTIONS.iter().map(|section| section.name));
+            known.extend(self.vocabulary.sections.iter().map(|section| section.name));
         }
         let name = entry.key.as_str();
-        let home = |other: &&&Section| other.name != section.name && other.keys.iter().any(|key| key.name == name);
+        let home = |other: &&&Section| other.name != section.name && other.all_keys().any(|key| key.name == name);
+        let within = |key: &&Key| matches!(key.kind, Kind::Table(inner) if inner.all_keys().any(|key| key.name == name));
+        let moved = MOVED.iter().find(|(old, _)| section.name.is_empty() && *old == name);
         let help = match nearest(name, known.iter().copied()) {
+            _ if moved.is_some() => moved.map_or(String::new(), |(_, help)| (*help).to_string()),
             Some(near) => format!("did you mean `{near}`?"),
-            None if TOP.keys.iter().any(|key| key.name == name) => format!("`{name}` stands above all sections"),
-            None => match SECTIONS.iter().find(home) {
+            None if let Some(key) = keys.iter().find(within) => format!("`{name}` belongs in `{} = {{ ... }}`", key.name),
+            None if self.vocabulary.top.keys.iter().any(|key| key.name == name) => format!("`{name}` stands above all sections"),
+            None => match self.vocabulary.sections.iter().find(home) {
                 Some(other) => format!("`{name}` belongs in {}", header(other)),
                 None => suggestion("", &known),
             },
         };
-        let what = if section.name.is_empty() { "a model".to_string() } else { called(section, path) };
+        let what = if section.name.is_empty() { format!("a {}", self.vocabulary.what) } else { called(section, path) };
         self.faults.value("unknown key", path, entry.place, (format!("{what} has no key `{}`", shown(name)), help));
     }
 
     fn rule(&mut self, rule: &Rule, section: &Section, record: &Record, place: Place) {
+        match rule {
+            Rule::Only { keys, by, value } => return self.only(section, record, keys, (by, value)),
+            Rule::With { by, value, keys } => return self.with(section, record, (by, value), keys),
+            Rule::OneOf(_) | Rule::SomeOf(_) | Rule::NotBoth(..) | Rule::Needs(..) => {}
+        }
         let has = |name: &&str| record.written.contains_key(*name);
         let list = |names: &[&str], last: &str| {
             let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
@@ -293,11 +344,45 @@ impl Reader<'_> {
             self.faults.cover(&record.key(other));
         }
     }
+
+    /// Keys that go only with a value of another one.
+    fn only(&mut self, section: &Section, record: &Record, keys: &[&str], (by, value): (&str, &str)) {
+        if record.has(by, value) != Some(false) {
+            return;
+        }
+        for name in keys {
+            if let Some(place) = record.written(name) {
+                let only = written((by, value));
+                let texts = (
+                    format!("`{name}` in {} goes only with {only}", called(section, &record.path)),
+                    format!("add {only}, or leave `{name}` out"),
+                );
+                self.faults.value("rule", &record.key(name), place, texts);
+            }
+        }
+    }
+
+    /// Keys that must be there with a value of another one.
+    fn with(&mut self, section: &Section, record: &Record, (by, value): (&str, &str), keys: &[&str]) {
+        let Some(place) = record.written(by).filter(|_| record.has(by, value) == Some(true)) else { return };
+        for name in keys.iter().filter(|name| record.written(name).is_none()) {
+            let message = format!("{} has {} but no `{name}`", called(section, &record.path), written((by, value)));
+            let example =
+                section.all_keys().find(|key| key.name == *name).map_or(String::new(), |key| format!(" = {}", value::example(key)));
+            self.faults.beside("rule", &record.path, Some(place), (message, format!("add `{name}{example}`")));
+            self.faults.cover(&record.key(name));
+        }
+    }
+}
+
+/// A key with a value, as a file has it.
+pub(super) fn written((by, value): (&str, &str)) -> String {
+    if matches!(value, "true" | "false") { format!("`{by} = {value}`") } else { format!("`{by} = \"{value}\"`") }
 }
 
 /// The keys that a table may have, and whether these are all: not while the key that decides over the others is unknown.
 fn keys_of(section: &Section, entries: &[Entry]) -> (Vec<Key>, bool) {
-    let mut keys = section.keys.to_vec();
+    let mut keys: Vec<Key> = section.all_keys().copied().collect();
     let Some(more) = section.more else { return (keys, true) };
     let chosen = entries.iter().find(|entry| entry.key == more.by).map(|entry| &entry.node.value);
     let further = if let Some(Value::Text(text)) = chosen { (more.keys)(text) } else { None };

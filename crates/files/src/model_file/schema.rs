@@ -107,8 +107,8 @@ pub fn schema() -> String {
 fn of_section(section: &Section) -> Json {
     let described = |json: Json| json.with("description", text(section.doc));
     match section.form {
-        Form::Single | Form::Inline => described(of_table(section, section.keys)),
-        Form::Repeated => described(object([("type", text("array")), ("items", of_table(section, section.keys))])),
+        Form::Single | Form::Inline => described(of_table(section, &all(section))),
+        Form::Repeated => described(object([("type", text("array")), ("items", of_table(section, &all(section)))])),
         Form::Named => described(object([
             ("type", text("object")),
             ("additionalProperties", Json::Object(vec![("oneOf".to_string(), variants(section))])),
@@ -119,9 +119,9 @@ fn of_section(section: &Section) -> Json {
 /// One table per value of the deciding key.
 fn variants(section: &Section) -> Json {
     let names: Vec<&str> = material::registry().iter().map(|kind| kind.name).collect();
-    let Some(more) = section.more else { return Json::List(vec![of_table(section, section.keys)]) };
+    let Some(more) = section.more else { return Json::List(vec![of_table(section, &all(section))]) };
     let variant = |name: &&str| {
-        let mut keys: Vec<Key> = section.keys.to_vec();
+        let mut keys = all(section);
         keys.extend((more.keys)(name).into_iter().flatten());
         let mut table = of_table(section, &keys);
         if let Json::Object(entries) = &mut table
@@ -143,30 +143,57 @@ fn of_table(section: &Section, keys: &[Key]) -> Json {
         ("required", texts(keys.iter().filter(|key| key.need == Need::Required).map(|key| key.name))),
         ("additionalProperties", Json::Flag(false)),
     ]);
-    if section.rules.is_empty() { table } else { table.with("allOf", Json::List(section.rules.iter().map(of_rule).collect())) }
+    let rules: Vec<Json> = section.all_rules().map(|rule| of_rule(rule, keys)).collect();
+    if rules.is_empty() { table } else { table.with("allOf", Json::List(rules)) }
 }
 
-fn of_rule(rule: &Rule) -> Json {
+fn all(section: &Section) -> Vec<Key> {
+    section.all_keys().copied().collect()
+}
+
+fn of_rule(rule: &Rule, all: &[Key]) -> Json {
     let needs = |name: &&str| object([("required", texts([*name]))]);
     match rule {
         Rule::OneOf(names) => object([("oneOf", Json::List(names.iter().map(needs).collect()))]),
         Rule::SomeOf(names) => object([("anyOf", Json::List(names.iter().map(needs).collect()))]),
         Rule::NotBoth(one, other) => object([("not", object([("required", texts([*one, *other]))]))]),
         Rule::Needs(one, other) => object([("dependentRequired", object([(one, texts([*other]))]))]),
+        Rule::Only { keys, by, value } => {
+            let none = object([("not", object([("anyOf", Json::List(keys.iter().map(needs).collect()))]))]);
+            object([("if", has(all, by, value)), ("else", none)])
+        }
+        Rule::With { by, value, keys } => {
+            object([("if", has(all, by, value)), ("then", object([("required", texts(keys.iter().copied()))]))])
+        }
     }
+}
+
+/// A key has a value, or is left out if that is its default.
+fn has(all: &[Key], by: &str, value: &str) -> Json {
+    let wanted = match value {
+        "true" | "false" => Json::Flag(value == "true"),
+        _ => text(value),
+    };
+    let default = all.iter().any(|key| key.name == by && matches!(key.need, Need::Default(written) if written.trim_matches('"') == value));
+    let json = object([("properties", object([(by, object([("const", wanted)]))]))]);
+    if default { json } else { json.with("required", texts([by])) }
 }
 
 fn of_key(key: &Key) -> Json {
     let json = match key.kind {
         Kind::Quantity(dimension, range) => quantity(dimension, range),
-        Kind::Angle(range) => any([number(range), object([("type", text("string")), ("examples", texts(["30 deg"]))])]),
+        Kind::Angle(dimension, range) => {
+            let example = if dimension == Dimension::RATE { "30 rad/s" } else { "30 deg" };
+            any([number(range), object([("type", text("string")), ("examples", texts([example]))])])
+        }
         Kind::Vector(dimension, range) => list(quantity(dimension, range), Some(2)),
-        Kind::Components(dimension, range) => object([
-            ("type", text("object")),
-            ("properties", object([("x", quantity(dimension, range)), ("y", quantity(dimension, range))])),
-            ("minProperties", Json::Number(1.0)),
-            ("additionalProperties", Json::Flag(false)),
-        ]),
+        Kind::Quantities(dimension, range, least) => at_least(quantity(dimension, range), least),
+        Kind::Values => at_least(quantity(Dimension::VELOCITY, Range::Finite), 1),
+        Kind::Points(least) => at_least(list(quantity(Dimension::LENGTH, Range::Finite), Some(2)), least),
+        Kind::Drive(dimension) => quantity(dimension, Range::Finite),
+        Kind::Velocities => courses(&["x", "y"]),
+        Kind::Motion => courses(&["x", "y", "rotation"]),
+        Kind::Rigid => any([object([("type", text("boolean"))]), courses(&["x", "y", "rotation"])]),
         Kind::Stiffness(range) => {
             any([number(range), object([("type", text("string")), ("examples", texts(["3.5e11 N/m/m", "1e14 Pa/m"]))])])
         }
@@ -180,7 +207,7 @@ fn of_key(key: &Key) -> Json {
         Kind::References(None) => one_or_more(object([("type", text("string"))])),
         Kind::Choice(known) => choice(&known()),
         Kind::Choices(known) => one_or_more(choice(&known())),
-        Kind::Table(section) => of_table(section, section.keys),
+        Kind::Table(section) => of_table(section, &all(section)),
     };
     let json = json.with("description", text(key.doc));
     match key.need {
@@ -208,6 +235,25 @@ fn list(items: Json, count: Option<usize>) -> Json {
         Some(count) => json.with("minItems", count.clone()).with("maxItems", count),
         None => json.with("minItems", Json::Number(1.0)),
     }
+}
+
+fn at_least(items: Json, count: usize) -> Json {
+    object([("type", text("array")), ("items", items), ("minItems", Json::Number(count as f64))])
+}
+
+/// Prescribed velocities: numbers, or texts with a unit, names of curves, or `free`.
+fn courses(axes: &[&str]) -> Json {
+    let course = |axis: &&str| {
+        let example = if *axis == "rotation" { "30 rad/s" } else { "5 m/s" };
+        let words = object([("type", text("string")), ("examples", texts([example, "free", "ramp"]))]);
+        (axis.to_string(), any([number(Range::Finite), words]))
+    };
+    object([
+        ("type", text("object")),
+        ("properties", Json::Object(axes.iter().map(course).collect())),
+        ("minProperties", Json::Number(1.0)),
+        ("additionalProperties", Json::Flag(false)),
+    ])
 }
 
 fn one_or_more(item: Json) -> Json {

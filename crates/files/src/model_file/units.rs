@@ -16,9 +16,9 @@ pub(super) type Wrong = (String, String);
 pub(super) struct Wanted<'a> {
     /// Key, for messages.
     pub name: &'a str,
-    /// Dimensions that are allowed; the first is the usual one.
+    /// Dimensions that are allowed; the first is the usual one. None: any.
     pub dimensions: &'a [Dimension],
-    /// Whether degrees are meant.
+    /// Whether degrees and radians are meant.
     pub angle: bool,
 }
 
@@ -65,6 +65,7 @@ const TABLE: &[Entry] = &[
     Entry("lbf", [1, 1, -2, 0], 44_482_216_152_605, -13, &[]),
     Entry("psi", [1, -1, -2, 0], 44_482_216_152_605, -13, &[]), // divided by in² in `lookup`
     Entry("ksi", [1, -1, -2, 0], 44_482_216_152_605, -10, &[]),
+    Entry("rpm", [0, 0, -1, 0], 6, 0, &[]), // degrees in `plain`: 360 deg in 60 s
     Entry("rad", [0, 0, 0, 0], 1, 0, SMALL),
     Entry("deg", [0, 0, 0, 0], 1, 0, &[]),
     Entry("%", [0, 0, 0, 0], 1, -2, &[]),
@@ -135,7 +136,7 @@ fn plain(entry: &Entry) -> Unit {
         numerator: entry.2,
         denominator: if square_inch { 254 * 254 } else { 1 },
         ten: entry.3 + if square_inch { 8 } else { 0 },
-        degrees: i32::from(entry.0 == "deg"),
+        degrees: i32::from(matches!(entry.0, "deg" | "rpm")),
         radians: i32::from(entry.0 == "rad"),
     }
 }
@@ -193,33 +194,45 @@ impl Unit {
 /// What is wrong and what to do.
 pub(super) fn read(text: &str, wanted: Wanted<'_>) -> Result<(f64, Dimension), Wrong> {
     let name = wanted.name;
-    let usual = wanted.dimensions.first().copied().unwrap_or(Dimension::NONE);
+    let any = wanted.dimensions.is_empty();
+    let usual = wanted.dimensions.first().copied().unwrap_or(Dimension::VELOCITY);
+    let help = || like(usual, wanted.angle && !any);
     let shown = shorten(text);
     let Some((number, rest)) = Decimal::read(text.trim()) else {
-        return Err((format!("`{name}` must be a number{}, but it is {shown}", with_unit(usual, wanted.angle)), like(usual, wanted.angle)));
+        let unit = if any { String::new() } else { with_unit(usual, wanted.angle) };
+        return Err((format!("`{name}` must be a number{unit}, but it is {shown}"), help()));
     };
     let unit_text = rest.trim();
-    if unit_text.is_empty() && !wanted.dimensions.contains(&Dimension::NONE) {
+    if unit_text.is_empty() && !any && !wanted.dimensions.contains(&Dimension::NONE) {
         let number = shorten(text.trim()).trim_matches('"').to_string();
-        let help = format!("write \"{number} {unit}\", or the number without quotes if it is in {unit}", unit = usual.unit());
+        let unit = si(usual, wanted.angle);
+        let help = format!("write \"{number} {unit}\", or the number without quotes if it is in {unit}");
         return Err((format!("`{name}` needs a unit of {}, but {shown} has none", quantity(usual)), help));
     }
-    let unit = product(unit_text, usual, wanted.angle).map_err(|(message, help)| (format!("`{name}`: {message}"), help))?;
-    let dimension = unit.dimension().filter(|dimension| wanted.dimensions.contains(dimension));
+    let unit = product(unit_text, usual, wanted.angle && !any).map_err(|(message, help)| (format!("`{name}`: {message}"), help))?;
+    let dimension = unit.dimension().filter(|dimension| any || wanted.dimensions.contains(dimension));
+    if wanted.angle && dimension == Some(Dimension::RATE) && unit_text.contains("Hz") {
+        let help = "write it in rad/s, deg/s or rpm (revolutions per minute)".to_string();
+        return Err((format!("`{name}`: {shown} could mean radians or revolutions per second"), help));
+    }
     let turned = unit.degrees != 0 || unit.radians != 0;
-    let Some(dimension) = dimension.filter(|_| !turned || wanted.angle).filter(|_| !wanted.angle || unit_text != "%") else {
+    let Some(dimension) = dimension.filter(|_| !turned || wanted.angle).filter(|_| any || !wanted.angle || unit_text != "%") else {
         let message = match usual {
+            _ if any => format!("`{name}`: {shown} has a unit of too high a power"),
             Dimension::NONE if wanted.angle => format!("`{name}` is an angle, but {shown} is in {}", shorten_unit(unit_text)),
+            Dimension::RATE if wanted.angle => {
+                format!("`{name}` is an angular velocity, but {shown} is in {}", shorten_unit(unit_text))
+            }
             Dimension::NONE => format!("`{name}` is a pure number, but {shown} is in {}", shorten_unit(unit_text)),
             _ => format!("`{name}` needs a unit of {}, but {shown} is in {}", quantity(usual), shorten_unit(unit_text)),
         };
-        return Err((message, like(usual, wanted.angle)));
+        return Err((message, help()));
     };
     let value = number.scaled(unit.numerator, unit.denominator, unit.ten);
     let value = match unit.degrees {
         0 => value,
         1 => radians(value),
-        _ => return Err((format!("`{name}` is an angle, but {shown} is in {}", shorten_unit(unit_text)), like(usual, wanted.angle))),
+        _ => return Err((format!("`{name}` is an angle, but {shown} is in {}", shorten_unit(unit_text)), help())),
     };
     Ok((value, dimension))
 }
@@ -332,6 +345,7 @@ fn suggestion(word: &str, usual: Dimension, angle: bool) -> String {
 /// Help: how such a number is written.
 pub(super) fn like(dimension: Dimension, angle: bool) -> String {
     match (dimension, angle) {
+        (Dimension::RATE, true) => "write it like \"30 rad/s\" or \"300 rpm\", or as a number in rad/s".to_string(),
         (_, true) => "write it like \"30 deg\", or as a number in rad".to_string(),
         (Dimension::NONE, false) => "write a number without a unit".to_string(),
         _ => format!("write it like \"{}\", or as a number in {}", example(dimension), dimension.unit()),
@@ -349,6 +363,11 @@ pub(super) fn quantity(dimension: Dimension) -> &'static str {
         Dimension::DENSITY => "density",
         Dimension::PRESSURE => "pressure",
         Dimension::PRESSURE_PER_LENGTH => "pressure per length",
+        Dimension::RATE => "rate",
+        Dimension::SLOWNESS => "inverse velocity",
+        Dimension::VISCOSITY_PER_LENGTH => "pressure per velocity",
+        Dimension::MASS_PER_LENGTH => "mass per length",
+        Dimension::INERTIA_PER_LENGTH => "moment of inertia per length",
         _ => "another dimension",
     }
 }
@@ -364,12 +383,23 @@ pub(super) fn example(dimension: Dimension) -> String {
         Dimension::DENSITY => "7850 kg/m^3".into(),
         Dimension::PRESSURE => "210 GPa".into(),
         Dimension::PRESSURE_PER_LENGTH => "1e14 Pa/m".into(),
+        Dimension::RATE => "100 1/s".into(),
+        Dimension::SLOWNESS => "0.1 s/m".into(),
+        Dimension::VISCOSITY_PER_LENGTH => "10 kPa s/m".into(),
+        Dimension::MASS_PER_LENGTH => "10 kg/m".into(),
+        Dimension::INERTIA_PER_LENGTH => "0.1 kg m".into(),
         other => format!("1 {}", other.unit()),
     }
 }
 
+/// The SI unit; of an angular velocity with its radians.
+pub(super) fn si(dimension: Dimension, angle: bool) -> String {
+    if angle && dimension == Dimension::RATE { "rad/s".to_string() } else { dimension.unit() }
+}
+
 fn with_unit(dimension: Dimension, angle: bool) -> String {
     match (dimension, angle) {
+        (Dimension::RATE, true) => " with a unit of angular velocity".to_string(),
         (_, true) => " in rad or with `deg`".to_string(),
         (Dimension::NONE, false) => String::new(),
         _ => format!(" with a unit of {}", quantity(dimension)),
@@ -460,6 +490,16 @@ mod tests {
         assert_eq!([angle("90 deg"), angle("-90 deg"), angle("180 deg"), angle("360 deg")], [FRAC_PI_2, -FRAC_PI_2, PI, TAU]);
         assert_eq!([angle("45 deg"), angle("0 deg"), angle("1.5 rad"), angle("20 mrad"), angle("2")], [FRAC_PI_4, 0.0, 1.5, 0.02, 2.0]);
         assert!(read("1 %", Wanted { name: "to", dimensions: &[Dimension::NONE], angle: true }).is_err());
+    }
+
+    #[test]
+    fn angular_velocities_come_in_radians_degrees_or_revolutions() {
+        let read = |text| read(text, Wanted { name: "spin", dimensions: &[Dimension::RATE], angle: true });
+        let spin = |text| read(text).map(|(value, _)| value);
+        assert_eq!([spin("30 rad/s"), spin("2 1/s"), spin("180 deg/s"), spin("60 rpm")], [Ok(30.0), Ok(2.0), Ok(PI), Ok(TAU)]);
+        assert!(spin("5 Hz").unwrap_err().0.ends_with("could mean radians or revolutions per second"));
+        assert_eq!(spin("5 m").unwrap_err().0, "`spin` is an angular velocity, but \"5 m\" is in m");
+        assert!(spin("5").unwrap_err().1.starts_with("write \"5 rad/s\""));
     }
 
     #[test]

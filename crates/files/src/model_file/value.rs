@@ -6,8 +6,9 @@
 use super::reader::Record;
 use super::tree::{Node, Place, Value};
 use super::units::{self, Wanted};
+use embate_solver::model::check::name_is_plain;
 use embate_solver::model::describe::{Key, Kind, out_of_range, suggestion};
-use embate_solver::model::{Cadence, Penalty};
+use embate_solver::model::{Cadence, Drive, Penalty};
 use embate_solver::quantity::{Dimension, Range};
 
 /// A value that is sound.
@@ -15,7 +16,12 @@ use embate_solver::quantity::{Dimension, Range};
 pub(super) enum Datum {
     Number(f64),
     Vector([f64; 2]),
-    Components([Option<f64>; 2]),
+    Numbers(Vec<f64>),
+    /// Numbers of one dimension; `None` where none has a unit.
+    Values(Vec<f64>, Option<Dimension>),
+    Points(Vec<[f64; 2]>),
+    /// Prescribed motion along x and y and around.
+    Courses([Option<Course>; 3]),
     Integer(u64),
     Integers(Vec<u64>),
     Flag(bool),
@@ -24,6 +30,13 @@ pub(super) enum Datum {
     Cadence(Cadence),
     Penalty(Penalty),
     Table(Box<Record>),
+}
+
+/// What is prescribed for a degree of freedom.
+#[derive(Clone, Debug)]
+pub(super) enum Course {
+    Free,
+    Driven(Drive),
 }
 
 /// What is wrong with a value or an item of it.
@@ -94,7 +107,7 @@ impl<'a> At<'a> {
         if range.contains(value) {
             return Ok((value, dimension));
         }
-        let unit = if matches!(self.node.value, Value::Text(_)) { String::new() } else { format!(" {}", usual.unit()) };
+        let unit = if matches!(self.node.value, Value::Text(_)) { String::new() } else { format!(" {}", units::si(usual, angle)) };
         let shown = format!("{}{unit}", self.node.words().trim_matches('"'));
         let (message, help) = out_of_range(self.name(), shown.trim_end(), value, range);
         self.wrong("range", message, help)
@@ -137,20 +150,91 @@ impl<'a> At<'a> {
         self.each(items, read)
     }
 
-    fn components(&self, dimension: Dimension, range: Range) -> Read<[Option<f64>; 2]> {
+    /// Numbers whose dimension the first one with a unit decides.
+    fn values(&self, items: &[Node]) -> Read<Datum> {
+        let read = |at: At<'_>| match &at.node.value {
+            Value::Text(text) => match units::read(text, Wanted { name: at.name(), dimensions: &[], angle: true }) {
+                Ok((value, dimension)) if value.is_finite() => Ok((value, Some(dimension))),
+                Ok((value, _)) => {
+                    let (message, help) = out_of_range(at.name(), text, value, Range::Finite);
+                    at.wrong("range", message, help)
+                }
+                Err((message, help)) => at.wrong("unit", message, help),
+            },
+            _ => Ok((at.number(&[Dimension::NONE], Range::Finite, false)?.0, None)),
+        };
+        let values = self.each(items, read)?;
+        let first = values.iter().enumerate().find_map(|(index, (_, dimension))| Some((index, (*dimension)?)));
+        if let Some((first, wanted)) = first
+            && let Some((index, other)) = values.iter().enumerate().find_map(|(i, (_, it))| Some((i, it.filter(|it| *it != wanted)?)))
+        {
+            let unit =
+                |dimension: Dimension| if dimension == Dimension::NONE { "a pure number".to_string() } else { format!("in {dimension}") };
+            let path = format!("{}[{index}]", self.path);
+            let message = format!("`{0}[{index}]` is {1}, but `{0}[{first}]` is {2}", self.name(), unit(other), unit(wanted));
+            return self.on(&items[index], &path).wrong("unit", message, "give all values in one dimension");
+        }
+        Ok(Datum::Values(values.iter().map(|(value, _)| *value).collect(), first.map(|(_, dimension)| dimension)))
+    }
+
+    fn vector(&self, dimension: Dimension, range: Range) -> Read<[f64; 2]> {
+        match &self.node.value {
+            Value::List(items) if items.len() == 2 => {
+                let values = self.each(items, |at| at.number(&[dimension], range, false))?;
+                Ok([values[0].0, values[1].0])
+            }
+            _ => self.unlike(),
+        }
+    }
+
+    /// The items of a list that has at least so many.
+    fn list(&self, least: usize) -> Read<&'a [Node]> {
+        let Value::List(items) = &self.node.value else { return self.unlike() };
+        if items.len() < least {
+            let message = format!("`{}` must be {}, but it has {}", self.name(), words(self.kind), items.len());
+            return self.wrong("short list", message, like(self.key));
+        }
+        Ok(items)
+    }
+
+    /// A velocity, the name of a curve, or `"free"`. A text that begins like a number is one.
+    fn course(&self, dimension: Dimension, free: bool) -> Read<Course> {
+        let like_a_number = |text: &str| text.is_empty() || text.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '-' | '+' | '.'));
+        match &self.node.value {
+            Value::Text(text) if !like_a_number(text.trim()) => {
+                if text == "free" {
+                    if free {
+                        return Ok(Course::Free);
+                    }
+                    return self.wrong("choice", format!("`{}` can't be \"free\" here", self.name()), "leave it out: it is free then");
+                }
+                if name_is_plain(text).is_ok() { Ok(Course::Driven(Drive::Curve(text.clone()))) } else { self.unlike() }
+            }
+            Value::Text(_) | Value::Integer(..) | Value::Float(..) => {
+                let (value, _) = self.number(&[dimension], Range::Finite, dimension == Dimension::RATE)?;
+                Ok(Course::Driven(Drive::Constant(value)))
+            }
+            _ => self.unlike(),
+        }
+    }
+
+    /// A table of courses, one for each degree of freedom.
+    fn courses(&self, axes: &[&str], free: bool) -> Read<Datum> {
         let Value::Table(entries) = &self.node.value else { return self.unlike() };
-        let mut velocity = [None, None];
+        let mut courses = [None, None, None];
         let mut wrongs = Vec::new();
+        let quoted: Vec<String> = axes.iter().map(|axis| format!("`{axis}`")).collect();
+        let help = format!("give {}, or {}", quoted.join(", "), if axes.len() == 2 { "both" } else { "some of them" });
         for entry in entries {
             let path = format!("{}.{}", self.path, entry.key);
-            let Some(axis) = ["x", "y"].iter().position(|axis| *axis == entry.key) else {
-                let texts =
-                    (format!("`{}` has no component {}", self.name(), units::shorten(&entry.key)), "give `x`, `y`, or both".to_string());
+            let Some(axis) = axes.iter().position(|axis| *axis == entry.key) else {
+                let texts = (format!("`{}` has no component {}", self.name(), units::shorten(&entry.key)), help.clone());
                 wrongs.push(Wrong { kind: "unknown key", path, place: entry.place, texts });
                 continue;
             };
-            match self.on(&entry.node, &path).number(&[dimension], range, false) {
-                Ok((value, _)) => velocity[axis] = Some(value),
+            let dimension = if axis == 2 { Dimension::RATE } else { Dimension::VELOCITY };
+            match (At { kind: Kind::Drive(dimension), ..self.on(&entry.node, &path) }).course(dimension, free) {
+                Ok(course) => courses[axis] = Some(course),
                 Err(wrong) => wrongs.extend(wrong),
             }
         }
@@ -158,9 +242,9 @@ impl<'a> At<'a> {
             return Err(wrongs);
         }
         if entries.is_empty() {
-            return self.wrong("empty list", format!("`{}` has no component", self.name()), "give `x`, `y`, or both");
+            return self.wrong("empty list", format!("`{}` has no component", self.name()), help);
         }
-        Ok(velocity)
+        Ok(Datum::Courses(courses))
     }
 }
 
@@ -172,15 +256,20 @@ pub(super) fn read(key: &Key, node: &Node, path: &str) -> Read<Datum> {
     let at = At { kind: key.kind, key, node, path };
     Ok(match key.kind {
         Kind::Quantity(dimension, range) => Datum::Number(at.number(&[dimension], range, false)?.0),
-        Kind::Angle(range) => Datum::Number(at.number(&[Dimension::NONE], range, true)?.0),
-        Kind::Vector(dimension, range) => match &node.value {
-            Value::List(items) if items.len() == 2 => {
-                let values = at.each(items, |at| at.number(&[dimension], range, false))?;
-                Datum::Vector([values[0].0, values[1].0])
-            }
-            _ => return at.unlike(),
+        Kind::Angle(dimension, range) => Datum::Number(at.number(&[dimension], range, true)?.0),
+        Kind::Vector(dimension, range) => Datum::Vector(at.vector(dimension, range)?),
+        Kind::Quantities(dimension, range, least) => {
+            let values = at.each(at.list(least)?, |at| at.number(&[dimension], range, false))?;
+            Datum::Numbers(values.into_iter().map(|(value, _)| value).collect())
+        }
+        Kind::Values => at.values(at.list(1)?)?,
+        Kind::Points(least) => Datum::Points(at.each(at.list(least)?, |at| at.vector(Dimension::LENGTH, Range::Finite))?),
+        Kind::Velocities => at.courses(&["x", "y"], false)?,
+        Kind::Motion => at.courses(&["x", "y", "rotation"], true)?,
+        Kind::Rigid => match node.value {
+            Value::Flag(flag) => Datum::Flag(flag),
+            _ => at.courses(&["x", "y", "rotation"], true)?,
         },
-        Kind::Components(dimension, range) => Datum::Components(at.components(dimension, range)?),
         Kind::Stiffness(range) => match at.number(&[Dimension::PRESSURE, Dimension::PRESSURE_PER_LENGTH], range, false)? {
             (value, Dimension::PRESSURE) => Datum::Penalty(Penalty::PerNode(value)),
             (value, _) => Datum::Penalty(Penalty::Pressure(value)),
@@ -212,14 +301,16 @@ pub(super) fn read(key: &Key, node: &Node, path: &str) -> Read<Datum> {
         }
         Kind::Choice(known) => Datum::Text(at.choice(&known())?),
         Kind::Choices(known) => Datum::Texts(at.several(|at| at.choice(&known()))?),
-        Kind::Table(_) => return at.unlike(),
+        Kind::Drive(_) | Kind::Table(_) => return at.unlike(),
     })
 }
 
 /// The kind of the items of a list or table.
 fn item(kind: Kind) -> Kind {
     match kind {
-        Kind::Vector(dimension, range) | Kind::Components(dimension, range) => Kind::Quantity(dimension, range),
+        Kind::Vector(dimension, range) | Kind::Quantities(dimension, range, _) => Kind::Quantity(dimension, range),
+        Kind::Values => Kind::Quantity(Dimension::NONE, Range::Finite),
+        Kind::Points(_) => Kind::Vector(Dimension::LENGTH, Range::Finite),
         Kind::Integers(_, least) => Kind::Integer(least),
         Kind::References(_) => Kind::Reference,
         Kind::Choices(known) => Kind::Choice(known),
@@ -235,10 +326,21 @@ pub(super) fn words(kind: Kind) -> String {
     };
     match kind {
         Kind::Quantity(dimension, _) => with_unit(dimension),
-        Kind::Angle(_) => "an angle".to_string(),
+        Kind::Angle(Dimension::RATE, _) => "an angular velocity".to_string(),
+        Kind::Angle(..) => "an angle".to_string(),
         Kind::Vector(Dimension::NONE, _) => "a list of 2 numbers".to_string(),
         Kind::Vector(dimension, _) => format!("a list of 2 numbers with a unit of {}", units::quantity(dimension)),
-        Kind::Components(dimension, _) => format!("a table with x, y or both, each {}", with_unit(dimension)),
+        Kind::Quantities(dimension, _, 1) => format!("a list of numbers with a unit of {}", units::quantity(dimension)),
+        Kind::Quantities(dimension, _, least) => {
+            format!("a list of at least {least} numbers with a unit of {}", units::quantity(dimension))
+        }
+        Kind::Values => "a list of numbers".to_string(),
+        Kind::Points(least) => format!("a list of at least {least} points"),
+        Kind::Drive(Dimension::RATE) => "an angular velocity or the name of a curve".to_string(),
+        Kind::Drive(dimension) => format!("a {} or the name of a curve", units::quantity(dimension)),
+        Kind::Velocities => "a table with x, y or both".to_string(),
+        Kind::Motion => "a table with x, y, rotation or some of them".to_string(),
+        Kind::Rigid => "true, false, or a table with x, y, rotation or some of them".to_string(),
         Kind::Stiffness(_) => "a stiffness".to_string(),
         Kind::Integer(_) => "a whole number".to_string(),
         Kind::Integers(count, _) => format!("a list of {count} whole numbers"),
@@ -260,10 +362,17 @@ pub(super) fn example(key: &Key) -> String {
     };
     match key.kind {
         Kind::Quantity(dimension, _) => number(dimension),
-        Kind::Angle(_) => "\"30 deg\"".to_string(),
+        Kind::Angle(Dimension::RATE, _) => "\"30 rad/s\"".to_string(),
+        Kind::Angle(..) => "\"30 deg\"".to_string(),
         Kind::Vector(Dimension::NONE, _) => "[1, 0]".to_string(),
         Kind::Vector(dimension, _) => format!("[0, {}]", number(dimension)),
-        Kind::Components(dimension, _) => format!("{{ x = {} }}", number(dimension)),
+        Kind::Quantities(dimension, _, least) => format!("[{}]", vec![number(dimension); least].join(", ")),
+        Kind::Values => "[0, \"5 m/s\"]".to_string(),
+        Kind::Points(_) => "[[0, 0], [\"3 mm\", 0]]".to_string(),
+        Kind::Drive(dimension) => number(dimension),
+        Kind::Velocities => "{ x = \"5 m/s\" }".to_string(),
+        Kind::Motion => "{ x = \"5 m/s\", rotation = \"free\" }".to_string(),
+        Kind::Rigid => "true".to_string(),
         Kind::Stiffness(_) => "\"3.5e11 N/m/m\"".to_string(),
         Kind::Integer(_) => "12".to_string(),
         Kind::Integers(count, _) => format!("[{}]", ["12", "3", "4"].iter().cycle().take(count).copied().collect::<Vec<_>>().join(", ")),

@@ -88,7 +88,7 @@ mod tests {
 
     fn frame(fields: &[(&str, &[f64])]) -> Frame<2> {
         let fields = fields.iter().map(|(name, values)| Field { kind: field_kind(name).unwrap(), values: values.to_vec() }).collect();
-        Frame { time: 0.0, step: 0, positions: vec![[0.0; 2]; 2], fields }
+        Frame { time: 0.0, step: 0, positions: vec![[0.0; 2]; 2], fields, outlines: vec![] }
     }
 
     #[test]

@@ -342,7 +342,7 @@ mod tests {
     use super::*;
 
     fn frame(time: f64, x: f64) -> Frame<2> {
-        Frame { time, step: 0, positions: vec![[x, 0.0], [x + 1.0, 0.0], [x, 1.0]], fields: vec![] }
+        Frame { time, step: 0, positions: vec![[x, 0.0], [x + 1.0, 0.0], [x, 1.0]], fields: vec![], outlines: vec![] }
     }
 
     #[test]
@@ -390,7 +390,7 @@ mod tests {
     fn a_node_thrown_away_does_not_shrink_the_picture() {
         let mut film = Film::new(Cells::default(), FilmSettings::default());
         let positions: Vec<[f64; 2]> = (0..1000).map(|k| [f64::from(k % 100), f64::from(k / 100)]).collect();
-        let mut frame = Frame { time: 0.0, step: 0, positions, fields: vec![] };
+        let mut frame = Frame { time: 0.0, step: 0, positions, fields: vec![], outlines: vec![] };
         film.add(&frame);
         frame.positions[7] = [1e9, -1e9];
         frame.positions[8] = [f64::NAN, 0.0];

@@ -77,7 +77,7 @@ pub struct Report {
 
 impl Report {
     /// A report of the solver's figures; the rest is filled in by the recorder.
-    pub(super) fn of(summary: &Summary, model: &str, parts: &[String]) -> Self {
+    pub(crate) fn of(summary: &Summary, model: &str, parts: &[String]) -> Self {
         let momentum = MomentumDrift { linear: summary.momentum_drift_linear, angular: summary.momentum_drift_angular };
         Self {
             status: RunStatus::Done,
@@ -103,6 +103,11 @@ impl Report {
             state_hash: summary.state_hash.clone(),
             warnings: summary.warnings.clone(),
         }
+    }
+
+    /// The contents of `summary.json` as a tree.
+    pub(crate) fn value(&self) -> serde_json::Value {
+        serde_json::to_value(self).expect("plain numbers, texts and lists always have a JSON form")
     }
 
     /// The text of `summary.json`.

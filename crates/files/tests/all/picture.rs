@@ -76,7 +76,7 @@ fn state(t: f64) -> Frame<2> {
         Field { kind: field_kind("von_mises").unwrap(), values: vec![2e8; cells.len()] },
         Field { kind: field_kind("plastic_strain").unwrap(), values: strain.collect() },
     ];
-    Frame { time: 0.01 * t, step: 0, positions, fields }
+    Frame { time: 0.01 * t, step: 0, positions, fields, outlines: vec![] }
 }
 
 fn settings() -> FilmSettings {
@@ -199,7 +199,7 @@ fn vectors_and_components_can_be_shown() {
 
 #[test]
 fn strange_frames_give_a_picture_and_no_panic() {
-    let frame = |positions: Vec<[f64; 2]>| Frame { time: f64::NAN, step: 0, positions, fields: vec![] };
+    let frame = |positions: Vec<[f64; 2]>| Frame { time: f64::NAN, step: 0, positions, fields: vec![], outlines: vec![] };
     let full = state(0.5).positions.len();
     let one_wrong = |value: f64| {
         let mut frame = state(0.5);

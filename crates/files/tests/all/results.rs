@@ -51,7 +51,7 @@ fn frame(step: u64) -> Frame<2> {
         (_, Location::Cell) => vec![0.25; 2 * width],
     };
     let fields = FIELDS.iter().map(|kind| Field { kind, values: values(kind.name, kind.location, kind.width()) }).collect();
-    Frame { time, step, positions, fields }
+    Frame { time, step, positions, fields, outlines: vec![] }
 }
 
 fn summary(steps: u64) -> Summary {

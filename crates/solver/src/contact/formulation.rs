@@ -3,12 +3,14 @@
 //! The builder fills a [`Setup`] with plain numbers (contact knows nothing of elements); the formulation that the model names makes itself from it.
 //! One formulation a file, one line in [`FORMULATIONS`].
 
+use super::law::Law;
+use super::node_segment::Slave;
 use super::projection::node_segment::Target;
 use super::search::Search;
-use super::springs::Terms;
+use super::tracker::Tracker;
 use super::{Formulation, Vector, law, node_segment, pinball, segment, tied};
 use crate::error::Fault;
-use crate::model::{self, ContactLaw, Penalty};
+use crate::model::{self, ContactLaw, InitialPenetration, Penalty};
 
 /// A formulation as the registry describes it.
 #[derive(Clone, Copy)]
@@ -41,8 +43,12 @@ pub fn kind_of(contact: &model::Contact) -> Option<&'static FormulationKind> {
 pub struct Side<'a> {
     /// The surface.
     pub target: Target,
+    /// Segments that were left out of it because they lie on a symmetry line.
+    pub lids: Vec<[u32; 2]>,
     /// Pressure stiffness κ of the element behind each segment, Pa/m.
     pub segments: Vec<f64>,
+    /// Part behind each segment.
+    pub parts: Vec<u32>,
     /// Tributary length (m) and κ (Pa/m) of each node.
     pub nodes: Vec<(f64, f64)>,
     /// Nodes of the element behind each segment, counter-clockwise.
@@ -50,10 +56,14 @@ pub struct Side<'a> {
 }
 
 impl Side<'_> {
-    /// Smallest κ of its segments, Pa/m.
+    /// Smallest κ of the segments of the same part, for each segment, Pa/m.
     #[must_use]
-    pub fn softest(&self) -> f64 {
-        self.segments.iter().copied().fold(f64::INFINITY, f64::min)
+    pub fn softest(&self) -> Vec<f64> {
+        let mut softest = vec![f64::INFINITY; self.parts.iter().max().map_or(0, |&part| part as usize + 1)];
+        for (&stiffness, &part) in self.segments.iter().zip(&self.parts) {
+            softest[part as usize] = stiffness.min(softest[part as usize]);
+        }
+        self.parts.iter().map(|&part| softest[part as usize]).collect()
     }
 }
 
@@ -63,10 +73,12 @@ pub struct Setup<'a> {
     pub contact: &'a model::Contact,
     /// Two surfaces, or one that meets itself.
     pub sides: Vec<Side<'a>>,
+    /// Body of each node of the model.
+    pub bodies: &'a [u32],
     /// Initial positions, m.
     pub positions: &'a [Vector],
-    /// What acts in its springs.
-    pub terms: Terms,
+    /// Makes the law of the normal force.
+    pub law: &'a dyn Fn() -> Box<dyn Law>,
     /// Number of the terms that its ties follow, where it is tied.
     pub tie_terms: usize,
     /// Makes a search of the kind that the contact names.
@@ -86,31 +98,41 @@ impl Setup<'_> {
         if let ContactLaw::Penalty(penalty) = self.contact.interface.law { penalty } else { Penalty::default() }
     }
 
-    /// Refuses a stiffness per node, which formulations without slave nodes can't use.
-    ///
-    /// # Errors
-    /// The fault.
-    pub fn no_stiffness_per_node(&self) -> Result<(), Fault> {
-        match self.penalty() {
-            Penalty::PerNode(_) => Err(Fault::new(
-                "penalty",
-                format!(
-                    "the formulation \"{}\" has no slave nodes that a stiffness per node could belong to",
-                    self.contact.formulation.name()
-                ),
-                "give a pressure per depth (Pa/m), or leave it out",
-            )),
-            _ => Ok(()),
-        }
+    /// Whether gaps that are negative when the contact begins to act count as zero. Nobody can say where bodies are when it begins later.
+    #[must_use]
+    pub fn ignores_start(&self) -> bool {
+        let interface = &self.contact.interface;
+        interface.initial_penetration == InitialPenetration::Ignore || interface.active[0] > 0.0
     }
 
-    /// Stiffness of slave node number `index` of a side against another side, N/m per metre of depth.
+    /// Follows the nodes of these passes.
     #[must_use]
-    pub fn node_stiffness(&self, side: usize, index: usize, other: f64, passes: usize) -> f64 {
+    pub fn tracker(self, passes: &[(usize, usize)]) -> Tracker {
+        let (targets, lids): (Vec<_>, Vec<_>) = self.sides.into_iter().map(|side| (side.target, side.lids)).unzip();
+        Tracker::new(targets, passes, (self.search)(), self.positions).with_bodies(self.bodies, &lids)
+    }
+
+    /// The nodes of a side as slaves in one of `passes` passes.
+    #[must_use]
+    pub fn slaves(&self, side: usize, passes: usize) -> Vec<Slave> {
         let Target { surface, mirrors } = &self.sides[side].target;
-        let (tributary, own) = self.sides[side].nodes[index];
-        let on_line = mirrors.binary_search_by_key(&surface.nodes[index], |&(node, _)| node).is_ok();
-        let node = law::Node { tributary, own, other, share: if on_line { 0.5 } else { 1.0 } };
-        law::penalty::stiffness(self.penalty(), node, passes)
+        let of = |(&(tributary, own), node): (&(f64, f64), &u32)| {
+            let on_line = mirrors.binary_search_by_key(node, |&(node, _)| node).is_ok();
+            let node = law::Node { tributary, own, other: f64::INFINITY, share: if on_line { 0.5 } else { 1.0 } };
+            // In a double pass each side carries half of the pressure.
+            Slave { stiffness: law::penalty::stiffness(self.penalty(), node, passes), area: tributary / passes as f64, slip: 0.0 }
+        };
+        self.sides[side].nodes.iter().zip(&surface.nodes).map(of).collect()
+    }
+
+    /// Stiffness (N/m per metre of depth) of each node of a side by unit of pressure stiffness κ (Pa/m) of the target; empty where the stiffness is given.
+    #[must_use]
+    pub fn per_modulus(&self, side: usize, passes: usize) -> Vec<f64> {
+        match self.penalty() {
+            Penalty::Automatic { scale, .. } => {
+                self.sides[side].nodes.iter().map(|&(tributary, _)| scale * tributary / passes as f64).collect()
+            }
+            Penalty::PerNode(_) | Penalty::Pressure(_) => Vec::new(),
+        }
     }
 }

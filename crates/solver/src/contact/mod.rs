@@ -15,12 +15,15 @@ pub mod pinball;
 pub mod segment;
 pub mod tied;
 pub mod obstacle;
+pub mod traces;
 
 use crate::mesh::surface::Surface;
 use crate::rigid::Bodies;
 use springs::{Spring, Springs, Totals};
 use std::ops::Range;
 use tied::Ties;
+use traces::Traces;
+use tracker::{Certificate, SearchReport};
 
 /// A vector of the plane.
 pub type Vector = [f64; 2];
@@ -41,6 +44,16 @@ pub trait Formulation: Send {
 
     /// Its ties, if it has such.
     fn ties(&self) -> Option<Ties> {
+        None
+    }
+
+    /// What was checked so far, and whether a contact was missed.
+    fn certificate(&self) -> Certificate {
+        Certificate::default()
+    }
+
+    /// What the global search did, if there is one.
+    fn search_report(&self) -> Option<SearchReport> {
         None
     }
 }
@@ -120,9 +133,12 @@ impl Contact {
         self.penetration = springs.list[self.found.clone()].iter().fold(0.0, |deepest, spring| f64::max(deepest, -spring.gap));
     }
 
-    /// Sums up the solved springs: adds their forces to `forces` and `bodies`.
-    pub fn collect(&mut self, springs: &Springs, forces: &mut [Vector], bodies: &mut Bodies) {
+    /// Sums up the solved springs: adds their forces to `forces` and `bodies`, and what they did in the update of `time_step` (s) to `traces`.
+    pub fn collect(&mut self, springs: &Springs, forces: &mut [Vector], bodies: &mut Bodies, traces: &mut Traces, time_step: f64) {
         self.totals = springs.collect(self.found.clone(), forces, bodies);
+        for spring in &springs.list[self.found.clone()] {
+            traces.mark(springs, spring, time_step);
+        }
         self.formulation.remember(&springs.list[self.found.clone()]);
         self.totals.lost.freed = self.formulation.freed();
     }
@@ -131,6 +147,18 @@ impl Contact {
     #[must_use]
     pub fn ties(&self) -> Option<Ties> {
         self.formulation.ties()
+    }
+
+    /// What was checked so far, and whether a contact was missed.
+    #[must_use]
+    pub fn certificate(&self) -> Certificate {
+        self.formulation.certificate()
+    }
+
+    /// What the global search did, if there is one.
+    #[must_use]
+    pub fn search_report(&self) -> Option<SearchReport> {
+        self.formulation.search_report()
     }
 
     /// Slave nodes that are inside in the last step, with their depth, m.

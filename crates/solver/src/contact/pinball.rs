@@ -12,6 +12,7 @@
 
 use super::formulation::{FormulationKind, Setup, Side};
 use super::law::penalty;
+use super::node_segment::relaxed;
 use super::search::{Pair, Query, Search};
 use super::springs::{End, Spring, Springs};
 use super::tracker::SKIN;
@@ -23,10 +24,7 @@ pub const KIND: FormulationKind = FormulationKind {
     name: "pinball",
     doc: "disks in the elements under the surfaces against each other: simple and robust, bumpy where bodies slide",
     source: "Belytschko and Neal (1991), split as by Belytschko and Yeh (1993); disks that touch the surface from inside",
-    make: |setup| {
-        setup.no_stiffness_per_node()?;
-        Ok(Box::new(Pinball::of(setup)))
-    },
+    make: |setup| Ok(Box::new(Pinball::of(&setup))),
 };
 
 /// Disks of one element nearer than this fraction of their radii are one: at a corner, and where both sides of a thin body are in one element.
@@ -42,12 +40,18 @@ pub struct Pinball {
     /// Distance that the disks keep and largest gap at which the law pushes, m.
     thickness: f64,
     reach: f64,
+    /// Whether gaps that are negative when the contact begins to act count as zero.
+    ignores_start: bool,
+    has_begun: bool,
     /// How far disks may move before the next search, m: half of it.
     skin: f64,
     centres_old: Vec<Vector>,
     centres: Vec<Vector>,
     /// Centres at the last search; empty before the first.
     searched: Vec<Vector>,
+    /// Centres at the start, m, and the body of each disk.
+    initial: Vec<Vector>,
+    bodies: Vec<u32>,
     pairs: Vec<Pair>,
     near: Vec<Near>,
     before: Vec<Near>,
@@ -73,6 +77,8 @@ struct Near {
     pair: [u32; 2],
     /// Elastic slip, m.
     slip: f64,
+    /// Gap that counts as zero, m; not positive.
+    offset: f64,
 }
 
 impl Disk {
@@ -160,7 +166,7 @@ fn disks_under(side: &Side<'_>, positions: &[Vector], disks: &mut Vec<Disk>) {
 }
 
 impl Pinball {
-    fn of(setup: Setup<'_>) -> Self {
+    fn of(setup: &Setup<'_>) -> Self {
         let mut disks = Vec::new();
         let mut first = 0;
         for (index, side) in setup.sides.iter().enumerate() {
@@ -175,11 +181,15 @@ impl Pinball {
             search: (setup.search)(),
             penalty: setup.penalty(),
             thickness: setup.contact.interface.thickness,
-            reach: setup.terms.law.reach(),
+            reach: (setup.law)().reach(),
+            ignores_start: setup.ignores_start(),
+            has_begun: false,
             skin,
             centres_old: Vec::new(),
             centres: Vec::new(),
             searched: Vec::new(),
+            initial: disks.iter().map(|disk| disk.centre(setup.positions)).collect(),
+            bodies: disks.iter().map(|disk| setup.bodies[disk.nodes[0] as usize]).collect(),
             pairs: Vec::new(),
             near: Vec::new(),
             before: Vec::new(),
@@ -234,8 +244,8 @@ impl Pinball {
             };
             // What came from afar within the step may have passed: both ends of it count.
             if apart(&self.centres).min(apart(&self.centres_old)) <= ahead + one.radius + other.radius {
-                let slip = self.before.binary_search_by_key(&pair, |near| near.pair).map_or(0.0, |at| self.before[at].slip);
-                self.near.push(Near { pair, slip });
+                let known = self.before.binary_search_by_key(&pair, |near| near.pair).ok();
+                self.near.push(known.map_or(Near { pair, ..Near::default() }, |at| self.before[at]));
             }
         }
         self.searched.clone_from(&self.centres);
@@ -247,25 +257,37 @@ impl Formulation for Pinball {
         self.follow(scene.sweep);
         let side = if self.meets_itself() { 0.0 } else { 1.0 };
         let positions = scene.sweep.new;
-        for near in &self.near {
+        for near in &mut self.near {
             let [one, other] = near.pair.map(|disk| &self.disks[disk as usize]);
             let [a, b] = near.pair.map(|disk| self.centres[disk as usize]);
             let away = [a[0] - b[0], a[1] - b[1]];
             let distance = away[0].hypot(away[1]);
             // Disks in one place have no direction: any will do.
             let normal = if distance > 0.0 { [away[0] / distance, away[1] / distance] } else { [1.0, 0.0] };
-            let gap = distance - one.radius - other.radius - self.thickness;
+            let [mine, theirs] = near.pair.map(|disk| disk as usize);
+            let own = self.bodies[mine] == self.bodies[theirs];
+            let touching = one.radius + other.radius;
+            let mut gap = distance - touching - self.thickness;
+            if own {
+                // A body keeps no more distance from itself than half of what it had.
+                let [a, b] = [mine, theirs].map(|disk| self.initial[disk]);
+                let had = (a[0] - b[0]).hypot(a[1] - b[1]) - touching;
+                gap += (self.thickness + self.reach - 0.5 * had.max(0.0)).max(0.0);
+            }
+            let offset = if self.has_begun { relaxed(near.offset, gap) } else { gap.min(0.0) };
+            near.offset = if self.ignores_start || own { offset } else { 0.0 };
             let area = one.length.min(other.length);
             let stiffness = area * penalty::pressure(self.penalty, one.stiffness, other.stiffness);
             // Friction acts along t at both centres; each element takes the part of the couple that its radius has in the distance.
-            let part = distance / (one.radius + other.radius);
+            let part = distance / touching;
             let mut ends = [End::default(); 8];
             let (mine, theirs) = (one.ends(positions, 1.0, part * one.radius), other.ends(positions, -1.0, part * other.radius));
             ends[..one.count].copy_from_slice(&mine[..one.count]);
             ends[one.count..one.count + other.count].copy_from_slice(&theirs[..other.count]);
-            let spring = Spring { normal, gap, stiffness, area, side, slip: near.slip, ..Spring::default() };
+            let spring = Spring { normal, gap: gap - near.offset, stiffness, area, side, slip: near.slip, ..Spring::default() };
             springs.push(spring, &ends[..one.count + other.count]);
         }
+        self.has_begun = true;
     }
 
     fn remember(&mut self, solved: &[Spring]) {
@@ -313,17 +335,17 @@ mod tests {
         for (size, elements) in [([8.0, 1.0], [2, 1]), ([4.0, 6.0], [4, 2]), ([3.0, 0.5], [5, 1])] {
             let body = rectangle([0.0, 0.0], size, elements);
             let disks = disks_of(&body);
-            // Heights of the surface of disks above the middle of the body.
+            // The surface as a disk of the same size sees it.
             for k in 0..200 {
                 let x = size[0] * (k as f64 + 0.5) / 200.0;
                 let top = disks.iter().filter_map(|disk| {
-                    let [cx, cy] = disk.centre(&body.positions);
-                    let root = disk.radius * disk.radius - (x - cx) * (x - cx);
-                    (root >= 0.0).then(|| cy + root.sqrt())
+                    let ([cx, cy], reach) = (disk.centre(&body.positions), 2.0 * disk.radius);
+                    let square = reach * reach - (x - cx) * (x - cx);
+                    (square >= 0.0).then(|| cy + square.sqrt() - disk.radius)
                 });
                 let top = top.fold(f64::NEG_INFINITY, f64::max);
                 let diameter = disks.iter().map(|disk| 2.0 * disk.radius).fold(0.0, f64::max);
-                assert!(top <= size[1] * (1.0 + 1e-12) && top > size[1] - 0.75 * diameter, "{size:?} {elements:?} at {x}: {top}");
+                assert!(top <= size[1] * (1.0 + 1e-12) && top > size[1] - 0.25 * diameter, "{size:?} {elements:?} at {x}: {top}");
             }
         }
     }

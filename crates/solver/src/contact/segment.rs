@@ -12,8 +12,9 @@
 
 use super::formulation::{FormulationKind, Setup};
 use super::law::{Law, penalty};
+use super::node_segment::relaxed;
 use super::springs::{End, Spring, Springs};
-use super::tracker::Tracker;
+use super::tracker::{Certificate, SearchReport, Tracker};
 use super::{Formulation, Scene, Vector};
 use crate::mesh::surface::{NONE, Surface};
 use crate::model::{ContactLaw, Penalty};
@@ -23,10 +24,7 @@ pub const KIND: FormulationKind = FormulationKind {
     name: "segment",
     doc: "segments against segments, integrated over their common part: passes the contact patch test on any meshes",
     source: "Papadopoulos and Taylor (1992); common plane as in Puso and Laursen (2004)",
-    make: |setup| {
-        setup.no_stiffness_per_node()?;
-        Ok(Box::new(Segment::of(setup)))
-    },
+    make: |setup| Ok(Box::new(Segment::of(setup))),
 };
 
 /// Place (0 to 1) and weight of integration points.
@@ -51,16 +49,38 @@ pub struct Segment {
     thickness: f64,
     /// Largest gap at which the law pushes, m.
     reach: f64,
+    start: Start,
     /// Pairs of this step, ascending.
     pairs: Vec<[u32; 2]>,
-    /// Their common parts, with the pressure per depth (Pa/m).
-    commons: Vec<([u32; 2], Common, f64)>,
+    /// Those that have a common part.
+    commons: Vec<Meeting>,
     /// Nodes that pairs join, as a forest by index of the first surface's nodes, then of the second's; and the least energy per area at ends in each tree, J/m².
     tree: Vec<u32>,
     least: Vec<f64>,
     /// Pairs with springs in this step, and in the last one.
     facing: Vec<Facing>,
     before: Vec<Facing>,
+}
+
+/// What is known of the beginning.
+struct Start {
+    /// Whether gaps that are negative when the contact begins to act count as zero.
+    ignored: bool,
+    has_begun: bool,
+    /// Initial positions (m) and body of each node: only where surfaces keep a distance.
+    positions: Vec<Vector>,
+    bodies: Vec<u32>,
+}
+
+/// Two segments with a common part.
+#[derive(Clone, Copy)]
+struct Meeting {
+    pair: [u32; 2],
+    common: Common,
+    /// Pressure per depth, Pa/m.
+    pressure: f64,
+    /// Distance that they keep, m.
+    distance: f64,
 }
 
 /// What is known of a surface beyond its tracking.
@@ -85,6 +105,8 @@ struct Facing {
     pair: [u32; 2],
     length: f64,
     slips: [f64; 2],
+    /// Gaps that count as zero, m; not positive.
+    offsets: [f64; 2],
 }
 
 impl Chain {
@@ -124,12 +146,18 @@ impl Segment {
         let passes = setup.both_passes();
         // With springs that don't give way two points a pair were more conditions than the nodes can meet.
         let rule = if matches!(setup.contact.interface.law, ContactLaw::Multiplier) { ONE } else { TWO };
-        let (penalty, thickness, reach) = (setup.penalty(), setup.contact.interface.thickness, setup.terms.law.reach());
-        let (positions, search, law) = (setup.positions, (setup.search)(), setup.terms.law);
+        let law = (setup.law)();
+        let (penalty, thickness, reach) = (setup.penalty(), setup.contact.interface.thickness, law.reach());
         let chains: Vec<Chain> = setup.sides.iter().map(|side| Chain::new(&side.target.surface, side.segments.clone())).collect();
         let count = chains.iter().map(|chain| chain.depth.len()).sum();
-        let targets = setup.sides.into_iter().map(|side| side.target).collect();
-        let tracker = Tracker::new(targets, passes, search, positions);
+        let at_a_distance = thickness + reach > 0.0;
+        let start = Start {
+            ignored: setup.ignores_start(),
+            positions: if at_a_distance { setup.positions.to_vec() } else { Vec::new() },
+            bodies: if at_a_distance { setup.bodies.to_vec() } else { Vec::new() },
+            has_begun: false,
+        };
+        let tracker = setup.tracker(passes);
         Self {
             tracker,
             chains,
@@ -138,6 +166,7 @@ impl Segment {
             rule,
             thickness,
             reach,
+            start,
             pairs: Vec::new(),
             commons: Vec::new(),
             tree: vec![0; count],
@@ -202,20 +231,35 @@ impl Segment {
         Some(common)
     }
 
-    /// Elastic slip of the points of a pair: what they had, or what its first segment had in the mean.
-    fn slips(&self, pair: [u32; 2]) -> [f64; 2] {
+    /// Elastic slips and offsets of the points of a pair: what they had, or what its first segment had in the mean.
+    fn kept(&self, pair: [u32; 2], length: f64) -> Facing {
         if let Ok(at) = self.before.binary_search_by_key(&pair, |facing| facing.pair) {
-            return self.before[at].slips;
+            return Facing { length, ..self.before[at] };
         }
         let first = self.before.partition_point(|facing| facing.pair[0] < pair[0]);
         let same = self.before[first..].iter().take_while(|facing| facing.pair[0] == pair[0]);
-        let (mut sum, mut length) = (0.0, 0.0);
+        let (mut sums, mut whole) = ([0.0; 2], 0.0);
         for facing in same {
-            let mean = facing.slips[..self.rule.len()].iter().sum::<f64>() / self.rule.len() as f64;
-            sum += facing.length * mean;
-            length += facing.length;
+            let part = facing.length / self.rule.len() as f64;
+            for k in 0..self.rule.len() {
+                sums = [sums[0] + part * facing.slips[k], sums[1] + part * facing.offsets[k]];
+            }
+            whole += facing.length;
         }
-        if length > 0.0 { [sum / length; 2] } else { [0.0; 2] }
+        let [slip, offset] = if whole > 0.0 { sums.map(|sum| sum / whole) } else { [0.0; 2] };
+        Facing { pair, length, slips: [slip; 2], offsets: [offset; 2] }
+    }
+
+    /// Distance that two segments keep, m. A body keeps no more distance from itself than half of what it had: neighbours along a surface are near, and stay so.
+    fn distance(&self, common: &Common) -> f64 {
+        let Start { positions, bodies, .. } = &self.start;
+        let [[a, _], [b, _]] = common.nodes;
+        if bodies.is_empty() || bodies[a as usize] != bodies[b as usize] {
+            return self.thickness;
+        }
+        let apart = common.nodes[0].iter().flat_map(|&a| common.nodes[1].map(|b| minus(positions[a as usize], positions[b as usize])));
+        let nearest = apart.map(|apart| dot(apart, apart)).fold(f64::INFINITY, f64::min).sqrt();
+        self.thickness - (self.thickness + self.reach - 0.5 * nearest).max(0.0)
     }
 }
 
@@ -223,7 +267,6 @@ impl Segment {
     /// Energy (J/m²) and pressure (Pa) of the law at a gap.
     fn density(&self, gap: f64, pressure: f64) -> [f64; 2] {
         let spring = Spring { stiffness: pressure, area: 1.0, ..Spring::default() };
-        let gap = gap - self.thickness;
         let small = 1e-6 * gap.abs();
         // The slope of the energy by differences: exact for parabolas, and all laws are made of them.
         let slope = |small: f64| 0.5 * (self.law.stored(&spring, gap - small) - self.law.stored(&spring, gap + small)) / small;
@@ -242,6 +285,29 @@ impl Segment {
         root(&mut self.tree, at)
     }
 
+    /// Adds the springs of a pair.
+    fn connect(&mut self, Meeting { pair, common, pressure, distance }: Meeting, springs: &mut Springs) {
+        let at = self.root(pair);
+        let least = self.least[at as usize];
+        let mut facing = self.kept(pair, common.length);
+        for (k, &[place, weight]) in self.rule.iter().enumerate() {
+            let (gap, mut ends) = common.point(place);
+            let gap = gap - distance;
+            let offset = if self.start.has_begun { relaxed(facing.offsets[k], gap) } else { gap.min(0.0) };
+            facing.offsets[k] = if self.start.ignored { offset } else { 0.0 };
+            let gap = gap - facing.offsets[k];
+            let [energy, push] = self.density(gap, pressure);
+            if energy > least && push > 0.0 {
+                common.vary_area(&mut ends, -(energy - least) / push);
+            }
+            let (normal, area) = (common.normal, weight * common.area);
+            let side = if self.chains.len() == 1 { 0.0 } else { 1.0 };
+            let (stiffness, slip) = (pressure * area, facing.slips[k]);
+            springs.push(Spring { normal, gap, stiffness, area, side, slip, ..Spring::default() }, &ends);
+        }
+        self.facing.push(facing);
+    }
+
     /// Joins the pairs that share nodes to regions, and finds the least energy per area at ends of common parts in each.
     fn join(&mut self) {
         for (i, root) in self.tree.iter_mut().enumerate() {
@@ -249,7 +315,7 @@ impl Segment {
         }
         self.least.fill(f64::INFINITY);
         for index in 0..self.commons.len() {
-            let (pair, ..) = self.commons[index];
+            let pair = self.commons[index].pair;
             let first = self.root(pair);
             for (k, end) in [(0, 1), (1, 0), (1, 1)] {
                 let at = self.place(pair, k, end);
@@ -259,10 +325,10 @@ impl Segment {
             }
         }
         for index in 0..self.commons.len() {
-            let (pair, common, pressure) = self.commons[index];
+            let Meeting { pair, common, pressure, distance } = self.commons[index];
             let at = self.root(pair) as usize;
             for [gap, ..] in common.ends {
-                self.least[at] = self.least[at].min(self.density(gap, pressure)[0]);
+                self.least[at] = self.least[at].min(self.density(gap - distance, pressure)[0]);
             }
         }
     }
@@ -285,30 +351,25 @@ impl Formulation for Segment {
             let pair = self.pairs[index];
             if let Some(common) = self.common(pair, scene.sweep.new) {
                 let [own, other] = [0, 1].map(|k| self.chains[surfaces[k]].stiffness[pair[k] as usize]);
-                self.commons.push((pair, common, penalty::pressure(self.penalty, own, other)));
+                let pressure = penalty::pressure(self.penalty, own, other);
+                self.commons.push(Meeting { pair, pressure, distance: self.distance(&common), common });
             }
         }
         self.join();
         std::mem::swap(&mut self.facing, &mut self.before);
         self.facing.clear();
-        let side = if self.chains.len() == 1 { 0.0 } else { 1.0 };
         for index in 0..self.commons.len() {
-            let (pair, common, pressure) = self.commons[index];
-            let at = self.root(pair);
-            let least = self.least[at as usize];
-            let slips = self.slips(pair);
-            for (&[place, weight], slip) in self.rule.iter().zip(slips) {
-                let (gap, mut ends) = common.point(place);
-                let [energy, push] = self.density(gap, pressure);
-                if energy > least && push > 0.0 {
-                    common.vary_area(&mut ends, -(energy - least) / push);
-                }
-                let (normal, area) = (common.normal, weight * common.area);
-                let stiffness = pressure * area;
-                springs.push(Spring { normal, gap: gap - self.thickness, stiffness, area, side, slip, ..Spring::default() }, &ends);
-            }
-            self.facing.push(Facing { pair, length: common.length, slips });
+            self.connect(self.commons[index], springs);
         }
+        self.start.has_begun = true;
+    }
+
+    fn certificate(&self) -> Certificate {
+        self.tracker.certificate()
+    }
+
+    fn search_report(&self) -> Option<SearchReport> {
+        Some(self.tracker.search_report())
     }
 
     fn remember(&mut self, solved: &[Spring]) {

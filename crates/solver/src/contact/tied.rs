@@ -8,13 +8,14 @@
 //! Nodes that are free, and those whose ties are gone, are in ordinary contact with the same surface.
 
 use super::formulation::{FormulationKind, Setup};
-use super::node_segment::{NodeSegment, ends};
+use super::node_segment::{NodeSegment, PassInput, ends};
 use super::projection::node_segment::{Projection, Target};
 use super::search::{Query, Search};
 use super::springs::{Spring, Springs};
+use super::tracker::{Certificate, SearchReport};
 use super::{Formulation, Scene, Vector, length};
 use crate::error::Fault;
-use crate::model::{self, ContactLaw};
+use crate::model;
 
 /// What makes contacts with `tied`; it stands in for the formulation.
 pub const KIND: FormulationKind = FormulationKind {
@@ -49,8 +50,7 @@ pub struct Tied {
 struct Unborn {
     search: Box<dyn Search<2>>,
     nodes: Vec<u32>,
-    /// Stiffness (N/m per metre of depth) and tributary length (m) of each node.
-    springs: Vec<[f64; 2]>,
+    input: PassInput,
     thickness: f64,
 }
 
@@ -71,32 +71,15 @@ struct Tie {
 
 impl Tied {
     fn of(setup: Setup<'_>) -> Result<Self, Fault> {
-        let slave = match setup.contact.formulation {
-            model::Formulation::DoublePass => 0,
-            model::Formulation::SinglePass { slave } => slave.min(1),
-            other => {
-                let message = format!("ties bind nodes to segments, \"{}\" has no slave nodes", other.name());
-                return Err(Fault::new("formulation", message, "leave `formulation` out, or take \"single_pass\""));
-            }
-        };
-        if setup.sides.len() == 1 {
-            return Err(Fault::new("tied", "a body can't be tied to itself", "name the two surfaces with `between`"));
-        }
-        if matches!(setup.contact.interface.law, ContactLaw::PressureGap { .. }) {
-            return Err(Fault::new(
-                "law",
-                "a table of pressures only pushes, a tie pulls too",
-                "take the law \"penalty\" or \"multiplier\"",
-            ));
-        }
+        let slave = if let model::Formulation::SinglePass { slave } = setup.contact.formulation { slave.min(1) } else { 0 };
         let target = setup.sides[1 - slave].target.clone();
         let nodes = setup.sides[slave].target.surface.nodes.clone();
-        let other = setup.sides[1 - slave].softest();
-        let springs =
-            (0..nodes.len()).map(|index| [setup.node_stiffness(slave, index, other, 1), setup.sides[slave].nodes[index].0]).collect();
+        // The element that a node is bound to counts, not the softest of its part.
+        let moduli = setup.sides[1 - slave].segments.clone();
+        let input = PassInput { slaves: setup.slaves(slave, 1), per_modulus: setup.per_modulus(slave, 1), moduli };
         let interface = &setup.contact.interface;
         let birth = interface.active[0];
-        let unborn = Unborn { search: (setup.search)(), nodes, springs, thickness: interface.thickness };
+        let unborn = Unborn { search: (setup.search)(), nodes, input, thickness: interface.thickness };
         let (strength, terms, side) = (setup.contact.tied.unwrap_or(f64::INFINITY), setup.tie_terms, [1.0, -1.0][slave]);
         let (positions, bound) = (setup.positions, vec![false; unborn.nodes.len()]);
         let loose = NodeSegment::of(setup, [&[(0, 1)], &[(1, 0)]][slave]);
@@ -115,7 +98,7 @@ impl Tied {
 
     /// Binds what is near.
     fn bind(&mut self, positions: &[Vector]) {
-        let Some(Unborn { mut search, nodes, springs, thickness }) = self.unborn.take() else { return };
+        let Some(Unborn { mut search, nodes, input, thickness }) = self.unborn.take() else { return };
         let segments = &self.target.surface.segments;
         let longest = segments.iter().map(|&segment| length(segment, positions)).fold(0.0, f64::max);
         let query = Query {
@@ -130,7 +113,8 @@ impl Tied {
         let mut best: Option<(f64, Tie)> = None;
         for (index, pair) in pairs.iter().enumerate() {
             let node = nodes[pair.slave as usize];
-            let [stiffness, area] = springs[pair.slave as usize];
+            let slave = pair.slave as usize;
+            let (stiffness, area) = (input.stiffness(slave, pair.facet), input.slaves[slave].area);
             if let Some([along, gap, whole]) = place(positions, node, segments[pair.facet as usize])
                 && self.target.surface.nodes.binary_search(&node).is_err()
             {
@@ -201,6 +185,14 @@ impl Formulation for Tied {
             }
             holds
         });
+    }
+
+    fn certificate(&self) -> Certificate {
+        self.loose.certificate()
+    }
+
+    fn search_report(&self) -> Option<SearchReport> {
+        self.loose.search_report()
     }
 
     fn freed(&self) -> f64 {

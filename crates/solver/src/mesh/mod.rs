@@ -210,12 +210,49 @@ impl Mesh<2> {
         self.points.get(name).cloned()
     }
 
+    /// Body of each node, from 0: what is joined by elements, of whatever parts, is one body. Bodies are numbered by their lowest nodes.
+    #[must_use]
+    pub fn bodies(&self) -> Vec<u32> {
+        let mut root: Vec<u32> = (0..self.positions.len() as u32).collect();
+        fn top(root: &mut [u32], mut node: u32) -> u32 {
+            while root[node as usize] != node {
+                root[node as usize] = root[root[node as usize] as usize];
+                node = root[node as usize];
+            }
+            node
+        }
+        for cell in self.parts.iter().flat_map(PartMesh::cells) {
+            for pair in cell.windows(2) {
+                let (a, b) = (top(&mut root, pair[0]), top(&mut root, pair[1]));
+                root[a.max(b) as usize] = a.min(b);
+            }
+        }
+        let mut count = 0;
+        let mut numbers = vec![0; root.len()];
+        for node in 0..root.len() as u32 {
+            let first = top(&mut root, node);
+            numbers[node as usize] = if first == node { count } else { numbers[first as usize] };
+            count += u32::from(first == node);
+        }
+        numbers
+    }
+
     /// Outside of some parts together (all when `parts` is empty): an edge between two of them is inside.
     ///
     /// # Errors
     /// A fault without path when elements overlap.
     pub fn outside(&self, parts: &[String]) -> Result<Surface, Fault> {
         Surface::outside(self.parts.iter().filter(|part| parts.is_empty() || parts.contains(&part.name)).flat_map(PartMesh::cells))
+    }
+
+    /// As [`Mesh::outside`], without the segments that `leave_out` names.
+    ///
+    /// # Errors
+    /// As [`Mesh::outside`].
+    pub fn outside_without(&self, parts: &[String], leave_out: impl Fn([u32; 2]) -> bool) -> Result<Surface, Fault> {
+        let cells = || self.parts.iter().filter(|part| parts.is_empty() || parts.contains(&part.name)).flat_map(PartMesh::cells);
+        let segments = surface::exterior(cells())?;
+        Surface::new(segments.into_iter().filter(|&segment| !leave_out(segment)).collect(), cells())
     }
 
     /// Surface of a part (its whole outside), a `part.side` or a one-dimensional group, without the segments that `leave_out` names (those on

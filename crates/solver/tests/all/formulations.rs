@@ -15,6 +15,11 @@ fn laws() -> Vec<(&'static str, ContactLaw)> {
     vec![("penalty", ContactLaw::default()), ("pressure_gap", soft_layer), ("multiplier", ContactLaw::Multiplier)]
 }
 
+/// Multipliers have nothing to damp.
+fn damping_of(law: &ContactLaw, fraction: f64) -> f64 {
+    if *law == ContactLaw::Multiplier { 0.0 } else { fraction }
+}
+
 #[test]
 fn momentum_is_kept_and_the_books_close_with_every_law_and_formulation() {
     for formulation in FORMULATIONS {
@@ -31,18 +36,14 @@ fn momentum_is_kept_and_the_books_close_with_every_law_and_formulation() {
                     let what = format!("{formulation:?} {law_name} {name} {}", friction.is_some());
                     let column = format!("contact.force_x[{}]", model.contacts[0].name);
                     let pushed = history.column(&column).into_iter().fold(0.0, |largest, force| f64::max(largest, force.abs()));
-                    println!(
-                        "{what}: lin {:.1e} ang {:.1e} drift {:.2e} pen {:.1e} {segment} {:?}",
-                        summary.momentum_drift_linear.unwrap(),
-                        summary.momentum_drift_angular.unwrap(),
-                        summary.energy_drift,
-                        summary.penetration_max,
-                        simulation.sweeps()
-                    );
                     assert!(pushed > 0.0, "{what}: they met");
                     assert!(summary.momentum_drift_linear.unwrap() <= 1e-12, "{what}: {summary:?}");
                     assert!(summary.momentum_drift_angular.unwrap() <= 1e-12, "{what}: {summary:?}");
                     assert!(summary.ledger_residual <= 1e-12, "{what}: {summary:?}");
+                    // Where a single node carries a corner and leaves a face at an edge, its spring's energy goes.
+                    let drift = if name == "corner in a notch" && formulation == Formulation::DoublePass { 0.05 } else { 0.01 };
+                    assert!(summary.energy_drift <= drift, "{what}: {summary:?}");
+                    assert!(summary.penetration_max < 0.25 * segment, "{what}: {summary:?}");
                 }
             }
         }
@@ -129,7 +130,7 @@ fn turned(angle: f64, formulation: Formulation, law: &ContactLaw) -> Model {
     let block = mapped([5, 4], |u, v| turn([0.04 + 0.05 * u, 0.006 + 0.005 * u + 0.04 * v]));
     add_mesh(&mut model, "plate", plate, turn([0.0, 5.0]));
     add_mesh(&mut model, "block", block, turn([12.0, -25.0]));
-    let interface = Interface { law: law.clone(), friction: Some(FRICTION), damping: 0.1, ..Interface::default() };
+    let interface = Interface { law: law.clone(), friction: Some(FRICTION), damping: damping_of(law, 0.1), ..Interface::default() };
     model.contacts.push(Contact { formulation, interface, ..Contact::between("meet", "plate", "block") });
     model
 }
@@ -157,7 +158,6 @@ fn a_model_that_is_turned_as_a_whole_gives_turned_results() {
             for (a, b) in straight.iter().zip(&turned) {
                 worst = worst.max((a[0] - b[0]).abs()).max((a[1] - b[1]).abs());
             }
-            println!("{formulation:?} {name}: {worst:.1e}");
             assert!(worst < 1e-9, "{formulation:?} {name}: {worst}");
         }
     }
@@ -172,14 +172,14 @@ fn a_block_that_slides_is_braked_by_the_coefficient_times_what_presses() {
             add(&mut model, "block", rectangle([0.02, 0.02], [0.05, 0.03], [5, 3]), [8.0, 0.0]);
             model.constraints.push(Constraint { on: "slab.bottom".into(), velocity: [Some(0.0.into()), Some(0.0.into())] });
             model.loads.push(Load::Gravity { parts: vec!["block".into()], acceleration: [0.0, -1000.0] });
-            let interface = Interface { law: law.clone(), friction: Some(FRICTION), damping: 0.3, ..Interface::default() };
+            let interface =
+                Interface { law: law.clone(), friction: Some(FRICTION), damping: damping_of(&law, 0.3), ..Interface::default() };
             model.contacts.push(Contact { formulation, interface, ..Contact::between("slide", "slab.top", "block.bottom") });
             model.run.energy_limit = 1.0;
             let steps = every_step(&model);
             let end = 6e-3;
             let (dx, dy) = (steps.change("block.vx"), steps.change("block.vy"));
             let right = -0.3 * (1000.0 * end + dy);
-            println!("{formulation:?} {law:?}: {dx} {right}");
             assert!((dx / right - 1.0).abs() < 0.02, "{formulation:?} {law:?}: {dx}, Coulomb {right}");
         }
     }
@@ -233,12 +233,6 @@ fn ties_hold_up_to_their_strength_and_break_beyond_it() {
             let held = |strength: f64| {
                 let (simulation, history) = run(&tied_bars(strength, law.clone(), turned));
                 let summary = simulation.summary();
-                println!(
-                    "{law:?} {turned} {strength}: {:?} drift {:.1e} {:?}",
-                    summary.warnings,
-                    summary.energy_drift,
-                    simulation.sweeps()
-                );
                 assert!(summary.momentum_drift_linear.unwrap() < 1e-12 && summary.momentum_drift_angular.unwrap() < 1e-12, "{summary:?}");
                 assert!(summary.ledger_residual < 1e-12 && summary.energy_drift < 0.01, "{summary:?}");
                 (history.last("right.vx").hypot(history.last("right.vy")), summary.warnings)
@@ -284,16 +278,4 @@ fn ties_that_bind_nothing_or_a_node_twice_are_told() {
     twice.contacts.push(Contact { tied: Some(1.0), ..Contact::between("second", "right", "third") });
     let told = faults(&twice);
     assert!(told.contains("contact[1].tied") && told.contains("tied already by contact \"glue\"") && told.contains("node at ("), "{told}");
-    for formulation in [Formulation::Segment, Formulation::Pinball] {
-        let mut model = tied_bars(1.0, ContactLaw::default(), false);
-        model.contacts[0].formulation = formulation;
-        assert!(faults(&model).contains("contact[0].formulation"));
-        model.contacts[0].tied = None;
-        model.contacts[0].interface = Penalty::PerNode(1e9).into();
-        assert!(faults(&model).contains("contact[0].penalty"));
-    }
-    let mut model = tied_bars(1.0, laws().remove(1).1, false);
-    assert!(faults(&model).contains("contact[0].law"));
-    model.contacts[0].tied = None;
-    assert!(Simulation::new(&model, &Options::default()).is_ok());
 }

@@ -50,22 +50,59 @@ fn whole(least: u64) -> Vec<Bad> {
     all
 }
 
+/// Bad values of a table of velocities.
+fn driven(axes: &[&'static str]) -> Vec<Bad> {
+    let inside = |axis: &'static str| {
+        scalar(Range::Finite).into_iter().map(move |it| Bad { value: format!("{{ {} = {} }}", &axis[1..], it.value), at: axis, ..it })
+    };
+    let mut all: Vec<Bad> = axes.iter().flat_map(|axis| inside(axis)).collect();
+    all.extend([
+        bad("{ x = \"no curve\" }", ".x", "must be a velocity or the name of a curve"),
+        bad("{ x = \"rampp\" }", ".x", "there is no curve `rampp`"),
+        bad("{ z = 1 }", ".z", "has no component"),
+        bad("{}", "", "has no component"),
+        bad("5", "", "must be"),
+    ]);
+    all
+}
+
 /// Bad values of a kind; empty for tables.
 fn values(kind: Kind) -> Vec<Bad> {
     match kind {
-        Kind::Quantity(_, range) | Kind::Angle(range) | Kind::Stiffness(range) => scalar(range),
+        Kind::Quantity(_, range) | Kind::Angle(_, range) | Kind::Stiffness(range) => scalar(range),
         Kind::Vector(_, range) => {
             let inside = |it: Bad| Bad { value: format!("[1.0, {}]", it.value), at: "[1]", ..it };
             let mut all: Vec<Bad> = scalar(range).into_iter().map(inside).collect();
             all.extend(["5", "[1]", "[1, 2, 3]", "\"1 m\"", "true"].map(|value| bad(value, "", "must be a list of 2 numbers")));
             all
         }
-        Kind::Components(_, range) => {
-            let inside = |it: Bad| Bad { value: format!("{{ x = {} }}", it.value), at: ".x", ..it };
+        Kind::Quantities(_, range, least) => {
+            let inside = |it: Bad| Bad { value: format!("[{}]", vec![it.value; least].join(", ")), at: "[0]", ..it };
             let mut all: Vec<Bad> = scalar(range).into_iter().map(inside).collect();
-            all.extend([bad("{ z = 1 }", ".z", "has no component"), bad("{}", "", "has no component"), bad("5", "", "must be")]);
+            all.extend(["5", "[]", "\"1 m\"", "true", "{}"].map(|value| bad(value, "", "must be a list of")));
             all
         }
+        Kind::Values => vec![
+            bad("[nan]", "[0]", "is not a number"),
+            bad("[0, inf]", "[1]", "is not finite"),
+            bad("[\"1e999 m\"]", "[0]", "is not finite"),
+            bad("[\"1 m/s\", \"1 m\"]", "[1]", "is in m, but"),
+            bad("[\"1 parsec\"]", "[0]", "not a unit"),
+            bad("[true]", "[0]", "must be"),
+            bad("[]", "", "must be"),
+            bad("5", "", "must be"),
+        ],
+        Kind::Points(least) => {
+            let inside = |it: Bad| Bad { value: format!("[{}]", vec![format!("[0, {}]", it.value); least].join(", ")), at: "[0][1]", ..it };
+            let mut all: Vec<Bad> = scalar(Range::Finite).into_iter().map(inside).collect();
+            all.extend(["5", "[]", "[[0, 0]]", "\"1 m\"", "{}"].map(|value| bad(value, "", "must be a list of at least")));
+            all.push(bad("[[0, 0], 1]", "[1]", "must be a list of 2 numbers"));
+            all
+        }
+        Kind::Velocities => driven(&[".x", ".y"]),
+        Kind::Motion => driven(&[".x", ".y", ".rotation"]),
+        Kind::Rigid => driven(&[".x", ".y", ".rotation"]),
+        Kind::Drive(_) => Vec::new(),
         Kind::Integer(least) => whole(least),
         Kind::Integers(_, least) => {
             let inside = |it: Bad| Bad { value: format!("[1, {}]", it.value), at: "[1]", ..it };
@@ -111,7 +148,7 @@ fn try_all(key: &Key, path: &str, before: &[String]) -> usize {
 fn section_path(section: &Section) -> String {
     match section.form {
         Form::Repeated => format!("{}.0", section.name),
-        Form::Named => format!("{}.steel", section.name),
+        Form::Named => format!("{}.{}", section.name, if section.name == "curve" { "ramp" } else { "steel" }),
         Form::Single | Form::Inline => section.name.to_string(),
     }
 }
@@ -120,13 +157,14 @@ fn section_path(section: &Section) -> String {
 fn every_key_refuses_every_bad_value_at_its_place() {
     let mut count = 0;
     for section in SECTIONS {
-        for key in section.keys {
+        for key in section.all_keys() {
             let path = section_path(section);
             count += try_all(key, &format!("{path}.{}", key.name), &[]);
             if let Kind::Table(inner) = key.kind {
-                let index = ["ring", "rectangle", "disk", "mesh"].iter().position(|name| *name == inner.name).unwrap_or(0) % 3;
-                for key in inner.keys {
-                    count += try_all(key, &format!("part.{index}.{}.{}", inner.name, key.name), &[]);
+                let own = ["ring", "rectangle", "disk", "mesh"].iter().position(|name| *name == inner.name).map(|index| index % 3);
+                let index = own.or(["plane", "circle", "polyline"].iter().position(|name| *name == inner.name)).unwrap_or(0);
+                for key in inner.all_keys() {
+                    count += try_all(key, &format!("{}.{index}.{}.{}", section.name, inner.name, key.name), &[]);
                 }
             }
         }
@@ -148,16 +186,16 @@ fn every_parameter_of_every_law_refuses_every_bad_value() {
 #[test]
 fn every_required_key_is_missed() {
     for section in SECTIONS {
-        for key in section.keys.iter().filter(|key| key.need == Need::Required) {
+        for key in section.all_keys().filter(|key| key.need == Need::Required) {
             let first = format!("{} = ", key.name);
-            let header = section_path(section).replace(".0", "").replace(".steel", "");
+            let header = section.name;
             let text: String = {
                 let mut within = false;
                 SOUND
                     .lines()
                     .filter(|line| {
                         if line.starts_with('[') {
-                            within = line.trim_matches(['[', ']']).split('.').next() == Some(header.as_str());
+                            within = line.trim_matches(['[', ']']).split('.').next() == Some(header);
                         }
                         !(within && line.starts_with(&first))
                     })
@@ -176,7 +214,7 @@ fn every_required_key_is_missed() {
 #[test]
 fn every_default_is_sound() {
     for section in SECTIONS {
-        for key in section.keys {
+        for key in section.all_keys() {
             if let Need::Default(text) = key.need {
                 let set = format!("{}.{}={text}", section_path(section), key.name);
                 if let Err(diagnostics) = load_text("m", SOUND, Path::new("."), std::slice::from_ref(&set)) {

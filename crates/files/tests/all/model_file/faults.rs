@@ -41,7 +41,7 @@ const CASES: &[Case] = &[
             "9:1 [material.steel] has no key `yeild` | did you mean `yield`?",
         ],
     ),
-    ("[[wall]]", "[wall]", &["24:1 `wall` must be written as [[wall]] | in double brackets, because there may be several"]),
+    ("[[load]]", "[load]", &["32:1 `load` must be written as [[load]] | in double brackets, because there may be several"]),
     ("[run]", "[[run]]", &["2:1 `run` must be written as [run] | "]),
     (
         "[material.steel]",
@@ -129,7 +129,7 @@ const CASES: &[Case] = &[
         "[\"tube\", \"plate\"]",
         "[\"tube\", \"tube.inner\"]",
         &[
-            "23:11 `tube` and `tube.inner` share a surface: contact of a body with itself is not available | name two different bodies or two different sides",
+            "23:11 `tube` and `tube.inner` share a surface | name two different surfaces; for the contact of a body with itself use `bodies = [\"tube\"]`",
         ],
     ),
     (
@@ -159,7 +159,7 @@ const CASES: &[Case] = &[
         "[\"tube\", \"plate\"]\nformulation = \"single_pass\"\nslave = \"ball\"\n",
         &["25:9 the slave \"ball\" is not one of the two surfaces | take \"tube\" or \"plate\""],
     ),
-    ("normal = [1, 0]", "normal = [0.0, 0]", &["26:10 the normal is zero, so it has no direction | give a vector such as [1, 0]"]),
+    ("normal = [1, 0]", "normal = [0.0, 0]", &["26:20 the normal is zero, so it has no direction | give a vector such as [1, 0]"]),
     ("fixed = \"x\"", "fixed = [\"x\", \"z\"]", &["31:15 `fixed[1]` can't be \"z\" | did you mean `x`?"]),
     ("fixed = \"x\"", "", &["29:1 [[constraint]] needs `fixed` or `velocity` | add one of them"]),
     (
@@ -252,9 +252,9 @@ fn faults_of_overrides_point_at_them() {
     ] {
         assert_eq!(set(text), [expected], "{text}");
     }
-    let without = SOUND.replace("[[wall]]\nparts = [\"plate\"]\nnormal = [1, 0]\n", "");
-    let fault = &load_text("m", &without, Path::new("."), &["wall.0.normal=[1, 0]".to_string()]).unwrap_err().entries[0];
-    assert_eq!(fault.message, "the model has no [[wall]]");
+    let without = SOUND.replace("[[symmetry]]\nnormal = [1, 0]\n", "");
+    let fault = &load_text("m", &without, Path::new("."), &["symmetry.0.normal=[1, 0]".to_string()]).unwrap_err().entries[0];
+    assert_eq!(fault.message, "the model has no [[symmetry]]");
 }
 
 /// A folder with the smallest of Gmsh files: a square `block`, its upper side `upper`.

@@ -1,5 +1,6 @@
 //! The model file: what it reads, what it refuses and with which words, and that no text makes it panic.
 
+mod contact;
 mod described;
 mod faults;
 mod random;
@@ -33,9 +34,9 @@ material = "steel"
 disk = { centre = [0, 0.1], radius = "9 mm", elements = 4 }
 [[contact]]
 between = ["tube", "plate"]
-[[wall]]
+[[obstacle]]
 parts = ["plate"]
-normal = [1, 0]
+plane = { normal = [1, 0] }
 [[symmetry]]
 normal = [1, 0]
 [[constraint]]
@@ -49,6 +50,13 @@ part = "tube"
 point = [0, 0]
 [output]
 fields = 10
+[curve.ramp]
+time = [0, "1 ms"]
+value = [0, "5 m/s"]
+[[obstacle]]
+circle = { centre = [0, 1], radius = "10 mm" }
+[[obstacle]]
+polyline = { points = [[0, -1], [1, -1]] }
 "#;
 
 /// Reads a text with all its lines numbered from 1.

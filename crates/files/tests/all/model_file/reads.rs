@@ -2,7 +2,11 @@
 
 use super::{SOUND, changed, read};
 use embate_files::model_file::{load, load_text, reference_markdown, schema, starter};
-use embate_solver::model::{Cadence, Formulation, Load, Model, Output, Penalty, ProbeAt, Run, Shape, Symmetry};
+use embate_solver::model::describe::SECTIONS;
+use embate_solver::model::{
+    Cadence, ContactLaw, Drive, Formulation, Interface, Load, Model, Obstacle, Output, Partners, Penalty, PenaltySource, ProbeAt, Run,
+    Shape, Symmetry,
+};
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::path::{Path, PathBuf};
 
@@ -32,11 +36,11 @@ fn the_tube_plate_example_has_exactly_the_values_that_it_shows() {
     let contact = &model.contacts[0];
     assert_eq!(
         (contact.name.as_str(), contact.interface.law.clone(), contact.formulation),
-        ("impact", Penalty::PerNode(3.5e11), Formulation::DoublePass)
+        ("impact", ContactLaw::Penalty(Penalty::PerNode(3.5e11)), Formulation::DoublePass)
     );
     assert_eq!(contact.partners, Partners::Between(["tube".into(), "plate".into()]));
-    let wall = &model.obstacles[0];
-    assert_eq!((wall.name.as_str(), wall.parts.as_slice(), wall.normal), ("wall", &["plate".to_string()][..], [1.0, 0.0]));
+    let wall = Obstacle { parts: vec!["plate".into()], ..Obstacle::wall("wall", [0.0; 2], [1.0, 0.0]) };
+    assert_eq!(model.obstacles, [wall]);
     assert_eq!(model.symmetries, [Symmetry { parts: vec![], point: [0.0, 0.0], normal: [1.0, 0.0] }]);
     let probes: Vec<_> = model.probes.iter().map(|probe| (probe.name.as_str(), probe.at.clone())).collect();
     let point = |part: &str, point| ProbeAt::Point { part: part.to_string(), point };
@@ -55,8 +59,8 @@ fn what_is_left_out_has_the_default_of_the_solver() {
     assert_eq!(sound(&changed("[output]\nfields = 10\n", "")).output, Output::default());
     assert_eq!(model.parts[0].velocity, [0.0, 0.0]);
     assert_eq!(model.contacts[0].interface, Interface::default());
-    assert_eq!((model.contacts[0].name.as_str(), model.obstacles[0].name.as_str()), ("tube-plate", "wall"));
-    assert_eq!(model.constraints[0].velocity, [Some(0.0), None]);
+    assert_eq!((model.contacts[0].name.as_str(), model.obstacles[0].name.as_str()), ("tube-plate", "obstacle"));
+    assert_eq!(model.constraints[0].velocity, [Some(0.0.into()), None]);
     assert_eq!(model.loads, [Load::Gravity { parts: vec![], acceleration: [0.0, -9.81] }]);
     let full = sound(&changed("from = \"-90 deg\", to = \"90 deg\", ", ""));
     assert!(matches!(full.parts[0].shape, Shape::Ring { from: 0.0, to: TAU, .. }), "{:?}", full.parts[0].shape);
@@ -64,10 +68,13 @@ fn what_is_left_out_has_the_default_of_the_solver() {
 
 #[test]
 fn names_that_are_left_out_do_not_collide() {
-    let text = changed("[[wall]]\n", "[[wall]]\nname = \"wall2\"\nnormal = [0, 1]\n[[wall]]\nnormal = [0, 1]\n[[wall]]\n");
+    let text = changed(
+        "[[obstacle]]\n",
+        "[[obstacle]]\nname = \"obstacle2\"\nplane.normal = [0, 1]\n[[obstacle]]\nplane.normal = [0, 1]\n[[obstacle]]\n",
+    );
     let text = text.replace("[[symmetry]]", "[[contact]]\nbetween = [\"tube.outer\", \"plate.top\"]\n[[symmetry]]");
     let model = sound(&text);
-    assert_eq!(model.obstacles.iter().map(|wall| wall.name.as_str()).collect::<Vec<_>>(), ["wall2", "wall", "wall3"]);
+    assert_eq!(model.obstacles[..3].iter().map(|it| it.name.as_str()).collect::<Vec<_>>(), ["obstacle2", "obstacle", "obstacle3"]);
     assert_eq!(model.contacts[1].name, "tube_outer-plate_top");
 }
 
@@ -76,20 +83,24 @@ fn a_contact_can_be_single_pass_with_a_scaled_or_a_pressure_penalty() {
     let contact = |lines: &str| {
         sound(&changed("between = [\"tube\", \"plate\"]\n", &format!("between = [\"tube\", \"plate\"]\n{lines}\n"))).contacts[0].clone()
     };
+    let penalty = |lines: &str| match contact(lines).interface.law {
+        ContactLaw::Penalty(penalty) => penalty,
+        other => panic!("{other:?}"),
+    };
     assert_eq!(contact("formulation = \"single_pass\"\nslave = \"plate\"").formulation, Formulation::SinglePass { slave: 1 });
-    assert_eq!(contact("penalty_scale = 0.1").penalty, Penalty::Automatic { scale: 0.1 });
-    assert_eq!(contact("penalty = \"1e14 Pa/m\"").penalty, Penalty::Pressure(1e14));
-    assert_eq!(contact("penalty = \"1e14 N/m^3\"").penalty, Penalty::Pressure(1e14));
-    assert_eq!(contact("penalty = 3.5e11").penalty, Penalty::PerNode(3.5e11));
+    assert_eq!(penalty("penalty_scale = 0.1"), Penalty::Automatic { source: PenaltySource::WaveModulus, scale: 0.1 });
+    assert_eq!(penalty("penalty = \"1e14 Pa/m\""), Penalty::Pressure(1e14));
+    assert_eq!(penalty("penalty = \"1e14 N/m^3\""), Penalty::Pressure(1e14));
+    assert_eq!(penalty("penalty = 3.5e11"), Penalty::PerNode(3.5e11));
     assert_eq!(contact("search = \"boxes\"").search, "boxes");
 }
 
 #[test]
 fn fixed_and_moving_components_are_joined() {
-    let constraint = |lines: &str| sound(&changed("fixed = \"x\"", lines)).constraints[0].velocity;
-    assert_eq!(constraint("fixed = [\"x\", \"y\"]"), [Some(0.0), Some(0.0)]);
-    assert_eq!(constraint("fixed = \"x\"\nvelocity = { y = \"1 mm/s\" }"), [Some(0.0), Some(0.001)]);
-    assert_eq!(constraint("velocity.x = -2"), [Some(-2.0), None]);
+    let constraint = |lines: &str| sound(&changed("fixed = \"x\"", lines)).constraints[0].velocity.clone();
+    assert_eq!(constraint("fixed = [\"x\", \"y\"]"), [Some(0.0.into()), Some(0.0.into())]);
+    assert_eq!(constraint("fixed = \"x\"\nvelocity = { y = \"1 mm/s\" }"), [Some(0.0.into()), Some(0.001.into())]);
+    assert_eq!(constraint("velocity.x = -2"), [Some(Drive::Constant(-2.0)), None]);
 }
 
 #[test]
@@ -156,7 +167,7 @@ fn the_manual_in_the_docs_is_the_one_that_the_program_makes() {
 }
 
 #[test]
-fn the_schema_names_every_section() {
+fn the_schema_names_every_section_and_key() {
     let schema = schema();
     for name in [
         "\"run\"",
@@ -164,12 +175,18 @@ fn the_schema_names_every_section() {
         "\"material\"",
         "\"contact\"",
         "\"penalty_scale\"",
+        "\"friction_decay\"",
+        "\"rotation\"",
+        "\"curve\"",
         "\"elements\"",
         "\"2020-12\"",
         "\"quad4\"",
         "\"const\": \"j2\"",
     ] {
         assert!(schema.contains(name.trim_matches(|c| name == "\"2020-12\"" && c == '"')), "{name}");
+    }
+    for key in SECTIONS.iter().flat_map(|section| section.all_keys()) {
+        assert!(schema.contains(&format!("\"{}\": {{", key.name)), "{}", key.name);
     }
     assert_eq!(schema.matches('{').count(), schema.matches('}').count());
 }

@@ -7,11 +7,37 @@ pub mod plane;
 use super::node_segment::Slave;
 use super::springs::{End, Spring, Springs};
 use super::{Formulation, Scene, Vector};
+use crate::output::Outline;
+use crate::rigid::Bodies;
 
 /// Shape of an obstacle in the frame of its body.
 pub trait Shape: Send {
     /// Distance with sign (m, negative inside) and unit normal that points to the free side; `None` where the obstacle is not.
     fn project(&self, x: Vector) -> Option<(f64, Vector)>;
+}
+
+/// Outline of an obstacle in the frame of its body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OutlineShape {
+    /// Name of the obstacle.
+    pub name: String,
+    /// Its rigid body.
+    pub body: usize,
+    /// From point to point, the solid on the right, m.
+    pub points: Vec<Vector>,
+}
+
+impl OutlineShape {
+    /// Where it is now.
+    #[must_use]
+    pub fn now(&self, bodies: &Bodies) -> Outline<2> {
+        let body = bodies.state(self.body);
+        let place = |&point: &Vector| {
+            let arm = body.to_global(point);
+            [body.centre[0] + arm[0], body.centre[1] + arm[1]]
+        };
+        Outline { name: self.name.clone(), points: self.points.iter().map(place).collect() }
+    }
 }
 
 /// Nodes against an obstacle.

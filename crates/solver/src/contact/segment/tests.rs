@@ -2,7 +2,6 @@ use super::*;
 use crate::contact::formulation::Side;
 use crate::contact::projection::node_segment::Target;
 use crate::contact::search;
-use crate::contact::springs::{Tangential, Terms};
 use crate::contact::{Sweep, law};
 use crate::model;
 use crate::rigid::Bodies;
@@ -39,15 +38,16 @@ fn even(count: usize) -> Vec<f64> {
 /// Springs of the formulation at rest, with what acts in it.
 fn springs_of(model: &Facing2, penalty: Penalty) -> Springs {
     let contact = model::Contact { formulation: model::Formulation::Segment, interface: penalty.into(), ..model::Contact::default() };
-    let terms = Terms { law: Box::new(law::penalty::Penalty), tangential: Tangential::Free, damping: 0.0 };
     let side = |surface: &Surface| Side {
         segments: vec![1.0; surface.segments.len()],
         target: Target { surface: surface.clone(), mirrors: Vec::new() },
         ..Side::default()
     };
     let search = || (search::registry::<2>()[0].make)();
+    let law = || -> Box<dyn Law> { Box::new(law::penalty::Penalty) };
+    let bodies: Vec<u32> = (0..model.positions.len()).map(|node| u32::from(node >= model.surfaces[0].nodes.len())).collect();
     let sides = model.surfaces.iter().map(side).collect();
-    let setup = Setup { contact: &contact, sides, positions: &model.positions, terms, tie_terms: 0, search: &search };
+    let setup = Setup { contact: &contact, sides, positions: &model.positions, law: &law, tie_terms: 0, search: &search, bodies: &bodies };
     let mut formulation = (KIND.make)(setup).unwrap();
     let mut springs = Springs::new(model.positions.len(), 0);
     let sweep = Sweep { old: &model.positions, new: &model.positions };

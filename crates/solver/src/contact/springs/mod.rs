@@ -50,7 +50,7 @@ pub struct Spring {
     pub slip_new: f64,
     /// Slip rate in v^{n+½}, m/s, along the tangent.
     pub slip_rate: f64,
-    /// Whether friction is at its limit.
+    /// Whether friction is at its limit, or there is none.
     pub slides: bool,
     /// Energy at the whole step n, J/m, in step with ½ Σ m v^{n-1/2}·v^{n+1/2}: ½ (V(g^{n−½}) + V(g^{n+½})) + ½ F (g^{n+½} + g^{n−½} − 2 g^n).
     pub energy: f64,
@@ -422,7 +422,8 @@ impl Springs {
             let terms = &terms[group.terms];
             for i in begin..group.end {
                 let link = self.links[i];
-                let (spring, rates) = (self.list[i], self.rates(i, !matches!(terms.tangential, Tangential::Free)));
+                let spring = self.list[i];
+                let rates = self.rates(i, spring.force != 0.0 || !matches!(terms.tangential, Tangential::Free));
                 let spring_new = &mut self.list[i];
                 let gap_new = spring.gap + 0.5 * after * rates[0];
                 let (stored_old, stored_new) = (terms.law.stored(&spring, link.gap_old), terms.law.stored(&spring, gap_new));
@@ -445,7 +446,7 @@ impl Springs {
                 spring_new.lost.old[1] = -mean_step * inelastic * link.rate_old;
                 spring_new.slip_rate = rates[1];
                 match terms.tangential {
-                    Tangential::Free => {}
+                    Tangential::Free => spring_new.slides = spring.force != 0.0,
                     Tangential::Friction(_) => {
                         spring_new.lost.friction = -mean_step * spring.friction * slip_mean;
                         spring_new.lost.old[0] = -mean_step * spring.friction * link.slip_rate_old;

@@ -1,7 +1,10 @@
 //! Models made by code, each with one fault.
 
 use super::*;
-use crate::model::{Constraint, Drive, ImportedMesh, Material, MeshGroup, Obstacle, Symmetry};
+use crate::model::{
+    Constraint, Contact, ContactLaw, Curve, Drive, Formulation, Friction, ImportedMesh, Load, Material, MeshGroup, Motion, Obstacle,
+    ObstacleShape, Partners, Penalty, Symmetry,
+};
 use std::sync::Arc;
 
 /// A sound model made by code: a ring, a block of a mesh, everything that acts on them.
@@ -29,11 +32,24 @@ fn sound() -> Model {
     model.parts = vec![part("ring", ring), part("block", Shape::Group { mesh: 0, group: "body".into() })];
     model.contacts = vec![Contact::between("hit", "ring.outer", "upper")];
     model.obstacles = vec![Obstacle::wall("wall", [0.0; 2], [1.0, 0.0])];
+    let times = vec![0.0, 1.0];
+    model.curves.insert("ramp".into(), Curve { values: times.clone(), times, dimension: None });
     model.symmetries = vec![Symmetry { normal: [1.0, 0.0], ..Symmetry::default() }];
     model.constraints = vec![Constraint { on: "upper".into(), velocity: [Some(0.0.into()), None] }];
     model.loads = vec![Load::Gravity { parts: vec![], acceleration: [0.0, -9.81] }];
     model.probes = vec![Probe { name: "A".into(), at: ProbeAt::Point { part: "ring".into(), point: [0.0; 2] } }];
     model
+}
+
+/// Friction of the sound model's contact.
+fn friction(model: &mut Model) -> &mut Friction {
+    model.contacts[0].interface.friction.get_or_insert(Friction {
+        coefficient: 0.3,
+        dynamic: None,
+        decay: 0.0,
+        viscosity: 0.0,
+        limit: f64::INFINITY,
+    })
 }
 
 /// The paths of the faults of a sound model after a change.
@@ -55,7 +71,7 @@ fn a_number_that_is_not_finite_is_found_wherever_it_is() {
         let Shape::Ring { centre, inner, outer, from, to, .. } = &mut model.parts[0].shape else { unreachable!("part 0 is the ring") };
         [&mut centre[1], inner, outer, from, to].into_iter().nth(which).expect("five numbers")
     }
-    let places: [(&str, Place); 16] = [
+    let places: [(&str, Place); 30] = [
         ("run.end", |m| &mut m.run.end),
         ("run.safety", |m| &mut m.run.safety),
         ("run.energy_limit", |m| &mut m.run.energy_limit),
@@ -77,6 +93,26 @@ fn a_number_that_is_not_finite_is_found_wherever_it_is() {
             Load::Gravity { acceleration, .. } => &mut acceleration[0],
             Load::Damping { .. } => unreachable!("it is gravity"),
         }),
+        ("part[0].spin", |m| &mut m.parts[0].spin),
+        ("contact[0].damping", |m| &mut m.contacts[0].interface.damping),
+        ("contact[0].thickness", |m| &mut m.contacts[0].interface.thickness),
+        ("contact[0].birth", |m| &mut m.contacts[0].interface.active[0]),
+        ("contact[0].friction", |m| &mut friction(m).coefficient),
+        ("contact[0].friction_dynamic", |m| friction(m).dynamic.insert(0.1)),
+        ("contact[0].friction_decay", |m| &mut friction(m).decay),
+        ("contact[0].friction_viscosity", |m| &mut friction(m).viscosity),
+        ("obstacle[0].plane.normal[0]", |m| match &mut m.obstacles[0].shape {
+            ObstacleShape::Plane { normal, .. } => &mut normal[0],
+            _ => unreachable!("it is a plane"),
+        }),
+        ("obstacle[0].reference[1]", |m| &mut m.obstacles[0].reference.insert([0.0; 2])[1]),
+        ("obstacle[0].mass", |m| {
+            m.obstacles[0].motion = Motion::default();
+            m.obstacles[0].mass.insert(1.0)
+        }),
+        ("obstacle[0].velocity[0]", |m| &mut m.obstacles[0].velocity[0]),
+        ("curve.ramp.time[1]", |m| &mut m.curves.get_mut("ramp").expect("ramp").times[1]),
+        ("curve.ramp.value[0]", |m| &mut m.curves.get_mut("ramp").expect("ramp").values[0]),
         ("probe[0].point[0]", |m| match &mut m.probes[0].at {
             ProbeAt::Point { point, .. } => &mut point[0],
             _ => unreachable!("the probe is at a point"),
@@ -87,6 +123,11 @@ fn a_number_that_is_not_finite_is_found_wherever_it_is() {
             let found = paths(|model| *place(model) = value);
             assert!(found.iter().any(|it| it == path), "{path} = {value}: {found:?}");
         }
+    }
+    for value in [f64::NAN, f64::NEG_INFINITY] {
+        assert_eq!(paths(|model| model.contacts[0].tied = Some(value)), ["contact[0].tie_strength"]);
+        assert_eq!(paths(|model| friction(model).limit = value), ["contact[0].friction_limit"]);
+        assert_eq!(paths(|model| model.contacts[0].interface.active[1] = value), ["contact[0].death"]);
     }
     for penalty in [Penalty::PerNode(f64::NAN), Penalty::Pressure(-1.0)] {
         assert_eq!(paths(|model| model.contacts[0].interface = penalty.into()), ["contact[0].penalty"]);
@@ -122,4 +163,18 @@ fn faults_that_only_code_can_make_are_found() {
     assert_eq!(mesh(|mesh| mesh.groups[0].cells.clear()), ["part[1].mesh.group"]);
     assert_eq!(mesh(|mesh| mesh.positions[0][0] = f64::NAN), ["part[1].mesh.group"]);
     assert_eq!(Model::default().check().len(), 2);
+    let obstacle = |change: fn(&mut Obstacle)| paths(|model| change(&mut model.obstacles[0]));
+    assert_eq!(obstacle(|it| it.shape = ObstacleShape::Polyline { points: vec![[0.0; 2]] }), ["obstacle[0].polyline.points"]);
+    assert_eq!(obstacle(|it| it.motion = Motion::default()), ["obstacle[0].mass", "obstacle[0].inertia"]);
+    assert_eq!(obstacle(|it| it.motion.spin = Some(Drive::Curve("none".into()))), ["obstacle[0].motion.rotation"]);
+    assert_eq!(obstacle(|it| it.motion.spin = Some(Drive::Curve("ramp".into()))), Vec::<String>::new());
+    let contact = |change: fn(&mut Contact)| paths(|model| change(&mut model.contacts[0]));
+    let table = |it: &mut Contact| it.interface.law = ContactLaw::PressureGap { gaps: vec![0.0], pressures: vec![0.0, -1.0] };
+    assert_eq!(contact(table), ["contact[0].pressures[1]", "contact[0].gaps", "contact[0].pressures"]);
+    assert_eq!(contact(|it| it.partners = Partners::Bodies(vec!["ring".into(), "ring".into()])), ["contact[0].bodies[1]"]);
+    assert_eq!(contact(|it| it.tied = Some(0.0)), ["contact[0].tie_strength"]);
+    assert_eq!(paths(|model| friction(model).decay = 1.0), ["contact[0].friction_decay"]);
+    assert_eq!(paths(|model| friction(model).dynamic = Some(0.1)), ["contact[0].friction_dynamic"]);
+    let empty = |model: &mut Model| drop(model.curves.insert("empty".into(), Curve::default()));
+    assert_eq!(paths(empty), ["curve.empty.time"]);
 }

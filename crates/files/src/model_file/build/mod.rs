@@ -1,17 +1,17 @@
 //! Makes a [`Model`] from the records of a file: names that were left out, contradictions between keys, mesh files.
 //!
 //! Records come from `reader.rs`. Where a value is missing or faulty a placeholder stands in (NaN, empty, the largest count, a mesh that is not there): its fault is
-//! noted already, and faults that only follow from it are not shown.
+//! noted already, and faults that only follow from it are not shown. Contacts and obstacles are in `contact.rs`, what moves and is loaded in `motion.rs`.
+
+mod contact;
+mod motion;
 
 use super::diagnostics::Faults;
 use super::reader::{Document, Record};
 use super::units::shorten;
 use super::value::Datum;
 use crate::gmsh;
-use embate_solver::model::{
-    Cadence, Constraint, Contact, ContactLaw, Drive, Formulation, ImportedMesh, Interface, Load, Material, Model, Motion, Obstacle,
-    ObstacleShape, Output, Part, Partners, Penalty, PenaltySource, Probe, ProbeAt, Run, Shape, Symmetry,
-};
+use embate_solver::model::{Cadence, ImportedMesh, Material, Model, Output, Part, Partners, Probe, ProbeAt, Run, Shape, Symmetry};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -26,11 +26,12 @@ pub(super) fn model(document: &Document, name: &str, folder: &Path, faults: &mut
     let material = |record: &Record| Material { law: record.text("law"), parameters: record.numbers() };
     model.materials = document.section("material").iter().map(|record| (record.name.clone(), material(record))).collect();
     model.parts = parts;
-    model.contacts = document.section("contact").iter().map(|record| contact(record, faults)).collect();
-    model.obstacles = document.section("wall").iter().map(wall).collect();
+    model.contacts = document.section("contact").iter().map(|record| contact::contact(record, faults)).collect();
+    model.obstacles = document.section("obstacle").iter().map(|record| contact::obstacle(record, faults)).collect();
+    model.curves = document.section("curve").iter().map(|record| (record.name.clone(), motion::curve(record, faults))).collect();
     model.symmetries = document.section("symmetry").iter().map(symmetry).collect();
-    model.constraints = document.section("constraint").iter().map(|record| constraint(record, faults)).collect();
-    model.loads = document.section("load").iter().map(load).collect();
+    model.constraints = document.section("constraint").iter().map(|record| motion::constraint(record, faults)).collect();
+    model.loads = document.section("load").iter().map(|record| motion::load(record, faults)).collect();
     model.probes = document.section("probe").iter().map(|record| probe(record, faults)).collect();
     model.output = output(&document.single("output"));
     name_the_nameless(&mut model);
@@ -55,8 +56,8 @@ fn part(record: &Record, meshes: &mut Meshes<'_>, faults: &mut Faults) -> Part {
         element: record.text("element"),
         shape: shape(record, meshes, faults),
         velocity: record.vector("velocity"),
-        spin: 0.0,
-        rigid: None,
+        spin: record.number("spin").unwrap_or(f64::NAN),
+        rigid: motion::rigid(record),
     }
 }
 
@@ -129,98 +130,8 @@ impl Meshes<'_> {
     }
 }
 
-fn penalty(record: &Record) -> Penalty {
-    match record.datum("penalty") {
-        Some(Datum::Penalty(penalty)) => *penalty,
-        _ => Penalty::Automatic { source: PenaltySource::WaveModulus, scale: record.number("penalty_scale").unwrap_or(1.0) },
-    }
-}
-
-fn contact(record: &Record, faults: &mut Faults) -> Contact {
-    let names = record.texts("between");
-    let between = [0, 1].map(|index| names.get(index).cloned().unwrap_or_default());
-    Contact {
-        name: record.text("name"),
-        formulation: formulation(record, &between, faults),
-        interface: Interface { law: ContactLaw::Penalty(penalty(record)), ..Interface::default() },
-        search: record.text("search"),
-        partners: Partners::Between(between),
-        tied: None,
-    }
-}
-
-fn formulation(record: &Record, between: &[String; 2], faults: &mut Faults) -> Formulation {
-    let single = record.text("formulation") == "single_pass";
-    let known = record.datum("formulation").is_some() && record.datum("between").is_some();
-    let place = record.written("slave");
-    match (single, place) {
-        (false, None) => Formulation::DoublePass,
-        (false, Some(place)) => {
-            if known {
-                let help = "add `formulation = \"single_pass\"`, or leave `slave` out";
-                let message = "`slave` is given, but in a double pass contact both surfaces are slaves";
-                faults.value("rule", &record.key("slave"), place, (message.to_string(), help.to_string()));
-            }
-            Formulation::DoublePass
-        }
-        (true, None) => {
-            let help = format!("add `slave = {}`: usually the surface with the finer mesh or the softer body", shorten(&between[0]));
-            faults.beside("rule", &record.path, record.written("formulation"), ("a single pass contact needs `slave`".to_string(), help));
-            Formulation::SinglePass { slave: 0 }
-        }
-        (true, Some(place)) => {
-            let slave = record.text("slave");
-            let index = between.iter().position(|name| *name == slave);
-            if index.is_none() && known && record.datum("slave").is_some() {
-                let message = format!("the slave {} is not one of the two surfaces", shorten(&slave));
-                let help = format!("take {} or {}", shorten(&between[0]), shorten(&between[1]));
-                faults.value("rule", &record.key("slave"), place, (message, help));
-            }
-            Formulation::SinglePass { slave: index.unwrap_or(0) }
-        }
-    }
-}
-
-fn wall(record: &Record) -> Obstacle {
-    Obstacle {
-        name: record.text("name"),
-        parts: record.texts("parts"),
-        shape: ObstacleShape::Plane { point: record.vector("point"), normal: record.vector("normal"), length: None },
-        motion: Motion::fixed(),
-        reference: None,
-        mass: None,
-        inertia: None,
-        velocity: [0.0; 2],
-        spin: 0.0,
-        interface: Interface { law: ContactLaw::Penalty(penalty(record)), ..Interface::default() },
-    }
-}
-
 fn symmetry(record: &Record) -> Symmetry {
     Symmetry { parts: record.texts("parts"), point: record.vector("point"), normal: record.vector("normal") }
-}
-
-fn constraint(record: &Record, faults: &mut Faults) -> Constraint {
-    let mut velocity = if let Some(Datum::Components(velocity)) = record.datum("velocity") { *velocity } else { [None, None] };
-    for axis in record.texts("fixed") {
-        let index = usize::from(axis == "y");
-        if velocity[index].is_some()
-            && let Some(place) = record.written("fixed")
-        {
-            let message = format!("component `{axis}` is both fixed and given a velocity");
-            faults.value("rule", &record.key("fixed"), place, (message, "leave it out of one of the two".to_string()));
-        }
-        velocity[index] = velocity[index].or(Some(0.0));
-    }
-    if velocity == [None, None] {
-        // Nothing sound was given: the reader has said so.
-        velocity = [Some(0.0), None];
-    }
-    Constraint { on: record.text("on"), velocity: velocity.map(|velocity| velocity.map(Drive::Constant)) }
-}
-
-fn load(record: &Record) -> Load {
-    Load::Gravity { parts: record.texts("parts"), acceleration: record.vector("gravity") }
 }
 
 fn probe(record: &Record, faults: &mut Faults) -> Probe {
@@ -253,21 +164,25 @@ fn output(record: &Record) -> Output {
     }
 }
 
-/// Names for contacts and walls that have none: the two surfaces' names, or `wall`, `wall2`, ...
+/// Names for contacts and obstacles that have none: the names of the surfaces or bodies, `all`, or `obstacle`, `obstacle2`, ...
 fn name_the_nameless(model: &mut Model) {
     let plain =
         |name: &str| -> String { name.chars().map(|c| if c.is_alphanumeric() || matches!(c, '_' | '-') { c } else { '_' }).collect() };
     let mut taken: BTreeSet<String> = model.contacts.iter().map(|contact| contact.name.clone()).collect();
     for contact in model.contacts.iter_mut().filter(|contact| contact.name.is_empty()) {
-        let Partners::Between(between) = &contact.partners else { continue };
-        let joined: String = format!("{}-{}", plain(&between[0]), plain(&between[1])).chars().take(60).collect();
+        let names: &[String] = match &contact.partners {
+            Partners::Between(between) => between,
+            Partners::Bodies(bodies) => bodies,
+        };
+        let joined: String = names.iter().map(|name| plain(name)).collect::<Vec<_>>().join("-").chars().take(60).collect();
+        let joined = if names.is_empty() { "all".to_string() } else { joined };
         contact.name = free(&joined, &taken);
         taken.insert(contact.name.clone());
     }
-    let mut taken: BTreeSet<String> = model.obstacles.iter().map(|wall| wall.name.clone()).collect();
-    for wall in model.obstacles.iter_mut().filter(|wall| wall.name.is_empty()) {
-        wall.name = free("wall", &taken);
-        taken.insert(wall.name.clone());
+    let mut taken: BTreeSet<String> = model.obstacles.iter().map(|obstacle| obstacle.name.clone()).collect();
+    for obstacle in model.obstacles.iter_mut().filter(|obstacle| obstacle.name.is_empty()) {
+        obstacle.name = free("obstacle", &taken);
+        taken.insert(obstacle.name.clone());
     }
 }
 

@@ -1,0 +1,116 @@
+//! What contacts leave on the surfaces: sliding distance and friction heat of every node, and pressure, gap and status at an output time.
+//!
+//! Springs come solved; fields go to the record. Each spring stands for a length of surface on both sides, and a node has its shares of the springs at it.
+
+use super::Vector;
+use super::springs::{Spring, Springs};
+use crate::mesh::surface::Surface;
+
+/// Sums over the run, and the outside that they belong to.
+#[derive(Clone, Debug, Default)]
+pub struct Traces {
+    outside: Surface,
+    /// Initial length of surface at each node, m; zero inside.
+    length: Vec<f64>,
+    /// Sliding distance of each node, m.
+    slip: Vec<f64>,
+    /// Friction work taken at each node, J/m.
+    heat: Vec<f64>,
+}
+
+/// State of the surface at a node.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct State {
+    /// Mean gap of the springs at the node by their shares, m; NaN where there is none.
+    pub gap: f64,
+    /// 0 open, 1 stick, 2 slip (also without friction).
+    pub status: f64,
+}
+
+impl Traces {
+    /// For `outside`, the outside of all bodies of a model without contacts an empty one; `positions` are the initial ones.
+    #[must_use]
+    pub fn new(outside: Surface, positions: &[Vector]) -> Self {
+        let mut length = vec![0.0; positions.len()];
+        for &segment in &outside.segments {
+            for node in segment {
+                length[node as usize] += 0.5 * super::length(segment, positions);
+            }
+        }
+        Self { outside, length, slip: vec![0.0; positions.len()], heat: vec![0.0; positions.len()] }
+    }
+
+    /// Adds what a solved spring did in an update of `time_step` (s).
+    pub fn mark(&mut self, springs: &Springs, spring: &Spring, time_step: f64) {
+        if spring.force == 0.0 {
+            return;
+        }
+        let slid = spring.slip_rate.abs() * time_step * spring.area;
+        for end in springs.ends(spring) {
+            let (node, share) = (end.at as usize, end.share.abs());
+            if let (Some(slip), Some(heat)) = (self.slip.get_mut(node), self.heat.get_mut(node)) {
+                if self.length[node] > 0.0 {
+                    *slip += share * slid / self.length[node];
+                }
+                *heat += 0.5 * share * spring.lost.friction;
+            }
+        }
+    }
+
+    /// Sliding distance of a node, m.
+    #[must_use]
+    pub fn slip(&self, node: usize) -> f64 {
+        self.slip[node]
+    }
+
+    /// Friction work taken at a node by initial surface, J/m².
+    #[must_use]
+    pub fn heat(&self, node: usize) -> f64 {
+        if self.length[node] > 0.0 { self.heat[node] / self.length[node] } else { 0.0 }
+    }
+
+    /// Contact pressure and shear stress (Pa) of every node, from the contact forces on the nodes (N/m) at their current positions: −f·n and f·t
+    /// by current length, t along the surface with the body on its right. In pairs; zero inside.
+    #[must_use]
+    pub fn tractions(&self, forces: &[Vector], positions: &[Vector]) -> Vec<[f64; 2]> {
+        let mut along = vec![[0.0; 2]; positions.len()];
+        let mut length = vec![0.0; positions.len()];
+        for &segment in &self.outside.segments {
+            let [a, b] = segment.map(|node| positions[node as usize]);
+            for node in segment {
+                along[node as usize][0] += 0.5 * (b[0] - a[0]);
+                along[node as usize][1] += 0.5 * (b[1] - a[1]);
+                length[node as usize] += 0.5 * super::length(segment, positions);
+            }
+        }
+        let traction = |((f, t), length): ((&Vector, &Vector), &f64)| {
+            let norm = (t[0] * t[0] + t[1] * t[1]).sqrt();
+            if norm == 0.0 {
+                return [0.0; 2];
+            }
+            let per = 1.0 / (norm * length);
+            // n = (−t₂, t₁)
+            [(f[0] * t[1] - f[1] * t[0]) * per, (f[0] * t[0] + f[1] * t[1]) * per]
+        };
+        forces.iter().zip(&along).zip(&length).map(traction).collect()
+    }
+
+    /// State of every node from the solved springs of the step.
+    #[must_use]
+    pub fn states(&self, springs: &Springs) -> Vec<State> {
+        let mut sums = vec![(0.0, 0.0, 0.0f64); self.length.len()];
+        for spring in &springs.list {
+            let status = if spring.force == 0.0 { 0.0 } else { 1.0 + f64::from(u8::from(spring.slides)) };
+            for end in springs.ends(spring) {
+                if let Some((gap, share, most)) = sums.get_mut(end.at as usize) {
+                    *gap += end.share.abs() * spring.gap;
+                    *share += end.share.abs();
+                    if end.share != 0.0 {
+                        *most = most.max(status);
+                    }
+                }
+            }
+        }
+        sums.into_iter().map(|(gap, share, status)| State { gap: if share > 0.0 { gap / share } else { f64::NAN }, status }).collect()
+    }
+}

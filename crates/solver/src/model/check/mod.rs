@@ -1,0 +1,299 @@
+//! Everything that can be told about a model before it is meshed: numbers, names, references, contradictions.
+//!
+//! Data comes from [`Model`], whoever made it; ranges come from [`describe`] and the registries, so that they stand in one place. All faults
+//! are returned at once, each with the path of its key. Parts are in `parts.rs`, contacts in `contact.rs`, what moves in `motion.rs`.
+
+mod contact;
+mod motion;
+mod parts;
+
+use super::describe::{self, out_of_range, suggestion};
+use super::reference::{Reference, excerpt};
+use super::{Cadence, Model, Part, Probe, ProbeAt, Shape};
+use crate::error::Fault;
+use crate::quantity::{Dimension, Range};
+use crate::{material, output};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Most field files of a run.
+const FRAMES_MAX: f64 = 1e6;
+/// Most rows of a history.
+const ROWS_MAX: f64 = 1e8;
+
+impl Model {
+    /// All faults that can be told without meshing; empty for a sound model. Paths are those of the model file, such as `part[0].ring.inner`.
+    #[must_use]
+    pub fn check(&self) -> Vec<Fault> {
+        let mut check = Check { model: self, faults: Vec::new() };
+        check.run();
+        check.materials();
+        check.curves();
+        check.parts();
+        check.contacts();
+        check.obstacles();
+        check.symmetries();
+        check.constraints();
+        check.loads();
+        check.probes();
+        check.output();
+        check.faults
+    }
+}
+
+struct Check<'a> {
+    model: &'a Model,
+    faults: Vec<Fault>,
+}
+
+impl Check<'_> {
+    fn fault(&mut self, path: impl Into<String>, message: impl Into<String>, help: impl Into<String>) {
+        self.faults.push(Fault::new(path, message, help));
+    }
+
+    /// A number against the range of its key.
+    fn number(&mut self, path: &str, value: f64) {
+        let (dimension, range) = describe::find(path).and_then(describe::Key::range).unwrap_or((Dimension::NONE, Range::Finite));
+        self.within(path, value, dimension, range);
+    }
+
+    fn within(&mut self, path: &str, value: f64, dimension: Dimension, range: Range) {
+        if !range.contains(value) {
+            let name = path.rsplit('.').next().unwrap_or(path);
+            let shown = format!("{value} {}", dimension.unit());
+            let (message, help) = out_of_range(name, shown.trim_end(), value, range);
+            self.fault(path, message, help);
+        }
+    }
+
+    fn vector(&mut self, path: &str, value: [f64; 2]) {
+        for (index, component) in value.into_iter().enumerate() {
+            self.number(&format!("{path}[{index}]"), component);
+        }
+    }
+
+    /// A vector that must have a direction.
+    fn direction(&mut self, path: &str, value: [f64; 2]) {
+        self.vector(path, value);
+        if value == [0.0, 0.0] {
+            self.fault(path, "the normal is zero, so it has no direction", "give a vector such as [1, 0]");
+        }
+    }
+
+    fn known(&mut self, path: &str, what: &str, name: &str, known: &[&str]) {
+        if !known.contains(&name) {
+            self.fault(path, format!("there is no {what} `{}`", excerpt(name)), suggestion(name, known));
+        }
+    }
+
+    /// Names of one section: not empty, plain, each once.
+    fn names<'n>(&mut self, section: &str, names: impl Iterator<Item = &'n str>) {
+        let mut seen = BTreeMap::new();
+        for (index, name) in names.enumerate() {
+            let path = format!("{section}[{index}].name");
+            self.name(&path, name);
+            if let Some(first) = seen.insert(name, index) {
+                seen.insert(name, first);
+                self.fault(path, format!("the name `{}` is taken by {section}[{first}]", excerpt(name)), "give each its own name");
+            }
+        }
+    }
+
+    fn name(&mut self, path: &str, name: &str) {
+        if let Err((message, help)) = name_is_plain(name) {
+            self.fault(path, message, help);
+        }
+    }
+
+    fn run(&mut self) {
+        let run = &self.model.run;
+        self.number("run.end", run.end);
+        self.number("run.safety", run.safety);
+        self.number("run.energy_limit", run.energy_limit);
+        if let Some(limit) = run.step_limit {
+            self.number("run.step_limit", limit);
+            if limit >= run.end && run.end > 0.0 {
+                self.fault("run.step_limit", "the step limit is not smaller than the end time, so no step could be taken", "");
+            }
+        }
+        if run.max_steps == Some(0) {
+            self.fault("run.max_steps", "`max_steps` must be at least 1, but it is 0", "leave it out for no limit");
+        }
+    }
+
+    fn materials(&mut self) {
+        let registry = material::registry();
+        let laws: Vec<&str> = registry.iter().map(|kind| kind.name).collect();
+        for (name, it) in &self.model.materials {
+            let path = format!("material.{name}");
+            self.name(&path, name);
+            let Some(kind) = registry.iter().find(|kind| kind.name == it.law) else {
+                self.known(&format!("{path}.law"), "law", &it.law, &laws);
+                continue;
+            };
+            let known: Vec<&str> = kind.parameters.iter().map(|parameter| parameter.name).collect();
+            for parameter in kind.parameters {
+                let path = format!("{path}.{}", parameter.name);
+                match it.parameters.get(parameter.name) {
+                    Some(value) => self.within(&path, *value, parameter.dimension, parameter.range),
+                    None if parameter.default.is_some() => {}
+                    None => self.fault(path, format!("law `{}` needs `{}`", it.law, parameter.name), parameter.doc),
+                }
+            }
+            for key in it.parameters.keys().filter(|key| !known.contains(&key.as_str())) {
+                self.fault(
+                    format!("{path}.{key}"),
+                    format!("law `{}` has no parameter `{}`", it.law, excerpt(key)),
+                    suggestion(key, &known),
+                );
+            }
+        }
+    }
+
+    /// A reference to a part, side or group.
+    fn reference(&mut self, path: &str, name: &str, dimension: Option<u8>) -> Option<Reference> {
+        match self.model.reference(name, dimension) {
+            Ok(found) => Some(found),
+            Err((message, help)) => {
+                if !self.may_be_missing(name) {
+                    self.fault(path, message, help);
+                }
+                None
+            }
+        }
+    }
+
+    /// Whether an unknown name may be one of a mesh that is not there: then its fault would only follow from the mesh's.
+    fn may_be_missing(&self, name: &str) -> bool {
+        let missing = |part: &&Part| matches!(part.shape, Shape::Group { mesh, .. } if mesh >= self.model.meshes.len());
+        if !self.model.parts.iter().any(|part| missing(&part)) {
+            return false;
+        }
+        let first = name.split('.').next().unwrap_or(name);
+        let known: Vec<&str> = self.model.parts.iter().filter(|part| !missing(part)).map(|part| part.name.as_str()).collect();
+        describe::nearest(first, known).is_none()
+    }
+
+    /// References to parts; each once.
+    fn part_list(&mut self, path: &str, parts: &[String]) {
+        let known: Vec<&str> = self.model.parts.iter().map(|part| part.name.as_str()).collect();
+        let mut seen = BTreeSet::new();
+        for (index, name) in parts.iter().enumerate() {
+            let path = format!("{path}[{index}]");
+            self.known(&path, "part", name, &known);
+            if !seen.insert(name) {
+                self.fault(path, format!("part `{}` is named twice", excerpt(name)), "name it once");
+            }
+        }
+    }
+
+    fn symmetries(&mut self) {
+        let model = self.model;
+        for (index, symmetry) in model.symmetries.iter().enumerate() {
+            let path = format!("symmetry[{index}]");
+            self.part_list(&format!("{path}.parts"), &symmetry.parts);
+            self.vector(&format!("{path}.point"), symmetry.point);
+            self.direction(&format!("{path}.normal"), symmetry.normal);
+        }
+    }
+
+    fn probes(&mut self) {
+        let model = self.model;
+        self.names("probe", model.probes.iter().map(|probe| probe.name.as_str()));
+        for (index, probe) in model.probes.iter().enumerate() {
+            self.probe(&format!("probe[{index}]"), probe);
+        }
+    }
+
+    fn probe(&mut self, path: &str, probe: &Probe) {
+        let known: Vec<&str> = self.model.parts.iter().map(|part| part.name.as_str()).collect();
+        match &probe.at {
+            ProbeAt::Point { part, point } => {
+                self.known(&format!("{path}.part"), "part", part, &known);
+                self.vector(&format!("{path}.point"), *point);
+            }
+            ProbeAt::Node { part, node } => {
+                self.known(&format!("{path}.part"), "part", part, &known);
+                let found = self.model.parts.iter().find(|it| it.name == *part);
+                if let Some(count) = found.and_then(|it| node_count(self.model, &it.shape))
+                    && *node as u128 >= count
+                {
+                    let help = format!("nodes are numbered from 0 to {}", count.saturating_sub(1));
+                    self.fault(
+                        format!("{path}.node"),
+                        format!("part `{}` has {count} nodes, so there is no node {node}", excerpt(part)),
+                        help,
+                    );
+                }
+            }
+            ProbeAt::Set { set } => {
+                self.reference(&format!("{path}.set"), set, None);
+            }
+        }
+    }
+
+    fn output(&mut self) {
+        let output = &self.model.output;
+        for (path, cadence, most) in [("output.fields", output.fields, FRAMES_MAX), ("output.history", output.history, ROWS_MAX)] {
+            let count = match cadence {
+                Cadence::Count(count) => count as f64,
+                Cadence::Interval(time) => self.model.run.end / time,
+            };
+            if count.is_finite() && count > most {
+                self.fault(
+                    path,
+                    format!("this would be written {count} times, more than {most}"),
+                    "give a smaller count or a longer interval",
+                );
+            }
+            match cadence {
+                Cadence::Count(0) => {
+                    self.fault(path, "there must be at least 1 interval, but it is 0", "give a count of 1 or more, or an interval")
+                }
+                Cadence::Count(_) => {}
+                Cadence::Interval(time) => self.number(path, time),
+            }
+        }
+        let known: Vec<&str> = output::FIELDS.iter().map(|kind| kind.name).collect();
+        for (index, name) in output.include.iter().enumerate() {
+            self.known(&format!("output.include[{index}]"), "field", name, &known);
+        }
+        if !output.picture_field.is_empty() {
+            self.known("output.picture_field", "field", &output.picture_field, &known);
+        }
+    }
+}
+
+/// Whether a name can stand in `part.side`, in column names and in file names.
+///
+/// # Errors
+/// What is wrong and what to do.
+pub fn name_is_plain(name: &str) -> Result<(), (String, String)> {
+    let help = "use letters, digits, `_` and `-`, at most 64 of them".to_string();
+    if name.is_empty() {
+        return Err(("the name is empty".to_string(), help));
+    }
+    if let Some(wrong) = name.chars().find(|c| !(c.is_alphanumeric() || matches!(c, '_' | '-'))) {
+        return Err((format!("the name `{}` has a character that names can't have: {wrong:?}", excerpt(name)), help));
+    }
+    if name.chars().count() > 64 {
+        return Err((format!("the name `{}` is too long", excerpt(name)), help));
+    }
+    Ok(())
+}
+
+/// Number of nodes, where it can be told without meshing.
+fn node_count(model: &Model, shape: &Shape) -> Option<u128> {
+    let grid = |first: u128, second: u128| Some(first.saturating_mul(second));
+    match shape {
+        Shape::Rectangle { elements, .. } => grid(elements[0] as u128 + 1, elements[1] as u128 + 1),
+        Shape::Ring { elements, .. } => grid(elements[0] as u128 + 1, elements[1] as u128 + u128::from(shape.sides().len() == 4)),
+        Shape::Disk { .. } => None,
+        Shape::Group { mesh, group } => {
+            let it = model.meshes.get(*mesh)?.groups.iter().find(|it| it.name == *group && it.dimension == 2)?;
+            Some(it.cells.iter().flatten().collect::<BTreeSet<_>>().len() as u128)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

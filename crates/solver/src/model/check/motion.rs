@@ -1,0 +1,251 @@
+//! Faults of what moves or is held: obstacles, rigid parts, constraints, loads, and the curves that they follow.
+
+use super::Check;
+use crate::model::describe::suggestion;
+use crate::model::reference::{Reference, excerpt};
+use crate::model::{Drive, Load, Motion, Obstacle, ObstacleShape, Part};
+use crate::quantity::{Dimension, Range};
+
+/// Names of the degrees of freedom.
+const AXES: [&str; 3] = ["x", "y", "rotation"];
+
+impl Check<'_> {
+    pub(super) fn curves(&mut self) {
+        let model = self.model;
+        for (name, curve) in &model.curves {
+            let path = format!("curve.{name}");
+            self.name(&path, name);
+            if name == "free" || !name.starts_with(char::is_alphabetic) {
+                let message = format!("a curve can't be called `{}`", excerpt(name));
+                self.fault(path.as_str(), message, "its name must begin with a letter, and `free` means something else");
+            }
+            let (times, values) = (format!("{path}.time"), format!("{path}.value"));
+            self.each(&times, &curve.times);
+            self.each(&values, &curve.values);
+            if curve.times.is_empty() {
+                self.fault(times.as_str(), "the curve has no point", "give at least one time and its value");
+            }
+            if curve.times.len() != curve.values.len() {
+                let message = format!("there are {} times, but {} values", curve.times.len(), curve.values.len());
+                self.fault(values, message, "give one value for each time");
+            }
+            self.ascending(&times, "times", &curve.times, "s");
+        }
+    }
+
+    /// Numbers of a list.
+    pub(super) fn each(&mut self, path: &str, values: &[f64]) {
+        for (index, value) in values.iter().enumerate() {
+            self.number(&format!("{path}[{index}]"), *value);
+        }
+    }
+
+    /// The first place where a list does not ascend.
+    pub(super) fn ascending(&mut self, path: &str, what: &str, values: &[f64], unit: &str) {
+        if let Some(at) = values.windows(2).position(|pair| pair[1] <= pair[0]) {
+            let message = format!("{} {unit} does not follow {} {unit}: the {what} must ascend", values[at + 1], values[at]);
+            self.fault(format!("{path}[{}]", at + 1), message, "give each of them once, in ascending order");
+        }
+    }
+
+    /// Times of beginning and end.
+    pub(super) fn window(&mut self, path: &str, [from, until]: [&str; 2], active: [f64; 2]) {
+        self.within(&format!("{path}.{from}"), active[0], Dimension::TIME, Range::NotNegative);
+        let path = format!("{path}.{until}");
+        if active[1] == f64::INFINITY {
+            return;
+        }
+        self.within(&path, active[1], Dimension::TIME, Range::Positive);
+        if active[1] > 0.0 && active[1] <= active[0] {
+            let message = format!("it ends at {} s, not after its beginning at {} s", active[1], active[0]);
+            self.fault(path, message, format!("give a later `{until}` or an earlier `{from}`"));
+        }
+    }
+
+    /// A prescribed velocity: a finite number, or a curve of the right dimension.
+    fn drive(&mut self, path: &str, drive: &Drive, dimension: Dimension) {
+        let model = self.model;
+        let name = match drive {
+            Drive::Constant(velocity) => return self.within(path, *velocity, dimension, Range::Finite),
+            Drive::Curve(name) => name,
+        };
+        let Some(curve) = model.curves.get(name) else {
+            let known: Vec<&str> = model.curves.keys().map(String::as_str).collect();
+            let help = if known.is_empty() {
+                format!("add [curve.{}] with `time` and `value`, or give a number", excerpt(name))
+            } else {
+                suggestion(name, &known)
+            };
+            return self.fault(path, format!("there is no curve `{}`", excerpt(name)), help);
+        };
+        if let Some(other) = curve.dimension.filter(|other| *other != dimension) {
+            let key = path.rsplit('.').next().unwrap_or(path);
+            let unit = if other == Dimension::NONE { "pure numbers".to_string() } else { format!("in {other}") };
+            let wanted = if dimension == Dimension::RATE { "rad/s".to_string() } else { dimension.unit() };
+            let message = format!("the values of curve `{}` are {unit}, but `{key}` is in {wanted}", excerpt(name));
+            self.fault(path, message, "take a curve of the right dimension, or give its values as numbers without units");
+        }
+    }
+
+    /// How a rigid body moves, and how it begins where it is free.
+    fn motion(&mut self, body: &str, key: &str, motion: &Motion, velocity: [f64; 2], spin: f64) {
+        let drives = drives(motion);
+        for ((axis, drive), dimension) in AXES.iter().zip(drives).zip([Dimension::VELOCITY, Dimension::VELOCITY, Dimension::RATE]) {
+            if let Some(drive) = drive {
+                self.drive(&format!("{body}.{key}.{axis}"), drive, dimension);
+            }
+        }
+        let begins = [("velocity[0]", velocity[0]), ("velocity[1]", velocity[1]), ("spin", spin)];
+        for ((axis, drive), (begin, value)) in AXES.iter().zip(drives).zip(begins) {
+            if drive.is_some() && value != 0.0 && value.is_finite() {
+                let message = format!("`{axis}` is not free, so it can't begin with {value}");
+                self.fault(format!("{body}.{begin}"), message, format!("leave it out, or write `{axis} = \"free\"` in `{key}`"));
+            }
+        }
+    }
+
+    /// Initial motion of a part, and how it moves if it is rigid.
+    pub(super) fn part_motion(&mut self, path: &str, part: &Part) {
+        self.vector(&format!("{path}.velocity"), part.velocity);
+        self.number(&format!("{path}.spin"), part.spin);
+        if let Some(motion) = &part.rigid {
+            self.motion(path, "rigid", motion, part.velocity, part.spin);
+        }
+    }
+
+    pub(super) fn obstacles(&mut self) {
+        let model = self.model;
+        self.names("obstacle", model.obstacles.iter().map(|obstacle| obstacle.name.as_str()));
+        for (index, obstacle) in model.obstacles.iter().enumerate() {
+            let path = format!("obstacle[{index}]");
+            self.part_list(&format!("{path}.parts"), &obstacle.parts);
+            self.obstacle_shape(&path, &obstacle.shape);
+            self.obstacle_motion(&path, obstacle);
+            self.interface(&path, &obstacle.interface);
+            if drives(&obstacle.motion).iter().all(Option::is_some) && self.all_driven(&obstacle.parts) {
+                self.nothing_gives_way(format!("{path}.parts"));
+            }
+        }
+    }
+
+    fn obstacle_shape(&mut self, path: &str, shape: &ObstacleShape) {
+        match shape {
+            ObstacleShape::Plane { point, normal, length } => {
+                self.vector(&format!("{path}.plane.point"), *point);
+                self.direction(&format!("{path}.plane.normal"), *normal);
+                if let Some(length) = length {
+                    self.number(&format!("{path}.plane.length"), *length);
+                }
+            }
+            ObstacleShape::Circle { centre, radius, .. } => {
+                self.vector(&format!("{path}.circle.centre"), *centre);
+                self.number(&format!("{path}.circle.radius"), *radius);
+            }
+            ObstacleShape::Polyline { points } => self.polyline(&format!("{path}.polyline.points"), points),
+        }
+    }
+
+    fn polyline(&mut self, path: &str, points: &[[f64; 2]]) {
+        for (index, point) in points.iter().enumerate() {
+            self.vector(&format!("{path}[{index}]"), *point);
+        }
+        if points.len() < 2 {
+            self.fault(path, format!("a polyline needs at least 2 points, but there are {}", points.len()), "");
+        }
+        let equal: Vec<usize> = points.windows(2).enumerate().filter(|(_, pair)| pair[0] == pair[1]).map(|(at, _)| at + 1).collect();
+        for at in &equal {
+            let message = format!("point {at} is the same as the one before it, so there is no line between them");
+            self.fault(format!("{path}[{at}]"), message, "leave one of the two out");
+        }
+        if points.len() == 3 && points[0] == points[2] && equal.is_empty() {
+            self.fault(
+                path,
+                "the polyline goes back on its own line, so it has no free side",
+                "a closed one needs at least 3 different points",
+            );
+        }
+    }
+
+    /// How an obstacle moves; mass and inertia where it is free.
+    fn obstacle_motion(&mut self, path: &str, obstacle: &Obstacle) {
+        self.vector(&format!("{path}.velocity"), obstacle.velocity);
+        self.number(&format!("{path}.spin"), obstacle.spin);
+        self.motion(path, "motion", &obstacle.motion, obstacle.velocity, obstacle.spin);
+        if let Some(reference) = obstacle.reference {
+            self.vector(&format!("{path}.reference"), reference);
+        }
+        let moves = obstacle.motion.velocity.iter().any(Option::is_none);
+        let turns = obstacle.motion.spin.is_none();
+        for (key, value, free, verb, axes, example) in [
+            ("mass", obstacle.mass, moves, "move", "`x` or `y`", "10 kg/m"),
+            ("inertia", obstacle.inertia, turns, "turn", "`rotation`", "0.1 kg m"),
+        ] {
+            let path = format!("{path}.{key}");
+            match value {
+                Some(value) if free => self.number(&path, value),
+                Some(_) => {
+                    let message = format!("`{key}` has no effect, because the obstacle is not free to {verb}");
+                    self.fault(path, message, format!("leave it out, or let {axes} be \"free\" in `motion`"));
+                }
+                None if free => {
+                    let message = format!("the obstacle is free to {verb}, so it needs `{key}`");
+                    self.fault(path, message, format!("add `{key} = \"{example}\"`, or prescribe {axes} in `motion`"));
+                }
+                None => {}
+            }
+        }
+    }
+
+    pub(super) fn constraints(&mut self) {
+        let model = self.model;
+        for (index, constraint) in model.constraints.iter().enumerate() {
+            let path = format!("constraint[{index}]");
+            let on = self.reference(&format!("{path}.on"), &constraint.on, None);
+            if let Some(Reference::Part(part) | Reference::Side { part, .. }) = on
+                && model.parts[part].rigid.is_some()
+            {
+                let message =
+                    format!("part `{}` is rigid, so its nodes can't be held or moved one by one", excerpt(&model.parts[part].name));
+                self.fault(format!("{path}.on"), message, "prescribe its motion: `rigid = { x = 0, y = 0, rotation = 0 }` holds it");
+            }
+            for (axis, drive) in AXES.iter().zip(&constraint.velocity) {
+                if let Some(drive) = drive {
+                    self.drive(&format!("{path}.velocity.{axis}"), drive, Dimension::VELOCITY);
+                }
+            }
+            if constraint.velocity == [None, None] {
+                self.fault(
+                    path,
+                    "the constraint leaves both components free, so it does nothing",
+                    "add `fixed = \"x\"` or `velocity = { x = \"1 m/s\" }`",
+                );
+            }
+        }
+    }
+
+    pub(super) fn loads(&mut self) {
+        for (index, load) in self.model.loads.iter().enumerate() {
+            let path = format!("load[{index}]");
+            match load {
+                Load::Gravity { parts, acceleration } => {
+                    self.part_list(&format!("{path}.parts"), parts);
+                    self.vector(&format!("{path}.gravity"), *acceleration);
+                }
+                Load::Damping { parts, rate, active } => {
+                    self.part_list(&format!("{path}.parts"), parts);
+                    self.number(&format!("{path}.damping"), *rate);
+                    self.window(&path, ["from", "until"], *active);
+                }
+            }
+        }
+    }
+}
+
+/// Whether a part is rigid and free in nothing.
+pub(super) fn is_driven(part: &Part) -> bool {
+    part.rigid.as_ref().is_some_and(|motion| drives(motion).iter().all(Option::is_some))
+}
+
+fn drives(motion: &Motion) -> [Option<&Drive>; 3] {
+    [motion.velocity[0].as_ref(), motion.velocity[1].as_ref(), motion.spin.as_ref()]
+}

@@ -1,0 +1,280 @@
+//! The sections of the model file but those of contacts and obstacles: their keys, and where the names come from that a key chooses from.
+
+use super::Kind::{Angle, Choice, Flag, Integer, Integers, Name, Quantity, Reference, References, Table, Text, Vector};
+use super::Need::{self, Default, Optional, Required};
+use super::contact::{CONTACT, OBSTACLE};
+use super::{Form, Key, Kind, More, Rule, Section, key};
+use crate::quantity::Dimension;
+use crate::quantity::Range::{Finite, NotNegative, Positive, UpTo};
+use crate::{element, material, output};
+
+/// Largest number of elements of a model.
+pub const ELEMENTS_MAX: u128 = 100_000_000;
+
+/// Keys outside all sections.
+pub static TOP: Section = Section {
+    name: "",
+    doc: "Keys that stand above all sections.",
+    form: Form::Single,
+    required: false,
+    keys: &[key("title", Text, Optional("the model's name"), "Title for pictures and reports.")],
+    ..Section::EMPTY
+};
+
+/// Every section, in the order of the documentation.
+pub static SECTIONS: &[&Section] = &[&RUN, &MATERIAL, &PART, &CONTACT, &OBSTACLE, &SYMMETRY, &CONSTRAINT, &LOAD, &CURVE, &PROBE, &OUTPUT];
+
+/// Keys that people know from elsewhere or from before, and what stands for them now.
+pub static MOVED: &[(&str, &str)] = &[("wall", "walls are obstacles now: [[obstacle]] with plane = { point, normal }")];
+
+static RUN: Section = Section {
+    name: "run",
+    doc: "How long the simulation runs and what stops it.",
+    form: Form::Single,
+    required: true,
+    keys: &[
+        key("end", Quantity(Dimension::TIME, Positive), Required, "End time."),
+        key("safety", Quantity(Dimension::NONE, UpTo(0.0, 1.0)), Default("0.9"), "Fraction of the stable time step that is used."),
+        key(
+            "energy_limit",
+            Quantity(Dimension::NONE, Positive),
+            Default("0.05"),
+            "Energy drift at which the run stops, as a fraction of the largest total energy.",
+        ),
+        key(
+            "step_limit",
+            Quantity(Dimension::TIME, Positive),
+            Optional("a thousandth of the first stable step"),
+            "Time step below which the run stops.",
+        ),
+        key("max_steps", Integer(1), Optional("no limit"), "Largest number of steps."),
+    ],
+    ..Section::EMPTY
+};
+
+static MATERIAL: Section = Section {
+    name: "material",
+    doc: "A material: a law and its parameters. Parts refer to it by its name.",
+    form: Form::Named,
+    required: true,
+    keys: &[key("law", Choice(laws), Required, "Name of the law.")],
+    more: Some(More { by: "law", keys: law_keys }),
+    ..Section::EMPTY
+};
+
+static PART: Section = Section {
+    name: "part",
+    doc: "A body of one material and one kind of element. Exactly one of `rectangle`, `ring`, `disk` and `mesh` says where its elements come from.",
+    form: Form::Repeated,
+    required: true,
+    keys: &[
+        key("name", Name, Required, "Unique name."),
+        key("material", Reference, Required, "Name of a `[material.NAME]` section."),
+        key("element", Choice(elements), Default("\"quad4\""), "Kind of element."),
+        key("velocity", Vector(Dimension::VELOCITY, Finite), Default("[0, 0]"), "Initial velocity."),
+        key("spin", Angle(Dimension::RATE, Finite), Default("0"), "Initial angular velocity about the centre of mass, counter-clockwise."),
+        key(
+            "rigid",
+            Kind::Rigid,
+            Default("false"),
+            "Whether the part is rigid, free to move; or how it moves: `x` and `y` of its centre of mass, `rotation` about it. What is left out is free.",
+        ),
+        key("rectangle", Table(&RECTANGLE), Optional("another shape"), "An axis-parallel rectangle."),
+        key("ring", Table(&RING), Optional("another shape"), "A ring or a sector of one."),
+        key("disk", Table(&DISK), Optional("another shape"), "A full disk."),
+        key("mesh", Table(&MESH), Optional("another shape"), "A group of a mesh file."),
+    ],
+    rules: &[Rule::OneOf(&["rectangle", "ring", "disk", "mesh"])],
+    ..Section::EMPTY
+};
+
+static RECTANGLE: Section = Section {
+    name: "rectangle",
+    doc: "An axis-parallel rectangle; its sides are `left`, `right`, `bottom` and `top`.",
+    form: Form::Inline,
+    required: false,
+    keys: &[
+        key("corner", Vector(Dimension::LENGTH, Finite), Required, "Lower left corner."),
+        key("size", Vector(Dimension::LENGTH, Positive), Required, "Width and height."),
+        key("elements", Integers(2, 1), Required, "Elements along x and along y."),
+    ],
+    ..Section::EMPTY
+};
+
+static RING: Section = Section {
+    name: "ring",
+    doc: "A ring, or a sector of one, counter-clockwise from `from` to `to`; its sides are `inner` and `outer` and, for a sector, `start` and `end`.",
+    form: Form::Inline,
+    required: false,
+    keys: &[
+        key("centre", Vector(Dimension::LENGTH, Finite), Required, "Centre."),
+        key("inner", Quantity(Dimension::LENGTH, Positive), Required, "Inner radius."),
+        key("outer", Quantity(Dimension::LENGTH, Positive), Required, "Outer radius."),
+        key("from", Angle(Dimension::NONE, Finite), Default("0"), "Angle at which it begins, counter-clockwise from the x axis."),
+        key(
+            "to",
+            Angle(Dimension::NONE, Finite),
+            Default("\"360 deg\""),
+            "Angle at which it ends: more than `from`, by at most a full turn.",
+        ),
+        key("elements", Integers(2, 1), Required, "Elements through the wall and around."),
+    ],
+    ..Section::EMPTY
+};
+
+static DISK: Section = Section {
+    name: "disk",
+    doc: "A full disk; its side is `outer`.",
+    form: Form::Inline,
+    required: false,
+    keys: &[
+        key("centre", Vector(Dimension::LENGTH, Finite), Required, "Centre."),
+        key("radius", Quantity(Dimension::LENGTH, Positive), Required, "Radius."),
+        key("elements", Integer(1), Required, "Elements around a quarter of the circumference."),
+    ],
+    ..Section::EMPTY
+};
+
+static MESH: Section = Section {
+    name: "mesh",
+    doc: "A group of a mesh file (Gmsh `.msh` 2.2 or 4.1). Its other groups can be named in contacts, constraints and probes.",
+    form: Form::Inline,
+    required: false,
+    keys: &[
+        key("file", Text, Required, "Path of the file, from the model file's folder."),
+        key("group", Text, Required, "Name of a two-dimensional physical group."),
+        key("scale", Quantity(Dimension::LENGTH, Positive), Default("\"1 m\""), "Length of one unit of the file."),
+    ],
+    ..Section::EMPTY
+};
+
+static SYMMETRY: Section = Section {
+    name: "symmetry",
+    doc: "A line of symmetry: nodes that lie on it at the start stay on it.",
+    form: Form::Repeated,
+    required: false,
+    keys: &[
+        key("normal", Vector(Dimension::NONE, Finite), Required, "Normal of the line; any length but zero."),
+        key("point", Vector(Dimension::LENGTH, Finite), Default("[0, 0]"), "A point of the line."),
+        key("parts", References(None), Optional("all parts"), "Parts that it holds."),
+    ],
+    ..Section::EMPTY
+};
+
+static CONSTRAINT: Section = Section {
+    name: "constraint",
+    doc: "Prescribed motion of a set of nodes: a part, a side such as `plate.left`, or a group of a mesh file.",
+    form: Form::Repeated,
+    required: false,
+    keys: &[
+        key("on", Reference, Required, "The set."),
+        key("fixed", Kind::Choices(|| vec!["x", "y"]), Optional("none"), "Components that don't move."),
+        key(
+            "velocity",
+            Kind::Velocities,
+            Optional("none"),
+            "Prescribed velocity of components: a number or a curve, such as `{ x = \"1 m/s\", y = \"ramp\" }`.",
+        ),
+    ],
+    rules: &[Rule::SomeOf(&["fixed", "velocity"])],
+    ..Section::EMPTY
+};
+
+static LOAD: Section = Section {
+    name: "load",
+    doc: "A load on some parts.",
+    form: Form::Repeated,
+    required: false,
+    keys: &[
+        key(
+            "gravity",
+            Vector(Dimension::ACCELERATION, Finite),
+            Optional("`damping`"),
+            "Uniform acceleration, such as `[0, \"-9.81 m/s^2\"]`.",
+        ),
+        key(
+            "damping",
+            Quantity(Dimension::RATE, Positive),
+            Optional("`gravity`"),
+            "Rate of a force -rate * mass * velocity: what moves slowly comes to rest.",
+        ),
+        key("from", Quantity(Dimension::TIME, NotNegative), Optional("the start"), "Time at which the damping begins."),
+        key("until", Quantity(Dimension::TIME, Positive), Optional("the end"), "Time at which it ends."),
+        key("parts", References(None), Optional("all parts"), "Parts that it acts on."),
+    ],
+    rules: &[Rule::OneOf(&["gravity", "damping"]), Rule::Needs("from", "damping"), Rule::Needs("until", "damping")],
+    ..Section::EMPTY
+};
+
+static CURVE: Section = Section {
+    name: "curve",
+    doc: "A function of time, named where a velocity is prescribed: linear between its points, constant before the first and after the last. The name begins with a letter.",
+    form: Form::Named,
+    required: false,
+    keys: &[
+        key("time", Kind::Quantities(Dimension::TIME, Finite, 1), Required, "Times, ascending."),
+        key("value", Kind::Values, Required, "Values, as many: of one dimension, or bare numbers in the SI unit of what uses the curve."),
+    ],
+    ..Section::EMPTY
+};
+
+static PROBE: Section = Section {
+    name: "probe",
+    doc: "A place whose position and velocity are written to the history as `NAME.x`, `NAME.y`, `NAME.vx`, `NAME.vy`: the node of `part` nearest to `point`, node number `node` of `part`, or the mean over `set`.",
+    form: Form::Repeated,
+    required: false,
+    keys: &[
+        key("name", Name, Required, "Unique name."),
+        key("part", Reference, Optional("only with `set`"), "Part of `point` or `node`."),
+        key("point", Vector(Dimension::LENGTH, Finite), Optional("`node` or `set`"), "Initial position; the nearest node is taken."),
+        key("node", Integer(0), Optional("`point` or `set`"), "Number of the node in its part, from 0."),
+        key("set", Reference, Optional("`point` or `node`"), "A part, a side such as `plate.top`, or a group of a mesh file."),
+    ],
+    rules: &[
+        Rule::OneOf(&["point", "node", "set"]),
+        Rule::Needs("point", "part"),
+        Rule::Needs("node", "part"),
+        Rule::NotBoth("set", "part"),
+    ],
+    ..Section::EMPTY
+};
+
+static OUTPUT: Section = Section {
+    name: "output",
+    doc: "What is written.",
+    form: Form::Single,
+    required: false,
+    keys: &[
+        key("fields", Kind::Cadence, Default("100"), "How often the fields are written: a count, or an interval such as `\"0.1 ms\"`."),
+        key("history", Kind::Cadence, Default("1000"), "How often a row of the history is written: a count or an interval."),
+        key("include", Kind::Choices(fields), Optional("all"), "Fields to write."),
+        key(
+            "mirror",
+            Kind::Choices(|| vec!["x", "y"]),
+            Optional("none"),
+            "Pictures also show the model mirrored at the line x = 0 (`\"x\"`), y = 0 (`\"y\"`), or both.",
+        ),
+        key("pictures", Flag, Default("true"), "Whether pictures and the animation are made."),
+        key("picture_field", Choice(fields), Optional("what suits the model"), "Field that colours the pictures."),
+    ],
+    ..Section::EMPTY
+};
+
+fn laws() -> Vec<&'static str> {
+    material::registry().iter().map(|kind| kind.name).collect()
+}
+
+fn elements() -> Vec<&'static str> {
+    element::registry().iter().map(|kind| kind.name).collect()
+}
+
+fn fields() -> Vec<&'static str> {
+    output::FIELDS.iter().map(|kind| kind.name).collect()
+}
+
+/// The keys of a law's parameters.
+fn law_keys(law: &str) -> Option<Vec<Key>> {
+    let kind = material::registry().into_iter().find(|kind| kind.name == law)?;
+    let need = |default: Option<f64>| default.map_or(Required, Need::Value);
+    Some(kind.parameters.iter().map(|p| key(p.name, Quantity(p.dimension, p.range), need(p.default), p.doc)).collect())
+}

@@ -2,14 +2,16 @@
 
 use crate::block::Block;
 use crate::build;
+use crate::contact::tracker::{Certificate, SearchReport};
+use crate::contact::{Contact, search};
 use crate::error::{Error, Fault};
 use crate::mesh::PartMesh;
-use crate::model::{Cadence, Model};
+use crate::model::{self, Cadence, Model};
 use crate::output::{Cells, Frame, Summary};
 use crate::record::{Momentum, Recorded};
 use crate::step::{Governor, System};
 use embate_lanes::Level;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// How a simulation is run; changes no result.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -99,6 +101,19 @@ pub struct Overview {
     pub warnings: Vec<String>,
 }
 
+/// What the global search of a contact did.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ContactSearch {
+    /// Name of the contact.
+    pub contact: String,
+    /// Name of the search.
+    pub search: String,
+    /// Skin, searches, steps, candidates.
+    pub report: SearchReport,
+    /// Pairs whose paths were checked for crossing, over all steps.
+    pub pairs_swept: u64,
+}
+
 /// A simulation: a model made ready to step.
 pub struct Simulation {
     pub(crate) system: System,
@@ -111,6 +126,8 @@ pub struct Simulation {
     history: Cadence,
     fields: Cadence,
     max_steps: u64,
+    /// Search of each contact by name.
+    search_names: BTreeMap<String, String>,
     pool: Option<rayon::ThreadPool>,
 }
 
@@ -154,6 +171,7 @@ impl Simulation {
             history: model.output.history,
             fields: model.output.fields,
             max_steps: model.run.max_steps.unwrap_or(u64::MAX),
+            search_names: model.contacts.iter().map(|contact| (contact.name.clone(), search_name(contact))).collect(),
             pool,
             system,
         };
@@ -233,6 +251,7 @@ impl Simulation {
             Ok(())
         });
         self.shortest = shortest;
+        self.note_momentum();
         result
     }
 
@@ -355,7 +374,36 @@ impl Simulation {
             warnings
                 .push(format!("in {unsolved} step(s) the contact forces were not solved to the last digit: lower the contact penalties"));
         }
+        let unverified = self.certificate().unverified;
+        if unverified > 0 {
+            warnings.push(format!(
+                "{unverified} time(s) a node was inside a body without being in contact with it: a contact was missed, or a body went through itself"
+            ));
+        }
+        for contact in self.system.contacts.iter().filter(|contact| self.system.step > 0 && !contact.has_pressed) {
+            warnings.push(format!("{} \"{}\" transmitted nothing in the whole run", contact.kind.name(), contact.name));
+        }
         warnings
+    }
+
+    /// What was checked in all contacts so far.
+    fn certificate(&self) -> Certificate {
+        let mut sum = Certificate::default();
+        for contact in &self.system.contacts {
+            sum += contact.certificate();
+        }
+        sum
+    }
+
+    /// What the global search of each contact between surfaces did so far.
+    #[must_use]
+    pub fn searches(&self) -> Vec<ContactSearch> {
+        let of = |contact: &Contact| {
+            let report = contact.search_report()?;
+            let search = self.search_names.get(&contact.name).cloned().unwrap_or_default();
+            Some(ContactSearch { contact: contact.name.clone(), search, report, pairs_swept: contact.certificate().pairs_swept })
+        };
+        self.system.contacts.iter().filter_map(of).collect()
     }
 
     /// Figures of the run so far (valid after a failure too).
@@ -374,12 +422,17 @@ impl Simulation {
             momentum_drift_linear: self.momentum.as_ref().map(Momentum::linear),
             momentum_drift_angular: self.momentum.as_ref().map(Momentum::angular),
             penetration_max: system.penetration_max,
+            contact: self.certificate(),
             state_hash: crate::record::state_hash(system),
             threads: self.threads,
             simd: system.level.name().to_string(),
             warnings: self.warnings(),
         }
     }
+}
+
+fn search_name(contact: &model::Contact) -> String {
+    if contact.search.is_empty() { search::registry::<2>()[0].name.into() } else { contact.search.clone() }
 }
 
 /// The shortest step so far and who governed it.

@@ -108,6 +108,8 @@ pub struct Contact {
     pub totals: Totals,
     /// Deepest penetration in the last evaluation, m.
     pub penetration: f64,
+    /// Whether it pressed at any time so far.
+    pub has_pressed: bool,
     formulation: Box<dyn Formulation>,
     /// Times between which it acts, s.
     active: [f64; 2],
@@ -119,7 +121,7 @@ impl Contact {
     /// A contact that has not acted yet.
     #[must_use]
     pub fn new(name: String, kind: ContactKind, formulation: Box<dyn Formulation>, active: [f64; 2]) -> Self {
-        Self { name, kind, totals: Totals::default(), penetration: 0.0, formulation, active, found: 0..0 }
+        Self { name, kind, totals: Totals::default(), penetration: 0.0, has_pressed: false, formulation, active, found: 0..0 }
     }
 
     /// Adds the springs of the step to `springs`; they follow the terms number `index`.
@@ -136,6 +138,7 @@ impl Contact {
     /// Sums up the solved springs: adds their forces to `forces` and `bodies`, and what they did in the update of `time_step` (s) to `traces`.
     pub fn collect(&mut self, springs: &Springs, forces: &mut [Vector], bodies: &mut Bodies, traces: &mut Traces, time_step: f64) {
         self.totals = springs.collect(self.found.clone(), forces, bodies);
+        self.has_pressed |= self.totals.pressing > 0.0;
         for spring in &springs.list[self.found.clone()] {
             traces.mark(springs, spring, time_step);
         }

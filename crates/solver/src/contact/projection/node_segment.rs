@@ -56,6 +56,15 @@ impl Target {
         self.feature(x, segment, positions).map(|feature| feature.distance)
     }
 
+    /// Distance of `x` from the line of segment `segment`, m, positive on the outer side; `None` where it has no length.
+    #[must_use]
+    pub fn side_of(&self, x: Vector, segment: u32, positions: &[Vector]) -> Option<f64> {
+        let [c1, c2] = self.surface.segments[segment as usize].map(|node| positions[node as usize]);
+        let t = minus(c2, c1);
+        let length = dot(t, t).sqrt();
+        (length > 0.0).then(|| cross(t, minus(x, c1)) / length)
+    }
+
     /// The nearest feature of a segment; `None` for a segment without length.
     fn feature(&self, x: Vector, segment: u32, positions: &[Vector]) -> Option<Feature> {
         let [n1, n2] = self.surface.segments[segment as usize];

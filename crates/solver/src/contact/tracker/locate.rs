@@ -11,6 +11,9 @@ use crate::mesh::surface::NONE;
 
 /// A node nearer than this fraction of the skin is on the surface, as far as rounding lets one tell.
 const ROUNDING: f64 = 4e-9;
+/// A node that touches a face stays with it until it is farther away than this fraction of the skin (a millionth of a segment): surfaces that a multiplier holds at zero distance must not be
+/// passed from face to face of a corner by round-off.
+const HOLD: f64 = 4e-6;
 
 /// What locating reads.
 #[derive(Clone, Copy)]
@@ -21,6 +24,8 @@ pub(super) struct View<'a> {
     own_surface: bool,
     /// Distances below this are rounding, m.
     rounding: f64,
+    /// Distances below this are touching, m.
+    hold: f64,
     sweep: Sweep<'a>,
 }
 
@@ -35,7 +40,7 @@ struct Passages {
 
 impl<'a> View<'a> {
     pub(super) fn new(target: &'a Target, pass: usize, own_surface: bool, skin: f64, sweep: Sweep<'a>) -> Self {
-        Self { target, pass, own_surface, rounding: ROUNDING * skin, sweep }
+        Self { target, pass, own_surface, rounding: ROUNDING * skin, hold: HOLD * skin, sweep }
     }
 
     /// Locates the groups from number `first` on.
@@ -60,7 +65,7 @@ impl<'a> View<'a> {
         group.level -= passages.exits;
         let was_inside = group.memory != NONE;
         if was_inside {
-            let projection = self.inside(x, group.memory, group.node);
+            let projection = self.follow(x, group.memory, group.node).filter(|projection| projection.gap <= self.hold);
             if let Some(inside) = projection {
                 group.memory = inside.segment;
                 return projection;
@@ -99,10 +104,24 @@ impl<'a> View<'a> {
             Some((_, segment)) => self.follow(x, segment, group.node),
             None => self.target.ahead(x, candidates, self.rounding, self.sweep.new),
         }?;
-        if ahead.gap < 0.0 {
-            group.memory = ahead.segment;
+        if ahead.gap > self.hold {
+            return Some(ahead);
         }
-        Some(ahead)
+        let touched = self.touched(group.node, candidates).unwrap_or(ahead);
+        group.memory = touched.segment;
+        Some(touched)
+    }
+
+    /// Of the faces that a node touches, that from which it was farthest before: the one that it comes upon.
+    fn touched(&self, node: u32, candidates: &[u32]) -> Option<Projection> {
+        let (x_old, x) = (self.sweep.old[node as usize], self.sweep.new[node as usize]);
+        let touches = |segment: u32| {
+            let projection = self.target.project(x, segment, self.sweep.new)?;
+            let before = self.target.side_of(x_old, segment, self.sweep.old)?;
+            (projection.gap.abs() <= self.hold).then_some((before, projection))
+        };
+        let farther = |best: (f64, Projection), other: (f64, Projection)| if other.0 > best.0 { other } else { best };
+        candidates.iter().filter_map(|&segment| touches(segment)).reduce(farther).map(|(_, projection)| projection)
     }
 
     /// The projection of a node that is inside, on the chain from `segment` on.

@@ -360,6 +360,15 @@ impl Simulation {
 
     fn warnings(&self) -> Vec<String> {
         let mut warnings: Vec<String> = self.warnings.iter().cloned().collect();
+        for contact in &self.system.contacts {
+            let Some(ties) = contact.ties() else { continue };
+            let all = ties.nodes.len() + ties.broken;
+            if ties.broken > 0 {
+                warnings.push(format!("contact \"{}\": {} of {all} ties broke", contact.name, ties.broken));
+            } else if all == 0 {
+                warnings.push(format!("contact \"{}\": its ties bound no node", contact.name));
+            }
+        }
         let unsolved = self.system.springs.unsolved;
         if unsolved > 0 {
             warnings

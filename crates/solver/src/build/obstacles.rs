@@ -1,11 +1,13 @@
 //! Obstacles: their rigid bodies, their shapes, and the nodes that meet them.
 
-use super::{Builder, stiffness_of, terms};
+use super::{Builder, Outlined, stiffness_of, terms_of};
+use crate::contact::formulation::Side;
 use crate::contact::node_segment::Slave;
 use crate::contact::obstacle::plane::Plane;
 use crate::contact::obstacle::{NodeObstacle, OutlineShape, Shape};
+use crate::contact::projection::node_segment::Target;
 use crate::contact::tracker::SKIN;
-use crate::contact::{self, Contact, ContactKind, Formulation, law};
+use crate::contact::{Contact, ContactKind, Formulation, law};
 use crate::error::Fault;
 use crate::load::constraint::unit;
 use crate::mesh::surface::Surface;
@@ -32,8 +34,9 @@ impl Builder<'_> {
                     continue;
                 }
             };
-            let own = contact::node_stiffness(&surface, &self.stiffness_under(&surface), &self.mesh.positions);
-            let terms = terms(&obstacle.interface);
+            let outline = Outlined { target: Target { surface, mirrors: Vec::new() }, lids: Vec::new() };
+            let Side { target: Target { surface, .. }, nodes: own, .. } = self.side(outline, &obstacle.interface);
+            let terms = terms_of(&obstacle.interface);
             let spacing = own.iter().map(|&(length, _)| length).sum::<f64>() / own.len().max(1) as f64;
             let met = Met { surface, own, reach: SKIN * spacing + terms.law.reach() };
             let Some((body, formulation)) = self.obstacle(obstacle, &met) else { continue };

@@ -11,6 +11,7 @@ mod blocks;
 mod conditions;
 mod contact;
 mod elements;
+mod formulations;
 mod friction;
 mod free_bodies;
 mod materials;

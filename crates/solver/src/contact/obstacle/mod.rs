@@ -109,7 +109,7 @@ impl Formulation for NodeObstacle {
             let moved = (way.to[0] - way.from[0]).abs() + (way.to[1] - way.from[1]).abs();
             if gap <= self.reach + 4.0 * moved {
                 let Slave { stiffness, area, slip } = slave;
-                let ends = [End::node(node, 1.0), End { at, share: -1.0, turn: [0.0; 2], point: x }];
+                let ends = [End::node(node, 1.0), End { at, share: -1.0, point: x, ..End::default() }];
                 springs.push(Spring { normal: body.to_global(normal), gap, stiffness, area, side: 1.0, slip, ..Spring::default() }, &ends);
                 self.found.push(index as u32);
             }

@@ -2,6 +2,7 @@
 
 mod bodies;
 mod obstacles;
+mod start;
 
 use crate::assembly::Assembly;
 use crate::block::{Block, BlockInput, Motion, Report, make};
@@ -60,6 +61,10 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         outlines: Vec::new(),
         mesh,
     };
+    let initial_penetrations = builder.part_at_start();
+    if !builder.faults.is_empty() {
+        return Err(builder.faults);
+    }
     let mut blocks = builder.blocks();
     if blocks.len() < model.parts.len() {
         return Err(builder.faults);
@@ -105,6 +110,7 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         of_bodies: Sums::default(),
         ledger: Ledger::default(),
         penetration_max: 0.0,
+        initial_penetrations,
         step: 0,
         time: 0.0,
         time_step_old: 0.0,

@@ -7,6 +7,7 @@
 pub mod search;
 pub mod projection;
 pub mod tracker;
+pub mod initial;
 pub mod law;
 pub mod springs;
 pub mod formulation;

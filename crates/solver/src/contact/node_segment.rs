@@ -108,19 +108,20 @@ impl NodeSegment {
         gap + (self.thickness + self.reach - 0.5 * distance.unwrap_or(0.0)).max(0.0)
     }
 
-    /// Gap as the spring sees it, and the offset from here on: a gap that counted as zero does so until it opens.
+    /// Gap as the spring sees it, and the gap that counts as zero.
     fn beyond(&self, touch: &Touch) -> (f64, f64) {
         let gap = self.gap(touch);
-        let offset = if self.has_begun { relaxed(touch.memory.offset, gap) } else { gap.min(0.0) };
+        let offset = if self.has_begun { kept(touch.memory.offset, gap) } else { gap.min(0.0) };
         let offset = if self.ignores_start && !touch.own { offset } else { 0.0 };
         (gap - offset, offset)
     }
 }
 
-/// A gap that counts as zero (negative), after the gap has become `gap`: it never grows in size.
+/// The gap that counts as zero (m, negative), after the gap has become `gap`: that of the start, until the surfaces part. One that went with the gap would give to springs
+/// what nobody put in.
 #[must_use]
-pub fn relaxed(offset: f64, gap: f64) -> f64 {
-    offset.max(gap).min(0.0)
+pub fn kept(offset: f64, gap: f64) -> f64 {
+    if gap < 0.0 { offset } else { 0.0 }
 }
 
 impl NodeSegment {

@@ -12,7 +12,7 @@
 
 use super::formulation::{FormulationKind, Setup};
 use super::law::{Law, penalty};
-use super::node_segment::relaxed;
+use super::node_segment::kept;
 use super::springs::{End, Spring, Springs};
 use super::tracker::{Certificate, SearchReport, Tracker};
 use super::{Formulation, Scene, Vector};
@@ -293,7 +293,7 @@ impl Segment {
         for (k, &[place, weight]) in self.rule.iter().enumerate() {
             let (gap, mut ends) = common.point(place);
             let gap = gap - distance;
-            let offset = if self.start.has_begun { relaxed(facing.offsets[k], gap) } else { gap.min(0.0) };
+            let offset = if self.start.has_begun { kept(facing.offsets[k], gap) } else { gap.min(0.0) };
             facing.offsets[k] = if self.start.ignored { offset } else { 0.0 };
             let gap = gap - facing.offsets[k];
             let [energy, push] = self.density(gap, pressure);

@@ -329,21 +329,6 @@ fn a_disk_bounces_between_two_walls_many_times_and_keeps_its_energy() {
 }
 
 #[test]
-fn bodies_that_overlap_at_the_start_are_told_with_node_and_depth() {
-    let mut model = model(1e-4);
-    add(&mut model, "lower", rectangle([0.0, 0.0], [0.1, 0.1], [5, 5]), [0.0, 0.0]);
-    // 70 % of a segment inside: more than the skin of later searches.
-    add(&mut model, "upper", rectangle([0.031, 0.086], [0.04, 0.04], [2, 2]), [0.0, 0.0]);
-    touch(&mut model, "lower", "upper");
-    let simulation = simulation(&model);
-    let overview = simulation.overview();
-    let lines = &overview.initial_penetrations;
-    assert!(lines.iter().filter(|line| line.contains("1.400e-2 m inside") && line.contains("lower-upper")).count() >= 3, "{lines:?}");
-    assert!(lines.iter().any(|line| line.contains("(5.100000e-2, 8.600000e-2)")), "{lines:?}");
-    assert!(overview.warnings.iter().any(|warning| warning.contains("penetrate at the start")), "{:?}", overview.warnings);
-}
-
-#[test]
 fn parts_that_share_nodes_may_have_a_contact_and_feel_nothing_at_the_seam() {
     // Two blocks bonded along their lower half; a fine mesh beside a coarse one, so that neighbours at the seam are nearer than the skin.
     let mut model = model(3e-4);

@@ -14,6 +14,7 @@ mod elements;
 mod formulations;
 mod friction;
 mod free_bodies;
+mod initial;
 mod materials;
 mod plasticity;
 mod projectiles;

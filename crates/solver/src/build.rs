@@ -1,27 +1,30 @@
 //! From a model to a [`System`]: mesh, blocks, masses, contacts, walls, conditions. All faults are collected before anything runs.
 
+mod bodies;
+mod obstacles;
+
 use crate::assembly::Assembly;
 use crate::block::{Block, BlockInput, Motion, Report, make};
 use crate::contact::formulation::{self, Setup, Side};
 use crate::contact::law::{self, Law};
-use crate::contact::node_segment::Slave;
-use crate::contact::obstacle::{NodeObstacle, OutlineShape, plane::Plane};
+use crate::contact::obstacle::OutlineShape;
 use crate::contact::projection::node_segment::Target;
 use crate::contact::search::SearchKind;
 use crate::contact::springs::friction::Friction;
 use crate::contact::springs::{Springs, Tangential, Terms};
 use crate::contact::traces::Traces;
-use crate::contact::tracker::SKIN;
 use crate::contact::{self, Contact, ContactKind, search};
-use crate::energy::Ledger;
+use crate::energy::{Ledger, Sums};
 use crate::error::Fault;
-use crate::load::constraint::{Constraints, unit};
+use crate::load::constraint::Constraints;
+use crate::load::curve::Curves;
+use crate::load::damping::Damping;
 use crate::load::gravity;
 use crate::mesh::surface::{NONE, Surface};
 use crate::mesh::{Mesh, PartMesh};
-use crate::model::{self, ContactLaw, Interface, Model, ObstacleShape, Partners, Penalty, PenaltySource};
-use crate::rigid::{Bodies, Body};
-use crate::step::{CHUNK, Governor, Limits, NodeSums, System};
+use crate::model::{self, ContactLaw, Interface, Model, Partners, Penalty, PenaltySource};
+use crate::rigid::Bodies;
+use crate::step::{CHUNK, Governor, Limits, System};
 use embate_lanes::{Batch, Level};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -39,13 +42,17 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         return Err(faults);
     }
     let mesh = Mesh::new(model)?;
+    let curves = Curves::new(model);
     let mut builder = Builder {
         model,
         faults: Vec::new(),
-        constraints: Constraints::new(model, &mesh)?,
+        constraints: Constraints::new(model, &mesh, &curves)?,
+        curves,
+        positions: mesh.positions.clone(),
+        mass: vec![0.0; mesh.positions.len()],
+        body_parts: Vec::new(),
         under: Vec::new(),
         moduli: Vec::new(),
-        mass: Vec::new(),
         time_step: 0.0,
         bodies: Bodies::default(),
         terms: Vec::new(),
@@ -58,28 +65,27 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         return Err(builder.faults);
     }
     let part_mass = part_masses(&builder.mesh, &blocks);
-    builder.find_elements_under_surfaces(&mut blocks, &part_mass, level);
+    for &(node, share) in part_mass.iter().flatten() {
+        builder.mass[node as usize] += share;
+    }
+    let gravity = gravity::accelerations(model, &builder.mesh, &builder.mass, &part_mass);
+    let damping = Damping::new(model, &builder.mesh, &builder.mass, &part_mass);
+    let mut velocities = builder.velocities(&part_mass);
+    builder.rigid_parts(&part_mass, &gravity);
+    builder.find_elements_under_surfaces(&mut blocks, level);
     let mut contacts = builder.contacts();
     contacts.extend(builder.obstacles());
     if !builder.faults.is_empty() {
         return Err(builder.faults);
     }
-    let Builder { mesh, constraints, bodies, mut terms, ties, outlines, mass, .. } = builder;
-    terms.resize_with(first_of_ties(model), || terms_of(&Interface::default()));
+    let Builder { mesh, constraints, curves, positions, mass, body_parts, bodies, mut terms, ties, outlines, .. } = builder;
+    terms.resize_with(first_of_ties(model), || self::terms(&Interface::default()));
     terms.extend(ties);
     let inputs: Vec<(&dyn Block<2>, usize, &[u32])> =
         blocks.iter().zip(&mesh.parts).map(|(block, part)| (block.as_ref(), part.nodes_per_element, &part.connectivity[..])).collect();
-    let nodes = mesh.positions.len();
+    let nodes = positions.len();
     let assembly = Assembly::new(nodes, &inputs);
-    let mut momentum = vec![[0.0; 2]; nodes];
-    for (masses, part) in part_mass.iter().zip(&model.parts) {
-        for &(node, share) in masses {
-            for d in 0..2 {
-                momentum[node as usize][d] += share * part.velocity[d];
-            }
-        }
-    }
-    let velocities: Vec<[f64; 2]> = momentum.iter().zip(&mass).map(|(p, &m)| p.map(|p| p / m)).collect();
+    velocities.resize(nodes, [0.0; 2]);
     let outside = if contacts.is_empty() { Surface::default() } else { mesh.outside(&[]).map_err(|fault| vec![fault])? };
     let traces = Traces::new(outside, &mesh.positions);
     let limits =
@@ -87,15 +93,16 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
     let elements: usize = blocks.iter().map(|block| block.elements()).sum();
     Ok(System {
         corners: vec![Batch::default(); assembly.corner_batches],
-        gravity: gravity::accelerations(model, &mesh, &mass, &part_mass),
-        positions: mesh.positions.clone(),
-        positions_old: mesh.positions.clone(),
+        rigid: model.parts.iter().map(|part| part.rigid.is_some()).collect(),
+        positions_old: positions.clone(),
+        positions,
         velocities_old: velocities.clone(),
         velocities,
         contact_forces: vec![[0.0; 2]; nodes],
         springs: Springs::new(nodes, bodies.len()),
         reports: vec![Report::NOTHING; blocks.len()],
-        sums: vec![NodeSums::default(); nodes.div_ceil(CHUNK)],
+        sums: vec![Sums::default(); nodes.div_ceil(CHUNK)],
+        of_bodies: Sums::default(),
         ledger: Ledger::default(),
         penetration_max: 0.0,
         step: 0,
@@ -111,6 +118,10 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         contacts,
         terms,
         bodies,
+        body_parts,
+        curves,
+        damping,
+        gravity,
         outlines,
         traces,
         constraints,
@@ -137,16 +148,21 @@ struct Builder<'a> {
     model: &'a Model,
     mesh: Mesh<2>,
     constraints: Constraints<2>,
+    curves: Curves,
     faults: Vec<Fault>,
+    /// Initial positions of all nodes, m: those of elements, then those of obstacles.
+    positions: Vec<[f64; 2]>,
+    /// Their masses, kg/m; 1 where an obstacle has a node.
+    mass: Vec<f64>,
     /// The elements behind all edges, sorted by the nodes of the edge.
     under: Vec<Under>,
     /// Wave modulus and bulk modulus of each part, Pa.
     moduli: Vec<[f64; 2]>,
-    /// Mass of each node, kg/m.
-    mass: Vec<f64>,
     /// First time step, s; only where a contact asks for it.
     time_step: f64,
     bodies: Bodies,
+    /// Rigid parts and their bodies.
+    body_parts: Vec<(usize, usize)>,
     /// What acts in each contact, then in each obstacle.
     terms: Vec<Terms>,
     /// What acts in ties.
@@ -186,7 +202,7 @@ impl Builder<'_> {
     }
 
     /// What the stiffness of contacts is made from: elements behind every edge, moduli, masses and the first step.
-    fn find_elements_under_surfaces(&mut self, blocks: &mut [Box<dyn Block<2>>], part_mass: &[Vec<(u32, f64)>], level: Level) {
+    fn find_elements_under_surfaces(&mut self, blocks: &mut [Box<dyn Block<2>>], level: Level) {
         for (part_index, part) in self.mesh.parts.iter().enumerate() {
             for (element, cell) in part.connectivity.chunks_exact(part.nodes_per_element).enumerate() {
                 let x = |corner: usize| self.mesh.positions[cell[corner % cell.len()] as usize];
@@ -202,19 +218,19 @@ impl Builder<'_> {
         }
         self.under.sort_unstable_by_key(|under| under.nodes);
         self.moduli = blocks.iter().map(|block| [block.wave_modulus(), block.bulk_modulus()]).collect();
-        self.mass = vec![0.0; self.mesh.positions.len()];
-        for &(node, share) in part_mass.iter().flatten() {
-            self.mass[node as usize] += share;
-        }
         let interfaces = self.model.contacts.iter().map(|c| &c.interface).chain(self.model.obstacles.iter().map(|o| &o.interface));
         if interfaces.into_iter().any(|interface| source_of(interface) == PenaltySource::TimeStep) {
             let velocities = vec![[0.0; 2]; self.mesh.positions.len()];
             let motion = Motion { positions: &self.mesh.positions, velocities: &velocities, time_step: 0.0 };
-            let stable = |block: &mut Box<dyn Block<2>>| {
+            let stable = |(block, part): (&mut Box<dyn Block<2>>, &model::Part)| {
+                if part.rigid.is_some() {
+                    return f64::INFINITY;
+                }
                 let mut corners = vec![Batch::default(); block.corner_batches()];
                 block.advance(&motion, level, &mut corners, false).time_step_squared
             };
-            self.time_step = self.model.run.safety * blocks.iter_mut().map(stable).fold(f64::INFINITY, f64::min).sqrt();
+            self.time_step =
+                self.model.run.safety * blocks.iter_mut().zip(&self.model.parts).map(stable).fold(f64::INFINITY, f64::min).sqrt();
         }
     }
 
@@ -304,7 +320,7 @@ impl Builder<'_> {
             search: &|| (search.make)(),
         };
         let made = (kind.make)(setup).map_err(|fault| vec![fault])?;
-        Ok((Contact::new(contact.name.clone(), ContactKind::Contact, made, contact.interface.active), terms_of(&contact.interface)))
+        Ok((Contact::new(contact.name.clone(), ContactKind::Contact, made, contact.interface.active), terms(&contact.interface)))
     }
 
     /// The surfaces of a contact: two, or one that meets itself. Faults have paths relative to the contact.
@@ -351,47 +367,6 @@ impl Builder<'_> {
         mirrors.sort_by_key(|&(node, _)| node);
         Ok(Outlined { target: Target { surface, mirrors }, lids: lids.into_inner() })
     }
-
-    fn obstacles(&mut self) -> Vec<Contact> {
-        let mut contacts = Vec::new();
-        for (i, obstacle) in self.model.obstacles.iter().enumerate() {
-            let ObstacleShape::Plane { point, normal, length } = obstacle.shape else { continue };
-            let Some(normal) = unit(normal) else { continue };
-            let surface = match self.mesh.outside(&obstacle.parts) {
-                Ok(surface) => surface,
-                Err(fault) => {
-                    self.faults.push(Fault { path: format!("obstacle[{i}].parts"), ..fault });
-                    continue;
-                }
-            };
-            let outline = Outlined { target: Target { surface, mirrors: Vec::new() }, lids: Vec::new() };
-            let Side { target: Target { surface, .. }, nodes: own, .. } = self.side(outline, &obstacle.interface);
-            // Nodes that a symmetry line keeps on this plane need no spring.
-            let held = |node: u32| self.constraints.mirror_normals(node).any(|m| (m[0] * normal[1] - m[1] * normal[0]).abs() < 1e-12);
-            let slave = |(&node, &(length, own)): (&u32, &(f64, f64))| {
-                let here = law::Node { tributary: length, own, other: own, share: self.constraints.share(node) };
-                (!held(node)).then(|| (node, Slave { stiffness: stiffness_of(&obstacle.interface, here, 1), area: length, slip: 0.0 }))
-            };
-            let terms = terms_of(&obstacle.interface);
-            let reach = SKIN * own.iter().map(|&(length, _)| length).sum::<f64>() / own.len().max(1) as f64 + terms.law.reach();
-            let nodes = surface.nodes.iter().zip(&own).filter_map(slave).collect();
-            self.terms.push(terms);
-            let body = self.bodies.add(Body { centre: point, ..Body::default() });
-            let shape = Plane { normal, half: length.map_or(f64::INFINITY, |length| 0.5 * length) };
-            // Beyond every picture of the model.
-            let far = shape.half.min(20.0 * self.mesh.positions.iter().flatten().fold(0.0f64, |size, x| size.max(x.abs())));
-            let points = [1.0, -1.0].map(|side| [-side * far * normal[1], side * far * normal[0]]);
-            self.outlines.push(OutlineShape { name: obstacle.name.clone(), body, points: points.into() });
-            let formulation = NodeObstacle::new(Box::new(shape), body, nodes, reach, obstacle.interface.thickness);
-            contacts.push(Contact::new(
-                obstacle.name.clone(),
-                ContactKind::Obstacle(body),
-                Box::new(formulation),
-                obstacle.interface.active,
-            ));
-        }
-        contacts
-    }
 }
 
 /// A surface of a contact.
@@ -410,7 +385,7 @@ fn law_of(interface: &Interface) -> Box<dyn Law> {
 }
 
 /// What acts in the springs of an interface.
-fn terms_of(interface: &Interface) -> Terms {
+fn terms(interface: &Interface) -> Terms {
     let tangential = interface.friction.map_or(Tangential::Free, |friction| {
         let model::Friction { coefficient, dynamic, decay, viscosity, limit } = friction;
         Tangential::Friction(Friction { coefficient, dynamic: dynamic.unwrap_or(coefficient), decay, viscosity, limit })

@@ -412,7 +412,7 @@ impl Simulation {
         let system = &self.system;
         Summary {
             elements: system.blocks.iter().map(|block| block.elements()).sum(),
-            nodes: system.positions.len(),
+            nodes: system.mesh.positions.len(),
             steps: system.step,
             time_end: system.time,
             stable_time_step_min: self.shortest.time_step,

@@ -18,6 +18,7 @@ mod materials;
 mod plasticity;
 mod projectiles;
 mod projection;
+mod rigid;
 mod search;
 mod self_contact;
 mod swept;

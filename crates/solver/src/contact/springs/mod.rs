@@ -124,6 +124,13 @@ impl End {
     fn slip_row(&self, tangent: Vector) -> Vector {
         [0, 1].map(|d| self.share * tangent[d] + self.turn[d])
     }
+
+    /// Force of a solved spring on this end, N/m.
+    #[must_use]
+    pub fn force(&self, spring: &Spring) -> Vector {
+        let (gap_row, slip_row) = (self.gap_row(spring.normal), self.slip_row(tangent(spring.normal)));
+        [0, 1].map(|d| gap_row[d] * spring.force + slip_row[d] * spring.friction)
+    }
 }
 
 /// Tangent of a spring: the normal turned clockwise, along the target segment.
@@ -501,10 +508,8 @@ impl Springs {
                 continue;
             }
             totals.pressing += spring.force.abs();
-            let t = tangent(spring.normal);
             for end in self.ends(spring) {
-                let (gap_row, slip_row) = (end.gap_row(spring.normal), end.slip_row(t));
-                let force = [0, 1].map(|d| gap_row[d] * spring.force + slip_row[d] * spring.friction);
+                let force = end.force(spring);
                 if end.share > 0.0 {
                     totals.resultant = [totals.resultant[0] + spring.side * force[0], totals.resultant[1] + spring.side * force[1]];
                 }

@@ -79,7 +79,7 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         return Err(builder.faults);
     }
     let Builder { mesh, constraints, curves, positions, mass, body_parts, bodies, mut terms, ties, outlines, .. } = builder;
-    terms.resize_with(first_of_ties(model), || self::terms(&Interface::default()));
+    terms.resize_with(first_of_ties(model), || terms_of(&Interface::default()));
     terms.extend(ties);
     let inputs: Vec<(&dyn Block<2>, usize, &[u32])> =
         blocks.iter().zip(&mesh.parts).map(|(block, part)| (block.as_ref(), part.nodes_per_element, &part.connectivity[..])).collect();
@@ -201,7 +201,7 @@ impl Builder<'_> {
         blocks
     }
 
-    /// What the stiffness of contacts is made from: elements behind every edge, moduli, masses and the first step.
+    /// What the stiffness of contacts is made from: elements behind every edge, moduli and the first step.
     fn find_elements_under_surfaces(&mut self, blocks: &mut [Box<dyn Block<2>>], level: Level) {
         for (part_index, part) in self.mesh.parts.iter().enumerate() {
             for (element, cell) in part.connectivity.chunks_exact(part.nodes_per_element).enumerate() {
@@ -320,7 +320,7 @@ impl Builder<'_> {
             search: &|| (search.make)(),
         };
         let made = (kind.make)(setup).map_err(|fault| vec![fault])?;
-        Ok((Contact::new(contact.name.clone(), ContactKind::Contact, made, contact.interface.active), terms(&contact.interface)))
+        Ok((Contact::new(contact.name.clone(), ContactKind::Contact, made, contact.interface.active), terms_of(&contact.interface)))
     }
 
     /// The surfaces of a contact: two, or one that meets itself. Faults have paths relative to the contact.
@@ -385,7 +385,7 @@ fn law_of(interface: &Interface) -> Box<dyn Law> {
 }
 
 /// What acts in the springs of an interface.
-fn terms(interface: &Interface) -> Terms {
+fn terms_of(interface: &Interface) -> Terms {
     let tangential = interface.friction.map_or(Tangential::Free, |friction| {
         let model::Friction { coefficient, dynamic, decay, viscosity, limit } = friction;
         Tangential::Friction(Friction { coefficient, dynamic: dynamic.unwrap_or(coefficient), decay, viscosity, limit })

@@ -1,6 +1,6 @@
 //! Obstacles: their rigid bodies, their shapes, and the nodes that meet them.
 
-use super::{Builder, Outlined, stiffness_of, terms};
+use super::{Builder, Outlined, stiffness_of, terms_of};
 use crate::contact::formulation::Side;
 use crate::contact::node_segment::Slave;
 use crate::contact::obstacle::plane::Plane;
@@ -36,7 +36,7 @@ impl Builder<'_> {
             };
             let outline = Outlined { target: Target { surface, mirrors: Vec::new() }, lids: Vec::new() };
             let Side { target: Target { surface, .. }, nodes: own, .. } = self.side(outline, &obstacle.interface);
-            let terms = terms(&obstacle.interface);
+            let terms = terms_of(&obstacle.interface);
             let spacing = own.iter().map(|&(length, _)| length).sum::<f64>() / own.len().max(1) as f64;
             let met = Met { surface, own, reach: SKIN * spacing + terms.law.reach() };
             let Some((body, formulation)) = self.obstacle(obstacle, &met) else { continue };

@@ -113,6 +113,13 @@ impl End {
         Self { at: node, share, ..Self::default() }
     }
 
+    /// Force of a solved spring on this end, N/m.
+    #[must_use]
+    pub fn force(&self, spring: &Spring) -> Vector {
+        let (gap_row, slip_row) = (self.gap_row(spring.normal), self.slip_row(tangent(spring.normal)));
+        [0, 1].map(|d| gap_row[d] * spring.force + slip_row[d] * spring.friction)
+    }
+
     /// Row of the gap's rate.
     #[inline]
     fn gap_row(&self, normal: Vector) -> Vector {
@@ -123,13 +130,6 @@ impl End {
     #[inline]
     fn slip_row(&self, tangent: Vector) -> Vector {
         [0, 1].map(|d| self.share * tangent[d] + self.turn[d])
-    }
-
-    /// Force of a solved spring on this end, N/m.
-    #[must_use]
-    pub fn force(&self, spring: &Spring) -> Vector {
-        let (gap_row, slip_row) = (self.gap_row(spring.normal), self.slip_row(tangent(spring.normal)));
-        [0, 1].map(|d| gap_row[d] * spring.force + slip_row[d] * spring.friction)
     }
 }
 

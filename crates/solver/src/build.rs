@@ -228,11 +228,15 @@ impl Builder<'_> {
         if interfaces.into_iter().any(|interface| source_of(interface) == PenaltySource::TimeStep) {
             let velocities = vec![[0.0; 2]; self.mesh.positions.len()];
             let motion = Motion { positions: &self.mesh.positions, velocities: &velocities, time_step: 0.0 };
-            let stable = |block: &mut Box<dyn Block<2>>| {
+            let stable = |(block, part): (&mut Box<dyn Block<2>>, &model::Part)| {
+                if part.rigid.is_some() {
+                    return f64::INFINITY;
+                }
                 let mut corners = vec![Batch::default(); block.corner_batches()];
                 block.advance(&motion, level, &mut corners, false).time_step_squared
             };
-            self.time_step = self.model.run.safety * blocks.iter_mut().map(stable).fold(f64::INFINITY, f64::min).sqrt();
+            self.time_step =
+                self.model.run.safety * blocks.iter_mut().zip(&self.model.parts).map(stable).fold(f64::INFINITY, f64::min).sqrt();
         }
     }
 

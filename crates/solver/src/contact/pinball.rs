@@ -95,6 +95,15 @@ impl Disk {
         self.nodes[..self.count].iter().any(|node| other.nodes[..other.count].contains(node))
     }
 
+    /// Whether both are in one element, and nearly in one place.
+    fn is_as(&self, other: &Self, positions: &[Vector]) -> bool {
+        let (mut mine, mut theirs) = (self.nodes, other.nodes);
+        mine.sort_unstable();
+        theirs.sort_unstable();
+        let (a, b) = (self.centre(positions), other.centre(positions));
+        mine == theirs && (a[0] - b[0]).hypot(a[1] - b[1]) < SAME * self.radius.min(other.radius)
+    }
+
     /// Ends of a spring that pushes the disk along `sign` n; friction's couple of `moment` per force is taken by the element's nodes around their mean.
     fn ends(&self, positions: &[Vector], sign: f64, moment: f64) -> [End; 4] {
         let nodes = &self.nodes[..self.count];
@@ -115,54 +124,68 @@ impl Disk {
     }
 }
 
+/// How deep a place is below a segment, m.
+fn depth(x: Vector, [a, b]: [u32; 2], positions: &[Vector]) -> f64 {
+    let whole = length([a, b], positions);
+    let [a, b] = [a, b].map(|node| positions[node as usize]);
+    ((b[0] - a[0]) * (a[1] - x[1]) - (b[1] - a[1]) * (a[0] - x[0])) / whole
+}
+
 /// The disks under a surface, segment by segment.
 fn disks_under(side: &Side<'_>, positions: &[Vector], disks: &mut Vec<Disk>) {
     let first = disks.len();
-    let at = |node: u32| positions[node as usize];
+    let mut above: Vec<[u32; 2]> = Vec::new();
     for ((&segment, &cell), &stiffness) in side.target.surface.segments.iter().zip(&side.cells).zip(&side.segments) {
-        let [a, b] = segment;
-        // The element runs through the segment the other way round: b, a, what is beyond a, what is beyond b.
-        let Some(place) = cell.iter().position(|&node| node == b) else { continue };
-        let corner = |k: usize| cell[(place + k) % cell.len()];
-        let (beyond_a, beyond_b) = (corner(2), corner(cell.len() - 1));
-        let whole = length(segment, positions);
-        let normal = [-(at(b)[1] - at(a)[1]) / whole, (at(b)[0] - at(a)[0]) / whole];
-        let depth = |x: Vector| (at(a)[0] - x[0]) * normal[0] + (at(a)[1] - x[1]) * normal[1];
-        let height = 0.5 * (depth(at(beyond_a)) + depth(at(beyond_b)));
-        if !(whole > 0.0 && height > 0.0) {
-            continue;
-        }
-        let count = (whole / height).round().max(1.0);
-        let down = 0.5 * (whole / count / height).min(1.0);
-        for k in 0..count as usize {
-            let along = (k as f64 + 0.5) / count;
-            let weights = [(1.0 - along) * (1.0 - down), along * (1.0 - down), (1.0 - along) * down, along * down];
-            let mut disk = Disk { stiffness, length: whole / count, ..Disk::default() };
-            for (node, share) in [a, b, beyond_a, beyond_b].into_iter().zip(weights) {
-                match disk.nodes[..disk.count].iter().position(|&other| other == node) {
-                    Some(same) => disk.shares[same] += share,
-                    None => {
-                        (disk.nodes[disk.count], disk.shares[disk.count]) = (node, share);
-                        disk.count += 1;
-                    }
-                }
-            }
-            let centre = disk.centre(positions);
-            disk.radius = depth(centre);
-            let same = |other: &Disk| {
-                let (x, mut mine, mut theirs) = (other.centre(positions), disk.nodes, other.nodes);
-                mine.sort_unstable();
-                theirs.sort_unstable();
-                mine == theirs && (x[0] - centre[0]).hypot(x[1] - centre[1]) < SAME * disk.radius.min(other.radius)
+        for disk in disks_of_segment(segment, cell, stiffness, positions) {
+            let same = disks[first..].iter().position(|other| disk.is_as(other, positions));
+            let Some(at) = same else {
+                disks.push(disk);
+                above.push(segment);
+                continue;
             };
-            // The larger one stays, whatever the order of the segments.
-            match disks[first..].iter().position(same) {
-                Some(at) if disks[first + at].radius < disk.radius => disks[first + at] = disk,
-                Some(_) => {}
-                None => disks.push(disk),
+            // The larger one stays, whatever the order of the segments, and keeps within both.
+            let other = &mut disks[first + at];
+            let mut within = segment;
+            if other.radius < disk.radius {
+                *other = disk;
+                std::mem::swap(&mut above[at], &mut within);
             }
+            other.radius = other.radius.min(depth(other.centre(positions), within, positions));
         }
     }
+}
+
+/// The disks of one segment over the element `cell`.
+fn disks_of_segment(segment: [u32; 2], cell: &[u32], stiffness: f64, positions: &[Vector]) -> Vec<Disk> {
+    let [a, b] = segment;
+    // The element runs through the segment the other way round: b, a, what is beyond a, what is beyond b.
+    let Some(place) = cell.iter().position(|&node| node == b) else { return Vec::new() };
+    let corner = |k: usize| cell[(place + k) % cell.len()];
+    let (beyond_a, beyond_b) = (corner(2), corner(cell.len() - 1));
+    let whole = length(segment, positions);
+    let height = 0.5 * [beyond_a, beyond_b].iter().map(|&node| depth(positions[node as usize], segment, positions)).sum::<f64>();
+    if !(whole > 0.0 && height > 0.0) {
+        return Vec::new();
+    }
+    let count = (whole / height).round().max(1.0);
+    let down = 0.5 * (whole / count / height).min(1.0);
+    let disk = |k: usize| {
+        let along = (k as f64 + 0.5) / count;
+        let weights = [(1.0 - along) * (1.0 - down), along * (1.0 - down), (1.0 - along) * down, along * down];
+        let mut disk = Disk { stiffness, length: whole / count, ..Disk::default() };
+        for (node, share) in [a, b, beyond_a, beyond_b].into_iter().zip(weights) {
+            match disk.nodes[..disk.count].iter().position(|&other| other == node) {
+                Some(same) => disk.shares[same] += share,
+                None => {
+                    (disk.nodes[disk.count], disk.shares[disk.count]) = (node, share);
+                    disk.count += 1;
+                }
+            }
+        }
+        disk.radius = depth(disk.centre(positions), segment, positions);
+        disk
+    };
+    (0..count as usize).map(disk).collect()
 }
 
 impl Pinball {

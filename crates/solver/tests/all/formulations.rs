@@ -2,8 +2,11 @@
 
 use crate::bodies::*;
 use crate::contact::scenes;
+use crate::self_contact::{all, alone, crushed_ring, folding_column};
 use embate_solver::error::Error;
-use embate_solver::model::{Constraint, Contact, ContactLaw, Formulation, Friction, Interface, Load, Model, Penalty, PenaltySource};
+use embate_solver::model::{
+    Constraint, Contact, ContactLaw, Curve, Drive, Formulation, Friction, Interface, Load, Model, Penalty, PenaltySource,
+};
 use embate_solver::simulation::{Options, Simulation};
 
 const FRICTION: Friction = Friction { coefficient: 0.3, dynamic: None, decay: 0.0, viscosity: 0.0, limit: f64::INFINITY };
@@ -278,4 +281,116 @@ fn ties_that_bind_nothing_or_a_node_twice_are_told() {
     twice.contacts.push(Contact { tied: Some(1.0), ..Contact::between("second", "right", "third") });
     let told = faults(&twice);
     assert!(told.contains("contact[1].tied") && told.contains("tied already by contact \"glue\"") && told.contains("node at ("), "{told}");
+}
+
+/// V-1 of the contact patch test (Taylor and Papadopoulos 1991; data of Crisfield 2000): two blocks 1 m x 0.5 m, three rows of elements each, pressed together by 10 mm, brought to rest by
+/// damping; turned by an angle as a whole. Largest |σ/σ_mean − 1| across the interface and |σ_other/σ_mean| of all elements.
+fn patch_error(formulation: Formulation, penalty: Penalty, [lower, upper]: [usize; 2], angle: f64) -> f64 {
+    let (sin, cos) = f64::sin_cos(angle);
+    let turn = move |[x, y]: [f64; 2]| [cos * x - sin * y, sin * x + cos * y];
+    let mut model = slender(2.0, 1e6, 1000.0);
+    let mut block = |name: &str, count: usize, from: f64| {
+        let mut mesh = mapped([count, 3], |u, v| turn([u, from + 0.5 * v]));
+        let row = |j: usize| (0..count).map(move |i| vec![(j * (count + 1) + i) as u32, (j * (count + 1) + i + 1) as u32]);
+        mesh.groups.push(group(&format!("{name}-bottom"), 1, row(0)));
+        mesh.groups.push(group(&format!("{name}-top"), 1, row(3)));
+        add_mesh(&mut model, name, mesh, [0.0; 2]);
+    };
+    block("lower", lower, 0.0);
+    block("upper", upper, 0.5);
+    let press = turn([0.0, -0.1]);
+    for (d, name) in ["along_x", "along_y"].into_iter().enumerate() {
+        let curve = Curve { times: vec![0.0, 0.1, 0.1001], values: vec![press[d], press[d], 0.0], dimension: None };
+        model.curves.insert(name.into(), curve);
+    }
+    let velocity = [Some(Drive::Curve("along_x".into())), Some(Drive::Curve("along_y".into()))];
+    model.constraints.push(Constraint { on: "lower-bottom".into(), velocity: [Some(0.0.into()), Some(0.0.into())] });
+    model.constraints.push(Constraint { on: "upper-top".into(), velocity });
+    model.loads.push(Load::Damping { parts: vec![], rate: 150.0, active: [0.0, f64::INFINITY] });
+    model.contacts.push(Contact { formulation, interface: penalty.into(), ..Contact::between("seam", "lower-top", "upper-bottom") });
+    let mut simulation = simulation(&model);
+    simulation.advance(f64::INFINITY, u64::MAX).unwrap();
+    let frame = simulation.frame();
+    let stresses = &frame.fields.iter().find(|field| field.kind.name == "stress").unwrap().values;
+    // xx, yy, zz, xy turned back: across the interface, along it, and shear.
+    let local = |s: &[f64]| {
+        let across = sin * sin * s[0] + cos * cos * s[1] - 2.0 * sin * cos * s[3];
+        let along = cos * cos * s[0] + sin * sin * s[1] + 2.0 * sin * cos * s[3];
+        let shear = sin * cos * (s[1] - s[0]) + (cos * cos - sin * sin) * s[3];
+        [across, along, shear]
+    };
+    let all: Vec<[f64; 3]> = stresses.chunks_exact(4).map(local).collect();
+    let mean = all.iter().map(|s| s[0]).sum::<f64>() / all.len() as f64;
+    assert!(mean < -0.5e4, "{mean}");
+    all.iter().map(|s| (s[0] / mean - 1.0).abs().max(s[1].abs() / mean.abs()).max(s[2].abs() / mean.abs())).fold(0.0, f64::max)
+}
+
+#[test]
+fn segments_pass_the_patch_test_on_any_two_meshes() {
+    for meshes in [[4, 5], [8, 11], [12, 11], [5, 5]] {
+        for angle in [0.0, std::f64::consts::FRAC_PI_6] {
+            for penalty in [Penalty::automatic(1.0), Penalty::Pressure(1e8)] {
+                let error = patch_error(Formulation::Segment, penalty, meshes, angle);
+                assert!(error < 1e-10, "{meshes:?} turned by {angle}, {penalty:?}: {error}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_double_pass_errs_in_the_patch_test_less_with_stiffer_springs_and_a_single_pass_always() {
+    for meshes in [[4, 5], [8, 11]] {
+        let errors = |formulation| [1e7, 1e8].map(|stiffness| patch_error(formulation, Penalty::Pressure(stiffness), meshes, 0.0));
+        let [soft, stiff] = errors(Formulation::DoublePass);
+        assert!(soft < 0.03 && stiff < 0.6 * soft, "{meshes:?}: {soft} {stiff}");
+        for slave in [0, 1] {
+            let [soft, stiff] = errors(Formulation::SinglePass { slave });
+            assert!(soft < 0.12 && stiff < 0.12 && stiff > 0.015, "{meshes:?}, slave {slave}: {soft} {stiff}");
+        }
+    }
+    // Where nodes meet nodes nothing is uneven.
+    assert!(patch_error(Formulation::DoublePass, Penalty::automatic(1.0), [5, 5], 0.0) < 1e-8);
+}
+
+#[test]
+fn a_body_alone_feels_itself_in_no_formulation() {
+    for formulation in [Formulation::Segment, Formulation::Pinball] {
+        for thickness in [0.0, 1e-3] {
+            for (name, mut model) in alone() {
+                model.parts[0].velocity = [10.0, 0.0];
+                model.parts[0].spin = 300.0;
+                (model.run.energy_limit, model.run.max_steps) = (1.0, Some(300));
+                all(&mut model);
+                model.contacts[0].formulation = formulation;
+                model.contacts[0].interface.thickness = thickness;
+                let (simulation, history) = run(&model);
+                // A surface that keeps a distance from itself may come nearer to itself than half of what it had.
+                let limit = if thickness > 0.0 { 1e-3 * simulation.ledger().largest } else { 0.0 };
+                assert!(
+                    history.largest("energy.contact") <= limit,
+                    "{formulation:?} {name} {thickness}: {}",
+                    history.largest("energy.contact")
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn bodies_meet_themselves_in_every_formulation() {
+    for formulation in [Formulation::Segment, Formulation::Pinball] {
+        for (name, mut model, wall) in [("ring", crushed_ring(), 4e-3), ("column", folding_column(), 2e-3)] {
+            model.contacts[0].formulation = formulation;
+            model.run.end = 2.6e-3;
+            let (simulation, history) = run(&model);
+            let summary = simulation.summary();
+            assert!(history.largest("energy.contact") > 0.0);
+            assert!(
+                summary.momentum_drift_linear.unwrap() < 1e-12 && summary.momentum_drift_angular.unwrap() < 1e-12,
+                "{name}: {summary:?}"
+            );
+            assert!(summary.energy_drift < 0.02 && summary.ledger_residual < 1e-12, "{name}: {summary:?}");
+            assert!(summary.penetration_max < 0.25 * wall && summary.contact.unverified == 0, "{name}: {summary:?}");
+        }
+    }
 }

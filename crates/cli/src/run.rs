@@ -44,6 +44,7 @@ const FILES: &[(&str, &str)] = &[
     ("history.svg", "probes and contacts over time"),
     ("history.csv", "the same as numbers"),
     ("fields.pvd", "all fields, for ParaView"),
+    ("obstacles.pvd", "the obstacles, for ParaView"),
     ("summary.json", "the figures of the run"),
 ];
 

@@ -1,28 +1,34 @@
 //! From a model to a [`System`]: mesh, blocks, masses, contacts, walls, conditions. All faults are collected before anything runs.
 
+mod bodies;
+mod obstacles;
+mod start;
+
 use crate::assembly::Assembly;
-use crate::block::{Block, BlockInput, Report, make};
+use crate::block::{Block, BlockInput, Motion, Report, make};
+use crate::contact::formulation::{self, Setup, Side};
 use crate::contact::law::{self, Law};
-use crate::contact::node_segment::{NodeSegment, PassInput, Slave};
-use crate::contact::obstacle::{NodeObstacle, OutlineShape, plane::Plane};
+use crate::contact::obstacle::OutlineShape;
 use crate::contact::projection::node_segment::Target;
-use crate::contact::search::Search;
+use crate::contact::search::SearchKind;
 use crate::contact::springs::friction::Friction;
 use crate::contact::springs::{Springs, Tangential, Terms};
 use crate::contact::traces::Traces;
-use crate::contact::tracker::{SKIN, Tracker};
-use crate::contact::{self, Contact, ContactKind, initial, search};
-use crate::energy::Ledger;
+use crate::contact::{self, Contact, ContactKind, search};
+use crate::energy::{Ledger, Sums};
 use crate::error::Fault;
-use crate::load::constraint::{Constraints, unit};
+use crate::load::constraint::Constraints;
+use crate::load::curve::Curves;
+use crate::load::damping::Damping;
 use crate::load::gravity;
 use crate::mesh::surface::{NONE, Surface};
 use crate::mesh::{Mesh, PartMesh};
-use crate::model::{self, ContactLaw, Formulation, InitialPenetration, Interface, Model, ObstacleShape, Partners, Penalty};
-use crate::rigid::{Bodies, Body};
-use crate::step::{CHUNK, Governor, Limits, NodeSums, System};
+use crate::model::{self, ContactLaw, Interface, Model, Partners, Penalty, PenaltySource};
+use crate::rigid::Bodies;
+use crate::step::{CHUNK, Governor, Limits, System};
 use embate_lanes::{Batch, Level};
 use std::cell::RefCell;
+use std::collections::BTreeMap;
 
 /// Below so many elements threads cost more than they bring.
 const SERIAL: usize = 4096;
@@ -37,13 +43,21 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         return Err(faults);
     }
     let mesh = Mesh::new(model)?;
+    let curves = Curves::new(model);
     let mut builder = Builder {
         model,
         faults: Vec::new(),
-        constraints: Constraints::new(model, &mesh)?,
+        constraints: Constraints::new(model, &mesh, &curves)?,
+        curves,
+        positions: mesh.positions.clone(),
+        mass: vec![0.0; mesh.positions.len()],
+        body_parts: Vec::new(),
         under: Vec::new(),
+        moduli: Vec::new(),
+        time_step: 0.0,
         bodies: Bodies::default(),
         terms: Vec::new(),
+        ties: Vec::new(),
         outlines: Vec::new(),
         mesh,
     };
@@ -51,33 +65,32 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
     if !builder.faults.is_empty() {
         return Err(builder.faults);
     }
-    let blocks = builder.blocks();
+    let mut blocks = builder.blocks();
     if blocks.len() < model.parts.len() {
         return Err(builder.faults);
     }
-    builder.find_elements_under_surfaces(&blocks);
+    let part_mass = part_masses(&builder.mesh, &blocks);
+    for &(node, share) in part_mass.iter().flatten() {
+        builder.mass[node as usize] += share;
+    }
+    let gravity = gravity::accelerations(model, &builder.mesh, &builder.mass, &part_mass);
+    let damping = Damping::new(model, &builder.mesh, &builder.mass, &part_mass);
+    let mut velocities = builder.velocities(&part_mass);
+    builder.rigid_parts(&part_mass, &gravity);
+    builder.find_elements_under_surfaces(&mut blocks, level);
     let mut contacts = builder.contacts();
     contacts.extend(builder.obstacles());
     if !builder.faults.is_empty() {
         return Err(builder.faults);
     }
-    let Builder { mesh, constraints, bodies, terms, outlines, .. } = builder;
+    let Builder { mesh, constraints, curves, positions, mass, body_parts, bodies, mut terms, ties, outlines, .. } = builder;
+    terms.resize_with(first_of_ties(model), || terms_of(&Interface::default()));
+    terms.extend(ties);
     let inputs: Vec<(&dyn Block<2>, usize, &[u32])> =
         blocks.iter().zip(&mesh.parts).map(|(block, part)| (block.as_ref(), part.nodes_per_element, &part.connectivity[..])).collect();
-    let nodes = mesh.positions.len();
+    let nodes = positions.len();
     let assembly = Assembly::new(nodes, &inputs);
-    let part_mass = part_masses(&mesh, &blocks);
-    let mut mass = vec![0.0; nodes];
-    let mut momentum = vec![[0.0; 2]; nodes];
-    for (masses, part) in part_mass.iter().zip(&model.parts) {
-        for &(node, share) in masses {
-            mass[node as usize] += share;
-            for d in 0..2 {
-                momentum[node as usize][d] += share * part.velocity[d];
-            }
-        }
-    }
-    let velocities: Vec<[f64; 2]> = momentum.iter().zip(&mass).map(|(p, &m)| p.map(|p| p / m)).collect();
+    velocities.resize(nodes, [0.0; 2]);
     let outside = if contacts.is_empty() { Surface::default() } else { mesh.outside(&[]).map_err(|fault| vec![fault])? };
     let traces = Traces::new(outside, &mesh.positions);
     let limits =
@@ -85,15 +98,16 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
     let elements: usize = blocks.iter().map(|block| block.elements()).sum();
     Ok(System {
         corners: vec![Batch::default(); assembly.corner_batches],
-        gravity: gravity::accelerations(model, &mesh, &mass, &part_mass),
-        positions: mesh.positions.clone(),
-        positions_old: mesh.positions.clone(),
+        rigid: model.parts.iter().map(|part| part.rigid.is_some()).collect(),
+        positions_old: positions.clone(),
+        positions,
         velocities_old: velocities.clone(),
         velocities,
         contact_forces: vec![[0.0; 2]; nodes],
         springs: Springs::new(nodes, bodies.len()),
         reports: vec![Report::NOTHING; blocks.len()],
-        sums: vec![NodeSums::default(); nodes.div_ceil(CHUNK)],
+        sums: vec![Sums::default(); nodes.div_ceil(CHUNK)],
+        of_bodies: Sums::default(),
         ledger: Ledger::default(),
         penetration_max: 0.0,
         initial_penetrations,
@@ -110,6 +124,10 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         contacts,
         terms,
         bodies,
+        body_parts,
+        curves,
+        damping,
+        gravity,
         outlines,
         traces,
         constraints,
@@ -136,13 +154,36 @@ struct Builder<'a> {
     model: &'a Model,
     mesh: Mesh<2>,
     constraints: Constraints<2>,
+    curves: Curves,
     faults: Vec<Fault>,
-    /// Pressure stiffness κ = (K + 4µ/3) L / A of the element behind each edge as an outside segment, Pa/m, and its part; sorted by nodes.
-    under: Vec<([u32; 2], f64, u32)>,
+    /// Initial positions of all nodes, m: those of elements, then those of obstacles.
+    positions: Vec<[f64; 2]>,
+    /// Their masses, kg/m; 1 where an obstacle has a node.
+    mass: Vec<f64>,
+    /// The elements behind all edges, sorted by the nodes of the edge.
+    under: Vec<Under>,
+    /// Wave modulus and bulk modulus of each part, Pa.
+    moduli: Vec<[f64; 2]>,
+    /// First time step, s; only where a contact asks for it.
+    time_step: f64,
     bodies: Bodies,
+    /// Rigid parts and their bodies.
+    body_parts: Vec<(usize, usize)>,
     /// What acts in each contact, then in each obstacle.
     terms: Vec<Terms>,
+    /// What acts in ties.
+    ties: Vec<Terms>,
     outlines: Vec<OutlineShape>,
+}
+
+/// The element behind an edge.
+struct Under {
+    /// The edge as an outside segment.
+    nodes: [u32; 2],
+    /// L / A: one over the height of the element, 1/m.
+    flatness: f64,
+    part: u32,
+    element: u32,
 }
 
 impl Builder<'_> {
@@ -166,136 +207,126 @@ impl Builder<'_> {
         blocks
     }
 
-    /// Stiffness of the elements behind every edge, for the automatic penalty.
-    fn find_elements_under_surfaces(&mut self, blocks: &[Box<dyn Block<2>>]) {
-        for (number, (part, block)) in (0..).zip(self.mesh.parts.iter().zip(blocks)) {
-            for cell in part.connectivity.chunks_exact(part.nodes_per_element) {
+    /// What the stiffness of contacts is made from: elements behind every edge, moduli and the first step.
+    fn find_elements_under_surfaces(&mut self, blocks: &mut [Box<dyn Block<2>>], level: Level) {
+        for (part_index, part) in self.mesh.parts.iter().enumerate() {
+            for (element, cell) in part.connectivity.chunks_exact(part.nodes_per_element).enumerate() {
                 let x = |corner: usize| self.mesh.positions[cell[corner % cell.len()] as usize];
                 let area = 0.5 * (0..cell.len()).map(|c| x(c)[0] * x(c + 1)[1] - x(c)[1] * x(c + 1)[0]).sum::<f64>();
                 for c in 0..cell.len() {
                     let (a, b) = (x(c), x(c + 1));
                     let length = ((b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2)).sqrt();
                     // Outside segments run against the element's own direction.
-                    self.under.push(([cell[(c + 1) % cell.len()], cell[c]], block.wave_modulus() * length / area, number));
+                    let nodes = [cell[(c + 1) % cell.len()], cell[c]];
+                    self.under.push(Under { nodes, flatness: length / area, part: part_index as u32, element: element as u32 });
                 }
             }
         }
-        self.under.sort_unstable_by_key(|&(nodes, ..)| nodes);
-    }
-
-    /// Pressure stiffness κ behind each segment, Pa/m, and the part that it belongs to.
-    fn behind(&self, surface: &Surface) -> Vec<(f64, u32)> {
-        let find = |segment: &[u32; 2]| self.under.binary_search_by_key(segment, |&(nodes, ..)| nodes).ok();
-        surface.segments.iter().map(|segment| find(segment).map_or((0.0, 0), |at| (self.under[at].1, self.under[at].2))).collect()
-    }
-
-    fn stiffness_under(&self, surface: &Surface) -> Vec<f64> {
-        self.behind(surface).into_iter().map(|(stiffness, _)| stiffness).collect()
-    }
-
-    /// Smallest κ of the segments of the same part, for each segment, Pa/m.
-    fn softest_under(&self, surface: &Surface) -> Vec<f64> {
-        let behind = self.behind(surface);
-        let mut softest = vec![f64::INFINITY; self.mesh.parts.len()];
-        for &(stiffness, part) in &behind {
-            softest[part as usize] = stiffness.min(softest[part as usize]);
-        }
-        behind.into_iter().map(|(_, part)| softest[part as usize]).collect()
-    }
-
-    /// Penetrations of the contacts at the start: faults, or lines for the overview. Those that shall be pushed out are, in the mesh.
-    fn part_at_start(&mut self) -> Vec<String> {
-        let mut lines = Vec::new();
-        let mut is_moved = false;
-        for (i, contact) in self.model.contacts.iter().enumerate() {
-            let Interface { initial_penetration, thickness, active, .. } = contact.interface;
-            // Ties hold what is there; who begins later can't know. Wrong surfaces are told when contacts are made.
-            if contact.tied.is_some() || active[0] > 0.0 {
-                continue;
-            }
-            let (Ok(outlines), Some(search)) = (self.outlines_of(contact), search_by_name(&contact.search)) else { continue };
-            let mut tracker = tracker(outlines, passes_of(contact), search, &self.mesh);
-            let tolerance = initial::TOLERANCE * initial::size(&self.mesh.positions);
-            let found = initial::penetrations(&mut tracker, thickness, &self.mesh.positions, tolerance);
-            let path = format!("contact[{i}]");
-            match initial_penetration {
-                InitialPenetration::Error => self.faults.extend(initial::faults(&path, &contact.name, &found)),
-                InitialPenetration::Ignore => lines.extend(initial::lines(&contact.name, &found, "this counts as zero")),
-                InitialPenetration::PushOut => {
-                    lines.extend(initial::lines(&contact.name, &found, "it was pushed out"));
-                    is_moved |= !found.is_empty();
-                    let left = initial::push_out(&mut tracker, thickness, &mut self.mesh.positions, &self.constraints, tolerance);
-                    self.faults.extend(initial::faults(&path, &contact.name, &left).into_iter().map(|fault| Fault {
-                        message: format!("{} and can't be pushed out", fault.message),
-                        help: "move the bodies apart".into(),
-                        ..fault
-                    }));
+        self.under.sort_unstable_by_key(|under| under.nodes);
+        self.moduli = blocks.iter().map(|block| [block.wave_modulus(), block.bulk_modulus()]).collect();
+        let interfaces = self.model.contacts.iter().map(|c| &c.interface).chain(self.model.obstacles.iter().map(|o| &o.interface));
+        if interfaces.into_iter().any(|interface| source_of(interface) == PenaltySource::TimeStep) {
+            let velocities = vec![[0.0; 2]; self.mesh.positions.len()];
+            let motion = Motion { positions: &self.mesh.positions, velocities: &velocities, time_step: 0.0 };
+            let stable = |(block, part): (&mut Box<dyn Block<2>>, &model::Part)| {
+                if part.rigid.is_some() {
+                    return f64::INFINITY;
                 }
+                let mut corners = vec![Batch::default(); block.corner_batches()];
+                block.advance(&motion, level, &mut corners, false).time_step_squared
+            };
+            self.time_step =
+                self.model.run.safety * blocks.iter_mut().zip(&self.model.parts).map(stable).fold(f64::INFINITY, f64::min).sqrt();
+        }
+    }
+
+    fn under(&self, segment: [u32; 2]) -> Option<&Under> {
+        self.under.binary_search_by_key(&segment, |under| under.nodes).ok().map(|at| &self.under[at])
+    }
+
+    /// What is behind a surface, with the stiffness that an interface asks for.
+    fn side(&self, Outlined { target, lids }: Outlined, interface: &Interface) -> Side<'_> {
+        let (surface, positions, source) = (&target.surface, &self.mesh.positions, source_of(interface));
+        let modulus = |under: &Under| self.moduli[under.part as usize][usize::from(source == PenaltySource::BulkModulus)] * under.flatness;
+        let mut segments: Vec<f64> = surface.segments.iter().map(|&segment| self.under(segment).map_or(0.0, modulus)).collect();
+        let mut nodes = contact::node_stiffness(surface, &segments, positions);
+        if source == PenaltySource::TimeStep {
+            for (&node, (length, stiffness)) in surface.nodes.iter().zip(&mut nodes) {
+                *stiffness = law::penalty::of_time_step(self.mass[node as usize], self.time_step, *length);
             }
+            let of = |node: u32| surface.nodes.binary_search(&node).map_or(0.0, |at| nodes[at].1);
+            segments = surface.segments.iter().map(|&[a, b]| 0.5 * (of(a) + of(b))).collect();
         }
-        if is_moved && self.faults.is_empty() {
-            self.faults.extend(self.mesh.faults_of_elements());
-        }
-        lines
+        let cell = |&segment: &[u32; 2]| {
+            self.under(segment).map_or(&[][..], |under| {
+                let part = &self.mesh.parts[under.part as usize];
+                &part.connectivity[under.element as usize * part.nodes_per_element..][..part.nodes_per_element]
+            })
+        };
+        let cells = surface.segments.iter().map(cell).collect();
+        let parts = surface.segments.iter().map(|&segment| self.under(segment).map_or(0, |under| under.part)).collect();
+        Side { lids, segments, parts, nodes, cells, target }
     }
 
     fn contacts(&mut self) -> Vec<Contact> {
         let mut contacts = Vec::new();
+        let mut tied = BTreeMap::new();
+        let bodies = self.mesh.bodies();
         for (i, contact) in self.model.contacts.iter().enumerate() {
-            let outlines = match self.outlines_of(contact) {
-                Ok(outlines) => outlines,
-                Err(faults) => {
-                    self.faults.extend(faults.into_iter().map(|fault| Fault { path: format!("contact[{i}].{}", fault.path), ..fault }));
-                    continue;
+            match self.contact(contact, &bodies) {
+                Ok((made, terms)) => {
+                    self.terms.push(terms);
+                    if let Some(ties) = made.ties() {
+                        self.ties.push(terms_of_ties(&contact.interface));
+                        self.tied_once(&format!("contact[{i}].tied"), &contact.name, &ties.nodes, &mut tied);
+                    }
+                    contacts.push(made);
                 }
-            };
-            let Some(search) = search_by_name(&contact.search) else {
-                self.faults.push(Fault::new(
-                    format!("contact[{i}].search"),
-                    format!("there is no search \"{}\"", contact.search),
-                    "see `embate list searches`",
-                ));
-                continue;
-            };
-            let terms = terms(&contact.interface);
-            let formulation = self.node_segment(contact, outlines, search, terms.law.reach());
-            self.terms.push(terms);
-            contacts.push(Contact::new(contact.name.clone(), ContactKind::Contact, Box::new(formulation), contact.interface.active));
+                Err(faults) => self.faults.extend(faults.into_iter().map(|fault| {
+                    let dot = if fault.path.is_empty() { "" } else { "." };
+                    Fault { path: format!("contact[{i}]{dot}{}", fault.path), ..fault }
+                })),
+            }
         }
         contacts
     }
 
-    fn node_segment(&self, contact: &model::Contact, outlines: Vec<Outlined>, search: Box<dyn Search<2>>, reach: f64) -> NodeSegment {
-        let passes = passes_of(contact);
-        let stiffness: Vec<_> = outlines.iter().map(|outline| self.stiffness_under(&outline.target.surface)).collect();
-        // A surface that meets itself is met from both sides.
-        let sides = if outlines.len() == 1 { 2 } else { passes.len() };
-        let interface = &contact.interface;
-        let scale = match interface.law {
-            ContactLaw::Penalty(Penalty::PerNode(_) | Penalty::Pressure(_)) => None,
-            ContactLaw::Penalty(Penalty::Automatic { scale, .. }) => Some(scale),
-            _ => Some(1.0),
+    /// Tells if nodes are bound already (`tied`: which contact binds a node): two ties would hold against each other.
+    fn tied_once<'m>(&mut self, path: &str, contact: &'m str, nodes: &[u32], tied: &mut BTreeMap<u32, &'m str>) {
+        let twice = nodes.iter().find_map(|&node| Some((node, *tied.get(&node)?)));
+        if let Some((node, other)) = twice {
+            let [x, y] = self.mesh.positions[node as usize];
+            self.faults.push(Fault::new(
+                path,
+                format!("the node at ({x:.6e}, {y:.6e}) m is tied already by contact \"{other}\""),
+                "leave one of the two ties out, name smaller surfaces, or let the other surface be the slave",
+            ));
+        }
+        tied.extend(nodes.iter().map(|&node| (node, contact)));
+    }
+
+    /// A contact and what acts in its springs; faults have paths relative to the contact.
+    fn contact(&self, contact: &model::Contact, bodies: &[u32]) -> Result<(Contact, Terms), Vec<Fault>> {
+        let sides = self.outlines_of(contact)?.into_iter().map(|outline| self.side(outline, &contact.interface)).collect();
+        let Some(search) = search_by_name(&contact.search) else {
+            let message = format!("there is no search \"{}\"", contact.search);
+            return Err(vec![Fault::new("search", message, "see `embate list searches`")]);
         };
-        let pass = |&(slave, target): &(usize, usize)| {
-            let Target { surface, mirrors } = &outlines[slave].target;
-            let nodes = contact::node_stiffness(surface, &stiffness[slave], &self.mesh.positions);
-            let of = |(&(tributary, own), node): (&(f64, f64), &u32)| {
-                let on_line = mirrors.binary_search_by_key(node, |&(node, _)| node).is_ok();
-                let node = law::Node { tributary, own, other: f64::INFINITY, share: if on_line { 0.5 } else { 1.0 } };
-                Slave { stiffness: stiffness_of(interface, node, sides), area: tributary / sides as f64, slip: 0.0 }
-            };
-            let per_modulus = scale.map(|scale| nodes.iter().map(|&(tributary, _)| scale * tributary / sides as f64).collect());
-            PassInput {
-                slaves: nodes.iter().zip(&surface.nodes).map(of).collect(),
-                per_modulus: per_modulus.unwrap_or_default(),
-                moduli: self.softest_under(&outlines[target].target.surface),
-            }
+        let Some(kind) = formulation::kind_of(contact) else {
+            let message = format!("there is no formulation \"{}\"", contact.formulation.name());
+            return Err(vec![Fault::new("formulation", message, "see `embate list`")]);
         };
-        let inputs = passes.iter().map(pass).collect();
-        let tracker = tracker(outlines, passes, search, &self.mesh);
-        // Nobody can say where bodies are when a contact begins later.
-        let ignores_start = interface.initial_penetration == InitialPenetration::Ignore || interface.active[0] > 0.0;
-        NodeSegment::new(tracker, inputs, [interface.thickness, reach], ignores_start, &self.mesh.positions)
+        let setup = Setup {
+            contact,
+            sides,
+            bodies,
+            positions: &self.mesh.positions,
+            law: &|| law_of(&contact.interface),
+            tie_terms: first_of_ties(self.model) + self.ties.len(),
+            search: &|| (search.make)(),
+        };
+        let made = (kind.make)(setup).map_err(|fault| vec![fault])?;
+        Ok((Contact::new(contact.name.clone(), ContactKind::Contact, made, contact.interface.active), terms_of(&contact.interface)))
     }
 
     /// The surfaces of a contact: two, or one that meets itself. Faults have paths relative to the contact.
@@ -342,46 +373,6 @@ impl Builder<'_> {
         mirrors.sort_by_key(|&(node, _)| node);
         Ok(Outlined { target: Target { surface, mirrors }, lids: lids.into_inner() })
     }
-
-    fn obstacles(&mut self) -> Vec<Contact> {
-        let mut contacts = Vec::new();
-        for (i, obstacle) in self.model.obstacles.iter().enumerate() {
-            let ObstacleShape::Plane { point, normal, length } = obstacle.shape else { continue };
-            let Some(normal) = unit(normal) else { continue };
-            let surface = match self.mesh.outside(&obstacle.parts) {
-                Ok(surface) => surface,
-                Err(fault) => {
-                    self.faults.push(Fault { path: format!("obstacle[{i}].parts"), ..fault });
-                    continue;
-                }
-            };
-            let own = contact::node_stiffness(&surface, &self.stiffness_under(&surface), &self.mesh.positions);
-            // Nodes that a symmetry line keeps on this plane need no spring.
-            let held = |node: u32| self.constraints.mirror_normals(node).any(|m| (m[0] * normal[1] - m[1] * normal[0]).abs() < 1e-12);
-            let slave = |(&node, &(length, own)): (&u32, &(f64, f64))| {
-                let here = law::Node { tributary: length, own, other: own, share: self.constraints.share(node) };
-                (!held(node)).then(|| (node, Slave { stiffness: stiffness_of(&obstacle.interface, here, 1), area: length, slip: 0.0 }))
-            };
-            let terms = terms(&obstacle.interface);
-            let reach = SKIN * own.iter().map(|&(length, _)| length).sum::<f64>() / own.len().max(1) as f64 + terms.law.reach();
-            let nodes = surface.nodes.iter().zip(&own).filter_map(slave).collect();
-            self.terms.push(terms);
-            let body = self.bodies.add(Body { centre: point, ..Body::default() });
-            let shape = Plane { normal, half: length.map_or(f64::INFINITY, |length| 0.5 * length) };
-            // Beyond every picture of the model.
-            let far = shape.half.min(20.0 * self.mesh.positions.iter().flatten().fold(0.0f64, |size, x| size.max(x.abs())));
-            let points = [1.0, -1.0].map(|side| [-side * far * normal[1], side * far * normal[0]]);
-            self.outlines.push(OutlineShape { name: obstacle.name.clone(), body, points: points.into() });
-            let formulation = NodeObstacle::new(Box::new(shape), body, nodes, reach, obstacle.interface.thickness);
-            contacts.push(Contact::new(
-                obstacle.name.clone(),
-                ContactKind::Obstacle(body),
-                Box::new(formulation),
-                obstacle.interface.active,
-            ));
-        }
-        contacts
-    }
 }
 
 /// A surface of a contact.
@@ -391,33 +382,32 @@ pub(crate) struct Outlined {
     lids: Vec<[u32; 2]>,
 }
 
-/// Which nodes meet which surface: (slave, target).
-fn passes_of(contact: &model::Contact) -> &'static [(usize, usize)] {
-    match (&contact.partners, contact.formulation) {
-        (Partners::Bodies(_), _) => &[(0, 0)],
-        (_, Formulation::SinglePass { slave: 0 }) => &[(0, 1)],
-        (_, Formulation::SinglePass { .. }) => &[(1, 0)],
-        _ => &[(0, 1), (1, 0)],
-    }
-}
-
-fn tracker(outlines: Vec<Outlined>, passes: &[(usize, usize)], search: Box<dyn Search<2>>, mesh: &Mesh<2>) -> Tracker {
-    let (targets, lids): (Vec<_>, Vec<_>) = outlines.into_iter().map(|Outlined { target, lids }| (target, lids)).unzip();
-    Tracker::new(targets, passes, search, &mesh.positions).with_bodies(&mesh.bodies(), &lids)
-}
-
-/// What acts in the springs of an interface.
-fn terms(interface: &Interface) -> Terms {
-    let law: Box<dyn Law> = match &interface.law {
+fn law_of(interface: &Interface) -> Box<dyn Law> {
+    match &interface.law {
         ContactLaw::Penalty(_) => Box::new(law::penalty::Penalty),
         ContactLaw::PressureGap { gaps, pressures } => Box::new(law::pressure_gap::PressureGap::new(gaps, pressures)),
         ContactLaw::Multiplier => Box::new(law::multiplier::Multiplier),
-    };
+    }
+}
+
+/// What acts in the springs of an interface.
+fn terms_of(interface: &Interface) -> Terms {
     let tangential = interface.friction.map_or(Tangential::Free, |friction| {
         let model::Friction { coefficient, dynamic, decay, viscosity, limit } = friction;
         Tangential::Friction(Friction { coefficient, dynamic: dynamic.unwrap_or(coefficient), decay, viscosity, limit })
     });
-    Terms { law, tangential, damping: interface.damping }
+    Terms { law: law_of(interface), tangential, damping: interface.damping }
+}
+
+/// What acts in the ties of an interface.
+fn terms_of_ties(interface: &Interface) -> Terms {
+    let rigid = matches!(interface.law, ContactLaw::Multiplier);
+    Terms { law: Box::new(law::tie::Tie { rigid }), tangential: Tangential::Tied, damping: 0.0 }
+}
+
+/// Terms of ties follow those of contacts and obstacles.
+fn first_of_ties(model: &Model) -> usize {
+    model.contacts.len() + model.obstacles.len()
 }
 
 /// Stiffness of a slave node; of laws without a penalty that of the automatic one, for what needs a scale.
@@ -426,8 +416,15 @@ fn stiffness_of(interface: &Interface, node: law::Node, passes: usize) -> f64 {
     law::penalty::stiffness(penalty, node, passes)
 }
 
-fn search_by_name(name: &str) -> Option<Box<dyn Search<2>>> {
+/// What an automatic penalty is made from; of laws without a penalty the default.
+fn source_of(interface: &Interface) -> PenaltySource {
+    match interface.law {
+        ContactLaw::Penalty(Penalty::Automatic { source, .. }) => source,
+        _ => PenaltySource::default(),
+    }
+}
+
+fn search_by_name(name: &str) -> Option<SearchKind<2>> {
     let registry = search::registry::<2>();
-    let kind = if name.is_empty() { registry.first() } else { registry.iter().find(|kind| kind.name == name) };
-    kind.map(|kind| (kind.make)())
+    if name.is_empty() { registry.first().copied() } else { registry.into_iter().find(|kind| kind.name == name) }
 }

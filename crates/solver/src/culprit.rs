@@ -67,7 +67,8 @@ impl System {
         let (what, place) = match bad {
             Some(node) => {
                 let [x, y] = self.positions_old[node];
-                ("the motion of a node".to_string(), format!("node {}, last seen at ({x:.6e}, {y:.6e})", self.mesh.user_nodes[node]))
+                let name = self.mesh.user_nodes.get(node).map_or("a point of an obstacle".to_string(), |user| format!("node {user}"));
+                ("the motion of a node".to_string(), format!("{name}, last seen at ({x:.6e}, {y:.6e})"))
             }
             None => ("an energy".to_string(), "no node is affected yet".to_string()),
         };

@@ -46,6 +46,43 @@ impl Works {
     }
 }
 
+/// Sums over the nodes of a chunk, or over the rigid bodies, in one velocity update.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sums {
+    /// ½ Σ m|v^{n+1/2}|², J/m.
+    pub kinetic_half: f64,
+    /// ½ Σ m v^{n-1/2}·v^{n+1/2}, J/m.
+    pub kinetic: f64,
+    /// Works as in [`Works`], J/m.
+    pub internal: f64,
+    /// See `internal`.
+    pub gravity: f64,
+    /// See `internal`.
+    pub damping: f64,
+    /// See `internal`.
+    pub constraint: f64,
+    /// See `internal`.
+    pub drive: f64,
+    /// Impulses from outside times v^{n-1/2}, J/m.
+    pub external_old: f64,
+    /// Impulses of damping loads times v^{n-1/2}, J/m.
+    pub damping_old: f64,
+}
+
+impl std::ops::AddAssign<&Self> for Sums {
+    fn add_assign(&mut self, other: &Self) {
+        self.kinetic_half += other.kinetic_half;
+        self.kinetic += other.kinetic;
+        self.internal += other.internal;
+        self.gravity += other.gravity;
+        self.damping += other.damping;
+        self.constraint += other.constraint;
+        self.drive += other.drive;
+        self.external_old += other.external_old;
+        self.damping_old += other.damping_old;
+    }
+}
+
 /// Energies at a whole step, J/m.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Stores {
@@ -136,6 +173,8 @@ impl Ledger {
             *whole = self.halves[k] + entry.before * olds[k];
             self.halves[k] = *whole + (1.0 - entry.before) * (2.0 * works[k] - olds[k]);
         }
+        // What breaks now is still whole at n.
+        self.halves[2] += lost.freed;
         self.external = wholes[0];
         self.works.add(&entry.works);
         self.stores = entry.stores;

@@ -6,7 +6,13 @@ use crate::contact::springs::Tangential;
 use crate::error::Fault;
 use crate::model::{Model, ProbeAt};
 use crate::output::{CellKind, Cells, FIELDS, Field, FieldKind, Frame, Needs};
+use crate::rigid::Body;
 use crate::step::{System, Vector};
+
+/// Columns of energies, after `energy.`.
+const ENERGIES: [&str; 9] = ["kinetic", "internal", "plastic", "contact", "friction", "contact_damping", "damping", "external", "total"];
+/// Columns of a rigid body that moves: reference point, angle and their velocities.
+const MOTION: [&str; 6] = ["x", "y", "angle", "vx", "vy", "spin"];
 
 /// Fields and probes of a model, resolved to nodes.
 pub(crate) struct Recorded {
@@ -57,21 +63,32 @@ impl Recorded {
 
     pub(crate) fn columns(&self, system: &System) -> Vec<String> {
         let mut columns: Vec<String> = ["time", "time_step"].map(String::from).to_vec();
-        columns.extend(["kinetic", "internal", "plastic", "contact", "external", "total"].iter().map(|name| format!("energy.{name}")));
+        columns.extend(ENERGIES.iter().map(|name| format!("energy.{name}")));
         for part in &system.mesh.parts {
             columns.extend(["kinetic", "internal", "plastic"].iter().map(|name| format!("energy.{name}[{}]", part.name)));
         }
-        let both = |kind: &str, name: &str| ["force_x", "force_y", "energy", "penetration"].map(|value| format!("{kind}.{value}[{name}]"));
-        columns.extend(system.contacts.iter().flat_map(|contact| both(contact.kind.name(), &contact.name)));
+        for contact in &system.contacts {
+            let (kind, name) = (contact.kind.name(), &contact.name);
+            let column = |value: &&str| format!("{kind}.{value}[{name}]");
+            columns.extend(["force_x", "force_y", "energy", "penetration", "friction_work"].iter().map(column));
+            if let ContactKind::Obstacle(body) = contact.kind {
+                columns.push(column(&"moment"));
+                if !system.bodies.state(body).is_fixed() {
+                    columns.extend(MOTION.iter().map(column));
+                }
+            }
+        }
+        for &(part, _) in &system.body_parts {
+            columns.extend(MOTION.iter().map(|value| format!("rigid.{value}[{}]", system.mesh.parts[part].name)));
+        }
         columns.extend(self.probes.iter().flat_map(|probe| ["x", "y", "vx", "vy"].map(|value| format!("{}.{value}", probe.name))));
         columns
     }
 
     pub(crate) fn row(&self, system: &System) -> Vec<f64> {
         let (stores, external) = (system.ledger.stores, system.ledger.external);
-        let mut row =
-            vec![system.time, system.time_step, stores.kinetic, stores.elastic + stores.plastic, stores.plastic, stores.contact, external];
-        row.push(stores.total() - external);
+        let mut row = vec![system.time, system.time_step, stores.kinetic, stores.elastic + stores.plastic, stores.plastic];
+        row.extend([stores.contact, stores.friction, stores.contact_damping, stores.damping, external, stores.total() - external]);
         for ((part, block), report) in system.mesh.parts.iter().zip(&system.blocks).zip(&system.reports) {
             let n = part.nodes_per_element;
             let corner = |(k, &node): (usize, &u32)| block.corner_mass(k / n, k % n) * system.specific_kinetic(node as usize);
@@ -80,6 +97,16 @@ impl Recorded {
         for contact in &system.contacts {
             let totals = &contact.totals;
             row.extend([totals.resultant[0], totals.resultant[1], totals.energy + totals.slip_energy, contact.penetration]);
+            row.push(contact.friction_work);
+            if let ContactKind::Obstacle(body) = contact.kind {
+                row.push(contact.moment(body, &system.bodies, &system.springs, &system.positions));
+                if !system.bodies.state(body).is_fixed() {
+                    row.extend(motion(system, body));
+                }
+            }
+        }
+        for &(_, body) in &system.body_parts {
+            row.extend(motion(system, body));
         }
         for probe in &self.probes {
             let mean = |value: &dyn Fn(usize) -> Vector| {
@@ -96,7 +123,7 @@ impl Recorded {
 
     pub(crate) fn frame(&self, system: &System) -> Frame<2> {
         let fields = self.fields.iter().map(|&kind| Field { kind, values: values(kind.name, system) }).collect();
-        let mut positions = vec![[0.0; 2]; system.positions.len()];
+        let mut positions = vec![[0.0; 2]; system.mesh.user_nodes.len()];
         for (x, &user) in system.positions.iter().zip(&system.mesh.user_nodes) {
             positions[user as usize] = *x;
         }
@@ -107,8 +134,15 @@ impl Recorded {
 
 /// Velocity at the whole step, m/s: v^{n-1/2} and v^{n+1/2} lie ½ dt^{n-1} before and ½ dt^n after it (v⁰ itself at time zero).
 fn velocity(system: &System, node: usize) -> Vector {
-    let (a, b, before) = (system.velocities_old[node], system.velocities[node], system.before());
+    let ([a, b], before) = (system.velocities_around(node), system.before());
     [a[0] + before * (b[0] - a[0]), a[1] + before * (b[1] - a[1])]
+}
+
+/// Values of [`MOTION`] of a rigid body at the whole step.
+fn motion(system: &System, body: usize) -> [f64; 6] {
+    let (body, before) = (system.bodies.state(body), system.before());
+    let [u, v, spin] = std::array::from_fn(|k| body.velocity_old[k] + before * (body.velocity[k] - body.velocity_old[k]));
+    [body.centre[0], body.centre[1], body.angle, u, v, spin]
 }
 
 /// Values of one of [`FIELDS`], in the user's order.
@@ -144,7 +178,7 @@ fn values(name: &str, system: &System) -> Vec<f64> {
 
 /// Values of every node, in the user's order.
 fn by_node<const N: usize>(system: &System, value: impl Fn(usize) -> [f64; N]) -> Vec<f64> {
-    let mut values = vec![0.0; N * system.positions.len()];
+    let mut values = vec![0.0; N * system.mesh.user_nodes.len()];
     for (node, &user) in system.mesh.user_nodes.iter().enumerate() {
         values[N * user as usize..][..N].copy_from_slice(&value(node));
     }
@@ -221,10 +255,12 @@ pub(crate) fn cells(system: &System) -> Cells {
     cells
 }
 
-/// FNV-1a hash (64 bit) of the bits of all positions and velocities v^{n+1/2}, node by node; hexadecimal.
+/// FNV-1a hash (64 bit) of the bits of all positions and velocities v^{n+1/2}, node by node, then of the obstacles that move; hexadecimal.
 pub(crate) fn state_hash(system: &System) -> String {
     let mut hash = 0xcbf2_9ce4_8422_2325u64;
-    for value in system.positions.iter().chain(&system.velocities).flatten() {
+    let moving = system.bodies.iter().filter(|body| !body.of_elements && !body.is_fixed());
+    let states = moving.flat_map(|body| [body.centre[0], body.centre[1], body.angle].into_iter().chain(body.velocity));
+    for value in system.positions.iter().chain(&system.velocities).flatten().copied().chain(states) {
         for byte in value.to_bits().to_le_bytes() {
             hash = (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
         }
@@ -247,11 +283,12 @@ struct Moments {
 }
 
 impl Momentum {
-    /// `None` where walls, supports or loads act.
+    /// `None` where something is held or driven, or loads act.
     pub(crate) fn new(system: &System) -> Option<Self> {
-        let isolated = !system.contacts.iter().any(|contact| contact.kind != ContactKind::Contact)
+        let isolated = system.bodies.iter().all(Body::is_free)
             && system.constraints.is_empty()
-            && system.gravity.is_empty();
+            && system.gravity.is_empty()
+            && system.damping.is_empty();
         // Forces at time zero have acted half a step already; both momenta are kept by them as well.
         isolated.then(|| Self { start: Moments::of(system), drift: [0.0; 2] })
     }
@@ -281,16 +318,29 @@ impl Momentum {
 }
 
 impl Moments {
-    /// Σ m v^{n+1/2} and Σ m x^n × v^{n+1/2}: the latter is the one that central differences keep exactly.
+    /// Σ m v^{n+1/2} and Σ m x^n × v^{n+1/2} + Σ I ω^{n+1/2}: the latter is the one that central differences keep exactly.
     fn of(system: &System) -> Self {
         let mut sum = Self::default();
-        for ((&m, x), v) in system.mass.iter().zip(&system.positions).zip(&system.velocities) {
-            sum.linear = [sum.linear[0] + m * v[0], sum.linear[1] + m * v[1]];
-            sum.angular += m * (x[0] * v[1] - x[1] * v[0]);
-            let speed = m * (v[0] * v[0] + v[1] * v[1]).sqrt();
-            sum.scale[0] += speed;
-            sum.scale[1] += speed * (x[0] * x[0] + x[1] * x[1]).sqrt();
+        for (node, ((&m, x), v)) in (0..).zip(system.mass.iter().zip(&system.positions).zip(&system.velocities)) {
+            if system.bodies.of_node(node).is_none() {
+                sum.add(m, x, v);
+            }
+        }
+        for body in system.bodies.iter() {
+            let [m, _, inertia] = body.mass;
+            sum.add(m, &body.centre, &[body.velocity[0], body.velocity[1]]);
+            let spin = inertia * body.velocity[2];
+            sum.angular += spin;
+            sum.scale[1] += spin.abs();
         }
         sum
+    }
+
+    fn add(&mut self, m: f64, x: &Vector, v: &Vector) {
+        self.linear = [self.linear[0] + m * v[0], self.linear[1] + m * v[1]];
+        self.angular += m * (x[0] * v[1] - x[1] * v[0]);
+        let speed = m * (v[0] * v[0] + v[1] * v[1]).sqrt();
+        self.scale[0] += speed;
+        self.scale[1] += speed * (x[0] * x[0] + x[1] * x[1]).sqrt();
     }
 }

@@ -366,6 +366,15 @@ impl Simulation {
 
     fn warnings(&self) -> Vec<String> {
         let mut warnings: Vec<String> = self.warnings.iter().cloned().collect();
+        for contact in &self.system.contacts {
+            let Some(ties) = contact.ties() else { continue };
+            let all = ties.nodes.len() + ties.broken;
+            if ties.broken > 0 {
+                warnings.push(format!("contact \"{}\": {} of {all} ties broke", contact.name, ties.broken));
+            } else if all == 0 {
+                warnings.push(format!("contact \"{}\": its ties bound no node", contact.name));
+            }
+        }
         let unsolved = self.system.springs.unsolved;
         if unsolved > 0 {
             warnings
@@ -409,7 +418,7 @@ impl Simulation {
         let system = &self.system;
         Summary {
             elements: system.blocks.iter().map(|block| block.elements()).sum(),
-            nodes: system.positions.len(),
+            nodes: system.mesh.positions.len(),
             steps: system.step,
             time_end: system.time,
             stable_time_step_min: self.shortest.time_step,

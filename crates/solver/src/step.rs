@@ -9,11 +9,13 @@ use crate::contact::obstacle::OutlineShape;
 use crate::contact::springs::{Lost, Springs, Terms, Update};
 use crate::contact::traces::Traces;
 use crate::contact::{Contact, Scene, Sweep};
-use crate::energy::{Entry, Ledger, Stores, Works};
+use crate::energy::{Entry, Ledger, Stores, Sums, Works};
 use crate::error::Error;
 use crate::load::constraint::Constraints;
+use crate::load::curve::Curves;
+use crate::load::damping::Damping;
 use crate::mesh::Mesh;
-use crate::rigid::Bodies;
+use crate::rigid::{Acting, Bodies};
 use embate_lanes::{Batch, Level};
 use rayon::prelude::*;
 
@@ -64,11 +66,17 @@ pub struct System {
     /// What acts in the springs of each.
     pub(crate) terms: Vec<Terms>,
     pub(crate) bodies: Bodies,
+    /// Rigid parts: the part and its body.
+    pub(crate) body_parts: Vec<(usize, usize)>,
+    /// Whether each block is a rigid part: then it is not strained.
+    pub(crate) rigid: Vec<bool>,
     /// Shapes of the obstacles, for pictures.
     pub(crate) outlines: Vec<OutlineShape>,
     /// What contacts leave on the surfaces.
     pub(crate) traces: Traces,
     pub(crate) constraints: Constraints<2>,
+    pub(crate) curves: Curves,
+    pub(crate) damping: Damping,
     /// Acceleration of every node by gravity, m/s²; empty without.
     pub(crate) gravity: Vec<Vector>,
     pub(crate) limits: Limits,
@@ -88,28 +96,18 @@ pub struct System {
     pub(crate) velocities: Vec<Vector>,
     /// v^{n-1/2}.
     pub(crate) velocities_old: Vec<Vector>,
-    /// Contact and wall forces at x^n, N/m.
+    /// Contact and obstacle forces at x^n, N/m.
     pub(crate) contact_forces: Vec<Vector>,
     pub(crate) corners: Vec<Batch>,
     pub(crate) springs: Springs,
     pub(crate) reports: Vec<Report>,
-    pub(crate) sums: Vec<NodeSums>,
+    pub(crate) sums: Vec<Sums>,
+    /// Sums over the rigid bodies.
+    pub(crate) of_bodies: Sums,
     pub(crate) ledger: Ledger,
     pub(crate) penetration_max: f64,
     /// Penetrations of contacts at the start, one line each.
     pub(crate) initial_penetrations: Vec<String>,
-}
-
-/// Sums over the nodes of a chunk.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct NodeSums {
-    kinetic_half: f64,
-    kinetic: f64,
-    internal: f64,
-    gravity: f64,
-    constraint: f64,
-    /// Impulses of gravity and constraints times v^{n-1/2}.
-    external_old: f64,
 }
 
 impl System {
@@ -126,6 +124,7 @@ impl System {
     fn respond(&mut self) -> Result<(), Error> {
         let elements = self.strain_elements();
         let time_step = self.stable_step(&elements)?;
+        self.load(time_step);
         self.push_apart(time_step);
         self.accelerate(time_step);
         self.close_books(&elements)
@@ -136,14 +135,19 @@ impl System {
     /// # Errors
     /// As [`System::step`].
     pub fn start(&mut self) -> Result<(), Error> {
+        self.constraints.drive(&self.curves, 0.0, 0.0);
         for (node, velocity) in self.velocities.iter_mut().enumerate() {
             if let Some(held) = self.constraints.of(node) {
                 *velocity = held.apply(*velocity);
             }
         }
-        let kinetic = |(m, v): (&f64, &Vector)| 0.5 * m * (v[0] * v[0] + v[1] * v[1]);
-        self.ledger = Ledger::new(self.mass.iter().zip(&self.velocities).map(kinetic).sum(), self.energy_of_round_off());
+        self.bodies.start(&self.curves, &self.positions, &mut self.velocities);
+        let free = |&(node, _): &(u32, _)| self.bodies.of_node(node).is_none();
+        let kinetic = |(_, (m, v)): (u32, (&f64, &Vector))| 0.5 * m * (v[0] * v[0] + v[1] * v[1]);
+        let nodes: f64 = (0..).zip(self.mass.iter().zip(&self.velocities)).filter(free).map(kinetic).sum();
+        self.ledger = Ledger::new(nodes + self.bodies.kinetic(), self.energy_of_round_off());
         self.positions_old.clone_from(&self.positions);
+        self.see_rigid_parts();
         self.respond()?;
         if self.limits.step <= 0.0 {
             self.limits.step = 1e-3 * self.time_step;
@@ -163,6 +167,7 @@ impl System {
         } else {
             self.positions.iter_mut().zip(&self.positions_old).zip(&self.velocities).for_each(update);
         }
+        self.bodies.advance(dt, &mut self.positions);
         self.time_step_old = dt;
         self.time += dt;
         self.step += 1;
@@ -172,9 +177,11 @@ impl System {
     fn strain_elements(&mut self) -> Report {
         let motion = Motion { positions: &self.positions, velocities: &self.velocities, time_step: self.time_step_old };
         let mut rest = &mut self.corners[..];
-        for (block, report) in self.blocks.iter_mut().zip(&mut self.reports) {
+        for ((block, report), rigid) in self.blocks.iter_mut().zip(&mut self.reports).zip(&self.rigid) {
             let (corners, others) = rest.split_at_mut(block.corner_batches());
-            *report = block.advance(&motion, self.level, corners, self.parallel);
+            if !rigid {
+                *report = block.advance(&motion, self.level, corners, self.parallel);
+            }
             rest = others;
         }
         self.reports.iter().fold(Report::NOTHING, |sum, &report| sum.join(report))
@@ -205,7 +212,20 @@ impl System {
         Ok(time_step)
     }
 
-    /// Contact and wall forces at x^n for the coming update.
+    /// What acts from outside in the coming update, and the motion of the rigid bodies that follows from it.
+    fn load(&mut self, time_step: f64) {
+        let (from, to) = (self.time, self.time + time_step);
+        let mean_step = 0.5 * (time_step + self.time_step_old);
+        self.constraints.drive(&self.curves, from, to);
+        if !self.damping.is_empty() && self.damping.prepare(from, mean_step, &self.mass) {
+            self.bodies.damp(&self.damping, &self.mass);
+        }
+        let (assembly, corners) = (&self.assembly, &self.corners);
+        let internal = |node: usize| assembly.force(node, corners);
+        self.bodies.set_free(&Acting { mean_step, from, to, curves: &self.curves, positions: &self.positions, internal });
+    }
+
+    /// Contact and obstacle forces at x^n for the coming update.
     fn push_apart(&mut self, time_step: f64) {
         if self.contacts.is_empty() {
             return;
@@ -219,12 +239,17 @@ impl System {
         }
         let dt = 0.5 * (time_step + self.time_step_old);
         let (assembly, corners, constraints, gravity) = (&self.assembly, &self.corners, &self.constraints, &self.gravity);
-        let (mass, old) = (&self.mass, &self.velocities);
+        let (mass, old, damping) = (&self.mass, &self.velocities, &self.damping);
         let velocity_free = |node: usize| {
             let (f, v, g) = (assembly.force(node, corners), old[node], gravity.get(node).copied().unwrap_or_default());
-            let free = [v[0] + dt * (f[0] / mass[node] + g[0]), v[1] + dt * (f[1] / mass[node] + g[1])];
+            let mut free = [v[0] + dt * (f[0] / mass[node] + g[0]), v[1] + dt * (f[1] / mass[node] + g[1])];
+            let a = damping.factor(node);
+            if a > 0.0 {
+                free = [(free[0] - a * v[0]) / (1.0 + a), (free[1] - a * v[1]) / (1.0 + a)];
+            }
             constraints.of(node).map_or(free, |held| held.apply(free))
         };
+        let mass = damping.mass().unwrap_or(mass);
         let (time_steps, positions, bodies) = ([self.time_step_old, time_step], &self.positions, &self.bodies);
         let update = Update { time_steps, mass, positions, velocities_old: old, velocity_free, constraints, bodies };
         self.springs.solve(&update, &self.terms);
@@ -246,35 +271,34 @@ impl System {
             gravity: &self.gravity,
             mass: &self.mass,
             constraints: &self.constraints,
+            damping: &self.damping,
+            bodies: &self.bodies,
             velocities_old: &self.velocities_old,
         };
-        let chunk = |(index, (velocities, sums)): (usize, (&mut [Vector], &mut NodeSums))| *sums = nodes.update(index * CHUNK, velocities);
+        let chunk = |(index, (velocities, sums)): (usize, (&mut [Vector], &mut Sums))| *sums = nodes.update(index * CHUNK, velocities);
         if self.parallel {
             self.velocities.par_chunks_mut(CHUNK).zip(self.sums.par_iter_mut()).enumerate().for_each(chunk);
         } else {
             self.velocities.chunks_mut(CHUNK).zip(self.sums.iter_mut()).enumerate().for_each(chunk);
         }
+        self.of_bodies = self.bodies.accelerate([dt, time_step], &self.contact_forces, &self.positions, &mut self.velocities);
         self.time_step = time_step;
     }
 
     /// Enters the step in the ledger and checks that the run is still worth going on.
     fn close_books(&mut self, elements: &Report) -> Result<(), Error> {
-        let mut sum = NodeSums::default();
-        for part in &self.sums {
-            sum.kinetic_half += part.kinetic_half;
-            sum.kinetic += part.kinetic;
-            sum.internal += part.internal;
-            sum.gravity += part.gravity;
-            sum.constraint += part.constraint;
-            sum.external_old += part.external_old;
+        let mut sum = Sums::default();
+        for part in self.sums.iter().chain([&self.of_bodies]) {
+            sum += part;
         }
         let totals = || self.contacts.iter().map(|contact| contact.totals);
         let works = Works {
             internal: sum.internal,
             contact: totals().map(|totals| totals.work).sum(),
             gravity: sum.gravity,
+            damping: sum.damping,
             constraint: sum.constraint,
-            ..Works::default()
+            drive: sum.drive,
         };
         let slip_energy: f64 = totals().map(|totals| totals.slip_energy).sum();
         let springs = totals().map(|totals| totals.energy).sum::<f64>() + slip_energy;
@@ -294,7 +318,7 @@ impl System {
             external_old: sum.external_old,
             lost,
             slip_energy,
-            damping_old: 0.0,
+            damping_old: sum.damping_old,
             before,
             stores,
         });
@@ -319,9 +343,43 @@ impl System {
         self.time_step_old / (self.time_step_old + self.time_step)
     }
 
+    /// Gives rigid parts their first and last look: they never pull. Only where nothing else does they set the step, that which their elements would need.
+    fn see_rigid_parts(&mut self) {
+        let motion = Motion { positions: &self.positions, velocities: &self.velocities, time_step: 0.0 };
+        let alone = self.rigid.iter().all(|&rigid| rigid);
+        let mut rest = &mut self.corners[..];
+        for ((block, report), rigid) in self.blocks.iter_mut().zip(&mut self.reports).zip(&self.rigid) {
+            let (corners, others) = rest.split_at_mut(block.corner_batches());
+            if *rigid {
+                let seen = block.advance(&motion, self.level, corners, self.parallel);
+                corners.fill(Batch::default());
+                *report = if alone { Report { stored: 0.0, dissipated: 0.0, ..seen } } else { Report::NOTHING };
+            }
+            rest = others;
+        }
+    }
+
+    /// Velocities of a node before and after the whole step, m/s: of a rigid body those of the point, not those of the chord that leads it on.
+    pub(crate) fn velocities_around(&self, node: usize) -> [Vector; 2] {
+        match self.bodies.of_node(node as u32) {
+            Some(body) => {
+                let body = self.bodies.state(body);
+                [body.velocity_old, body.velocity].map(|velocity| body.velocity_at(self.positions[node], &velocity))
+            }
+            None => [self.velocities_old[node], self.velocities[node]],
+        }
+    }
+
     /// Kinetic energy of a node at the whole step by its mass, J/kg: its share in [`Stores::kinetic`] as the ledger books it.
     pub(crate) fn specific_kinetic(&self, node: usize) -> f64 {
-        let (old, new, before) = (self.velocities_old[node], self.velocities[node], self.before());
+        let [old, new] = match self.bodies.of_node(node as u32) {
+            Some(body) => {
+                let body = self.bodies.state(body);
+                [body.velocity_old, body.velocity].map(|velocity| body.velocity_at(self.positions[node], &body.free_part(&velocity)))
+            }
+            None => [self.velocities_old[node], self.velocities[node]],
+        };
+        let before = self.before();
         let dot = |a: Vector, b: Vector| a[0] * b[0] + a[1] * b[1];
         if before > 0.0 {
             0.5 * dot(old, new) - (0.5 - before) * 0.5 * (dot(new, new) - dot(old, old))
@@ -340,15 +398,20 @@ struct Nodes<'a> {
     gravity: &'a [Vector],
     mass: &'a [f64],
     constraints: &'a Constraints<2>,
+    damping: &'a Damping,
+    bodies: &'a Bodies,
     velocities_old: &'a [Vector],
 }
 
 impl Nodes<'_> {
     /// Updates the velocities of the nodes from `first` on and sums their works.
-    fn update(&self, first: usize, velocities: &mut [Vector]) -> NodeSums {
-        let mut sums = NodeSums::default();
+    fn update(&self, first: usize, velocities: &mut [Vector]) -> Sums {
+        let mut sums = Sums::default();
         for (i, v) in velocities.iter_mut().enumerate() {
             let node = first + i;
+            if self.bodies.of_node(node as u32).is_some() {
+                continue;
+            }
             let (m, old, contact) = (self.mass[node], self.velocities_old[node], self.contact_forces[node]);
             let internal = self.assembly.force(node, self.corners);
             let scale = self.dt / m;
@@ -357,11 +420,15 @@ impl Nodes<'_> {
             if let Some(g) = g {
                 *v = [v[0] + self.dt * g[0], v[1] + self.dt * g[1]];
             }
+            let a = self.damping.factor(node);
+            if a > 0.0 {
+                *v = [(v[0] - a * old[0]) / (1.0 + a), (v[1] - a * old[1]) / (1.0 + a)];
+            }
             let mut reaction = None;
             if let Some(held) = self.constraints.of(node) {
-                let free = *v;
+                let (free, response) = (*v, m * (1.0 + a));
                 *v = held.apply(free);
-                reaction = Some([m * (v[0] - free[0]), m * (v[1] - free[1])]);
+                reaction = Some([response * (v[0] - free[0]), response * (v[1] - free[1])]);
             }
             let mean = [0.5 * (old[0] + v[0]), 0.5 * (old[1] + v[1])];
             sums.kinetic_half += 0.5 * m * (v[0] * v[0] + v[1] * v[1]);
@@ -370,6 +437,11 @@ impl Nodes<'_> {
             if let Some(g) = g {
                 sums.gravity += self.dt * m * (g[0] * mean[0] + g[1] * mean[1]);
                 sums.external_old += self.dt * m * (g[0] * old[0] + g[1] * old[1]);
+            }
+            if a > 0.0 {
+                let impulse = [-2.0 * a * m * mean[0], -2.0 * a * m * mean[1]];
+                sums.damping += impulse[0] * mean[0] + impulse[1] * mean[1];
+                sums.damping_old += impulse[0] * old[0] + impulse[1] * old[1];
             }
             if let Some(impulse) = reaction {
                 sums.constraint += impulse[0] * mean[0] + impulse[1] * mean[1];

@@ -10,7 +10,11 @@ pub mod tracker;
 pub mod initial;
 pub mod law;
 pub mod springs;
+pub mod formulation;
 pub mod node_segment;
+pub mod pinball;
+pub mod segment;
+pub mod tied;
 pub mod obstacle;
 pub mod traces;
 
@@ -18,6 +22,7 @@ use crate::mesh::surface::Surface;
 use crate::rigid::Bodies;
 use springs::{Spring, Springs, Totals};
 use std::ops::Range;
+use tied::Ties;
 use traces::Traces;
 use tracker::{Certificate, SearchReport};
 
@@ -32,6 +37,16 @@ pub trait Formulation: Send {
 
     /// Keeps what the next step needs of the solved springs, in the order of [`Formulation::detect`].
     fn remember(&mut self, solved: &[Spring]);
+
+    /// Energy of springs that broke in the last step and will not come back, J/m.
+    fn freed(&self) -> f64 {
+        0.0
+    }
+
+    /// Its ties, if it has such.
+    fn ties(&self) -> Option<Ties> {
+        None
+    }
 
     /// What was checked so far, and whether a contact was missed.
     fn certificate(&self) -> Certificate {
@@ -96,6 +111,8 @@ pub struct Contact {
     pub penetration: f64,
     /// Whether it pressed at any time so far.
     pub has_pressed: bool,
+    /// What friction took until the last half step, J/m.
+    pub friction_work: f64,
     formulation: Box<dyn Formulation>,
     /// Times between which it acts, s.
     active: [f64; 2],
@@ -107,7 +124,17 @@ impl Contact {
     /// A contact that has not acted yet.
     #[must_use]
     pub fn new(name: String, kind: ContactKind, formulation: Box<dyn Formulation>, active: [f64; 2]) -> Self {
-        Self { name, kind, totals: Totals::default(), penetration: 0.0, has_pressed: false, formulation, active, found: 0..0 }
+        Self {
+            name,
+            kind,
+            totals: Totals::default(),
+            penetration: 0.0,
+            has_pressed: false,
+            friction_work: 0.0,
+            formulation,
+            active,
+            found: 0..0,
+        }
     }
 
     /// Adds the springs of the step to `springs`; they follow the terms number `index`.
@@ -125,10 +152,18 @@ impl Contact {
     pub fn collect(&mut self, springs: &Springs, forces: &mut [Vector], bodies: &mut Bodies, traces: &mut Traces, time_step: f64) {
         self.totals = springs.collect(self.found.clone(), forces, bodies);
         self.has_pressed |= self.totals.pressing > 0.0;
+        self.friction_work += self.totals.lost.friction;
         for spring in &springs.list[self.found.clone()] {
             traces.mark(springs, spring, time_step);
         }
         self.formulation.remember(&springs.list[self.found.clone()]);
+        self.totals.lost.freed = self.formulation.freed();
+    }
+
+    /// Its ties, if it has such.
+    #[must_use]
+    pub fn ties(&self) -> Option<Ties> {
+        self.formulation.ties()
     }
 
     /// What was checked so far, and whether a contact was missed.
@@ -141,6 +176,22 @@ impl Contact {
     #[must_use]
     pub fn search_report(&self) -> Option<SearchReport> {
         self.formulation.search_report()
+    }
+
+    /// Moment (N) of the forces that the last step's springs put on what is not the rigid body `body`, about its reference point.
+    #[must_use]
+    pub fn moment(&self, body: usize, bodies: &Bodies, springs: &Springs, positions: &[Vector]) -> f64 {
+        let centre = bodies.state(body).centre;
+        let ends = springs.list[self.found.clone()].iter().flat_map(|spring| springs.ends(spring).iter().map(move |end| (spring, end)));
+        let moment = |(spring, end): (&Spring, &springs::End)| {
+            let (on_body, point) = match positions.get(end.at as usize) {
+                Some(&x) => (bodies.of_node(end.at) == Some(body), x),
+                None => (end.at as usize - positions.len() == body, end.point),
+            };
+            let force = if on_body { [0.0; 2] } else { end.force(spring) };
+            (point[0] - centre[0]) * force[1] - (point[1] - centre[1]) * force[0]
+        };
+        ends.map(moment).sum()
     }
 
     /// Slave nodes that are inside in the last step, with their depth, m.

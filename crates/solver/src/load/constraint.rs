@@ -1,37 +1,43 @@
 //! Prescribed motion by direction: symmetry lines, fixed and driven nodes. After the free update the velocity is set along each direction;
 //! the impulse that this takes is the reaction, and its work goes to the ledger.
 
+use super::curve::{Curves, Speed};
 use crate::error::Fault;
 use crate::mesh::Mesh;
-use crate::model::{Drive, Model, Symmetry};
+use crate::model::{Model, Symmetry};
 
 /// Prescribed directions of one node, orthonormal.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Held<const D: usize> {
-    /// Unit direction and prescribed velocity along it, m/s.
+    /// Unit direction and prescribed velocity along it in v^{n+½}, m/s.
     directions: Vec<([f64; D], f64)>,
+    /// What prescribes the velocity of each direction.
+    speeds: Vec<Speed>,
 }
 
 impl<const D: usize> Held<D> {
     /// Adds a direction; `Err` holds the velocity that the earlier directions already prescribe along it.
-    fn add(&mut self, direction: [f64; D], velocity: f64) -> Result<(), f64> {
-        let (mut rest, mut speed, mut largest) = (direction, velocity, velocity.abs());
-        for (held, held_speed) in &self.directions {
+    fn add(&mut self, direction: [f64; D], velocity: &Speed) -> Result<(), Speed> {
+        let size = |speed: &Speed| speed.as_constant().unwrap_or(0.0).abs();
+        let (mut rest, mut speed, mut largest) = (direction, velocity.clone(), size(velocity));
+        for ((held, _), held_speed) in self.directions.iter().zip(&self.speeds) {
             let along: f64 = (0..D).map(|d| held[d] * direction[d]).sum();
-            speed -= along * held_speed;
-            largest = largest.max(held_speed.abs());
+            speed = speed.plus(-along, held_speed);
+            largest = largest.max(size(held_speed));
             for d in 0..D {
                 rest[d] -= along * held[d];
             }
         }
         let length = (0..D).map(|d| rest[d] * rest[d]).sum::<f64>().sqrt();
         if length > 1e-9 {
-            self.directions.push((rest.map(|r| r / length), speed / length));
+            let speed = speed.times(1.0 / length);
+            self.directions.push((rest.map(|r| r / length), speed.as_constant().unwrap_or(0.0)));
+            self.speeds.push(speed);
             Ok(())
-        } else if speed.abs() <= 1e-9 * largest {
+        } else if speed.is_round_off(largest) {
             Ok(())
         } else {
-            Err(velocity - speed)
+            Err(velocity.plus(-1.0, &speed))
         }
     }
 
@@ -67,6 +73,8 @@ pub struct Constraints<const D: usize> {
     /// Index into `held` per node; `u32::MAX`: free. Empty when nothing is held.
     index: Vec<u32>,
     held: Vec<Held<D>>,
+    /// Those in `held` whose velocity follows a curve.
+    driven: Vec<u32>,
     /// Nodes on symmetry lines, ascending.
     mirrors: Vec<Mirror<D>>,
 }
@@ -88,7 +96,7 @@ impl Constraints<2> {
     ///
     /// # Errors
     /// Names without nodes, symmetry lines that hold no node, velocities that contradict each other on a node.
-    pub fn new(model: &Model, mesh: &Mesh<2>) -> Result<Self, Vec<Fault>> {
+    pub fn new(model: &Model, mesh: &Mesh<2>, curves: &Curves) -> Result<Self, Vec<Fault>> {
         let mut result = Self::default();
         let mut faults = Vec::new();
         if model.symmetries.is_empty() && model.constraints.is_empty() {
@@ -108,7 +116,7 @@ impl Constraints<2> {
             }
             for node in nodes {
                 result.mirrors.push(Mirror { node, line: i, normal });
-                result.hold(node, normal, 0.0, &path, mesh, &mut faults);
+                result.hold(node, normal, &Speed::constant(0.0), &path, mesh, &mut faults);
             }
         }
         result.mirrors.sort_by_key(|mirror| mirror.node);
@@ -122,21 +130,22 @@ impl Constraints<2> {
                 ));
                 continue;
             };
+            let speeds = [0, 1].map(|d| constraint.velocity[d].as_ref().and_then(|drive| curves.speed(drive)));
             for node in nodes {
-                for (d, velocity) in constraint.velocity.iter().enumerate() {
-                    if let Some(Drive::Constant(velocity)) = *velocity {
-                        let mut direction = [0.0; 2];
-                        direction[d] = 1.0;
-                        result.hold(node, direction, velocity, &path, mesh, &mut faults);
+                for (speed, direction) in speeds.iter().zip([[1.0, 0.0], [0.0, 1.0]]) {
+                    if let Some(speed) = speed {
+                        result.hold(node, direction, speed, &path, mesh, &mut faults);
                     }
                 }
             }
         }
+        let driven = |held: &Held<2>| held.speeds.iter().any(|speed| speed.as_constant().is_none());
+        result.driven = (0..).zip(&result.held).filter(|(_, held)| driven(held)).map(|(index, _)| index).collect();
         faults.dedup();
         if faults.is_empty() { Ok(result) } else { Err(faults) }
     }
 
-    fn hold(&mut self, node: u32, direction: [f64; 2], velocity: f64, path: &str, mesh: &Mesh<2>, faults: &mut Vec<Fault>) {
+    fn hold(&mut self, node: u32, direction: [f64; 2], velocity: &Speed, path: &str, mesh: &Mesh<2>, faults: &mut Vec<Fault>) {
         let slot = &mut self.index[node as usize];
         if *slot == u32::MAX {
             *slot = self.held.len() as u32;
@@ -144,8 +153,11 @@ impl Constraints<2> {
         }
         if let Err(earlier) = self.held[*slot as usize].add(direction, velocity) {
             let [x, y] = mesh.positions[node as usize];
+            let told = |speed: &Speed| speed.as_constant().map_or("as a curve says".to_string(), |velocity| format!("at {velocity} m/s"));
             let message = format!(
-                "the node at ({x:.6e}, {y:.6e}) shall move at {velocity} m/s, but another condition already gives it {earlier} m/s there"
+                "the node at ({x:.6e}, {y:.6e}) shall move {}, but another condition already moves it {} there",
+                told(velocity),
+                told(&earlier)
             );
             if faults.len() < 20 {
                 faults.push(Fault::new(path, message, "take the node out of one of the two"));
@@ -160,6 +172,16 @@ impl<const D: usize> Constraints<D> {
     #[must_use]
     pub fn of(&self, node: usize) -> Option<&Held<D>> {
         self.held.get(*self.index.get(node)? as usize)
+    }
+
+    /// Takes the velocities that curves prescribe, as their mean between two times, s.
+    pub fn drive(&mut self, curves: &Curves, from: f64, to: f64) {
+        for &index in &self.driven {
+            let held = &mut self.held[index as usize];
+            for ((_, velocity), speed) in held.directions.iter_mut().zip(&held.speeds) {
+                *velocity = curves.mean(speed, from, to);
+            }
+        }
     }
 
     /// Whether no node is held.

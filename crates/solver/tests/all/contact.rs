@@ -64,7 +64,7 @@ fn wheels() -> Model {
     model
 }
 
-fn scenes() -> Vec<(&'static str, Model, f64)> {
+pub(crate) fn scenes() -> Vec<(&'static str, Model, f64)> {
     // Name, model, shortest segment of its surfaces.
     vec![
         ("oblique", oblique(), 0.012),

@@ -1,6 +1,7 @@
 //! Nodes against a rigid obstacle: a spring for each node that is behind its surface, or soon may be. One shape a file.
 //!
-//! The shape lives in the frame of its rigid body; positions come from the step. Reactions go to the body.
+//! The shape lives in the frame of its rigid body; positions come from the step. Reactions go to the body. What is swept is the way of a node as the body sees it: straight
+//! between where the node was seen before the step and where it is seen after it.
 
 pub mod plane;
 
@@ -12,8 +13,40 @@ use crate::rigid::Bodies;
 
 /// Shape of an obstacle in the frame of its body.
 pub trait Shape: Send {
-    /// Distance with sign (m, negative inside) and unit normal that points to the free side; `None` where the obstacle is not.
-    fn project(&self, x: Vector) -> Option<(f64, Vector)>;
+    /// Gap (m, negative inside) and unit normal along which a node is pushed out; `None` where it does not meet the obstacle.
+    fn meet(&self, way: Way, memory: &mut Memory) -> Option<(f64, Vector)>;
+}
+
+/// Way of a node in the step, as the body sees it, m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Way {
+    /// At the beginning.
+    pub from: Vector,
+    /// At the end, where it is now.
+    pub to: Vector,
+}
+
+/// What an obstacle remembers of a node.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Memory {
+    /// Where the node is.
+    pub state: State,
+    /// Whether its spring pushed in the last update.
+    pub presses: bool,
+}
+
+/// Where a node is with respect to an obstacle that has another side.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum State {
+    /// Not looked at yet.
+    #[default]
+    Unknown,
+    /// On the free side.
+    Free,
+    /// Inside: it came in through the surface.
+    Held,
+    /// Beyond, without having gone through the surface.
+    Behind,
 }
 
 /// Outline of an obstacle in the frame of its body.
@@ -46,9 +79,9 @@ pub struct NodeObstacle {
     /// Number of its rigid body.
     body: usize,
     nodes: Vec<(u32, Slave)>,
+    memories: Vec<Memory>,
     /// Nodes within this distance get a spring, m.
     reach: f64,
-    thickness: f64,
     /// Indices of the nodes with springs in this step.
     found: Vec<u32>,
 }
@@ -56,8 +89,8 @@ pub struct NodeObstacle {
 impl NodeObstacle {
     /// For `nodes`; `reach` is a fraction of the nodes' spacing and the reach of the law, m.
     #[must_use]
-    pub fn new(shape: Box<dyn Shape>, body: usize, nodes: Vec<(u32, Slave)>, reach: f64, thickness: f64) -> Self {
-        Self { shape, body, nodes, reach, thickness, found: Vec::new() }
+    pub fn new(shape: Box<dyn Shape>, body: usize, nodes: Vec<(u32, Slave)>, reach: f64) -> Self {
+        Self { shape, body, memories: vec![Memory::default(); nodes.len()], nodes, reach, found: Vec::new() }
     }
 }
 
@@ -66,15 +99,17 @@ impl Formulation for NodeObstacle {
         self.found.clear();
         let body = scene.bodies.state(self.body);
         let at = (scene.sweep.new.len() + self.body) as u32;
-        for (index, &(node, slave)) in self.nodes.iter().enumerate() {
-            let (x, x_old) = (scene.sweep.new[node as usize], scene.sweep.old[node as usize]);
-            let Some((distance, normal)) = self.shape.project(body.to_local(x)) else { continue };
-            let gap = distance - self.thickness;
+        for (index, (&(node, slave), memory)) in self.nodes.iter().zip(&mut self.memories).enumerate() {
+            let x = scene.sweep.new[node as usize];
+            let way = Way { from: body.to_local_old(scene.sweep.old[node as usize]), to: body.to_local(x) };
+            let met = self.shape.meet(way, memory);
+            memory.presses = false;
+            let Some((gap, normal)) = met else { continue };
             // Well before it touches: a spring that closes unseen would give back what it never took.
-            let moved = (x[0] - x_old[0]).abs() + (x[1] - x_old[1]).abs();
+            let moved = (way.to[0] - way.from[0]).abs() + (way.to[1] - way.from[1]).abs();
             if gap <= self.reach + 4.0 * moved {
                 let Slave { stiffness, area, slip } = slave;
-                let ends = [End::node(node, 1.0), End { at, share: -1.0, turn: [0.0; 2], point: x }];
+                let ends = [End::node(node, 1.0), End { at, share: -1.0, point: x, ..End::default() }];
                 springs.push(Spring { normal: body.to_global(normal), gap, stiffness, area, side: 1.0, slip, ..Spring::default() }, &ends);
                 self.found.push(index as u32);
             }
@@ -84,6 +119,7 @@ impl Formulation for NodeObstacle {
     fn remember(&mut self, solved: &[Spring]) {
         for (&index, spring) in self.found.iter().zip(solved) {
             self.nodes[index as usize].1.slip = spring.slip_new;
+            self.memories[index as usize].presses = spring.force != 0.0;
         }
     }
 }

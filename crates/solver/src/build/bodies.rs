@@ -1,0 +1,138 @@
+//! Initial velocities, and the rigid bodies that are made of elements.
+
+use super::Builder;
+use crate::error::Fault;
+use crate::load::curve::Speed;
+use crate::mesh::PartMesh;
+use crate::model::{Motion, Part};
+use crate::rigid::{Body, Member, Weight};
+
+/// What a part has on its nodes.
+pub(super) struct Bulk {
+    /// Centre of mass, m.
+    pub centre: [f64; 2],
+    /// Mass, kg/m.
+    pub mass: f64,
+    /// Moment of inertia about the centre, kg m.
+    pub inertia: f64,
+}
+
+impl Bulk {
+    /// Of nodes with masses (kg/m).
+    pub(super) fn of(masses: &[(u32, f64)], positions: &[[f64; 2]]) -> Self {
+        let mut bulk = Self { centre: [0.0; 2], mass: masses.iter().map(|&(_, m)| m).sum(), inertia: 0.0 };
+        // Seen from the first node: far from the origin no digits are lost.
+        let Some(first) = masses.first().map(|&(node, _)| positions[node as usize]) else { return bulk };
+        for &(node, m) in masses {
+            let x = positions[node as usize];
+            for d in 0..2 {
+                bulk.centre[d] += m / bulk.mass * (x[d] - first[d]);
+            }
+        }
+        bulk.centre = [bulk.centre[0] + first[0], bulk.centre[1] + first[1]];
+        for &(node, m) in masses {
+            let [x, y] = bulk.arm(positions[node as usize]);
+            bulk.inertia += m * (x * x + y * y);
+        }
+        bulk
+    }
+
+    fn arm(&self, x: [f64; 2]) -> [f64; 2] {
+        [x[0] - self.centre[0], x[1] - self.centre[1]]
+    }
+
+    /// Velocity of a point of a part that flies and spins about this centre, m/s.
+    fn velocity(&self, part: &Part, x: [f64; 2]) -> [f64; 2] {
+        let [a, b] = self.arm(x);
+        [part.velocity[0] - part.spin * b, part.velocity[1] + part.spin * a]
+    }
+}
+
+impl Builder<'_> {
+    /// Velocity of every node at the start, m/s: of a node of several parts the mean by mass.
+    pub(super) fn velocities(&self, part_mass: &[Vec<(u32, f64)>]) -> Vec<[f64; 2]> {
+        let mut momentum = vec![[0.0; 2]; self.mass.len()];
+        for (masses, part) in part_mass.iter().zip(&self.model.parts) {
+            let bulk = Bulk::of(masses, &self.mesh.positions);
+            for &(node, share) in masses {
+                let velocity = bulk.velocity(part, self.mesh.positions[node as usize]);
+                for d in 0..2 {
+                    momentum[node as usize][d] += share * velocity[d];
+                }
+            }
+        }
+        momentum.iter().zip(&self.mass).map(|(p, &m)| p.map(|p| p / m)).collect()
+    }
+
+    /// Makes the rigid parts; `gravity` is the acceleration of every node (m/s²), empty without.
+    pub(super) fn rigid_parts(&mut self, part_mass: &[Vec<(u32, f64)>], gravity: &[[f64; 2]]) {
+        let model = self.model;
+        for (i, part) in model.parts.iter().enumerate() {
+            let Some(motion) = &part.rigid else { continue };
+            let nodes = &self.mesh.parts[i].nodes;
+            let taken = nodes.iter().find_map(|&node| Some((node, self.bodies.of_node(node)?)));
+            if let Some((node, other)) = taken {
+                let other = self.body_parts.iter().find(|(_, body)| *body == other).map_or("", |&(part, _)| &model.parts[part].name);
+                let message = format!("rigid parts \"{other}\" and \"{}\" share the node at {}", part.name, self.place(node));
+                self.faults.push(Fault::new(format!("part[{i}].rigid"), message, "make them one part, or mesh them apart"));
+                continue;
+            }
+            if let Some(&node) = nodes.iter().find(|&&node| self.constraints.of(node as usize).is_some()) {
+                let message =
+                    format!("part \"{}\" is rigid, but a symmetry line or a constraint holds its node at {}", part.name, self.place(node));
+                let help = "let `rigid` of the part say how it moves, and take it out of the symmetry (`parts`) or the constraint";
+                self.faults.push(Fault::new(format!("part[{i}].rigid"), message, help));
+                continue;
+            }
+            let body = self.rigid_part(&self.mesh.parts[i], part, motion, &part_mass[i], gravity);
+            let number = self.bodies.add_with_nodes(body, self.mesh.positions.len());
+            self.body_parts.push((i, number));
+        }
+    }
+
+    fn place(&self, node: u32) -> String {
+        let [x, y] = self.mesh.positions[node as usize];
+        format!("({x:.6e}, {y:.6e}) m")
+    }
+
+    fn rigid_part(&self, mesh: &PartMesh, part: &Part, motion: &Motion, own: &[(u32, f64)], gravity: &[[f64; 2]]) -> Body {
+        let positions = &self.mesh.positions;
+        // The whole mass of the nodes: that of other parts at common nodes belongs to the body.
+        let whole: Vec<(u32, f64)> = own.iter().map(|&(node, _)| (node, self.mass[node as usize])).collect();
+        let bulk = Bulk::of(&whole, positions);
+        let drives = self.drives(motion);
+        let masses = [bulk.mass, bulk.mass, bulk.inertia];
+        let velocity = Bulk::of(own, positions).velocity(part, bulk.centre);
+        Body {
+            centre: bulk.centre,
+            velocity: [velocity[0], velocity[1], part.spin],
+            mass: std::array::from_fn(|k| if drives[k].is_none() { masses[k] } else { 0.0 }),
+            drives,
+            weight: weight(&whole, &bulk, positions, gravity),
+            of_elements: true,
+            members: mesh.nodes.iter().map(|&node| Member { node, arm: bulk.arm(positions[node as usize]) }).collect(),
+            shared: own.iter().filter(|&&(node, share)| self.mass[node as usize] != share).map(|&(node, _)| node).collect(),
+            ..Body::default()
+        }
+    }
+
+    /// What prescribes the velocities of a body.
+    pub(super) fn drives(&self, motion: &Motion) -> [Option<Speed>; 3] {
+        let [x, y] = &motion.velocity;
+        [x, y, &motion.spin].map(|drive| drive.as_ref().and_then(|drive| self.curves.speed(drive)))
+    }
+}
+
+/// What nodes with masses (kg/m) weigh together.
+fn weight(masses: &[(u32, f64)], bulk: &Bulk, positions: &[[f64; 2]], gravity: &[[f64; 2]]) -> Weight {
+    let Some(first) = masses.first().and_then(|&(node, _)| gravity.get(node as usize)) else { return Weight::default() };
+    let mut weight = Weight { force: first.map(|g| bulk.mass * g), moments: [0.0; 2] };
+    for &(node, m) in masses {
+        let (g, [a, b]) = (gravity[node as usize], bulk.arm(positions[node as usize]));
+        // What is uniform has no moment, to the last bit.
+        let [x, y] = [m * (g[0] - first[0]), m * (g[1] - first[1])];
+        weight.force = [weight.force[0] + x, weight.force[1] + y];
+        weight.moments = [weight.moments[0] + (a * y - b * x), weight.moments[1] + (a * x + b * y)];
+    }
+    weight
+}

@@ -1,0 +1,111 @@
+//! Damping of mass: a force −rate m v on parts, so that what moves slowly comes to rest.
+//!
+//! It acts on the mean velocity of the update, v̄ = ½ (v^{n−½} + v^{n+½}): with a = ½ rate · ½ (dt^{n−1} + dt^n)
+//!
+//! v^{n+½} = [(1 − a) v^{n−½} + ½ (dt^{n−1} + dt^n) f / m] / (1 + a),
+//!
+//! so it only takes energy, whatever the rate and the step. A node then gives way to a force like one of mass m (1 + a), which contact must know.
+
+use crate::mesh::Mesh;
+use crate::model::{Load, Model};
+
+/// The damping loads of a model.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Damping {
+    loads: Vec<Acting>,
+    /// Rate of each node now, 1/s; empty while nothing acts.
+    rates: Vec<f64>,
+    /// m (1 + a) of each node, kg/m; as long as `rates`.
+    mass: Vec<f64>,
+    /// Rate on the parts and obstacles that no load leaves out, 1/s.
+    everywhere: f64,
+    time_step: f64,
+}
+
+/// One load.
+#[derive(Clone, Debug, PartialEq)]
+struct Acting {
+    active: [f64; 2],
+    now: bool,
+    rate: f64,
+    /// Whether it acts on all parts, and so on free obstacles too.
+    everywhere: bool,
+    /// Share of the load's parts in the mass of each node.
+    shares: Vec<f64>,
+}
+
+impl Damping {
+    /// `part_mass` lists the nodes of each part with the part's mass on them (kg/m), `mass` the whole mass of each node.
+    #[must_use]
+    pub fn new(model: &Model, mesh: &Mesh<2>, mass: &[f64], part_mass: &[Vec<(u32, f64)>]) -> Self {
+        let load = |load: &Load| {
+            let Load::Damping { parts, rate, active } = load else { return None };
+            let mut shares = vec![0.0; mass.len()];
+            for (part, masses) in mesh.parts.iter().zip(part_mass) {
+                if parts.is_empty() || parts.contains(&part.name) {
+                    for &(node, share) in masses {
+                        shares[node as usize] += share / mass[node as usize];
+                    }
+                }
+            }
+            Some(Acting { active: *active, now: false, rate: *rate, everywhere: parts.is_empty(), shares })
+        };
+        Self { loads: model.loads.iter().filter_map(load).collect(), ..Self::default() }
+    }
+
+    /// Whether the model has no such load.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.loads.is_empty()
+    }
+
+    /// What acts at `time` (s) in an update over `time_step` = ½ (dt^{n−1} + dt^n), s, on nodes with these masses. Tells whether rates have changed.
+    pub fn prepare(&mut self, time: f64, time_step: f64, mass: &[f64]) -> bool {
+        let mut changed = false;
+        for load in &mut self.loads {
+            let now = (load.active[0]..load.active[1]).contains(&time);
+            changed |= now != std::mem::replace(&mut load.now, now);
+        }
+        if changed {
+            self.everywhere = self.loads.iter().filter(|load| load.now && load.everywhere).map(|load| load.rate).sum();
+            self.rates.clear();
+            if self.loads.iter().any(|load| load.now) {
+                self.rates.resize(mass.len(), 0.0);
+            }
+            for load in self.loads.iter().filter(|load| load.now) {
+                self.rates.iter_mut().zip(&load.shares).for_each(|(rate, share)| *rate += load.rate * share);
+            }
+        }
+        if changed || time_step != self.time_step {
+            self.time_step = time_step;
+            self.mass.clear();
+            self.mass.extend(self.rates.iter().zip(mass).map(|(rate, m)| m * (1.0 + 0.5 * rate * time_step)));
+        }
+        changed
+    }
+
+    /// a of a node.
+    #[inline]
+    #[must_use]
+    pub fn factor(&self, node: usize) -> f64 {
+        self.rates.get(node).map_or(0.0, |rate| 0.5 * rate * self.time_step)
+    }
+
+    /// Rate of a node now, 1/s.
+    #[must_use]
+    pub fn rate(&self, node: usize) -> f64 {
+        self.rates.get(node).copied().unwrap_or(0.0)
+    }
+
+    /// Rate now on free obstacles, 1/s.
+    #[must_use]
+    pub fn rate_everywhere(&self) -> f64 {
+        self.everywhere
+    }
+
+    /// Masses m (1 + a) with which nodes respond to contact forces, kg/m; `None` while nothing acts.
+    #[must_use]
+    pub fn mass(&self) -> Option<&[f64]> {
+        (!self.mass.is_empty()).then_some(&self.mass[..])
+    }
+}

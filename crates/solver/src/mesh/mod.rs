@@ -218,6 +218,16 @@ impl Mesh<2> {
         Surface::outside(self.parts.iter().filter(|part| parts.is_empty() || parts.contains(&part.name)).flat_map(PartMesh::cells))
     }
 
+    /// The same without the segments that `leave_out` names (those on a symmetry line, which are no outside of the whole body).
+    ///
+    /// # Errors
+    /// As [`Mesh::outside`].
+    pub fn outside_without(&self, parts: &[String], leave_out: impl Fn([u32; 2]) -> bool) -> Result<Surface, Fault> {
+        let whole = self.outside(parts)?;
+        let cells = self.parts.iter().filter(|part| parts.is_empty() || parts.contains(&part.name)).flat_map(PartMesh::cells);
+        Surface::new(whole.segments.into_iter().filter(|&segment| !leave_out(segment)).collect(), cells)
+    }
+
     /// Surface of a part (its whole outside), a `part.side` or a one-dimensional group, without the segments that `leave_out` names (those on
     /// a symmetry line, which are no outside of the whole body).
     ///

@@ -143,10 +143,11 @@ impl Formulation for RoundSegments {
         let gap = projection.gap - self.radius;
         let turn = if square > 0.0 { [-along[1] * gap / square, along[0] * gap / square] } else { [0.0; 2] };
         let [wa, wb] = projection.weights;
+        // A node comes first: it stands for the place in messages.
         let ends = [
-            End { at: (positions.len() + self.body) as u32, share: 1.0, point, ..End::default() },
             End { at: a, share: -wa, turn: [-turn[0], -turn[1]], ..End::default() },
             End { at: b, share: -wb, turn, ..End::default() },
+            End { at: (positions.len() + self.body) as u32, share: 1.0, point, ..End::default() },
         ];
         let Slave { stiffness, area, slip } = self.slave;
         springs.push(Spring { normal, gap, stiffness, area, side: -1.0, slip, ..Spring::default() }, &ends);

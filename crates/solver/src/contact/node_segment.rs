@@ -97,6 +97,15 @@ impl NodeSegment {
         Self { tracker, passes: inputs, thickness, reach, ignores_start, initial, has_begun: false, touches: Vec::new() }
     }
 
+    /// For the passes of `tracker` with slaves whose stiffness is known; `reach` of the law, m.
+    #[must_use]
+    pub fn new(tracker: Tracker, slaves: Vec<Vec<Slave>>, interface: &model::Interface, reach: f64) -> Self {
+        let passes = slaves.into_iter().map(|slaves| PassInput { slaves, ..PassInput::default() }).collect();
+        let ignores_start = interface.initial_penetration == model::InitialPenetration::Ignore || interface.active[0] > 0.0;
+        let (thickness, initial, touches) = (interface.thickness, Vec::new(), Vec::new());
+        Self { tracker, passes, thickness, reach, ignores_start, initial, has_begun: false, touches }
+    }
+
     /// Gap less the thickness. A surface keeps no more distance from itself than half of what it had: neighbours along a surface are near, and stay so.
     fn gap(&self, touch: &Touch) -> f64 {
         let gap = touch.projection.gap - self.thickness;

@@ -2,11 +2,12 @@
 
 use crate::block::Block;
 use crate::build;
+use crate::contact::initial::{self, Penetration};
 use crate::contact::tracker::{Certificate, SearchReport};
-use crate::contact::{Contact, search};
+use crate::contact::{Contact, ContactKind, search};
 use crate::error::{Error, Fault};
 use crate::mesh::PartMesh;
-use crate::model::{self, Cadence, Model};
+use crate::model::{self, Cadence, InitialPenetration, Model};
 use crate::output::{Cells, Frame, Summary};
 use crate::record::{Momentum, Recorded};
 use crate::step::{Governor, System};
@@ -122,7 +123,6 @@ pub struct Simulation {
     shortest: Shortest,
     pub(crate) threads: usize,
     pub(crate) warnings: BTreeSet<String>,
-    pub(crate) initial_penetrations: Vec<String>,
     history: Cadence,
     fields: Cadence,
     max_steps: u64,
@@ -133,8 +133,6 @@ pub struct Simulation {
 
 /// Steps between two calls of [`Observer::progress`].
 const PROGRESS: u64 = 256;
-/// Penetrations deeper than this fraction of the model's size are told at the start.
-const TOLD_DEPTH: f64 = 1e-9;
 
 impl Simulation {
     /// Makes a model ready: everything at time zero is known, velocities are those of the first half step.
@@ -167,7 +165,6 @@ impl Simulation {
             shortest: Shortest::default(),
             threads: if pool.is_some() { threads } else { 1 },
             warnings: BTreeSet::new(),
-            initial_penetrations: Vec::new(),
             history: model.output.history,
             fields: model.output.fields,
             max_steps: model.run.max_steps.unwrap_or(u64::MAX),
@@ -178,7 +175,10 @@ impl Simulation {
         simulation.within_pool(System::start)?;
         simulation.momentum = Momentum::new(&simulation.system);
         simulation.shortest.note(&simulation.system);
-        simulation.tell_initial_penetrations();
+        simulation.check_obstacles(model)?;
+        if !simulation.system.initial_penetrations.is_empty() {
+            simulation.warnings.insert("some nodes were inside other bodies at the start: `embate check` lists them".into());
+        }
         Ok(simulation)
     }
 
@@ -191,19 +191,25 @@ impl Simulation {
         }
     }
 
-    fn tell_initial_penetrations(&mut self) {
-        let size = self.system.positions.iter().flatten().fold(0.0f64, |size, x| size.max(x.abs()));
-        for contact in &self.system.contacts {
-            for (node, depth) in contact.penetrations(&self.system.springs).filter(|&(_, depth)| depth > TOLD_DEPTH * size) {
-                let [x, y] = self.system.positions[node as usize];
-                self.initial_penetrations
-                    .push(format!("contact \"{}\": the node at ({x:.6e}, {y:.6e}) m is {depth:.3e} m inside at the start", contact.name));
+    /// Nodes behind an obstacle at the start are faults.
+    fn check_obstacles(&self, model: &Model) -> Result<(), Error> {
+        let system = &self.system;
+        let tolerance = initial::TOLERANCE * initial::size(&system.positions);
+        let mut faults = Vec::new();
+        for contact in &system.contacts {
+            let Some(index) = model.obstacles.iter().position(|it| contact.kind != ContactKind::Contact && it.name == contact.name) else {
+                continue;
+            };
+            let interface = &model.obstacles[index].interface;
+            if interface.initial_penetration != InitialPenetration::Error || interface.active[0] > 0.0 {
+                continue;
             }
+            let inside = contact.penetrations(&system.springs).filter(|&(_, depth)| depth > tolerance);
+            let found: Vec<Penetration> =
+                inside.map(|(node, depth)| Penetration { node, place: system.positions[node as usize], depth }).collect();
+            faults.extend(initial::faults(&format!("obstacle[{index}]"), &contact.name, &found));
         }
-        if !self.initial_penetrations.is_empty() {
-            let count = self.initial_penetrations.len();
-            self.warnings.insert(format!("{count} node(s) penetrate at the start and will be pushed out: `embate check` lists them"));
-        }
+        if faults.is_empty() { Ok(()) } else { Err(Error::Model(faults)) }
     }
 
     /// Time reached, s.
@@ -352,7 +358,7 @@ impl Simulation {
             stable_time_step: system.time_step,
             governor: system.governor_name(system.governor),
             steps_expected: (system.limits.end / system.time_step).ceil() as u64,
-            initial_penetrations: self.initial_penetrations.clone(),
+            initial_penetrations: self.system.initial_penetrations.clone(),
             probes: self.recorded.probe_lines(),
             warnings: self.warnings.iter().cloned().collect(),
         }
@@ -360,6 +366,15 @@ impl Simulation {
 
     fn warnings(&self) -> Vec<String> {
         let mut warnings: Vec<String> = self.warnings.iter().cloned().collect();
+        for contact in &self.system.contacts {
+            let Some(ties) = contact.ties() else { continue };
+            let all = ties.nodes.len() + ties.broken;
+            if ties.broken > 0 {
+                warnings.push(format!("contact \"{}\": {} of {all} ties broke", contact.name, ties.broken));
+            } else if all == 0 {
+                warnings.push(format!("contact \"{}\": its ties bound no node", contact.name));
+            }
+        }
         let unsolved = self.system.springs.unsolved;
         if unsolved > 0 {
             warnings

@@ -7,9 +7,14 @@
 pub mod search;
 pub mod projection;
 pub mod tracker;
+pub mod initial;
 pub mod law;
 pub mod springs;
+pub mod formulation;
 pub mod node_segment;
+pub mod pinball;
+pub mod segment;
+pub mod tied;
 pub mod obstacle;
 pub mod traces;
 
@@ -17,6 +22,7 @@ use crate::mesh::surface::Surface;
 use crate::rigid::Bodies;
 use springs::{Spring, Springs, Totals};
 use std::ops::Range;
+use tied::Ties;
 use traces::Traces;
 use tracker::{Certificate, SearchReport};
 
@@ -31,6 +37,16 @@ pub trait Formulation: Send {
 
     /// Keeps what the next step needs of the solved springs, in the order of [`Formulation::detect`].
     fn remember(&mut self, solved: &[Spring]);
+
+    /// Energy of springs that broke in the last step and will not come back, J/m.
+    fn freed(&self) -> f64 {
+        0.0
+    }
+
+    /// Its ties, if it has such.
+    fn ties(&self) -> Option<Ties> {
+        None
+    }
 
     /// What was checked so far, and whether a contact was missed.
     fn certificate(&self) -> Certificate {
@@ -141,6 +157,13 @@ impl Contact {
             traces.mark(springs, spring, time_step);
         }
         self.formulation.remember(&springs.list[self.found.clone()]);
+        self.totals.lost.freed = self.formulation.freed();
+    }
+
+    /// Its ties, if it has such.
+    #[must_use]
+    pub fn ties(&self) -> Option<Ties> {
+        self.formulation.ties()
     }
 
     /// What was checked so far, and whether a contact was missed.
@@ -178,7 +201,7 @@ impl Contact {
     }
 }
 
-fn length(segment: [u32; 2], positions: &[Vector]) -> f64 {
+pub(crate) fn length(segment: [u32; 2], positions: &[Vector]) -> f64 {
     let [a, b] = segment.map(|node| positions[node as usize]);
     ((b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2)).sqrt()
 }

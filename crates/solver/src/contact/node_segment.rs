@@ -2,10 +2,34 @@
 //!
 //! Where the nodes lie comes from the [`Tracker`]; friction and thickness are those of the slave node, the stiffness that of the softer side where they meet.
 
+use super::formulation::{FormulationKind, Setup};
 use super::projection::node_segment::{Projection, Target};
 use super::springs::{End, Spring, Springs};
 use super::tracker::{Certificate, Memory, SearchReport, Touch, Tracker};
 use super::{Formulation, Scene, Vector};
+use crate::model;
+
+/// Registry entry.
+pub const DOUBLE_PASS: FormulationKind = FormulationKind {
+    name: "double_pass",
+    doc: "nodes against segments; each surface is slave once and target once in every force evaluation",
+    source: "Bittencourt and Creus (1995)",
+    make: |setup| {
+        let passes = setup.both_passes();
+        Ok(Box::new(NodeSegment::of(setup, passes)))
+    },
+};
+
+/// Registry entry.
+pub const SINGLE_PASS: FormulationKind = FormulationKind {
+    name: "single_pass",
+    doc: "nodes against segments; only the nodes of the slave surface are checked against the other one",
+    source: "Bittencourt and Creus (1995)",
+    make: |setup| {
+        let slave = if let model::Formulation::SinglePass { slave } = setup.contact.formulation { slave } else { 0 };
+        Ok(Box::new(NodeSegment::of(setup, [&[(0, 1)], &[(1, 0)]][slave.min(1)])))
+    },
+};
 
 /// The formulation.
 pub struct NodeSegment {
@@ -37,7 +61,7 @@ pub struct PassInput {
 
 impl PassInput {
     /// The softer of both sides decides, where they meet.
-    fn stiffness(&self, slave: usize, segment: u32) -> f64 {
+    pub(super) fn stiffness(&self, slave: usize, segment: u32) -> f64 {
         let own = self.slaves[slave].stiffness;
         self.per_modulus.get(slave).map_or(own, |per| own.min(per * self.moduli[segment as usize]))
     }
@@ -55,12 +79,31 @@ pub struct Slave {
 }
 
 impl NodeSegment {
-    /// For the passes of `tracker` with `thickness` of the interface and `reach` of the law, m; `positions` are the initial ones. With `ignores_start` gaps that are negative
-    /// when the contact begins to act count as zero until the surfaces part.
+    /// For a contact with these passes (slave, target). Where it ignores initial penetrations, gaps that are negative when it begins to act count as zero until the surfaces part.
     #[must_use]
-    pub fn new(tracker: Tracker, passes: Vec<PassInput>, [thickness, reach]: [f64; 2], ignores_start: bool, positions: &[Vector]) -> Self {
-        let initial = if thickness + reach > 0.0 { positions.to_vec() } else { Vec::new() };
-        Self { tracker, passes, thickness, reach, ignores_start, initial, has_begun: false, touches: Vec::new() }
+    pub fn of(setup: Setup<'_>, passes: &[(usize, usize)]) -> Self {
+        // A surface that meets itself is met from both sides.
+        let sides = if setup.sides.len() == 1 { 2 } else { passes.len() };
+        let pass = |&(slave, target): &(usize, usize)| PassInput {
+            slaves: setup.slaves(slave, sides),
+            per_modulus: setup.per_modulus(slave, sides),
+            moduli: setup.sides[target].softest(),
+        };
+        let inputs = passes.iter().map(pass).collect();
+        let (thickness, reach) = (setup.contact.interface.thickness, (setup.law)().reach());
+        let initial = if thickness + reach > 0.0 { setup.positions.to_vec() } else { Vec::new() };
+        let ignores_start = setup.ignores_start();
+        let tracker = setup.tracker(passes);
+        Self { tracker, passes: inputs, thickness, reach, ignores_start, initial, has_begun: false, touches: Vec::new() }
+    }
+
+    /// For the passes of `tracker` with slaves whose stiffness is known; `reach` of the law, m.
+    #[must_use]
+    pub fn new(tracker: Tracker, slaves: Vec<Vec<Slave>>, interface: &model::Interface, reach: f64) -> Self {
+        let passes = slaves.into_iter().map(|slaves| PassInput { slaves, ..PassInput::default() }).collect();
+        let ignores_start = interface.initial_penetration == model::InitialPenetration::Ignore || interface.active[0] > 0.0;
+        let (thickness, initial, touches) = (interface.thickness, Vec::new(), Vec::new());
+        Self { tracker, passes, thickness, reach, ignores_start, initial, has_begun: false, touches }
     }
 
     /// Gap less the thickness. A surface keeps no more distance from itself than half of what it had: neighbours along a surface are near, and stay so.
@@ -74,25 +117,28 @@ impl NodeSegment {
         gap + (self.thickness + self.reach - 0.5 * distance.unwrap_or(0.0)).max(0.0)
     }
 
-    /// Gap as the spring sees it, and the offset from here on: a gap that counted as zero does so until it opens.
+    /// Gap as the spring sees it, and the gap that counts as zero.
     fn beyond(&self, touch: &Touch) -> (f64, f64) {
         let gap = self.gap(touch);
-        let offset = if self.has_begun { relaxed(touch.memory.offset, gap) } else { gap.min(0.0) };
+        let offset = if self.has_begun { kept(touch.memory.offset, gap) } else { gap.min(0.0) };
         let offset = if self.ignores_start && !touch.own { offset } else { 0.0 };
         (gap - offset, offset)
     }
 }
 
-/// A gap that counts as zero (negative), after the gap has become `gap`: it never grows in size.
+/// The gap that counts as zero (m, negative), after the gap has become `gap`: that of the start, until the surfaces part. One that went with the gap would give to springs
+/// what nobody put in.
 #[must_use]
-pub fn relaxed(offset: f64, gap: f64) -> f64 {
-    offset.max(gap).min(0.0)
+pub fn kept(offset: f64, gap: f64) -> f64 {
+    if gap < 0.0 { offset } else { 0.0 }
 }
 
-impl Formulation for NodeSegment {
-    fn detect(&mut self, scene: &Scene<'_>, springs: &mut Springs) {
+impl NodeSegment {
+    /// [`Formulation::detect`] for those slaves of the first pass that are not bound otherwise (`bound` by index; empty: all).
+    pub(super) fn detect_free(&mut self, bound: &[bool], scene: &Scene<'_>, springs: &mut Springs) {
         self.touches.clear();
         self.touches.extend_from_slice(self.tracker.track(scene.sweep, self.thickness + self.reach));
+        self.touches.retain(|touch| touch.pass > 0 || !bound.get(touch.slave).copied().unwrap_or(false));
         for index in 0..self.touches.len() {
             let touch = self.touches[index];
             let pass = &self.passes[touch.pass];
@@ -105,6 +151,12 @@ impl Formulation for NodeSegment {
             self.touches[index].memory.offset = offset;
         }
         self.has_begun = true;
+    }
+}
+
+impl Formulation for NodeSegment {
+    fn detect(&mut self, scene: &Scene<'_>, springs: &mut Springs) {
+        self.detect_free(&[], scene, springs);
     }
 
     fn remember(&mut self, solved: &[Spring]) {

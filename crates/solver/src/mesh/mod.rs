@@ -198,6 +198,14 @@ impl Mesh<2> {
         }
     }
 
+    /// Elements that are degenerate or not convex, after nodes have been moved.
+    #[must_use]
+    pub fn faults_of_elements(&self) -> Vec<Fault> {
+        let mut faults = Vec::new();
+        (0..self.parts.len()).for_each(|part| self.check_elements(part, &mut faults));
+        faults
+    }
+
     /// Nodes of a part, a `part.side` or a group, ascending; `None` when there is no such name.
     #[must_use]
     pub fn nodes(&self, name: &str) -> Option<Vec<u32>> {
@@ -245,7 +253,7 @@ impl Mesh<2> {
         Surface::outside(self.parts.iter().filter(|part| parts.is_empty() || parts.contains(&part.name)).flat_map(PartMesh::cells))
     }
 
-    /// As [`Mesh::outside`], without the segments that `leave_out` names.
+    /// The same without the segments that `leave_out` names (those on a symmetry line, which are no outside of the whole body).
     ///
     /// # Errors
     /// As [`Mesh::outside`].

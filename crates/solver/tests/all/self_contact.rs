@@ -8,7 +8,7 @@ use embate_solver::simulation::{Options, Simulation};
 use std::f64::consts::{PI, TAU};
 
 /// Contact of all bodies with each other and with themselves.
-fn all(model: &mut Model) {
+pub(crate) fn all(model: &mut Model) {
     model.contacts.push(Contact { name: "all".into(), partners: Partners::Bodies(Vec::new()), ..Contact::default() });
 }
 
@@ -28,7 +28,7 @@ fn serpentine(folds: usize, [height, pitch, wall]: [f64; 3], along: usize) -> Im
 }
 
 /// One body alone, in rest or motion: whatever its shape.
-fn alone() -> Vec<(&'static str, Model)> {
+pub(crate) fn alone() -> Vec<(&'static str, Model)> {
     let with = |shape: Shape| {
         let mut model = model(2e-4);
         add(&mut model, "body", shape, [0.0, 0.0]);
@@ -84,7 +84,7 @@ fn a_body_alone_does_not_feel_itself() {
 }
 
 /// A thin ring between two heavy plates that crush it.
-fn crushed_ring() -> Model {
+pub(crate) fn crushed_ring() -> Model {
     let mut model = model(2.6e-3);
     model.materials.insert("heavy".into(), elastic(1e10, 5e3));
     add(&mut model, "ring", ring(0.046, 0.05, [2, 72]), [0.0, 0.0]);
@@ -100,7 +100,7 @@ fn crushed_ring() -> Model {
 }
 
 /// A slender column with a slight bend, pressed together by heavy blocks: it buckles and folds up on itself.
-fn folding_column() -> Model {
+pub(crate) fn folding_column() -> Model {
     let mut model = model(3e-3);
     model.materials.insert("heavy".into(), elastic(1e10, 1.5e3));
     let column = mapped([2, 160], |u, v| [0.0008 * (4.0 * PI * v).sin() + 0.0006 * (7.0 * PI * v).sin() + 0.002 * (u - 0.5), 0.16 * v]);

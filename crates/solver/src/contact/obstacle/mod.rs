@@ -3,6 +3,7 @@
 //! The shape lives in the frame of its rigid body; positions come from the step. Reactions go to the body. What is swept is the way of a node as the body sees it: straight
 //! between where the node was seen before the step and where it is seen after it.
 
+pub mod circle;
 pub mod plane;
 
 use super::node_segment::Slave;
@@ -33,6 +34,8 @@ pub struct Memory {
     pub state: State,
     /// Whether its spring pushed in the last update.
     pub presses: bool,
+    /// Normal along which it is held, in the frame of the body.
+    pub normal: Vector,
 }
 
 /// Where a node is with respect to an obstacle that has another side.
@@ -43,6 +46,8 @@ pub enum State {
     Unknown,
     /// On the free side.
     Free,
+    /// On the free side, but so fast that it may go through within the next step.
+    Ahead,
     /// Inside: it came in through the surface.
     Held,
     /// Beyond, without having gone through the surface.
@@ -103,13 +108,17 @@ impl Formulation for NodeObstacle {
             let x = scene.sweep.new[node as usize];
             let way = Way { from: body.to_local_old(scene.sweep.old[node as usize]), to: body.to_local(x) };
             let met = self.shape.meet(way, memory);
-            memory.presses = false;
+            let pressed = std::mem::replace(&mut memory.presses, false);
             let Some((gap, normal)) = met else { continue };
+            let moved = [way.to[0] - way.from[0], way.to[1] - way.from[1]];
+            // Who comes from behind, or past a corner, has pressed no spring that could give anything back.
+            if gap >= 0.0 && !pressed && normal[0] * moved[0] + normal[1] * moved[1] > 2.0 * gap {
+                continue;
+            }
             // Well before it touches: a spring that closes unseen would give back what it never took.
-            let moved = (way.to[0] - way.from[0]).abs() + (way.to[1] - way.from[1]).abs();
-            if gap <= self.reach + 4.0 * moved {
+            if gap <= self.reach + 4.0 * (moved[0].abs() + moved[1].abs()) {
                 let Slave { stiffness, area, slip } = slave;
-                let ends = [End::node(node, 1.0), End { at, share: -1.0, turn: [0.0; 2], point: x }];
+                let ends = [End::node(node, 1.0), End { at, share: -1.0, point: x, ..End::default() }];
                 springs.push(Spring { normal: body.to_global(normal), gap, stiffness, area, side: 1.0, slip, ..Spring::default() }, &ends);
                 self.found.push(index as u32);
             }
@@ -121,5 +130,37 @@ impl Formulation for NodeObstacle {
             self.nodes[index as usize].1.slip = spring.slip_new;
             self.memories[index as usize].presses = spring.force != 0.0;
         }
+    }
+}
+
+/// Two formulations of one contact, one after the other.
+pub struct Both {
+    parts: [Box<dyn Formulation>; 2],
+    /// Springs of the first in this step.
+    split: usize,
+}
+
+impl Both {
+    /// From these two.
+    #[must_use]
+    pub fn new(parts: [Box<dyn Formulation>; 2]) -> Self {
+        Self { parts, split: 0 }
+    }
+}
+
+impl Formulation for Both {
+    fn detect(&mut self, scene: &Scene<'_>, springs: &mut Springs) {
+        let begin = springs.list.len();
+        let [first, second] = &mut self.parts;
+        first.detect(scene, springs);
+        self.split = springs.list.len() - begin;
+        second.detect(scene, springs);
+    }
+
+    fn remember(&mut self, solved: &[Spring]) {
+        // Nothing is found, and nothing solved, while the contact does not act.
+        let (first, second) = solved.split_at(self.split.min(solved.len()));
+        self.parts[0].remember(first);
+        self.parts[1].remember(second);
     }
 }

@@ -73,11 +73,17 @@ impl Pass {
     }
 
     pub(super) fn set_bodies(&mut self, targets: &[Target], bodies: &[u32], lids: &[[u32; 2]]) {
-        let of = |node: u32| bodies[node as usize];
+        // Nodes beyond the model's are no part of its bodies.
+        let of = |node: u32| bodies.get(node as usize).copied().unwrap_or(u32::MAX);
         self.slave_bodies = targets[self.slave].surface.nodes.iter().map(|&node| of(node)).collect();
         self.segment_bodies = targets[self.target].surface.segments.iter().map(|&[node, _]| of(node)).collect();
         self.lids = lids.iter().map(|&lid| (lid, of(lid[0]))).collect();
         self.find_open(&targets[self.target]);
+    }
+
+    pub(super) fn forget(&mut self) {
+        self.groups.clear();
+        self.candidates.clear();
     }
 
     fn find_open(&mut self, target: &Target) {

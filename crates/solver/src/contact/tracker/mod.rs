@@ -123,6 +123,12 @@ impl Tracker {
         SearchReport { candidates, ..self.reach.report }
     }
 
+    /// Forgets what is known of the past.
+    pub fn forget(&mut self) {
+        self.reach.forget();
+        self.passes.iter_mut().for_each(Pass::forget);
+    }
+
     /// Nodes that are inside, or near enough to come in during the next update, ascending by pass, slave and body. Pairs farther than the skin and `extra` (m)
     /// are not looked at. In the first call nothing is known of the past: a node in another body is where the nearest feature of that body says.
     pub fn track(&mut self, sweep: Sweep<'_>, extra: f64) -> &[Touch] {

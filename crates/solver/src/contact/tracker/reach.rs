@@ -42,6 +42,10 @@ impl Reach {
         self.positions.is_empty()
     }
 
+    pub(super) fn forget(&mut self) {
+        self.positions.clear();
+    }
+
     /// How far to search now, m.
     pub(super) fn radius(&self, sweep: Sweep<'_>) -> f64 {
         let skin = if self.is_new() { FIRST * self.skin } else { self.skin };

@@ -11,9 +11,22 @@ use std::collections::BTreeMap;
 struct Rows {
     low: f64,
     inverse: f64,
-    /// (row, largest x, segment, body), by row, then by descending x: what lies left of a node ends its row.
-    entries: Vec<(usize, f64, [u32; 2], u32)>,
+    /// By row, then by descending x: what lies left of a node ends its row.
+    entries: Vec<Entry>,
+    /// Symmetry lines: a point and the normal that points to the model.
+    lines: Vec<[Vector; 2]>,
+    /// Nodes nearer than this to a symmetry line are on it, m.
+    rounding: f64,
     begin: Vec<usize>,
+}
+
+/// A segment in a row.
+struct Entry {
+    row: usize,
+    /// Largest x, m.
+    x: f64,
+    segment: [u32; 2],
+    body: u32,
 }
 
 /// Segments of the bodies that were asked for.
@@ -41,9 +54,10 @@ impl Pass {
         let target = &targets[self.target];
         let mut inside = self.open_ones(target, positions);
         let segments = || target.surface.segments.iter().copied().zip(self.segment_bodies.iter().copied());
-        let closed = || segments().filter(|&(_, body)| !self.is_open(body)).chain(self.lids.iter().copied());
+        let lids = || self.lids.iter().map(|&(lid, body)| (lid, body, true));
+        let closed = || segments().filter(|&(_, body)| !self.is_open(body)).map(|(segment, body)| (segment, body, false)).chain(lids());
         let mut boxes: BTreeMap<u32, Extent> = BTreeMap::new();
-        for (segment, body) in closed() {
+        for (segment, body, _) in closed() {
             let extent = boxes.entry(body).or_insert([[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]]);
             for (x, d) in segment.iter().flat_map(|&node| [0, 1].map(|d| (positions[node as usize][d], d))) {
                 extent[0][d] = extent[0][d].min(x);
@@ -93,10 +107,10 @@ impl Pass {
 }
 
 impl Rows {
-    fn new(segments: impl Iterator<Item = ([u32; 2], u32)> + Clone, positions: &[Vector]) -> Self {
+    fn new(segments: impl Iterator<Item = ([u32; 2], u32, bool)> + Clone, positions: &[Vector]) -> Self {
         let ends = |segment: [u32; 2]| segment.map(|node| positions[node as usize]);
         let (mut low, mut high, mut count) = (f64::INFINITY, f64::NEG_INFINITY, 0);
-        for (segment, _) in segments.clone() {
+        for (segment, ..) in segments.clone() {
             for [_, y] in ends(segment) {
                 (low, high) = (low.min(y), high.max(y));
             }
@@ -104,22 +118,49 @@ impl Rows {
         }
         // As many rows as make a segment span one in the mean, at most one per segment.
         let height = high - low;
-        let heights: f64 = segments.clone().map(|(segment, _)| ends(segment)).map(|[a, b]| (a[1] - b[1]).abs()).sum();
+        let heights: f64 = segments.clone().map(|(segment, ..)| ends(segment)).map(|[a, b]| (a[1] - b[1]).abs()).sum();
         let rows = (height * f64::from(count) / heights).clamp(1.0, f64::from(count).max(1.0));
         let inverse = if height > 0.0 { rows / height } else { 0.0 };
-        let mut rows = Self { low, inverse, entries: Vec::new(), begin: Vec::new() };
-        for (segment, body) in segments {
+        let rounding = 1e-9 * low.abs().max(high.abs());
+        let mut rows = Self { low, inverse, entries: Vec::new(), lines: Vec::new(), rounding, begin: Vec::new() };
+        for (segment, body, is_lid) in segments {
             let [a, b] = ends(segment);
+            if is_lid {
+                rows.add_line(a, b);
+            }
             // A level segment crosses no ray.
             if a[1] != b[1] {
                 let x = a[0].max(b[0]);
-                rows.entries.extend((rows.row(a[1].min(b[1]))..=rows.row(a[1].max(b[1]))).map(|row| (row, x, segment, body)));
+                let span = rows.row(a[1].min(b[1]))..=rows.row(a[1].max(b[1]));
+                rows.entries.extend(span.map(|row| Entry { row, x, segment, body }));
             }
         }
-        rows.entries.sort_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)));
-        let last = rows.entries.last().map_or(0, |entry| entry.0);
-        rows.begin = (0..=last + 1).map(|row| rows.entries.partition_point(|entry| entry.0 < row)).collect();
+        rows.entries.sort_by(|a, b| a.row.cmp(&b.row).then(b.x.total_cmp(&a.x)));
+        let last = rows.entries.last().map_or(0, |entry| entry.row);
+        rows.begin = (0..=last + 1).map(|row| rows.entries.partition_point(|entry| entry.row < row)).collect();
         rows
+    }
+
+    /// Notes the line of a segment that runs with the body on its right.
+    fn add_line(&mut self, a: Vector, b: Vector) {
+        let length = (b[0] - a[0]).hypot(b[1] - a[1]);
+        let normal = [(b[1] - a[1]) / length, (a[0] - b[0]) / length];
+        let same = |[point, other]: &[Vector; 2]| {
+            distance(a, [*point, *other]).abs() <= self.rounding && (normal[0] * other[0] + normal[1] * other[1]) > 1.0 - 1e-9
+        };
+        if length > 0.0 && !self.lines.iter().any(same) {
+            self.lines.push([a, normal]);
+        }
+    }
+
+    /// A node on a symmetry line is as inside as its mirror image: seen from a little off the line.
+    fn off_lines(&self, mut x: Vector) -> Vector {
+        for line in &self.lines {
+            if distance(x, *line).abs() <= self.rounding {
+                x = [x[0] + 2.0 * self.rounding * line[1][0], x[1] + 2.0 * self.rounding * line[1][1]];
+            }
+        }
+        x
     }
 
     fn row(&self, y: f64) -> usize {
@@ -129,13 +170,18 @@ impl Rows {
     /// How often `x` is inside each body but its own; bodies ascending.
     fn levels(&self, x: Vector, own: u32, positions: &[Vector]) -> BTreeMap<u32, i32> {
         let mut levels = BTreeMap::new();
+        let x = self.off_lines(x);
         let row = self.row(x[1]);
         if x[1] >= self.low && row + 1 < self.begin.len() {
             let entries = &self.entries[self.begin[row]..self.begin[row + 1]];
-            for &(_, _, segment, body) in entries.iter().take_while(|entry| entry.1 >= x[0]).filter(|entry| entry.3 != own) {
-                *levels.entry(body).or_insert(0) -= Target::turn(x, segment, positions);
+            for entry in entries.iter().take_while(|entry| entry.x >= x[0]).filter(|entry| entry.body != own) {
+                *levels.entry(entry.body).or_insert(0) -= Target::turn(x, entry.segment, positions);
             }
         }
         levels
     }
+}
+
+fn distance(x: Vector, [point, normal]: [Vector; 2]) -> f64 {
+    (x[0] - point[0]) * normal[0] + (x[1] - point[1]) * normal[1]
 }

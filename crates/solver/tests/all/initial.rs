@@ -187,8 +187,11 @@ fn nodes_behind_an_obstacle_are_refused() {
     assert!(found[0].path == "obstacle[0]" && found[0].message.contains("1.000e-2 m inside"), "{found:?}");
 }
 
+/// Gap of a point at an obstacle.
+type Gap = Box<dyn Fn([f64; 2]) -> f64>;
+
 /// A block that some obstacle is a little inside of, and where its nodes may not be then.
-fn with_obstacles() -> Vec<(&'static str, Model, Box<dyn Fn([f64; 2]) -> f64>)> {
+fn with_obstacles() -> Vec<(&'static str, Model, Gap)> {
     let with = |shape: ObstacleShape| {
         let mut model = model(1e-5);
         add(&mut model, "block", rectangle([0.0, 0.0], [0.1, 0.1], [5, 5]), [0.0, 0.0]);

@@ -201,11 +201,11 @@ pub struct Summary {
     pub energy_drift: f64,
     /// Largest |change of kinetic energy − sum of works| as a fraction of the largest total energy.
     pub ledger_residual: f64,
-    /// Change of linear momentum over Σ m|v|; `None` where walls, supports or loads act.
+    /// Change of linear momentum over Σ m|v|; `None` where something is held or driven, or loads act.
     pub momentum_drift_linear: Option<f64>,
-    /// Change of angular momentum over Σ m|x||v|; `None` where walls, supports or loads act.
+    /// Change of angular momentum over Σ m|x||v|; `None` where something is held or driven, or loads act.
     pub momentum_drift_angular: Option<f64>,
-    /// Deepest penetration seen in any contact or wall, m.
+    /// Deepest penetration seen in any contact or obstacle, m.
     pub penetration_max: f64,
     /// What was checked in all contacts between surfaces, and whether one was missed.
     pub contact: Certificate,

@@ -17,7 +17,7 @@ pub enum RunStatus {
     Stopped,
 }
 
-/// Relative change of momentum over the whole run; a number is `None` where walls, supports or loads act.
+/// Relative change of momentum over the whole run; a number is `None` where something is held or driven, or loads act.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct MomentumDrift {
     /// Change of linear momentum over Σ m|v|.
@@ -76,7 +76,7 @@ pub struct Report {
     pub energy_drift: f64,
     /// Largest |change of kinetic energy − sum of works| as a fraction of the largest total energy.
     pub ledger_residual: f64,
-    /// Change of momentum; `None` where walls, supports or loads act.
+    /// Change of momentum; `None` where something is held or driven, or loads act.
     pub momentum_drift: Option<MomentumDrift>,
     /// Deepest penetration seen, m.
     pub penetration_max: f64,

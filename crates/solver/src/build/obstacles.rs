@@ -1,72 +1,190 @@
 //! Obstacles: their rigid bodies, their shapes, and the nodes that meet them.
 
-use super::{Builder, Outlined, stiffness_of, terms_of};
+use super::{Builder, Outlined, search_by_name, stiffness_of, terms_of};
 use crate::contact::formulation::Side;
-use crate::contact::node_segment::Slave;
+use crate::contact::node_segment::{NodeSegment, Slave};
+use crate::contact::obstacle::circle::{Circle, RoundSegments};
 use crate::contact::obstacle::plane::Plane;
-use crate::contact::obstacle::{NodeObstacle, OutlineShape, Shape};
+use crate::contact::obstacle::{Both, NodeObstacle, OutlineShape, Shape};
 use crate::contact::projection::node_segment::Target;
-use crate::contact::tracker::SKIN;
-use crate::contact::{Contact, ContactKind, Formulation, law};
+use crate::contact::tracker::{SKIN, Tracker};
+use crate::contact::{self, Contact, ContactKind, Formulation, initial, law, length};
 use crate::error::Fault;
 use crate::load::constraint::unit;
-use crate::mesh::surface::Surface;
+use crate::mesh::surface::{NONE, Surface};
 use crate::model::{Load, Obstacle, ObstacleShape};
-use crate::rigid::{Body, Weight};
+use crate::rigid::{Body, Member, Weight};
+use std::f64::consts::TAU;
 
 /// The outside of the bodies that an obstacle stops.
 struct Met {
     surface: Surface,
     /// Tributary length (m) and pressure stiffness (Pa/m) of each of its nodes.
     own: Vec<(f64, f64)>,
-    /// Fraction of the mean tributary length, and the reach of the law, m: how far away nodes get springs.
+    /// Mean of both over the nodes.
+    mean: (f64, f64),
+    /// Longest segment, m.
+    longest: f64,
+    /// Reach of the law, m.
     reach: f64,
 }
+
+/// Points of the outline of a circle.
+const ROUND: usize = 96;
 
 impl Builder<'_> {
     pub(super) fn obstacles(&mut self) -> Vec<Contact> {
         let mut contacts = Vec::new();
         for (i, obstacle) in self.model.obstacles.iter().enumerate() {
-            let surface = match self.mesh.outside(&obstacle.parts) {
-                Ok(surface) => surface,
-                Err(fault) => {
-                    self.faults.push(Fault { path: format!("obstacle[{i}].parts"), ..fault });
-                    continue;
-                }
-            };
-            let outline = Outlined { target: Target { surface, mirrors: Vec::new() }, lids: Vec::new() };
-            let Side { target: Target { surface, .. }, nodes: own, .. } = self.side(outline, &obstacle.interface);
             let terms = terms_of(&obstacle.interface);
-            let spacing = own.iter().map(|&(length, _)| length).sum::<f64>() / own.len().max(1) as f64;
-            let met = Met { surface, own, reach: SKIN * spacing + terms.law.reach() };
-            let Some((body, formulation)) = self.obstacle(obstacle, &met) else { continue };
-            self.terms.push(terms);
-            let kind = ContactKind::Obstacle(body);
-            contacts.push(Contact::new(obstacle.name.clone(), kind, formulation, obstacle.interface.active));
+            let made = self.met(obstacle, terms.law.reach()).and_then(|met| self.obstacle(obstacle, met));
+            match made {
+                Ok((body, formulation)) => {
+                    self.terms.push(terms);
+                    let kind = ContactKind::Obstacle(body);
+                    contacts.push(Contact::new(obstacle.name.clone(), kind, formulation, obstacle.interface.active));
+                }
+                Err(fault) => self.faults.push(Fault { path: format!("obstacle[{i}]{}", fault.path), ..fault }),
+            }
         }
         contacts
     }
 
+    fn met(&self, obstacle: &Obstacle, reach: f64) -> Result<Met, Fault> {
+        let surface = self.mesh.outside_without(&obstacle.parts, |segment| self.constraints.is_mirror(segment));
+        let surface = surface.map_err(|fault| Fault { path: ".parts".into(), ..fault })?;
+        let outline = Outlined { target: Target { surface, mirrors: Vec::new() }, lids: Vec::new() };
+        let Side { target: Target { surface, .. }, nodes: own, .. } = self.side(outline, &obstacle.interface);
+        let count = own.len().max(1) as f64;
+        let sum = own.iter().fold((0.0, 0.0), |sum, it| (sum.0 + it.0, sum.1 + it.1));
+        let longest = surface.segments.iter().map(|&segment| length(segment, &self.mesh.positions)).fold(0.0, f64::max);
+        Ok(Met { surface, own, mean: (sum.0 / count, sum.1 / count), longest, reach })
+    }
+
     /// The body of an obstacle, and what makes springs at it.
-    fn obstacle(&mut self, obstacle: &Obstacle, met: &Met) -> Option<(usize, Box<dyn Formulation>)> {
+    fn obstacle(&mut self, obstacle: &Obstacle, met: Met) -> Result<(usize, Box<dyn Formulation>), Fault> {
         match &obstacle.shape {
             ObstacleShape::Plane { point, normal, length } => {
-                let normal = unit(*normal)?;
-                let reference = obstacle.reference.unwrap_or(*point);
-                let half = length.map_or(f64::INFINITY, |length| 0.5 * length);
-                let middle = [point[0] - reference[0], point[1] - reference[1]];
-                let shape = Plane { middle, normal, half, thickness: obstacle.interface.thickness, shallow: met.reach };
-                // Beyond every picture of the model.
-                let far = half.min(20.0 * self.mesh.positions.iter().flatten().fold(0.0f64, |size, x| size.max(x.abs())));
-                let points = [1.0, -1.0].map(|side| [middle[0] - side * far * normal[1], middle[1] + side * far * normal[0]]);
-                let body = self.bodies.add(self.obstacle_body(obstacle, reference));
-                self.outlines.push(OutlineShape { name: obstacle.name.clone(), body, points: points.into() });
-                // Nodes that a symmetry line keeps on this plane need no spring.
-                let held = |node: u32| self.constraints.mirror_normals(node).any(|m| (m[0] * normal[1] - m[1] * normal[0]).abs() < 1e-12);
-                Some((body, Box::new(self.node_obstacle(obstacle, met, Box::new(shape), body, held))))
+                let normal =
+                    unit(*normal).ok_or_else(|| Fault::new(".plane.normal", "it has no direction", "give a vector such as [1, 0]"))?;
+                Ok(self.plane(obstacle, &met, *point, normal, *length))
             }
-            _ => None,
+            ObstacleShape::Circle { centre, radius, hollow } => self.circle(obstacle, met, *centre, *radius, *hollow),
+            ObstacleShape::Polyline { points } => Ok(self.polyline(obstacle, met, points)),
         }
+    }
+
+    fn plane(
+        &mut self,
+        obstacle: &Obstacle,
+        met: &Met,
+        point: [f64; 2],
+        normal: [f64; 2],
+        length: Option<f64>,
+    ) -> (usize, Box<dyn Formulation>) {
+        let reference = obstacle.reference.unwrap_or(point);
+        let half = length.map_or(f64::INFINITY, |length| 0.5 * length);
+        let middle = [point[0] - reference[0], point[1] - reference[1]];
+        let shape = Plane { middle, normal, half, thickness: obstacle.interface.thickness, shallow: SKIN * met.mean.0 };
+        // Beyond every picture of the model.
+        let far = half.min(20.0 * self.mesh.positions.iter().flatten().fold(0.0f64, |size, x| size.max(x.abs())));
+        let points = [1.0, -1.0].map(|side| [middle[0] - side * far * normal[1], middle[1] + side * far * normal[0]]);
+        let body = self.bodies.add(self.obstacle_body(obstacle, reference));
+        self.outlines.push(OutlineShape { name: obstacle.name.clone(), body, points: points.into() });
+        // Nodes that a symmetry line keeps on this plane need no spring.
+        let held = |node: u32| self.constraints.mirror_normals(node).any(|m| (m[0] * normal[1] - m[1] * normal[0]).abs() < 1e-12);
+        (body, Box::new(self.node_obstacle(obstacle, met, Box::new(shape), body, held)))
+    }
+
+    fn circle(
+        &mut self,
+        obstacle: &Obstacle,
+        met: Met,
+        centre: [f64; 2],
+        radius: f64,
+        hollow: bool,
+    ) -> Result<(usize, Box<dyn Formulation>), Fault> {
+        let reference = obstacle.reference.unwrap_or(centre);
+        let middle = [centre[0] - reference[0], centre[1] - reference[1]];
+        let thickness = obstacle.interface.thickness;
+        let pushed = if hollow { radius - thickness } else { radius + thickness };
+        if !(pushed > 0.0) {
+            let message = format!("the thickness of {thickness} m leaves nothing of the hollow circle with a radius of {radius} m");
+            return Err(Fault::new(".circle.radius", message, "take a smaller thickness or a larger circle"));
+        }
+        // The solid is on the right: outside of a hollow circle, inside of another.
+        let turn = if hollow { TAU } else { -TAU };
+        let place = |k: usize| {
+            let (sin, cos) = (turn * (k % ROUND) as f64 / ROUND as f64).sin_cos();
+            [middle[0] + radius * cos, middle[1] + radius * sin]
+        };
+        let points = (0..=ROUND).map(place).collect();
+        let shape = Box::new(Circle { middle, radius: pushed, hollow });
+        let mut rigid = self.obstacle_body(obstacle, reference);
+        if hollow || pushed >= met.longest {
+            let body = self.bodies.add(rigid);
+            self.outlines.push(OutlineShape { name: obstacle.name.clone(), body, points });
+            return Ok((body, Box::new(self.node_obstacle(obstacle, &met, shape, body, |_| false))));
+        }
+        // Smaller than the segments: it can come in between the nodes.
+        let node = self.add_node(centre);
+        rigid.members.push(Member { node, arm: middle });
+        let body = self.bodies.add_with_nodes(rigid, self.positions.len());
+        self.outlines.push(OutlineShape { name: obstacle.name.clone(), body, points });
+        let nodes = self.node_obstacle(obstacle, &met, shape, body, |_| false);
+        let (area, own) = met.mean;
+        let stiffness = stiffness_of(&obstacle.interface, law::Node { tributary: area, own, other: own, share: 1.0 }, 1);
+        let slave = Slave { stiffness, area, slip: 0.0 };
+        let centre = Target { surface: Surface { nodes: vec![node], ..Surface::default() }, mirrors: Vec::new() };
+        let tracker = self.tracker(vec![self.with_mirrors(met.surface), centre], &[(1, 0)]);
+        let segments = RoundSegments::new(tracker, slave, [pushed, met.reach], body, initial::is_ignored(&obstacle.interface));
+        Ok((body, Box::new(Both::new([Box::new(nodes), Box::new(segments)]))))
+    }
+
+    /// Points and lines are nodes and segments that move with the body, and meet the outside of the parts as surfaces meet: nodes of each against segments of the other.
+    fn polyline(&mut self, obstacle: &Obstacle, met: Met, points: &[[f64; 2]]) -> (usize, Box<dyn Formulation>) {
+        let closed = points.len() > 3 && points.first() == points.last();
+        let count = points.len() - usize::from(closed);
+        let own = &points[..count];
+        let mean = [0, 1].map(|d| own.iter().map(|x| x[d]).sum::<f64>() / count as f64);
+        let reference = obstacle.reference.unwrap_or(mean);
+        let arm = |x: &[f64; 2]| [x[0] - reference[0], x[1] - reference[1]];
+        let mut rigid = self.obstacle_body(obstacle, reference);
+        rigid.members = own.iter().map(|x| Member { node: self.add_node(*x), arm: arm(x) }).collect();
+        let nodes: Vec<u32> = rigid.members.iter().map(|member| member.node).collect();
+        let body = self.bodies.add_with_nodes(rigid, self.positions.len());
+        self.outlines.push(OutlineShape { name: obstacle.name.clone(), body, points: points.iter().map(arm).collect() });
+        let surface = chain(nodes, closed);
+        let lines: Vec<f64> = surface.segments.iter().map(|&segment| length(segment, &self.positions)).collect();
+        // Lines as fine as the segments meet them as another surface would, half in each pass. Of long ones only the corners count besides, each with as much as a node
+        // of the parts has.
+        let passes = if lines.iter().sum::<f64>() <= lines.len() as f64 * met.mean.0 { 2 } else { 1 };
+        let slave = |tributary: f64, own: f64, share: f64| {
+            let here = law::Node { tributary, own, other: own, share };
+            Slave { stiffness: stiffness_of(&obstacle.interface, here, passes), area: tributary / passes as f64, slip: 0.0 }
+        };
+        let of_parts =
+            met.surface.nodes.iter().zip(&met.own).map(|(&node, &(length, own))| slave(length, own, self.constraints.share(node)));
+        let of_corners = contact::node_stiffness(&surface, &vec![met.mean.1; lines.len()], &self.positions);
+        let of_corners = of_corners.iter().map(|&(length, own)| slave(length.min(met.mean.0), own, 1.0));
+        let slaves = vec![of_parts.collect(), of_corners.collect()];
+        let own = Target { surface, mirrors: Vec::new() };
+        let tracker = self.tracker(vec![self.with_mirrors(met.surface), own], &[(0, 1), (1, 0)]);
+        (body, Box::new(NodeSegment::new(tracker, slaves, &obstacle.interface, met.reach)))
+    }
+
+    fn tracker(&self, targets: Vec<Target>, passes: &[(usize, usize)]) -> Tracker {
+        let search = (search_by_name("").expect("the registry of searches is not empty").make)();
+        let mut bodies = self.mesh.bodies();
+        bodies.resize(self.positions.len(), u32::MAX);
+        Tracker::new(targets, passes, search, &self.positions).with_bodies(&bodies, &[])
+    }
+
+    /// A node that belongs to no element.
+    fn add_node(&mut self, x: [f64; 2]) -> u32 {
+        self.positions.push(x);
+        self.mass.push(1.0);
+        self.positions.len() as u32 - 1
     }
 
     fn node_obstacle(
@@ -82,7 +200,7 @@ impl Builder<'_> {
             (!left_out(node)).then(|| (node, Slave { stiffness: stiffness_of(&obstacle.interface, here, 1), area: length, slip: 0.0 }))
         };
         let nodes = met.surface.nodes.iter().zip(&met.own).filter_map(slave).collect();
-        NodeObstacle::new(shape, body, nodes, met.reach)
+        NodeObstacle::new(shape, body, nodes, SKIN * met.mean.0 + met.reach, initial::is_ignored(&obstacle.interface))
     }
 
     /// The rigid body of an obstacle with its reference point, m.
@@ -111,4 +229,15 @@ impl Builder<'_> {
             ..Body::default()
         }
     }
+}
+
+/// Lines from node to node, as a surface.
+pub(super) fn chain(nodes: Vec<u32>, closed: bool) -> Surface {
+    let count = nodes.len() - usize::from(!closed);
+    let segments = (0..count).map(|k| [nodes[k], nodes[(k + 1) % nodes.len()]]).collect();
+    let mut previous: Vec<u32> = (0..count as u32).map(|k| k.wrapping_sub(1)).collect();
+    let mut next: Vec<u32> = (1..=count as u32).collect();
+    let last = count - 1;
+    (previous[0], next[last]) = if closed { (last as u32, 0) } else { (NONE, NONE) };
+    Surface { segments, previous, next, nodes }
 }

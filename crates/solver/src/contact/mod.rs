@@ -201,7 +201,7 @@ impl Contact {
     }
 }
 
-fn length(segment: [u32; 2], positions: &[Vector]) -> f64 {
+pub(crate) fn length(segment: [u32; 2], positions: &[Vector]) -> f64 {
     let [a, b] = segment.map(|node| positions[node as usize]);
     ((b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2)).sqrt()
 }

@@ -3,10 +3,13 @@
 //! The shape lives in the frame of its rigid body; positions come from the step. Reactions go to the body. What is swept is the way of a node as the body sees it: straight
 //! between where the node was seen before the step and where it is seen after it.
 
+pub mod circle;
 pub mod plane;
 
+use super::initial::kept;
 use super::node_segment::Slave;
 use super::springs::{End, Spring, Springs};
+use super::tracker::Certificate;
 use super::{Formulation, Scene, Vector};
 use crate::output::Outline;
 use crate::rigid::Bodies;
@@ -33,6 +36,10 @@ pub struct Memory {
     pub state: State,
     /// Whether its spring pushed in the last update.
     pub presses: bool,
+    /// Normal along which it is held, in the frame of the body.
+    pub normal: Vector,
+    /// Gap that counts as zero, m.
+    pub offset: f64,
 }
 
 /// Where a node is with respect to an obstacle that has another side.
@@ -43,6 +50,8 @@ pub enum State {
     Unknown,
     /// On the free side.
     Free,
+    /// On the free side, but so fast that it may go through within the next step.
+    Ahead,
     /// Inside: it came in through the surface.
     Held,
     /// Beyond, without having gone through the surface.
@@ -82,15 +91,20 @@ pub struct NodeObstacle {
     memories: Vec<Memory>,
     /// Nodes within this distance get a spring, m.
     reach: f64,
+    /// Whether gaps that are negative when it begins to act count as zero.
+    ignores_start: bool,
+    has_begun: bool,
     /// Indices of the nodes with springs in this step.
     found: Vec<u32>,
 }
 
 impl NodeObstacle {
-    /// For `nodes`; `reach` is a fraction of the nodes' spacing and the reach of the law, m.
+    /// For `nodes`; `reach` is a fraction of the nodes' spacing and the reach of the law, m. With `ignores_start` gaps that are negative when it begins to act count as zero
+    /// until the surfaces part.
     #[must_use]
-    pub fn new(shape: Box<dyn Shape>, body: usize, nodes: Vec<(u32, Slave)>, reach: f64) -> Self {
-        Self { shape, body, memories: vec![Memory::default(); nodes.len()], nodes, reach, found: Vec::new() }
+    pub fn new(shape: Box<dyn Shape>, body: usize, nodes: Vec<(u32, Slave)>, reach: f64, ignores_start: bool) -> Self {
+        let memories = vec![Memory::default(); nodes.len()];
+        Self { shape, body, memories, nodes, reach, ignores_start, has_begun: false, found: Vec::new() }
     }
 }
 
@@ -103,17 +117,29 @@ impl Formulation for NodeObstacle {
             let x = scene.sweep.new[node as usize];
             let way = Way { from: body.to_local_old(scene.sweep.old[node as usize]), to: body.to_local(x) };
             let met = self.shape.meet(way, memory);
-            memory.presses = false;
-            let Some((gap, normal)) = met else { continue };
+            let pressed = std::mem::replace(&mut memory.presses, false);
+            let Some((gap, normal)) = met else {
+                memory.offset = 0.0;
+                continue;
+            };
+            if self.ignores_start {
+                memory.offset = if self.has_begun { kept(memory.offset, gap) } else { gap.min(0.0) };
+            }
+            let gap = gap - memory.offset;
+            let moved = [way.to[0] - way.from[0], way.to[1] - way.from[1]];
+            // Who comes from behind, or past a corner, has pressed no spring that could give anything back.
+            if gap >= 0.0 && !pressed && normal[0] * moved[0] + normal[1] * moved[1] > 2.0 * gap {
+                continue;
+            }
             // Well before it touches: a spring that closes unseen would give back what it never took.
-            let moved = (way.to[0] - way.from[0]).abs() + (way.to[1] - way.from[1]).abs();
-            if gap <= self.reach + 4.0 * moved {
+            if gap <= self.reach + 4.0 * (moved[0].abs() + moved[1].abs()) {
                 let Slave { stiffness, area, slip } = slave;
                 let ends = [End::node(node, 1.0), End { at, share: -1.0, point: x, ..End::default() }];
                 springs.push(Spring { normal: body.to_global(normal), gap, stiffness, area, side: 1.0, slip, ..Spring::default() }, &ends);
                 self.found.push(index as u32);
             }
         }
+        self.has_begun = true;
     }
 
     fn remember(&mut self, solved: &[Spring]) {
@@ -121,5 +147,43 @@ impl Formulation for NodeObstacle {
             self.nodes[index as usize].1.slip = spring.slip_new;
             self.memories[index as usize].presses = spring.force != 0.0;
         }
+    }
+}
+
+/// Two formulations of one contact, one after the other.
+pub struct Both {
+    parts: [Box<dyn Formulation>; 2],
+    /// Springs of the first in this step.
+    split: usize,
+}
+
+impl Both {
+    /// From these two.
+    #[must_use]
+    pub fn new(parts: [Box<dyn Formulation>; 2]) -> Self {
+        Self { parts, split: 0 }
+    }
+}
+
+impl Formulation for Both {
+    fn detect(&mut self, scene: &Scene<'_>, springs: &mut Springs) {
+        let begin = springs.list.len();
+        let [first, second] = &mut self.parts;
+        first.detect(scene, springs);
+        self.split = springs.list.len() - begin;
+        second.detect(scene, springs);
+    }
+
+    fn certificate(&self) -> Certificate {
+        let mut sum = self.parts[0].certificate();
+        sum += self.parts[1].certificate();
+        sum
+    }
+
+    fn remember(&mut self, solved: &[Spring]) {
+        // Nothing is found, and nothing solved, while the contact does not act.
+        let (first, second) = solved.split_at(self.split.min(solved.len()));
+        self.parts[0].remember(first);
+        self.parts[1].remember(second);
     }
 }

@@ -58,7 +58,7 @@ impl Shape for Plane {
                 }
             }
             // It went through in this step; one that was pressed already met it.
-            State::Free => {
+            State::Free | State::Ahead => {
                 let share = if from_gap > gap { (from_gap / (from_gap - gap)).clamp(0.0, 1.0) } else { 1.0 };
                 if within(from + share * (at - from)) || memory.presses { State::Held } else { State::Behind }
             }

@@ -187,7 +187,7 @@ fn nodes_behind_an_obstacle_are_refused() {
     assert!(found[0].path == "obstacle[0]" && found[0].message.contains("1.000e-2 m inside"), "{found:?}");
 }
 
-/// Gap of a point at an obstacle.
+/// Gap of a point at an obstacle, m.
 type Gap = Box<dyn Fn([f64; 2]) -> f64>;
 
 /// A block that some obstacle is a little inside of, and where its nodes may not be then.

@@ -64,6 +64,20 @@ fn a_run_leaves_its_results_and_says_where() {
 }
 
 #[test]
+fn a_run_tells_of_the_search_when_asked() {
+    let folder = fresh("search");
+    let model = format!("{MODEL}\n[[contact]]\nname = \"self\"\nbodies = \"all\"\n");
+    fs::write(folder.join("model.toml"), model).unwrap();
+    let answer = embate(&folder, ["run", "model.toml", "--out", "out", "--verbose"].iter());
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    let line = answer.out.lines().find(|line| line.starts_with("self")).unwrap_or_else(|| panic!("{}", answer.out));
+    assert!(answer.out.contains("pairs swept") && line.contains("grid"), "{}", answer.out);
+    assert!(answer.err.contains("transmitted nothing"), "{}", answer.err);
+    let figures = summary(&folder);
+    assert_eq!(figures["contact"]["unverified"], 0);
+}
+
+#[test]
 fn a_run_that_fails_keeps_its_results() {
     let folder = fresh("collapsed");
     // At half the speed of sound the block is crushed at the wall: its elements get thinner, and their step falls below the limit.

@@ -8,7 +8,7 @@ use crate::contact::obstacle::plane::Plane;
 use crate::contact::obstacle::{Both, NodeObstacle, OutlineShape, Shape};
 use crate::contact::projection::node_segment::Target;
 use crate::contact::tracker::{SKIN, Tracker};
-use crate::contact::{self, Contact, ContactKind, Formulation, law, length};
+use crate::contact::{self, Contact, ContactKind, Formulation, initial, law, length};
 use crate::error::Fault;
 use crate::load::constraint::unit;
 use crate::mesh::surface::{NONE, Surface};
@@ -137,7 +137,7 @@ impl Builder<'_> {
         let slave = Slave { stiffness, area, slip: 0.0 };
         let centre = Target { surface: Surface { nodes: vec![node], ..Surface::default() }, mirrors: Vec::new() };
         let tracker = self.tracker(vec![self.with_mirrors(met.surface), centre], &[(1, 0)]);
-        let segments = RoundSegments::new(tracker, slave, pushed, met.reach, body);
+        let segments = RoundSegments::new(tracker, slave, [pushed, met.reach], body, initial::is_ignored(&obstacle.interface));
         Ok((body, Box::new(Both::new([Box::new(nodes), Box::new(segments)]))))
     }
 
@@ -200,7 +200,7 @@ impl Builder<'_> {
             (!left_out(node)).then(|| (node, Slave { stiffness: stiffness_of(&obstacle.interface, here, 1), area: length, slip: 0.0 }))
         };
         let nodes = met.surface.nodes.iter().zip(&met.own).filter_map(slave).collect();
-        NodeObstacle::new(shape, body, nodes, SKIN * met.mean.0 + met.reach)
+        NodeObstacle::new(shape, body, nodes, SKIN * met.mean.0 + met.reach, initial::is_ignored(&obstacle.interface))
     }
 
     /// The rigid body of an obstacle with its reference point, m.
@@ -232,7 +232,7 @@ impl Builder<'_> {
 }
 
 /// Lines from node to node, as a surface.
-fn chain(nodes: Vec<u32>, closed: bool) -> Surface {
+pub(super) fn chain(nodes: Vec<u32>, closed: bool) -> Surface {
     let count = nodes.len() - usize::from(!closed);
     let segments = (0..count).map(|k| [nodes[k], nodes[(k + 1) % nodes.len()]]).collect();
     let mut previous: Vec<u32> = (0..count as u32).map(|k| k.wrapping_sub(1)).collect();

@@ -3,6 +3,7 @@
 //! Where the nodes lie comes from the [`Tracker`]; friction and thickness are those of the slave node, the stiffness that of the softer side where they meet.
 
 use super::formulation::{FormulationKind, Setup};
+use super::initial::{is_ignored, kept};
 use super::projection::node_segment::{Projection, Target};
 use super::springs::{End, Spring, Springs};
 use super::tracker::{Certificate, Memory, SearchReport, Touch, Tracker};
@@ -101,7 +102,7 @@ impl NodeSegment {
     #[must_use]
     pub fn new(tracker: Tracker, slaves: Vec<Vec<Slave>>, interface: &model::Interface, reach: f64) -> Self {
         let passes = slaves.into_iter().map(|slaves| PassInput { slaves, ..PassInput::default() }).collect();
-        let ignores_start = interface.initial_penetration == model::InitialPenetration::Ignore || interface.active[0] > 0.0;
+        let ignores_start = is_ignored(interface);
         let (thickness, initial, touches) = (interface.thickness, Vec::new(), Vec::new());
         Self { tracker, passes, thickness, reach, ignores_start, initial, has_begun: false, touches }
     }
@@ -124,13 +125,6 @@ impl NodeSegment {
         let offset = if self.ignores_start && !touch.own { offset } else { 0.0 };
         (gap - offset, offset)
     }
-}
-
-/// The gap that counts as zero (m, negative), after the gap has become `gap`: that of the start, until the surfaces part. One that went with the gap would give to springs
-/// what nobody put in.
-#[must_use]
-pub fn kept(offset: f64, gap: f64) -> f64 {
-    if gap < 0.0 { offset } else { 0.0 }
 }
 
 impl NodeSegment {

@@ -9,9 +9,10 @@
 
 use super::{Memory, Shape, State, Way};
 use crate::contact::Vector;
+use crate::contact::initial::kept;
 use crate::contact::node_segment::Slave;
 use crate::contact::springs::{End, Spring, Springs};
-use crate::contact::tracker::Tracker;
+use crate::contact::tracker::{self, Certificate, Touch, Tracker};
 use crate::contact::{Formulation, Scene};
 
 /// The circle, in the frame of its body.
@@ -106,7 +107,7 @@ impl Shape for Circle {
 
 /// A circle against segments: it comes in between their nodes.
 pub struct RoundSegments {
-    /// One slave, the centre, against the bodies' outside.
+    /// One slave, the centre, against the bodies' outside: a touch for each body that is near.
     tracker: Tracker,
     slave: Slave,
     radius: f64,
@@ -114,23 +115,22 @@ pub struct RoundSegments {
     reach: f64,
     /// Rigid body of the circle.
     body: usize,
-    found: bool,
+    /// Whether gaps that are negative when it begins to act count as zero.
+    ignores_start: bool,
+    has_begun: bool,
+    found: Vec<Touch>,
 }
 
 impl RoundSegments {
-    /// For a circle of this radius (m) whose centre is the only slave of `tracker`; `reach` of the law, m.
+    /// For a circle of this radius (m) whose centre is the only slave of `tracker`; `reach` of the law, m. With `ignores_start` gaps that are negative when it begins to act count
+    /// as zero until the surfaces part.
     #[must_use]
-    pub fn new(tracker: Tracker, slave: Slave, radius: f64, reach: f64, body: usize) -> Self {
-        Self { tracker, slave, radius, reach, body, found: false }
+    pub fn new(tracker: Tracker, slave: Slave, [radius, reach]: [f64; 2], body: usize, ignores_start: bool) -> Self {
+        Self { tracker, slave, radius, reach, body, ignores_start, has_begun: false, found: Vec::new() }
     }
-}
 
-impl Formulation for RoundSegments {
-    fn detect(&mut self, scene: &Scene<'_>, springs: &mut Springs) {
-        let positions = scene.sweep.new;
-        self.found = false;
-        let Some(&touch) = self.tracker.track(scene.sweep, self.radius + self.reach).first() else { return };
-        self.found = true;
+    /// The spring at a body that is near, and its ends.
+    fn spring(&self, touch: &Touch, positions: &[Vector]) -> (Spring, [End; 3]) {
         let projection = touch.projection;
         let (normal, centre) = (projection.normal, positions[touch.node as usize]);
         // Where the circle touches.
@@ -149,12 +149,37 @@ impl Formulation for RoundSegments {
             End { at: b, share: -wb, turn, ..End::default() },
             End { at: (positions.len() + self.body) as u32, share: 1.0, point, ..End::default() },
         ];
-        let Slave { stiffness, area, slip } = self.slave;
-        springs.push(Spring { normal, gap, stiffness, area, side: -1.0, slip, ..Spring::default() }, &ends);
+        let (Slave { stiffness, area, .. }, slip) = (self.slave, touch.memory.slip);
+        let gap = gap - touch.memory.offset;
+        (Spring { normal, gap, stiffness, area, side: -1.0, slip, ..Spring::default() }, ends)
+    }
+}
+
+impl Formulation for RoundSegments {
+    fn detect(&mut self, scene: &Scene<'_>, springs: &mut Springs) {
+        let mut found = std::mem::take(&mut self.found);
+        found.clear();
+        found.extend_from_slice(self.tracker.track(scene.sweep, self.radius + self.reach));
+        for touch in &mut found {
+            if self.ignores_start {
+                let gap = touch.projection.gap - self.radius;
+                touch.memory.offset = if self.has_begun { kept(touch.memory.offset, gap) } else { gap.min(0.0) };
+            }
+            let (spring, ends) = self.spring(touch, scene.sweep.new);
+            springs.push(spring, &ends);
+        }
+        self.found = found;
+        self.has_begun = true;
     }
 
     fn remember(&mut self, solved: &[Spring]) {
-        self.slave.slip = if self.found { solved.first().map_or(0.0, |spring| spring.slip_new) } else { 0.0 };
+        for (touch, spring) in self.found.iter().zip(solved) {
+            self.tracker.remember(touch, tracker::Memory { slip: spring.slip_new, ..touch.memory });
+        }
+    }
+
+    fn certificate(&self) -> Certificate {
+        self.tracker.certificate()
     }
 }
 

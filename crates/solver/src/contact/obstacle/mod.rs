@@ -6,8 +6,10 @@
 pub mod circle;
 pub mod plane;
 
+use super::initial::kept;
 use super::node_segment::Slave;
 use super::springs::{End, Spring, Springs};
+use super::tracker::Certificate;
 use super::{Formulation, Scene, Vector};
 use crate::output::Outline;
 use crate::rigid::Bodies;
@@ -36,6 +38,8 @@ pub struct Memory {
     pub presses: bool,
     /// Normal along which it is held, in the frame of the body.
     pub normal: Vector,
+    /// Gap that counts as zero, m.
+    pub offset: f64,
 }
 
 /// Where a node is with respect to an obstacle that has another side.
@@ -87,15 +91,20 @@ pub struct NodeObstacle {
     memories: Vec<Memory>,
     /// Nodes within this distance get a spring, m.
     reach: f64,
+    /// Whether gaps that are negative when it begins to act count as zero.
+    ignores_start: bool,
+    has_begun: bool,
     /// Indices of the nodes with springs in this step.
     found: Vec<u32>,
 }
 
 impl NodeObstacle {
-    /// For `nodes`; `reach` is a fraction of the nodes' spacing and the reach of the law, m.
+    /// For `nodes`; `reach` is a fraction of the nodes' spacing and the reach of the law, m. With `ignores_start` gaps that are negative when it begins to act count as zero
+    /// until the surfaces part.
     #[must_use]
-    pub fn new(shape: Box<dyn Shape>, body: usize, nodes: Vec<(u32, Slave)>, reach: f64) -> Self {
-        Self { shape, body, memories: vec![Memory::default(); nodes.len()], nodes, reach, found: Vec::new() }
+    pub fn new(shape: Box<dyn Shape>, body: usize, nodes: Vec<(u32, Slave)>, reach: f64, ignores_start: bool) -> Self {
+        let memories = vec![Memory::default(); nodes.len()];
+        Self { shape, body, memories, nodes, reach, ignores_start, has_begun: false, found: Vec::new() }
     }
 }
 
@@ -109,7 +118,14 @@ impl Formulation for NodeObstacle {
             let way = Way { from: body.to_local_old(scene.sweep.old[node as usize]), to: body.to_local(x) };
             let met = self.shape.meet(way, memory);
             let pressed = std::mem::replace(&mut memory.presses, false);
-            let Some((gap, normal)) = met else { continue };
+            let Some((gap, normal)) = met else {
+                memory.offset = 0.0;
+                continue;
+            };
+            if self.ignores_start {
+                memory.offset = if self.has_begun { kept(memory.offset, gap) } else { gap.min(0.0) };
+            }
+            let gap = gap - memory.offset;
             let moved = [way.to[0] - way.from[0], way.to[1] - way.from[1]];
             // Who comes from behind, or past a corner, has pressed no spring that could give anything back.
             if gap >= 0.0 && !pressed && normal[0] * moved[0] + normal[1] * moved[1] > 2.0 * gap {
@@ -123,6 +139,7 @@ impl Formulation for NodeObstacle {
                 self.found.push(index as u32);
             }
         }
+        self.has_begun = true;
     }
 
     fn remember(&mut self, solved: &[Spring]) {
@@ -155,6 +172,12 @@ impl Formulation for Both {
         first.detect(scene, springs);
         self.split = springs.list.len() - begin;
         second.detect(scene, springs);
+    }
+
+    fn certificate(&self) -> Certificate {
+        let mut sum = self.parts[0].certificate();
+        sum += self.parts[1].certificate();
+        sum
     }
 
     fn remember(&mut self, solved: &[Spring]) {

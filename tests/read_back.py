@@ -4,8 +4,9 @@
     python tests/read_back.py results/tube-plate [more folders]
 
 For each folder: fields.pvd lists frames with ascending times; each frame is read by every reader, has as many points and
-cells as the first one and as summary.json says, only finite values, points = initial points + displacement, and the time
-of the collection; all readers agree; history.csv has `time` first, ascending, and only numbers. Exit code 0 when all is
+cells as the first one and as summary.json says, only finite values (contact_gap may have none), points = initial points + displacement, and the time
+of the collection; all readers agree; obstacles.pvd, where there is one, lists as many files at the same times, each with
+finite points and lines that know their obstacle; history.csv has `time` first, ascending, and only numbers. Exit code 0 when all is
 well, 1 with one line per fault, 2 when nothing could be checked.
 """
 
@@ -27,7 +28,9 @@ try:
 except ImportError:
     vtkXMLUnstructuredGridReader = None
 
-VTK_TYPES = {"triangle": 5, "quad": 9}
+VTK_TYPES = {"line": 3, "triangle": 5, "quad": 9}
+# Has no value where nothing is near.
+MAY_BE_NAN = {"contact_gap"}
 
 
 class Grid:
@@ -84,7 +87,7 @@ def frame_faults(grid, initial, time):
         for name, values in fields.items():
             if len(values) != count:
                 yield f"{name} has {len(values)} values on {count} {place}"
-            if not numpy.isfinite(values).all():
+            if not (numpy.isfinite(values) | (numpy.isnan(values) & (name in MAY_BE_NAN))).all():
                 yield f"{name} has values that are not finite"
     if not numpy.isfinite(grid.points).all() or (grid.points[:, 2] != 0).any():
         yield "points are not finite or not in the plane z = 0"
@@ -112,8 +115,39 @@ def disagreements(first, second):
         if set(one) != set(other):
             yield f"readers disagree about the fields: {sorted(set(one) ^ set(other))}"
         for name in set(one) & set(other):
-            if not numpy.array_equal(numpy.squeeze(one[name]), numpy.squeeze(other[name])):
+            if not numpy.array_equal(numpy.squeeze(one[name]), numpy.squeeze(other[name]), equal_nan=True):
                 yield f"readers disagree about {name}"
+
+
+def obstacle_faults(folder, field_times):
+    """Faults of obstacles.pvd and its files."""
+    sets = xml.etree.ElementTree.parse(folder / "obstacles.pvd").getroot().findall("Collection/DataSet")
+    times = [float(entry.get("timestep")) for entry in sets]
+    if times != field_times:
+        yield "obstacles.pvd and fields.pvd have different times"
+    first = None
+    for entry, time in zip(sets, times):
+        name = entry.get("file")
+        try:
+            grids = [read(folder / name) for read in readers().values()]
+        except Exception as error:  # a reader's exceptions are many and undocumented
+            yield f"{name} can't be read: {error!r}"
+            continue
+        grid = grids[0]
+        if grid.time is not None and float(numpy.ravel(grid.time)[0]) != time:
+            yield f"{name}: TimeValue is {grid.time}, the collection says {time}"
+        if not numpy.isfinite(grid.points).all() or (grid.points[:, 2] != 0).any():
+            yield f"{name}: points are not finite or not in the plane z = 0"
+        if not grid.cells or any(kind != VTK_TYPES["line"] for kind, _ in grid.cells):
+            yield f"{name}: cells are not lines"
+        indices = list(numpy.ravel(grid.at_cells.get("obstacle", [])))
+        if len(indices) != len(grid.cells) or sorted(indices) != indices:
+            yield f"{name}: the cell field obstacle is missing or not in order"
+        first = first or grid
+        if first.cells != grid.cells:
+            yield f"{name}: the lines are others than in the first frame"
+        for other in grids[1:]:
+            yield from (f"{name}: {fault}" for fault in disagreements(grid, other))
 
 
 def history_faults(path):
@@ -153,6 +187,8 @@ def faults(folder):
         yield "fields.pvd: time does not ascend"
     if summary["status"] == "done" and times and abs(times[-1] - summary["time_end"]) > 1e-9 * abs(summary["time_end"]):
         yield f"the last frame is at {times[-1]}, the run ended at {summary['time_end']}"
+    if (folder / "obstacles.pvd").exists():
+        yield from obstacle_faults(folder, times)
     initial = None
     for entry, time in zip(sets, times):
         name = entry.get("file")

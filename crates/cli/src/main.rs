@@ -13,6 +13,7 @@ mod progress;
 mod run;
 mod schema;
 mod terminal;
+mod verify;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -35,6 +36,8 @@ enum Command {
     List(list::Arguments),
     /// Make a folder with a commented model to start from
     New(new::Arguments),
+    /// Run the verification cases and compare with known values
+    Verify(verify::Arguments),
     /// Print the JSON schema of the model file (for completion in editors)
     Schema,
 }
@@ -84,6 +87,7 @@ fn obey(command: &Command) -> Result<(), Failure> {
         Command::Check(arguments) => check::check(arguments),
         Command::List(arguments) => list::list(arguments),
         Command::New(arguments) => new::new(arguments),
+        Command::Verify(arguments) => verify::verify(arguments),
         Command::Schema => schema::schema(),
     }
 }

@@ -23,6 +23,21 @@ fn three_digits(value: f64) -> String {
     if decimals == 0 { text } else { text.trim_end_matches('0').trim_end_matches('.').to_string() }
 }
 
+/// A number with six significant digits: plain where it is short so, else with a power of ten.
+pub(crate) fn significant(value: f64) -> String {
+    let size = value.abs();
+    if size != 0.0 && !(1e-3..1e6).contains(&size) {
+        let text = format!("{value:.5e}");
+        return match text.split_once('e') {
+            Some((digits, power)) => format!("{}e{power}", digits.trim_end_matches('0').trim_end_matches('.')),
+            None => text,
+        };
+    }
+    let decimals = if size == 0.0 { 0 } else { (5 - size.log10().floor() as i32).clamp(0, 9) as usize };
+    let text = format!("{value:.decimals$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_string() } else { text }
+}
+
 /// A fraction as per cent with three significant digits.
 pub(crate) fn per_cent(fraction: f64) -> String {
     let value = 100.0 * fraction;
@@ -74,6 +89,13 @@ mod tests {
         assert_eq!(with_unit(0.0, "m"), "0 m");
         assert_eq!(with_unit(3e-14, "m"), "3.00e-14 m");
         assert_eq!(with_unit(f64::NAN, "m"), "NaN m");
+    }
+
+    #[test]
+    fn figures_have_six_digits() {
+        let shown = [0.0, 1.0, -2.5, 648.21, 123_456.0, 1.184_912_3e7, 1e-12, 0.001_5].map(significant);
+        assert_eq!(shown, ["0", "1", "-2.5", "648.21", "123456", "1.18491e7", "1e-12", "0.0015"]);
+        assert_eq!(significant(f64::NAN), "NaN");
     }
 
     #[test]

@@ -37,6 +37,11 @@ impl Display {
         Self::Bar { bar, updated: Instant::now() }
     }
 
+    /// A bar on a terminal, else nothing: for many short runs.
+    pub(crate) fn on_terminal(is_quiet: bool) -> Self {
+        Self::new(is_quiet || !std::io::stderr().is_terminal())
+    }
+
     pub(crate) fn update(&mut self, progress: &Progress<'_>) {
         let done = if progress.end > 0.0 { (progress.time / progress.end).clamp(0.0, 1.0) } else { 0.0 };
         match self {

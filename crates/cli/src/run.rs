@@ -8,7 +8,7 @@ use crate::{Failure, cpu, terminal};
 use clap::Args;
 use embate_files::results::{Recorder, Report, ResultFolder, ResultsError, RunStatus};
 use embate_solver::model::Model;
-use embate_solver::simulation::{Control, Options, Progress, Simulation};
+use embate_solver::simulation::{ContactSearch, Control, Options, Progress, Simulation};
 use std::path::{Path, PathBuf};
 
 /// Which model, where to and how.
@@ -28,6 +28,9 @@ pub(crate) struct Arguments {
     /// No progress and no summary
     #[arg(long, short)]
     quiet: bool,
+    /// How contact was searched, besides the summary
+    #[arg(long, short, conflicts_with = "quiet")]
+    verbose: bool,
     /// Replace results that are there
     #[arg(long)]
     force: bool,
@@ -41,6 +44,7 @@ const FILES: &[(&str, &str)] = &[
     ("history.svg", "probes and contacts over time"),
     ("history.csv", "the same as numbers"),
     ("fields.pvd", "all fields, for ParaView"),
+    ("obstacles.pvd", "the obstacles, for ParaView"),
     ("summary.json", "the figures of the run"),
 ];
 
@@ -63,6 +67,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     result.map_err(|error| failure_text(&error, &path)).map_err(Failure::Run)?;
     if !arguments.quiet {
         terminal::print(&closing_text(&report, &path))?;
+    }
+    if arguments.verbose {
+        terminal::print(&search_text(&simulation.searches()))?;
     }
     if is_interrupted { Err(Failure::Interrupted) } else { Ok(()) }
 }
@@ -110,6 +117,24 @@ fn bare(text: &str) -> String {
 fn failure_text(error: &str, path: &Path) -> String {
     let kept: Vec<&str> = FILES.iter().map(|(name, _)| *name).filter(|name| path.join(name).exists()).collect();
     if kept.is_empty() { error.to_string() } else { format!("{error}\n  results until then: {} ({})", path.display(), kept.join(", ")) }
+}
+
+/// A line for each contact between surfaces.
+fn search_text(searches: &[ContactSearch]) -> String {
+    let mut rows = vec![["contact", "search", "skin", "searches", "steps between", "candidates", "pairs swept"].map(String::from).to_vec()];
+    rows.extend(searches.iter().map(|it| {
+        let between = it.report.steps as f64 / it.report.searches.max(1) as f64;
+        vec![
+            it.contact.clone(),
+            it.search.clone(),
+            with_unit(it.report.skin, "m"),
+            grouped(it.report.searches),
+            format!("{between:.1}"),
+            grouped(it.report.candidates as u64),
+            grouped(it.pairs_swept),
+        ]
+    }));
+    table(&rows, "")
 }
 
 fn closing_text(report: &Report, path: &Path) -> String {

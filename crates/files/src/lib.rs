@@ -2,6 +2,8 @@
 
 pub mod gmsh;
 pub mod model_file;
+mod outline;
 pub mod picture;
 pub mod results;
+pub mod verification;
 pub mod vtu;

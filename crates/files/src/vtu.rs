@@ -3,7 +3,7 @@
 //! A [`Frame`] and its [`Cells`] become the bytes of one file: a short XML head, then all arrays as appended raw binary,
 //! little-endian, each in zlib blocks with 64-bit headers. What never changes during a run (connectivity, cell types,
 //! parts) is encoded once by [`VtuWriter::new`]. Equal input gives equal bytes on every machine. The bytes go to
-//! [`crate::results`], ParaView and `tests/read_back.py` read them.
+//! [`crate::results`], ParaView and `tests/read_back.py` read them. [`obstacles`] makes a file of obstacles in the same way.
 //! Source: VTK file formats, "XML formats", `vtkZLibDataCompressor`.
 
 use embate_solver::output::{CellKind, Cells, Field, FieldKind, Frame, Location};
@@ -104,22 +104,54 @@ impl VtuWriter {
             ("Points", vec![&points]),
             ("Cells", vec![&self.connectivity, &self.offsets, &self.types]),
         ];
-        let (xml, appended) = append_sections(&sections);
-        let mut file = format!(
-            "<?xml version=\"1.0\"?>\n\
-             <VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" \
-             compressor=\"vtkZLibDataCompressor\">\n\
-             <UnstructuredGrid>\n\
-             <FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">{:?}</DataArray>\n</FieldData>\n\
-             <Piece NumberOfPoints=\"{nodes}\" NumberOfCells=\"{}\">\n{}</Piece>\n</UnstructuredGrid>\n\
-             <AppendedData encoding=\"raw\">\n_",
-            frame.time, self.cell_count, xml
-        )
-        .into_bytes();
-        file.extend_from_slice(&appended);
-        file.extend_from_slice(b"\n</AppendedData>\n</VTKFile>\n");
-        Ok(file)
+        Ok(grid_file(frame.time, [nodes, self.cell_count], &sections))
     }
+}
+
+/// The bytes of a `.vtu` file of obstacles at one time: each line as line cells from point to point, with its index as the cell array `obstacle`.
+/// (Poly-lines would be fewer cells, but meshio reads none.)
+pub(crate) fn obstacles(lines: &[Vec<[f64; 2]>], time: f64) -> Vec<u8> {
+    let array = |attributes: &str, bytes: &[u8]| Array { attributes: attributes.into(), bytes: zlib_blocks(bytes) };
+    let positions: Vec<f64> = lines.iter().flatten().flatten().copied().collect();
+    let (mut connectivity, mut indices) = (Vec::new(), Vec::new());
+    let mut first = 0;
+    for (index, line) in lines.iter().enumerate() {
+        for k in first..(first + line.len() as i64 - 1).max(first) {
+            connectivity.extend([k, k + 1]);
+            indices.push(index as i32);
+        }
+        first += line.len() as i64;
+    }
+    let count = indices.len();
+    let bytes_of = |numbers: &mut dyn Iterator<Item = i64>| -> Vec<u8> { numbers.flat_map(i64::to_le_bytes).collect() };
+    let indices: Vec<u8> = indices.iter().flat_map(|index| index.to_le_bytes()).collect();
+    let indices = array("type=\"Int32\" Name=\"obstacle\"", &indices);
+    let points = array("type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"", &plane_vectors_in_space(&positions));
+    let connectivity = array("type=\"Int64\" Name=\"connectivity\"", &bytes_of(&mut connectivity.into_iter()));
+    let offsets = array("type=\"Int64\" Name=\"offsets\"", &bytes_of(&mut (1..=count as i64).map(|k| 2 * k)));
+    let types = array("type=\"UInt8\" Name=\"types\"", &vec![VTK_LINE; count]);
+    let sections =
+        [("PointData", vec![]), ("CellData", vec![&indices]), ("Points", vec![&points]), ("Cells", vec![&connectivity, &offsets, &types])];
+    grid_file(time, [first as usize, count], &sections)
+}
+
+/// A whole file from its arrays; `counts`: points and cells.
+fn grid_file(time: f64, counts: [usize; 2], sections: &[(&str, Vec<&Array>)]) -> Vec<u8> {
+    let (xml, appended) = append_sections(sections);
+    let [points, cells] = counts;
+    let mut file = format!(
+        "<?xml version=\"1.0\"?>\n\
+         <VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" \
+         compressor=\"vtkZLibDataCompressor\">\n\
+         <UnstructuredGrid>\n\
+         <FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">{time:?}</DataArray>\n</FieldData>\n\
+         <Piece NumberOfPoints=\"{points}\" NumberOfCells=\"{cells}\">\n{xml}</Piece>\n</UnstructuredGrid>\n\
+         <AppendedData encoding=\"raw\">\n_"
+    )
+    .into_bytes();
+    file.extend_from_slice(&appended);
+    file.extend_from_slice(b"\n</AppendedData>\n</VTKFile>\n");
+    file
 }
 
 /// The text of a `.pvd` file: each frame's time (s) and its path relative to the collection.
@@ -154,6 +186,9 @@ fn append_sections(sections: &[(&str, Vec<&Array>)]) -> (String, Vec<u8>) {
     tags.reverse();
     (tags.concat(), appended)
 }
+
+/// VTK's number of a line of two points.
+const VTK_LINE: u8 = 3;
 
 /// VTK's number of a cell shape.
 fn vtk_cell_type(kind: CellKind) -> u8 {
@@ -331,6 +366,18 @@ mod tests {
             let points = floats(&array(&file, "Points"));
             assert!(points.chunks(3).map(|p| [p[0], p[1]]).eq(frame.positions.iter().copied()));
         }
+    }
+
+    #[test]
+    fn obstacles_are_lines_with_their_index() {
+        let lines = [vec![[0.0, 0.0], [1.0, 0.0], [1.0, 2.0]], vec![[5.0, 5.0]], vec![[3.0, 0.0], [4.0, 0.0]]];
+        let file = obstacles(&lines, 0.25);
+        assert!(String::from_utf8_lossy(&file).contains("NumberOfPoints=\"6\" NumberOfCells=\"3\""));
+        assert_eq!(floats(&array(&file, "Points"))[6..12], [1.0, 2.0, 0.0, 5.0, 5.0, 0.0]);
+        let numbers = |name: &str| -> Vec<u8> { array(&file, name).chunks_exact(8).map(|b| b[0]).collect() };
+        assert_eq!((numbers("connectivity"), numbers("offsets")), (vec![0, 1, 1, 2, 4, 5], vec![2, 4, 6]));
+        assert_eq!(array(&file, "types"), [3, 3, 3]);
+        assert_eq!(array(&file, "obstacle"), [0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 0, 0]);
     }
 
     #[test]

@@ -69,6 +69,10 @@ pub trait Lane:
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
     /// Whether the mask is true anywhere.
     fn any(mask: Self::Mask) -> bool;
+    /// Where either mask is true.
+    fn either(a: Self::Mask, b: Self::Mask) -> Self::Mask;
+    /// The mask as a number: bit i is the truth value of lane i.
+    fn bits(mask: Self::Mask) -> u32;
 
     /// Mantissa in [1, 2) and exponent of positive normal numbers: `self = mantissa 2^exponent`.
     fn split(self) -> (Self, Self);

@@ -51,6 +51,14 @@ impl Lane for f64 {
         mask
     }
     #[inline(always)]
+    fn either(a: bool, b: bool) -> bool {
+        a | b
+    }
+    #[inline(always)]
+    fn bits(mask: bool) -> u32 {
+        u32::from(mask)
+    }
+    #[inline(always)]
     fn split(self) -> (Self, Self) {
         let bits = self.to_bits();
         let mantissa = f64::from_bits(bits & 0x000F_FFFF_FFFF_FFFF | 0x3FF0_0000_0000_0000);

@@ -24,10 +24,12 @@ impl Kernel for EveryOperation<'_> {
         let mut results = Vec::new();
         for (a, b) in self.0.iter().zip(self.1) {
             let mut out = [Batch::default(); 13];
+            let mut outside = 0;
             for at in (0..BATCH).step_by(L::WIDTH) {
                 let (x, y) = (L::load(a, at), L::load(b, at));
                 let positive = x.abs().max(L::splat(1e-300)).min(L::splat(1e300));
                 let less = x.less(y);
+                outside |= L::bits(L::either(less, L::splat(1.0).less(x))) << at;
                 let all = [
                     x + y,
                     x - y,
@@ -47,6 +49,7 @@ impl Kernel for EveryOperation<'_> {
                     value.store(slot, at);
                 }
             }
+            results.push(u64::from(outside));
             // The sign and payload of a NaN are not defined by IEEE 754; everything else is.
             results.extend(out.iter().flat_map(|batch| batch.0).map(|v| if v.is_nan() { f64::NAN.to_bits() } else { v.to_bits() }));
         }

@@ -176,6 +176,16 @@ impl Lane for F64x4 {
         unsafe { _mm256_movemask_pd(mask) != 0 }
     }
     #[inline(always)]
+    fn either(a: __m256d, b: __m256d) -> __m256d {
+        // SAFETY: as for the operators.
+        unsafe { _mm256_or_pd(a, b) }
+    }
+    #[inline(always)]
+    fn bits(mask: __m256d) -> u32 {
+        // SAFETY: as for the operators.
+        unsafe { _mm256_movemask_pd(mask) as u32 }
+    }
+    #[inline(always)]
     fn split(self) -> (Self, Self) {
         // SAFETY: as for the operators.
         unsafe {
@@ -282,6 +292,14 @@ impl Lane for F64x8 {
     #[inline(always)]
     fn any(mask: __mmask8) -> bool {
         mask != 0
+    }
+    #[inline(always)]
+    fn either(a: __mmask8, b: __mmask8) -> __mmask8 {
+        a | b
+    }
+    #[inline(always)]
+    fn bits(mask: __mmask8) -> u32 {
+        u32::from(mask)
     }
     #[inline(always)]
     fn split(self) -> (Self, Self) {

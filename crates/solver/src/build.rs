@@ -1,19 +1,19 @@
-//! From a model to a [`System`]: mesh, blocks, masses, contacts, obstacles, rigid bodies, conditions. All faults are collected before anything runs.
+//! From a model to a [`System`]: mesh, blocks, masses, contacts, walls, conditions. All faults are collected before anything runs.
 
 mod bodies;
 mod obstacles;
+mod start;
 
 use crate::assembly::Assembly;
-use crate::block::{Block, BlockInput, Report, make};
+use crate::block::{Block, BlockInput, Motion, Report, make};
+use crate::contact::formulation::{self, Setup, Side};
 use crate::contact::law::{self, Law};
-use crate::contact::node_segment::{NodeSegment, Slave};
 use crate::contact::obstacle::OutlineShape;
 use crate::contact::projection::node_segment::Target;
-use crate::contact::search::Search;
+use crate::contact::search::SearchKind;
 use crate::contact::springs::friction::Friction;
 use crate::contact::springs::{Springs, Tangential, Terms};
 use crate::contact::traces::Traces;
-use crate::contact::tracker::Tracker;
 use crate::contact::{self, Contact, ContactKind, search};
 use crate::energy::{Ledger, Sums};
 use crate::error::Fault;
@@ -23,10 +23,12 @@ use crate::load::damping::Damping;
 use crate::load::gravity;
 use crate::mesh::surface::{NONE, Surface};
 use crate::mesh::{Mesh, PartMesh};
-use crate::model::{self, ContactLaw, Formulation, Interface, Model, Partners, Penalty};
+use crate::model::{self, ContactLaw, Interface, Model, Partners, Penalty, PenaltySource};
 use crate::rigid::Bodies;
 use crate::step::{CHUNK, Governor, Limits, System};
 use embate_lanes::{Batch, Level};
+use std::cell::RefCell;
+use std::collections::BTreeMap;
 
 /// Below so many elements threads cost more than they bring.
 const SERIAL: usize = 4096;
@@ -51,12 +53,19 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         mass: vec![0.0; mesh.positions.len()],
         body_parts: Vec::new(),
         under: Vec::new(),
+        moduli: Vec::new(),
+        time_step: 0.0,
         bodies: Bodies::default(),
         terms: Vec::new(),
+        ties: Vec::new(),
         outlines: Vec::new(),
         mesh,
     };
-    let blocks = builder.blocks();
+    let initial_penetrations = builder.part_at_start();
+    if !builder.faults.is_empty() {
+        return Err(builder.faults);
+    }
+    let mut blocks = builder.blocks();
     if blocks.len() < model.parts.len() {
         return Err(builder.faults);
     }
@@ -68,13 +77,15 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
     let damping = Damping::new(model, &builder.mesh, &builder.mass, &part_mass);
     let mut velocities = builder.velocities(&part_mass);
     builder.rigid_parts(&part_mass, &gravity);
-    builder.find_elements_under_surfaces(&blocks);
+    builder.find_elements_under_surfaces(&mut blocks, level);
     let mut contacts = builder.contacts();
     contacts.extend(builder.obstacles());
     if !builder.faults.is_empty() {
         return Err(builder.faults);
     }
-    let Builder { mesh, constraints, curves, positions, mass, body_parts, bodies, terms, outlines, .. } = builder;
+    let Builder { mesh, constraints, curves, positions, mass, body_parts, bodies, mut terms, ties, outlines, .. } = builder;
+    terms.resize_with(first_of_ties(model), || terms_of(&Interface::default()));
+    terms.extend(ties);
     let inputs: Vec<(&dyn Block<2>, usize, &[u32])> =
         blocks.iter().zip(&mesh.parts).map(|(block, part)| (block.as_ref(), part.nodes_per_element, &part.connectivity[..])).collect();
     let nodes = positions.len();
@@ -99,6 +110,7 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         of_bodies: Sums::default(),
         ledger: Ledger::default(),
         penetration_max: 0.0,
+        initial_penetrations,
         step: 0,
         time: 0.0,
         time_step_old: 0.0,
@@ -148,14 +160,30 @@ struct Builder<'a> {
     positions: Vec<[f64; 2]>,
     /// Their masses, kg/m; 1 where an obstacle has a node.
     mass: Vec<f64>,
-    /// Pressure stiffness κ = (K + 4µ/3) L / A of the element behind each edge as an outside segment, Pa/m; sorted by nodes.
-    under: Vec<([u32; 2], f64)>,
+    /// The elements behind all edges, sorted by the nodes of the edge.
+    under: Vec<Under>,
+    /// Wave modulus and bulk modulus of each part, Pa.
+    moduli: Vec<[f64; 2]>,
+    /// First time step, s; only where a contact asks for it.
+    time_step: f64,
     bodies: Bodies,
     /// Rigid parts and their bodies.
     body_parts: Vec<(usize, usize)>,
     /// What acts in each contact, then in each obstacle.
     terms: Vec<Terms>,
+    /// What acts in ties.
+    ties: Vec<Terms>,
     outlines: Vec<OutlineShape>,
+}
+
+/// The element behind an edge.
+struct Under {
+    /// The edge as an outside segment.
+    nodes: [u32; 2],
+    /// L / A: one over the height of the element, 1/m.
+    flatness: f64,
+    part: u32,
+    element: u32,
 }
 
 impl Builder<'_> {
@@ -179,93 +207,163 @@ impl Builder<'_> {
         blocks
     }
 
-    /// Stiffness of the elements behind every edge, for the automatic penalty.
-    fn find_elements_under_surfaces(&mut self, blocks: &[Box<dyn Block<2>>]) {
-        for (part, block) in self.mesh.parts.iter().zip(blocks) {
-            for cell in part.connectivity.chunks_exact(part.nodes_per_element) {
+    /// What the stiffness of contacts is made from: elements behind every edge, moduli and the first step.
+    fn find_elements_under_surfaces(&mut self, blocks: &mut [Box<dyn Block<2>>], level: Level) {
+        for (part_index, part) in self.mesh.parts.iter().enumerate() {
+            for (element, cell) in part.connectivity.chunks_exact(part.nodes_per_element).enumerate() {
                 let x = |corner: usize| self.mesh.positions[cell[corner % cell.len()] as usize];
                 let area = 0.5 * (0..cell.len()).map(|c| x(c)[0] * x(c + 1)[1] - x(c)[1] * x(c + 1)[0]).sum::<f64>();
                 for c in 0..cell.len() {
                     let (a, b) = (x(c), x(c + 1));
                     let length = ((b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2)).sqrt();
                     // Outside segments run against the element's own direction.
-                    self.under.push(([cell[(c + 1) % cell.len()], cell[c]], block.wave_modulus() * length / area));
+                    let nodes = [cell[(c + 1) % cell.len()], cell[c]];
+                    self.under.push(Under { nodes, flatness: length / area, part: part_index as u32, element: element as u32 });
                 }
             }
         }
-        self.under.sort_unstable_by_key(|&(nodes, _)| nodes);
+        self.under.sort_unstable_by_key(|under| under.nodes);
+        self.moduli = blocks.iter().map(|block| [block.wave_modulus(), block.bulk_modulus()]).collect();
+        let interfaces = self.model.contacts.iter().map(|c| &c.interface).chain(self.model.obstacles.iter().map(|o| &o.interface));
+        if interfaces.into_iter().any(|interface| source_of(interface) == PenaltySource::TimeStep) {
+            let velocities = vec![[0.0; 2]; self.mesh.positions.len()];
+            let motion = Motion { positions: &self.mesh.positions, velocities: &velocities, time_step: 0.0 };
+            let stable = |(block, part): (&mut Box<dyn Block<2>>, &model::Part)| {
+                if part.rigid.is_some() {
+                    return f64::INFINITY;
+                }
+                let mut corners = vec![Batch::default(); block.corner_batches()];
+                block.advance(&motion, level, &mut corners, false).time_step_squared
+            };
+            self.time_step =
+                self.model.run.safety * blocks.iter_mut().zip(&self.model.parts).map(stable).fold(f64::INFINITY, f64::min).sqrt();
+        }
     }
 
-    fn stiffness_under(&self, surface: &Surface) -> Vec<f64> {
-        let of = |segment: &[u32; 2]| self.under.binary_search_by_key(segment, |&(nodes, _)| nodes).map_or(0.0, |at| self.under[at].1);
-        surface.segments.iter().map(of).collect()
+    fn under(&self, segment: [u32; 2]) -> Option<&Under> {
+        self.under.binary_search_by_key(&segment, |under| under.nodes).ok().map(|at| &self.under[at])
+    }
+
+    /// What is behind a surface, with the stiffness that an interface asks for.
+    fn side(&self, Outlined { target, lids }: Outlined, interface: &Interface) -> Side<'_> {
+        let (surface, positions, source) = (&target.surface, &self.mesh.positions, source_of(interface));
+        let modulus = |under: &Under| self.moduli[under.part as usize][usize::from(source == PenaltySource::BulkModulus)] * under.flatness;
+        let mut segments: Vec<f64> = surface.segments.iter().map(|&segment| self.under(segment).map_or(0.0, modulus)).collect();
+        let mut nodes = contact::node_stiffness(surface, &segments, positions);
+        if source == PenaltySource::TimeStep {
+            for (&node, (length, stiffness)) in surface.nodes.iter().zip(&mut nodes) {
+                *stiffness = law::penalty::of_time_step(self.mass[node as usize], self.time_step, *length);
+            }
+            let of = |node: u32| surface.nodes.binary_search(&node).map_or(0.0, |at| nodes[at].1);
+            segments = surface.segments.iter().map(|&[a, b]| 0.5 * (of(a) + of(b))).collect();
+        }
+        let cell = |&segment: &[u32; 2]| {
+            self.under(segment).map_or(&[][..], |under| {
+                let part = &self.mesh.parts[under.part as usize];
+                &part.connectivity[under.element as usize * part.nodes_per_element..][..part.nodes_per_element]
+            })
+        };
+        let cells = surface.segments.iter().map(cell).collect();
+        let parts = surface.segments.iter().map(|&segment| self.under(segment).map_or(0, |under| under.part)).collect();
+        Side { lids, segments, parts, nodes, cells, target }
     }
 
     fn contacts(&mut self) -> Vec<Contact> {
         let mut contacts = Vec::new();
+        let mut tied = BTreeMap::new();
+        let bodies = self.mesh.bodies();
         for (i, contact) in self.model.contacts.iter().enumerate() {
-            let Partners::Between(between) = &contact.partners else { continue };
-            let sides = [0, 1].map(|side| self.target(&between[side]).map_err(|fault| (side, fault)));
-            let targets = match sides {
-                [Ok(first), Ok(second)] => [first, second],
-                faulty => {
-                    for (side, fault) in faulty.into_iter().filter_map(Result::err) {
-                        self.faults.push(Fault { path: format!("contact[{i}].between[{side}]"), ..fault });
+            match self.contact(contact, &bodies) {
+                Ok((made, terms)) => {
+                    self.terms.push(terms);
+                    if let Some(ties) = made.ties() {
+                        self.ties.push(terms_of_ties(&contact.interface));
+                        self.tied_once(&format!("contact[{i}].tied"), &contact.name, &ties.nodes, &mut tied);
                     }
-                    continue;
+                    contacts.push(made);
                 }
-            };
-            let Some(search) = search_by_name(&contact.search) else {
-                self.faults.push(Fault::new(
-                    format!("contact[{i}].search"),
-                    format!("there is no search \"{}\"", contact.search),
-                    "see `embate list searches`",
-                ));
-                continue;
-            };
-            let terms = terms(&contact.interface);
-            let formulation = self.node_segment(contact, targets, search, terms.law.reach());
-            self.terms.push(terms);
-            contacts.push(Contact::new(contact.name.clone(), ContactKind::Contact, Box::new(formulation), contact.interface.active));
+                Err(faults) => self.faults.extend(faults.into_iter().map(|fault| {
+                    let dot = if fault.path.is_empty() { "" } else { "." };
+                    Fault { path: format!("contact[{i}]{dot}{}", fault.path), ..fault }
+                })),
+            }
         }
         contacts
     }
 
-    fn node_segment(&self, contact: &model::Contact, targets: [Target; 2], search: Box<dyn Search<2>>, reach: f64) -> NodeSegment {
-        let passes: &[(usize, usize)] = match contact.formulation {
-            Formulation::SinglePass { slave: 0 } => &[(0, 1)],
-            Formulation::SinglePass { .. } => &[(1, 0)],
-            _ => &[(0, 1), (1, 0)],
+    /// Tells if nodes are bound already (`tied`: which contact binds a node): two ties would hold against each other.
+    fn tied_once<'m>(&mut self, path: &str, contact: &'m str, nodes: &[u32], tied: &mut BTreeMap<u32, &'m str>) {
+        let twice = nodes.iter().find_map(|&node| Some((node, *tied.get(&node)?)));
+        if let Some((node, other)) = twice {
+            let [x, y] = self.mesh.positions[node as usize];
+            self.faults.push(Fault::new(
+                path,
+                format!("the node at ({x:.6e}, {y:.6e}) m is tied already by contact \"{other}\""),
+                "leave one of the two ties out, name smaller surfaces, or let the other surface be the slave",
+            ));
+        }
+        tied.extend(nodes.iter().map(|&node| (node, contact)));
+    }
+
+    /// A contact and what acts in its springs; faults have paths relative to the contact.
+    fn contact(&self, contact: &model::Contact, bodies: &[u32]) -> Result<(Contact, Terms), Vec<Fault>> {
+        let sides = self.outlines_of(contact)?.into_iter().map(|outline| self.side(outline, &contact.interface)).collect();
+        let Some(search) = search_by_name(&contact.search) else {
+            let message = format!("there is no search \"{}\"", contact.search);
+            return Err(vec![Fault::new("search", message, "see `embate list searches`")]);
         };
-        let stiffness = [0, 1].map(|surface: usize| self.stiffness_under(&targets[surface].surface));
-        let softest = |surface: usize| stiffness[surface].iter().copied().fold(f64::INFINITY, f64::min);
-        let pass = |&(slave, target): &(usize, usize)| {
-            let Target { surface, mirrors } = &targets[slave];
-            let nodes = contact::node_stiffness(surface, &stiffness[slave], &self.mesh.positions);
-            let other = softest(target);
-            let of = |(&(tributary, own), node): (&(f64, f64), &u32)| {
-                let on_line = mirrors.binary_search_by_key(node, |&(node, _)| node).is_ok();
-                let node = law::Node { tributary, own, other, share: if on_line { 0.5 } else { 1.0 } };
-                Slave { stiffness: stiffness_of(&contact.interface, node, passes.len()), area: tributary / passes.len() as f64, slip: 0.0 }
-            };
-            nodes.iter().zip(&surface.nodes).map(of).collect()
+        let Some(kind) = formulation::kind_of(contact) else {
+            let message = format!("there is no formulation \"{}\"", contact.formulation.name());
+            return Err(vec![Fault::new("formulation", message, "see `embate list`")]);
         };
-        let slaves = passes.iter().map(pass).collect();
-        let tracker = Tracker::new(targets.into(), passes, search, &self.mesh.positions);
-        NodeSegment::new(tracker, slaves, contact.interface.thickness, reach)
+        let setup = Setup {
+            contact,
+            sides,
+            bodies,
+            positions: &self.mesh.positions,
+            law: &|| law_of(&contact.interface),
+            tie_terms: first_of_ties(self.model) + self.ties.len(),
+            search: &|| (search.make)(),
+        };
+        let made = (kind.make)(setup).map_err(|fault| vec![fault])?;
+        Ok((Contact::new(contact.name.clone(), ContactKind::Contact, made, contact.interface.active), terms_of(&contact.interface)))
+    }
+
+    /// The surfaces of a contact: two, or one that meets itself. Faults have paths relative to the contact.
+    fn outlines_of(&self, contact: &model::Contact) -> Result<Vec<Outlined>, Vec<Fault>> {
+        match &contact.partners {
+            Partners::Between(between) => {
+                let sides = (0..).zip(between).map(|(side, name)| {
+                    let outline = self.outlined(|leave_out| self.mesh.surface(name, leave_out), &format!("surface \"{name}\""));
+                    outline.map_err(|fault| Fault { path: format!("between[{side}]"), ..fault })
+                });
+                let (good, faulty): (Vec<_>, Vec<_>) = sides.partition(Result::is_ok);
+                if faulty.is_empty() {
+                    Ok(good.into_iter().flatten().collect())
+                } else {
+                    Err(faulty.into_iter().filter_map(Result::err).collect())
+                }
+            }
+            Partners::Bodies(parts) => {
+                let outline = self.outlined(|leave_out| self.mesh.outside_without(parts, leave_out), "the outside of the bodies");
+                outline.map(|outline| vec![outline]).map_err(|fault| vec![Fault { path: "bodies".into(), ..fault }])
+            }
+        }
     }
 
     /// A surface without the segments on symmetry lines, and the normals of the lines at the ends that this leaves open.
-    fn target(&self, name: &str) -> Result<Target, Fault> {
-        let surface = self.mesh.surface(name, |segment| self.constraints.is_mirror(segment))?;
+    fn outlined(&self, surface: impl Fn(&dyn Fn([u32; 2]) -> bool) -> Result<Surface, Fault>, what: &str) -> Result<Outlined, Fault> {
+        let lids = RefCell::new(Vec::new());
+        let surface = surface(&|segment| {
+            let is_lid = self.constraints.is_mirror(segment);
+            if is_lid {
+                lids.borrow_mut().push(segment);
+            }
+            is_lid
+        })?;
         if surface.segments.is_empty() {
-            return Err(Fault::new("", format!("surface \"{name}\" lies on a symmetry line altogether"), "name another surface"));
+            return Err(Fault::new("", format!("{what} lies on a symmetry line altogether"), "name another surface"));
         }
-        Ok(self.with_mirrors(surface))
-    }
-
-    /// A surface as a target that goes on beyond symmetry lines.
-    fn with_mirrors(&self, surface: Surface) -> Target {
         let starts =
             surface.segments.iter().zip(&surface.previous).filter(|(_, previous)| **previous == NONE).map(|(segment, _)| segment[0]);
         let ends = surface.segments.iter().zip(&surface.next).filter(|(_, next)| **next == NONE).map(|(segment, _)| segment[1]);
@@ -273,22 +371,43 @@ impl Builder<'_> {
         let mut mirrors: Vec<(u32, [f64; 2])> =
             open.filter_map(|node| Some((node, self.constraints.mirror_normals(node).next()?))).collect();
         mirrors.sort_by_key(|&(node, _)| node);
-        Target { surface, mirrors }
+        Ok(Outlined { target: Target { surface, mirrors }, lids: lids.into_inner() })
+    }
+}
+
+/// A surface of a contact.
+pub(crate) struct Outlined {
+    target: Target,
+    /// Segments that were left out because they lie on a symmetry line.
+    lids: Vec<[u32; 2]>,
+}
+
+fn law_of(interface: &Interface) -> Box<dyn Law> {
+    match &interface.law {
+        ContactLaw::Penalty(_) => Box::new(law::penalty::Penalty),
+        ContactLaw::PressureGap { gaps, pressures } => Box::new(law::pressure_gap::PressureGap::new(gaps, pressures)),
+        ContactLaw::Multiplier => Box::new(law::multiplier::Multiplier),
     }
 }
 
 /// What acts in the springs of an interface.
-fn terms(interface: &Interface) -> Terms {
-    let law: Box<dyn Law> = match &interface.law {
-        ContactLaw::Penalty(_) => Box::new(law::penalty::Penalty),
-        ContactLaw::PressureGap { gaps, pressures } => Box::new(law::pressure_gap::PressureGap::new(gaps, pressures)),
-        ContactLaw::Multiplier => Box::new(law::multiplier::Multiplier),
-    };
+fn terms_of(interface: &Interface) -> Terms {
     let tangential = interface.friction.map_or(Tangential::Free, |friction| {
         let model::Friction { coefficient, dynamic, decay, viscosity, limit } = friction;
         Tangential::Friction(Friction { coefficient, dynamic: dynamic.unwrap_or(coefficient), decay, viscosity, limit })
     });
-    Terms { law, tangential, damping: interface.damping }
+    Terms { law: law_of(interface), tangential, damping: interface.damping }
+}
+
+/// What acts in the ties of an interface.
+fn terms_of_ties(interface: &Interface) -> Terms {
+    let rigid = matches!(interface.law, ContactLaw::Multiplier);
+    Terms { law: Box::new(law::tie::Tie { rigid }), tangential: Tangential::Tied, damping: 0.0 }
+}
+
+/// Terms of ties follow those of contacts and obstacles.
+fn first_of_ties(model: &Model) -> usize {
+    model.contacts.len() + model.obstacles.len()
 }
 
 /// Stiffness of a slave node; of laws without a penalty that of the automatic one, for what needs a scale.
@@ -297,8 +416,15 @@ fn stiffness_of(interface: &Interface, node: law::Node, passes: usize) -> f64 {
     law::penalty::stiffness(penalty, node, passes)
 }
 
-fn search_by_name(name: &str) -> Option<Box<dyn Search<2>>> {
+/// What an automatic penalty is made from; of laws without a penalty the default.
+fn source_of(interface: &Interface) -> PenaltySource {
+    match interface.law {
+        ContactLaw::Penalty(Penalty::Automatic { source, .. }) => source,
+        _ => PenaltySource::default(),
+    }
+}
+
+fn search_by_name(name: &str) -> Option<SearchKind<2>> {
     let registry = search::registry::<2>();
-    let kind = if name.is_empty() { registry.first() } else { registry.iter().find(|kind| kind.name == name) };
-    kind.map(|kind| (kind.make)())
+    if name.is_empty() { registry.first().copied() } else { registry.into_iter().find(|kind| kind.name == name) }
 }

@@ -173,6 +173,8 @@ impl Ledger {
             *whole = self.halves[k] + entry.before * olds[k];
             self.halves[k] = *whole + (1.0 - entry.before) * (2.0 * works[k] - olds[k]);
         }
+        // What breaks now is still whole at n.
+        self.halves[2] += lost.freed;
         self.external = wholes[0];
         self.works.add(&entry.works);
         self.stores = entry.stores;

@@ -1,6 +1,8 @@
 //! What a run can show: the cells once, a frame per output time, a row of the history, the summary at the end.
 //! Values only, no formats; goes to the writers of `embate-files`.
 
+use crate::contact::tracker::Certificate;
+
 /// Shape of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CellKind {
@@ -205,6 +207,8 @@ pub struct Summary {
     pub momentum_drift_angular: Option<f64>,
     /// Deepest penetration seen in any contact or obstacle, m.
     pub penetration_max: f64,
+    /// What was checked in all contacts between surfaces, and whether one was missed.
+    pub contact: Certificate,
     /// Hash of positions and velocities at the end, hexadecimal.
     pub state_hash: String,
     /// Threads used.

@@ -2,14 +2,17 @@
 
 use crate::block::Block;
 use crate::build;
+use crate::contact::initial::{self, Penetration};
+use crate::contact::tracker::{Certificate, SearchReport};
+use crate::contact::{Contact, ContactKind, search};
 use crate::error::{Error, Fault};
 use crate::mesh::PartMesh;
-use crate::model::{Cadence, Model};
+use crate::model::{self, Cadence, InitialPenetration, Model};
 use crate::output::{Cells, Frame, Summary};
 use crate::record::{Momentum, Recorded};
 use crate::step::{Governor, System};
 use embate_lanes::Level;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// How a simulation is run; changes no result.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -99,6 +102,19 @@ pub struct Overview {
     pub warnings: Vec<String>,
 }
 
+/// What the global search of a contact did.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ContactSearch {
+    /// Name of the contact.
+    pub contact: String,
+    /// Name of the search.
+    pub search: String,
+    /// Skin, searches, steps, candidates.
+    pub report: SearchReport,
+    /// Pairs whose paths were checked for crossing, over all steps.
+    pub pairs_swept: u64,
+}
+
 /// A simulation: a model made ready to step.
 pub struct Simulation {
     pub(crate) system: System,
@@ -107,17 +123,16 @@ pub struct Simulation {
     shortest: Shortest,
     pub(crate) threads: usize,
     pub(crate) warnings: BTreeSet<String>,
-    pub(crate) initial_penetrations: Vec<String>,
     history: Cadence,
     fields: Cadence,
     max_steps: u64,
+    /// Search of each contact by name.
+    search_names: BTreeMap<String, String>,
     pool: Option<rayon::ThreadPool>,
 }
 
 /// Steps between two calls of [`Observer::progress`].
 const PROGRESS: u64 = 256;
-/// Penetrations deeper than this fraction of the model's size are told at the start.
-const TOLD_DEPTH: f64 = 1e-9;
 
 impl Simulation {
     /// Makes a model ready: everything at time zero is known, velocities are those of the first half step.
@@ -150,17 +165,20 @@ impl Simulation {
             shortest: Shortest::default(),
             threads: if pool.is_some() { threads } else { 1 },
             warnings: BTreeSet::new(),
-            initial_penetrations: Vec::new(),
             history: model.output.history,
             fields: model.output.fields,
             max_steps: model.run.max_steps.unwrap_or(u64::MAX),
+            search_names: model.contacts.iter().map(|contact| (contact.name.clone(), search_name(contact))).collect(),
             pool,
             system,
         };
         simulation.within_pool(System::start)?;
         simulation.momentum = Momentum::new(&simulation.system);
         simulation.shortest.note(&simulation.system);
-        simulation.tell_initial_penetrations();
+        simulation.check_obstacles(model)?;
+        if !simulation.system.initial_penetrations.is_empty() {
+            simulation.warnings.insert("some nodes were inside other bodies at the start: `embate check` lists them".into());
+        }
         Ok(simulation)
     }
 
@@ -173,19 +191,25 @@ impl Simulation {
         }
     }
 
-    fn tell_initial_penetrations(&mut self) {
-        let size = self.system.positions.iter().flatten().fold(0.0f64, |size, x| size.max(x.abs()));
-        for contact in &self.system.contacts {
-            for (node, depth) in contact.penetrations(&self.system.springs).filter(|&(_, depth)| depth > TOLD_DEPTH * size) {
-                let [x, y] = self.system.positions[node as usize];
-                self.initial_penetrations
-                    .push(format!("contact \"{}\": the node at ({x:.6e}, {y:.6e}) m is {depth:.3e} m inside at the start", contact.name));
+    /// Nodes behind an obstacle at the start are faults.
+    fn check_obstacles(&self, model: &Model) -> Result<(), Error> {
+        let system = &self.system;
+        let tolerance = initial::TOLERANCE * initial::size(&system.positions);
+        let mut faults = Vec::new();
+        for contact in &system.contacts {
+            let Some(index) = model.obstacles.iter().position(|it| contact.kind != ContactKind::Contact && it.name == contact.name) else {
+                continue;
+            };
+            let interface = &model.obstacles[index].interface;
+            if interface.initial_penetration != InitialPenetration::Error || interface.active[0] > 0.0 {
+                continue;
             }
+            let inside = contact.penetrations(&system.springs).filter(|&(_, depth)| depth > tolerance);
+            let found: Vec<Penetration> =
+                inside.map(|(node, depth)| Penetration { node, place: system.positions[node as usize], depth }).collect();
+            faults.extend(initial::faults(&format!("obstacle[{index}]"), &contact.name, &found));
         }
-        if !self.initial_penetrations.is_empty() {
-            let count = self.initial_penetrations.len();
-            self.warnings.insert(format!("{count} node(s) penetrate at the start and will be pushed out: `embate check` lists them"));
-        }
+        if faults.is_empty() { Ok(()) } else { Err(Error::Model(faults)) }
     }
 
     /// Time reached, s.
@@ -233,6 +257,7 @@ impl Simulation {
             Ok(())
         });
         self.shortest = shortest;
+        self.note_momentum();
         result
     }
 
@@ -333,7 +358,7 @@ impl Simulation {
             stable_time_step: system.time_step,
             governor: system.governor_name(system.governor),
             steps_expected: (system.limits.end / system.time_step).ceil() as u64,
-            initial_penetrations: self.initial_penetrations.clone(),
+            initial_penetrations: self.system.initial_penetrations.clone(),
             probes: self.recorded.probe_lines(),
             warnings: self.warnings.iter().cloned().collect(),
         }
@@ -341,12 +366,50 @@ impl Simulation {
 
     fn warnings(&self) -> Vec<String> {
         let mut warnings: Vec<String> = self.warnings.iter().cloned().collect();
+        for contact in &self.system.contacts {
+            let Some(ties) = contact.ties() else { continue };
+            let all = ties.nodes.len() + ties.broken;
+            if ties.broken > 0 {
+                warnings.push(format!("contact \"{}\": {} of {all} ties broke", contact.name, ties.broken));
+            } else if all == 0 {
+                warnings.push(format!("contact \"{}\": its ties bound no node", contact.name));
+            }
+        }
         let unsolved = self.system.springs.unsolved;
         if unsolved > 0 {
             warnings
                 .push(format!("in {unsolved} step(s) the contact forces were not solved to the last digit: lower the contact penalties"));
         }
+        let unverified = self.certificate().unverified;
+        if unverified > 0 {
+            warnings.push(format!(
+                "{unverified} time(s) a node was inside a body without being in contact with it: a contact was missed, or a body went through itself"
+            ));
+        }
+        for contact in self.system.contacts.iter().filter(|contact| self.system.step > 0 && !contact.has_pressed) {
+            warnings.push(format!("{} \"{}\" transmitted nothing in the whole run", contact.kind.name(), contact.name));
+        }
         warnings
+    }
+
+    /// What was checked in all contacts so far.
+    fn certificate(&self) -> Certificate {
+        let mut sum = Certificate::default();
+        for contact in &self.system.contacts {
+            sum += contact.certificate();
+        }
+        sum
+    }
+
+    /// What the global search of each contact between surfaces did so far.
+    #[must_use]
+    pub fn searches(&self) -> Vec<ContactSearch> {
+        let of = |contact: &Contact| {
+            let report = contact.search_report()?;
+            let search = self.search_names.get(&contact.name).cloned().unwrap_or_default();
+            Some(ContactSearch { contact: contact.name.clone(), search, report, pairs_swept: contact.certificate().pairs_swept })
+        };
+        self.system.contacts.iter().filter_map(of).collect()
     }
 
     /// Figures of the run so far (valid after a failure too).
@@ -365,12 +428,17 @@ impl Simulation {
             momentum_drift_linear: self.momentum.as_ref().map(Momentum::linear),
             momentum_drift_angular: self.momentum.as_ref().map(Momentum::angular),
             penetration_max: system.penetration_max,
+            contact: self.certificate(),
             state_hash: crate::record::state_hash(system),
             threads: self.threads,
             simd: system.level.name().to_string(),
             warnings: self.warnings(),
         }
     }
+}
+
+fn search_name(contact: &model::Contact) -> String {
+    if contact.search.is_empty() { search::registry::<2>()[0].name.into() } else { contact.search.clone() }
 }
 
 /// The shortest step so far and who governed it.

@@ -106,6 +106,8 @@ pub struct System {
     pub(crate) of_bodies: Sums,
     pub(crate) ledger: Ledger,
     pub(crate) penetration_max: f64,
+    /// Penetrations of contacts at the start, one line each.
+    pub(crate) initial_penetrations: Vec<String>,
 }
 
 impl System {

@@ -65,10 +65,10 @@ fn the_tube_turns_back_after_seven_and_a_half_milliseconds_and_the_plate_closes_
     // The deepest node in any contact or wall at any step.
     assert!(results.figure("penetration_max") <= 1e-4, "{}", results.summary);
 
-    let held = results.rows_where("wall.force_x[wall]", |force| force > 0.0);
+    let held = results.rows_where("obstacle.force_x[wall]", |force| force > 0.0);
     assert!((8.5e-3..=8.9e-3).contains(&held[0].0), "the plate's tips meet the line of symmetry at {:?}", held[0]);
     assert!(held.last().unwrap().0 > 9.5e-3, "and the plate is last held there at {:?}", held.last());
-    let depth = results.column("wall.penetration[wall]").into_iter().fold(0.0, f64::max);
+    let depth = results.column("obstacle.penetration[wall]").into_iter().fold(0.0, f64::max);
     assert!(depth > 0.0 && depth <= 1e-4, "{depth} m beyond x = 0");
 
     for file in ["animation.gif", "final.png", "energy.svg", "history.svg", "fields.pvd"] {
@@ -82,7 +82,7 @@ fn a_gmsh_file_gives_the_same_as_the_built_in_shapes() {
         [("tube-plate", "example-twin-shapes"), ("tube-plate-gmsh", "example-twin-gmsh")].map(|(name, folder)| run(name, folder));
     assert_eq!(shapes.columns, gmsh.columns);
     assert_eq!(shapes.rows.len(), gmsh.rows.len());
-    for name in shapes.columns.iter().filter(|name| !name.starts_with("contact.") && !name.starts_with("wall.")) {
+    for name in shapes.columns.iter().filter(|name| !name.starts_with("contact.") && !name.starts_with("obstacle.")) {
         let (a, b) = (shapes.column(name), gmsh.column(name));
         let largest = a.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
         let difference = a.iter().zip(&b).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));

@@ -3,6 +3,7 @@
 
 mod command_line;
 mod examples;
+mod verification;
 mod whole_runs;
 
 use std::ffi::OsStr;

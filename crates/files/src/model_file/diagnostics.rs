@@ -51,9 +51,9 @@ struct Line {
 
 /// A text that places refer to.
 #[derive(Clone, Debug)]
-pub(super) struct Source {
-    pub name: String,
-    pub text: String,
+pub(crate) struct Source {
+    pub(crate) name: String,
+    pub(crate) text: String,
 }
 
 /// A fault on its way.
@@ -68,40 +68,40 @@ struct Problem {
 
 /// Collects faults; knows which paths are faulty already, so that no fault is reported twice.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Faults {
+pub(crate) struct Faults {
     problems: Vec<Problem>,
     covered: BTreeSet<String>,
 }
 
 impl Faults {
     /// A fault of the value at `path`; later faults at or under this path are its consequences.
-    pub(super) fn value(&mut self, kind: &str, path: &str, place: Place, wrong: (String, String)) {
+    pub(crate) fn value(&mut self, kind: &str, path: &str, place: Place, wrong: (String, String)) {
         self.cover(path);
         self.beside(kind, path, Some(place), wrong);
     }
 
     /// A fault that leaves the values at and under `path` meaningful.
-    pub(super) fn beside(&mut self, kind: &str, path: &str, place: Option<Place>, (message, help): (String, String)) {
+    pub(crate) fn beside(&mut self, kind: &str, path: &str, place: Option<Place>, (message, help): (String, String)) {
         self.problems.push(Problem { kind: kind.to_string(), path: path.to_string(), message, help, place });
     }
 
     /// Whatever is at or under this path is a placeholder.
-    pub(super) fn cover(&mut self, path: &str) {
+    pub(crate) fn cover(&mut self, path: &str) {
         self.covered.insert(path.to_string());
     }
 
     /// Whether the path or something above it is known to be faulty.
-    pub(super) fn covers(&self, path: &str) -> bool {
+    pub(crate) fn covers(&self, path: &str) -> bool {
         let above = path.char_indices().filter(|(_, c)| matches!(c, '.' | '[')).map(|(at, _)| &path[..at]);
         above.chain(std::iter::once(path)).any(|path| self.covered.contains(path))
     }
 
-    pub(super) fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.problems.is_empty()
     }
 
     /// Gives every fault its place in the text.
-    pub(super) fn into_diagnostics(self, sources: &[Source], root: Option<&Node>) -> Diagnostics {
+    pub(crate) fn into_diagnostics(self, sources: &[Source], root: Option<&Node>) -> Diagnostics {
         let mut problems = self.problems;
         for problem in &mut problems {
             if problem.place.is_none() && !problem.path.is_empty() {
@@ -178,7 +178,7 @@ impl Cursor {
 
 impl Diagnostics {
     /// Faults without a text that they could point into.
-    pub(super) fn plain(file: String, message: String, help: String) -> Self {
+    pub(crate) fn plain(file: String, message: String, help: String) -> Self {
         let mut faults = Faults::default();
         faults.beside("file", "", None, (message, help));
         faults.into_diagnostics(&[Source { name: file, text: String::new() }], None)

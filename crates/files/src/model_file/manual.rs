@@ -73,7 +73,8 @@ fn groups_after(out: &mut String, section: &Section) {
     }
 }
 
-fn table(out: &mut String, keys: &[Key], rules: &[Rule]) {
+/// A table of keys, and the rules between them.
+pub(crate) fn table(out: &mut String, keys: &[Key], rules: &[Rule]) {
     out.push_str("| key | value | left out | meaning |\n|---|---|---|---|\n");
     for key in keys {
         let left_out = match key.need {
@@ -95,6 +96,7 @@ fn table(out: &mut String, keys: &[Key], rules: &[Rule]) {
         };
         let _ = match rule {
             Rule::OneOf(names) => writeln!(out, "- Exactly one of {}.", list(names, "and")),
+            Rule::SomeOf(names) if names.len() > 2 => writeln!(out, "- At least one of {}.", list(names, "and")),
             Rule::SomeOf(names) => writeln!(out, "- {}, or both.", list(names, "or")),
             Rule::NotBoth(one, other) => writeln!(out, "- Not `{one}` and `{other}` at once."),
             Rule::Needs(one, other) => writeln!(out, "- `{one}` needs `{other}`."),

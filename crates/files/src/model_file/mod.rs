@@ -21,7 +21,11 @@ pub use manual::reference_markdown;
 pub use schema::schema;
 pub use starter::starter;
 
-use diagnostics::{Faults, Source};
+pub(crate) use diagnostics::{Faults, Source};
+pub(crate) use manual::table as keys_table;
+pub(crate) use reader::{Document, Record, Vocabulary};
+pub(crate) use tree::Node;
+
 use embate_solver::model::Model;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -38,11 +42,42 @@ const SIZE_MAX: u64 = 16 << 20;
 /// All faults at once.
 pub fn load(path: &Path, set: &[String]) -> Result<Model, Diagnostics> {
     let file = if path.is_dir() { path.join(FILE_NAME) } else { path.to_path_buf() };
-    let shown = file.display().to_string();
-    let bytes = read(&file).map_err(|(message, help)| Diagnostics::plain(shown.clone(), message, help))?;
     let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).map_or_else(|| PathBuf::from("."), Path::to_path_buf);
+    load_source(&name_of(&file), source(&file)?, &folder, set)
+}
+
+/// A file of described sections that has been read, with the text to which later faults point.
+#[derive(Clone, Debug)]
+pub(crate) struct Described {
+    source: Source,
+    root: Node,
+}
+
+impl Described {
+    /// Reads the file and makes something of its records; all faults, also those that `make` notes, at once.
+    pub(crate) fn read<T>(
+        file: &Path,
+        vocabulary: &Vocabulary,
+        make: impl FnOnce(&Document, &mut Faults) -> T,
+    ) -> Result<(Self, T), Diagnostics> {
+        let mut faults = Faults::default();
+        let (source, root) = parsed(source(file)?)?;
+        let made = make(&reader::read(&root, vocabulary, &mut faults), &mut faults);
+        if faults.is_empty() { Ok((Self { source, root }, made)) } else { Err(faults.into_diagnostics(&[source], Some(&root))) }
+    }
+
+    /// Faults that were found later, by their paths in the file.
+    pub(crate) fn told(&self, faults: Faults) -> Diagnostics {
+        faults.into_diagnostics(std::slice::from_ref(&self.source), Some(&self.root))
+    }
+}
+
+/// The text of a file.
+fn source(file: &Path) -> Result<Source, Diagnostics> {
+    let shown = file.display().to_string();
+    let bytes = read(file).map_err(|(message, help)| Diagnostics::plain(shown.clone(), message, help))?;
     match String::from_utf8(bytes) {
-        Ok(text) => load_source(&name_of(&file), Source { name: shown, text }, &folder, set),
+        Ok(text) => Ok(Source { name: shown, text }),
         Err(error) => {
             let at = error.utf8_error().valid_up_to();
             let text = String::from_utf8_lossy(error.as_bytes()).into_owned();
@@ -63,23 +98,12 @@ pub fn load_text(name: &str, text: &str, folder: &Path, set: &[String]) -> Resul
     load_source(name, Source { name: name.to_string(), text: text.to_string() }, folder, set)
 }
 
-fn load_source(name: &str, mut source: Source, folder: &Path, set: &[String]) -> Result<Model, Diagnostics> {
-    if source.text.starts_with('\u{feff}') {
-        source.text.remove(0);
-    }
+fn load_source(name: &str, source: Source, folder: &Path, set: &[String]) -> Result<Model, Diagnostics> {
     let mut faults = Faults::default();
-    let mut root = match tree::document(&source.text, 0) {
-        Ok(root) => root,
-        Err(fault) => {
-            let place = fault.place.map(|range| tree::Place { source: 0, start: range.start, end: range.end });
-            let help = syntax_help(&fault.message).to_string();
-            faults.beside("syntax", "", place, (fault.message, help));
-            return Err(faults.into_diagnostics(&[source], None));
-        }
-    };
+    let (source, mut root) = parsed(source)?;
     let mut sources = vec![source];
     set::apply(&mut root, set, &mut sources, &mut faults);
-    let document = reader::read(&root, &mut faults);
+    let document = reader::read(&root, &reader::MODEL, &mut faults);
     let model = build::model(&document, name, folder, &mut faults);
     for fault in model.check() {
         if !faults.covers(&fault.path) {
@@ -88,6 +112,23 @@ fn load_source(name: &str, mut source: Source, folder: &Path, set: &[String]) ->
         }
     }
     if faults.is_empty() { Ok(model) } else { Err(faults.into_diagnostics(&sources, Some(&root))) }
+}
+
+/// The tree of a text.
+fn parsed(mut source: Source) -> Result<(Source, Node), Diagnostics> {
+    if source.text.starts_with('\u{feff}') {
+        source.text.remove(0);
+    }
+    match tree::document(&source.text, 0) {
+        Ok(root) => Ok((source, root)),
+        Err(fault) => {
+            let mut faults = Faults::default();
+            let place = fault.place.map(|range| tree::Place { source: 0, start: range.start, end: range.end });
+            let help = syntax_help(&fault.message).to_string();
+            faults.beside("syntax", "", place, (fault.message, help));
+            Err(faults.into_diagnostics(&[source], None))
+        }
+    }
 }
 
 /// What to do about a fault of TOML's syntax.

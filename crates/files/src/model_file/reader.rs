@@ -10,13 +10,33 @@ use embate_solver::model::describe::{
 };
 use std::collections::BTreeMap;
 
+/// What a kind of file may hold.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Vocabulary {
+    /// What the file describes, for messages: `model`.
+    pub(crate) what: &'static str,
+    /// Keys above all sections.
+    pub(crate) top: &'static Section,
+    /// Its sections.
+    pub(crate) sections: &'static [&'static Section],
+}
+
+/// The model file.
+pub(super) static MODEL: Vocabulary = Vocabulary { what: "model", top: &TOP, sections: SECTIONS };
+
+impl Vocabulary {
+    fn section(&self, name: &str) -> Option<&'static Section> {
+        self.sections.iter().find(|section| section.name == name).copied()
+    }
+}
+
 /// The values of one table: those of the file that are sound, and defaults.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Record {
+pub(crate) struct Record {
     /// Path of the table.
-    pub path: String,
+    pub(crate) path: String,
     /// Name in `[section.NAME]`; empty elsewhere.
-    pub name: String,
+    pub(crate) name: String,
     values: BTreeMap<String, Datum>,
     /// Keys that the file has, sound or not, with the places of their values.
     written: BTreeMap<String, Place>,
@@ -24,15 +44,15 @@ pub(super) struct Record {
 
 /// All tables of a file.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Document {
+pub(crate) struct Document {
     /// Keys above all sections.
-    pub top: Record,
+    pub(crate) top: Record,
     sections: BTreeMap<&'static str, Vec<Record>>,
 }
 
 impl Document {
     /// The tables of a section, in the order of the file.
-    pub(super) fn section(&self, name: &str) -> &[Record] {
+    pub(crate) fn section(&self, name: &str) -> &[Record] {
         self.sections.get(name).map_or(&[], Vec::as_slice)
     }
 
@@ -40,9 +60,12 @@ impl Document {
     pub(super) fn single(&self, name: &str) -> Record {
         match (self.section(name).first(), section_by_name(name)) {
             (Some(record), _) => record.clone(),
-            (None, Some(section)) => {
-                Reader { faults: &mut Faults::default() }.table(section, &[], name, Place { source: 0, start: 0, end: 0 })
-            }
+            (None, Some(section)) => Reader { vocabulary: &MODEL, faults: &mut Faults::default() }.table(
+                section,
+                &[],
+                name,
+                Place { source: 0, start: 0, end: 0 },
+            ),
             (None, None) => Record::default(),
         }
     }
@@ -50,12 +73,12 @@ impl Document {
 
 impl Record {
     /// Path of one of its keys.
-    pub(super) fn key(&self, name: &str) -> String {
+    pub(crate) fn key(&self, name: &str) -> String {
         format!("{}.{name}", self.path)
     }
 
     /// Where a key's value stands, if the file has it.
-    pub(super) fn written(&self, name: &str) -> Option<Place> {
+    pub(crate) fn written(&self, name: &str) -> Option<Place> {
         self.written.get(name).copied()
     }
 
@@ -78,7 +101,7 @@ impl Record {
         self.values.iter().filter_map(number).collect()
     }
 
-    pub(super) fn number(&self, name: &str) -> Option<f64> {
+    pub(crate) fn number(&self, name: &str) -> Option<f64> {
         if let Some(Datum::Number(value)) = self.datum(name) { Some(*value) } else { None }
     }
 
@@ -90,7 +113,7 @@ impl Record {
         matches!(self.datum(name), Some(Datum::Flag(true)))
     }
 
-    pub(super) fn vector(&self, name: &str) -> [f64; 2] {
+    pub(crate) fn vector(&self, name: &str) -> [f64; 2] {
         if let Some(Datum::Vector(value)) = self.datum(name) { *value } else { [f64::NAN; 2] }
     }
 
@@ -103,34 +126,34 @@ impl Record {
         [0, 1].map(|index| values.get(index).map_or(usize::MAX, |value| usize::try_from(*value).unwrap_or(usize::MAX)))
     }
 
-    pub(super) fn text(&self, name: &str) -> String {
+    pub(crate) fn text(&self, name: &str) -> String {
         if let Some(Datum::Text(value)) = self.datum(name) { value.clone() } else { String::new() }
     }
 
-    pub(super) fn texts(&self, name: &str) -> Vec<String> {
+    pub(crate) fn texts(&self, name: &str) -> Vec<String> {
         if let Some(Datum::Texts(values)) = self.datum(name) { values.clone() } else { Vec::new() }
     }
 
-    pub(super) fn table(&self, name: &str) -> Option<&Record> {
+    pub(crate) fn table(&self, name: &str) -> Option<&Record> {
         if let Some(Datum::Table(record)) = self.datum(name) { Some(record) } else { None }
     }
 }
 
 /// Reads all sections.
-pub(super) fn read(root: &Node, faults: &mut Faults) -> Document {
-    let mut reader = Reader { faults };
+pub(super) fn read(root: &Node, vocabulary: &Vocabulary, faults: &mut Faults) -> Document {
+    let mut reader = Reader { vocabulary, faults };
     let mut document = Document::default();
     let Value::Table(entries) = &root.value else { return document };
-    let (sections, others): (Vec<&Entry>, Vec<&Entry>) = entries.iter().partition(|entry| section_by_name(&entry.key).is_some());
+    let (sections, others): (Vec<&Entry>, Vec<&Entry>) = entries.iter().partition(|entry| vocabulary.section(&entry.key).is_some());
     let others: Vec<Entry> = others.into_iter().cloned().collect();
-    document.top = reader.table(&TOP, &others, "", root.place);
+    document.top = reader.table(vocabulary.top, &others, "", root.place);
     for entry in sections {
-        if let Some(section) = section_by_name(&entry.key) {
+        if let Some(section) = vocabulary.section(&entry.key) {
             document.sections.insert(section.name, reader.section(section, entry));
         }
     }
-    for section in SECTIONS.iter().filter(|section| section.required && !document.sections.contains_key(section.name)) {
-        let message = format!("the model has no {}", header(section));
+    for section in vocabulary.sections.iter().filter(|section| section.required && !document.sections.contains_key(section.name)) {
+        let message = format!("the {} has no {}", vocabulary.what, header(section));
         reader.faults.cover(section.name);
         reader.faults.beside("missing section", section.name, None, (message, section.doc.to_string()));
     }
@@ -148,6 +171,7 @@ pub(super) fn header(section: &Section) -> String {
 }
 
 struct Reader<'a> {
+    vocabulary: &'a Vocabulary,
     faults: &'a mut Faults,
 }
 
@@ -245,7 +269,8 @@ impl Reader<'_> {
     }
 
     fn missing(&mut self, section: &Section, key: &Key, path: &str, place: Place) {
-        let message = format!("{} has no `{}`", called(section, path), key.name);
+        let what = if section.name.is_empty() { format!("the {}", self.vocabulary.what) } else { called(section, path) };
+        let message = format!("{what} has no `{}`", key.name);
         let help = format!("add `{} = {}`: {}", key.name, value::example(key), lower(key.doc));
         self.faults.value("missing key", path, place, (message, help));
     }
@@ -253,7 +278,7 @@ impl Reader<'_> {
     fn unknown(&mut self, section: &Section, keys: &[Key], entry: &Entry, path: &str) {
         let mut known: Vec<&str> = keys.iter().map(|key| key.name).collect();
         if section.name.is_empty() {
-            known.extend(SECTIONS.iter().map(|section| section.name));
+            known.extend(self.vocabulary.sections.iter().map(|section| section.name));
         }
         let name = entry.key.as_str();
         let home = |other: &&&Section| other.name != section.name && other.all_keys().any(|key| key.name == name);
@@ -263,13 +288,13 @@ impl Reader<'_> {
             _ if moved.is_some() => moved.map_or(String::new(), |(_, help)| (*help).to_string()),
             Some(near) => format!("did you mean `{near}`?"),
             None if let Some(key) = keys.iter().find(within) => format!("`{name}` belongs in `{} = {{ ... }}`", key.name),
-            None if TOP.keys.iter().any(|key| key.name == name) => format!("`{name}` stands above all sections"),
-            None => match SECTIONS.iter().find(home) {
+            None if self.vocabulary.top.keys.iter().any(|key| key.name == name) => format!("`{name}` stands above all sections"),
+            None => match self.vocabulary.sections.iter().find(home) {
                 Some(other) => format!("`{name}` belongs in {}", header(other)),
                 None => suggestion("", &known),
             },
         };
-        let what = if section.name.is_empty() { "a model".to_string() } else { called(section, path) };
+        let what = if section.name.is_empty() { format!("a {}", self.vocabulary.what) } else { called(section, path) };
         self.faults.value("unknown key", path, entry.place, (format!("{what} has no key `{}`", shown(name)), help));
     }
 

@@ -9,7 +9,7 @@ use toml::de::{DeTable, DeValue};
 
 /// A range of bytes in one of the sources.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Place {
+pub(crate) struct Place {
     /// 0 the file, then the `--set` texts.
     pub source: usize,
     /// First byte.
@@ -20,14 +20,14 @@ pub(super) struct Place {
 
 /// A value and its place; for a table its header or braces.
 #[derive(Clone, Debug)]
-pub(super) struct Node {
+pub(crate) struct Node {
     pub value: Value,
     pub place: Place,
 }
 
 /// What a value is.
 #[derive(Clone, Debug)]
-pub(super) enum Value {
+pub(crate) enum Value {
     Text(String),
     /// A whole number as written, as an integer if it fits, and as a float.
     Integer(String, Option<i128>, f64),
@@ -41,7 +41,7 @@ pub(super) enum Value {
 
 /// A key of a table with its value.
 #[derive(Clone, Debug)]
-pub(super) struct Entry {
+pub(crate) struct Entry {
     pub key: String,
     pub place: Place,
     pub node: Node,

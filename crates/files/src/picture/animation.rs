@@ -3,7 +3,7 @@
 
 use super::PictureError;
 use super::body::Look;
-use super::colour::{BORDER, GRID, INK, MAP, NO_VALUE, Rgb, TEXT, TEXT_FAINT, WHITE, mix};
+use super::colour::{BORDER, GRID, INK, MAP, NO_VALUE, Rgb, SOLID, TEXT, TEXT_FAINT, WHITE, mix};
 use super::raster::Canvas;
 use gif::{DisposalMethod, Encoder, EncodingError, Frame, Repeat};
 use std::borrow::Cow;
@@ -25,7 +25,7 @@ impl Palette {
     fn new(looks: &[Look]) -> Self {
         let edge = looks.iter().map(|look| look.edge).fold(0.0, f32::max);
         let outline = looks.iter().map(|look| look.outline).fold(0.3, f32::max);
-        let mut colours = vec![WHITE, GRID, BORDER, NO_VALUE, TEXT, TEXT_FAINT];
+        let mut colours = vec![WHITE, GRID, BORDER, SOLID, NO_VALUE, TEXT, TEXT_FAINT];
         let of_map = |colours: &mut Vec<Rgb>, count: usize, over: Rgb, alpha: f32| {
             colours.extend((0..count).map(|k| mix(MAP[k * (MAP.len() - 1) / (count - 1)], over, alpha)));
         };

@@ -154,12 +154,23 @@ impl Mesh {
     }
 }
 
-/// Levels at the corners, where values live at nodes and all corners have one.
+/// Levels at the corners, where values live at nodes. Some fields have values on the surface alone: a cell with a side there shows them through to
+/// its other side, so that they can be seen; a cell without such a side has no levels.
 fn node_levels(cell: &DrawnCell, values: Values<'_>) -> Option<[f32; 4]> {
     let Values::Nodes(values, range) = values else { return None };
+    let count = usize::from(cell.corners);
+    let known = cell.nodes.map(|node| values.get(node as usize).and_then(|v| level(*v, range)));
+    let has_side = (0..count).any(|k| known[k].is_some() && known[(k + 1) % count].is_some());
+    let through = |k: usize| -> Option<f32> {
+        let beside = [known[(k + 1) % count], known[(k + count - 1) % count]];
+        match beside {
+            [Some(a), Some(b)] => Some(0.5 * (a + b)),
+            [a, b] => a.or(b),
+        }
+    };
     let mut levels = [0.0; 4];
-    for (found, node) in levels.iter_mut().zip(cell.nodes) {
-        *found = level(*values.get(node as usize)?, range)?;
+    for (k, found) in levels[..count].iter_mut().enumerate() {
+        *found = known[k].or_else(|| through(k)).filter(|_| has_side)?;
     }
     Some(levels)
 }
@@ -170,7 +181,7 @@ fn cell_colour(cell: &DrawnCell, values: Values<'_>, map: &[[f32; 3]]) -> [f32; 
         Values::Parts => return floats(colour::part(cell.part as usize)),
         Values::Plain => None,
         Values::Cells(values, range) => values.get(cell.index as usize).and_then(|v| level(*v, range)),
-        Values::Nodes(..) => node_levels(cell, values).map(|levels| 0.25 * levels.iter().sum::<f32>()),
+        Values::Nodes(..) => node_levels(cell, values).map(|levels| levels.iter().sum::<f32>() / f32::from(cell.corners)),
     };
     level.map_or(floats(NO_VALUE), |level| map[(level + 0.5) as usize])
 }
@@ -283,6 +294,20 @@ mod tests {
         let mut layer = Layer::new(4, 4);
         let looks = [Look { edge: 1.0, edge_width: 1.0, outline: 1.0, outline_width: 1.0, swell: 1.0 }];
         Mesh::new(&cells).draw(&mut layer, &[[0.0, 0.0]], [None; 2], Values::Parts, &looks);
+    }
+
+    #[test]
+    fn values_of_the_surface_are_seen_and_cells_inside_stay_plain() {
+        let mesh = two_quads([0, 0]);
+        let nan = f32::NAN;
+        let levels = |values: [f32; 6]| {
+            let values = Values::Nodes(&values, [0.0, 255.0]);
+            [0, 1].map(|k| node_levels(&mesh.cells[k], values))
+        };
+        // Cells 0 1 4 3 and 1 2 5 4.
+        assert_eq!(levels([10.0, 20.0, nan, nan, nan, nan]), [Some([10.0, 20.0, 20.0, 10.0]), None]);
+        assert_eq!(levels([nan, 20.0, 30.0, nan, nan, 50.0]), [None, Some([20.0, 30.0, 50.0, 35.0])]);
+        assert_eq!(levels([nan; 6]), [None, None]);
     }
 
     #[test]

@@ -21,6 +21,8 @@ pub(super) const INK: Rgb = [16, 18, 28];
 pub(super) const BORDER: Rgb = [168, 174, 184];
 /// Grid.
 pub(super) const GRID: Rgb = [233, 236, 240];
+/// Obstacles.
+pub(super) const SOLID: Rgb = [227, 230, 235];
 /// Bodies without a value.
 pub(super) const NO_VALUE: Rgb = [178, 184, 192];
 

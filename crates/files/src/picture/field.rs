@@ -63,7 +63,13 @@ impl Scalar {
     /// Whether the colour range starts at zero by nature.
     pub(super) fn starts_at_zero(&self) -> bool {
         let size = self.component.is_none() && !self.kind.components.is_empty();
-        size || ["plastic_strain", "von_mises", "energy_density"].contains(&self.kind.name)
+        let scalars = ["plastic_strain", "von_mises", "energy_density", "contact_pressure", "contact_slip", "friction_heat"];
+        size || scalars.contains(&self.kind.name)
+    }
+
+    /// Names of the values 0, 1, ... of a field that tells states; empty for quantities.
+    pub(super) fn states(&self) -> &'static [&'static str] {
+        if self.kind.name == "contact_status" { &["open", "stick", "slip"] } else { &[] }
     }
 
     /// Name for people.

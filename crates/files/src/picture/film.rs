@@ -7,7 +7,9 @@ use super::body::{Mesh, Values};
 use super::field::{Scalar, names};
 use super::scale::{decimals, number, unit};
 use super::scene::{Key, Moment, Plan, Scene};
+use super::view::{self, NOTHING, extent, joined, mirrored, size};
 use super::{PictureError, write_png, write_whole};
+use crate::outline::{Extent, Line, LineReader};
 use embate_solver::output::{Cells, Frame};
 use std::path::Path;
 
@@ -57,6 +59,7 @@ pub struct Film {
     missing: Option<String>,
     /// Added to stored positions, m: keeps `f32` exact enough far from the origin.
     origin: Option<[f64; 2]>,
+    line_reader: LineReader,
     stored: Vec<Stored>,
     /// Every `stride`-th frame is kept; and the last.
     stride: usize,
@@ -69,13 +72,16 @@ struct Stored {
     number: usize,
     time: f64,
     positions: Vec<[f32; 2]>,
+    obstacles: Vec<Line>,
     /// One list per scalar.
     values: Vec<Vec<f32>>,
 }
 
 impl Stored {
     fn bytes(&self) -> usize {
-        8 * self.positions.len() + 4 * self.values.iter().map(Vec::len).sum::<usize>()
+        8 * self.positions.len()
+            + 16 * self.obstacles.iter().map(|line| line.points.len()).sum::<usize>()
+            + 4 * self.values.iter().map(Vec::len).sum::<usize>()
     }
 }
 
@@ -84,7 +90,9 @@ struct Show {
     scalar: Option<usize>,
     range: [f64; 2],
     key: Key,
-    view: [[f64; 2]; 2],
+    view: Extent,
+    /// Side of the mirror lines on which the model lies.
+    sides: [f64; 2],
 }
 
 impl Film {
@@ -97,6 +105,7 @@ impl Film {
             scalars: Vec::new(),
             missing: None,
             origin: None,
+            line_reader: LineReader::default(),
             stored: Vec::new(),
             stride: 1,
             added: 0,
@@ -122,6 +131,7 @@ impl Film {
             number: self.added,
             time: frame.time,
             positions: frame.positions.iter().map(|p| [(p[0] - origin[0]) as f32, (p[1] - origin[1]) as f32]).collect(),
+            obstacles: self.line_reader.lines(frame),
             values: self.scalars.iter().map(|scalar| scalar.values(frame)).collect(),
         });
         self.added += 1;
@@ -164,7 +174,7 @@ impl Film {
         let wide = self.settings.width.min(ANIMATION_WIDTH);
         let high = f64::from(self.settings.height) * f64::from(wide) / f64::from(self.settings.width.max(1));
         self.write_animation(folder, &mesh, &show, &notes, [wide, high.round() as u32])?;
-        let show = Show { view: self.view_of(last, show.view), ..show };
+        let show = Show { view: self.view_of(last, &show), ..show };
         let mut scene = self.scene(&show, &notes, [self.settings.width, self.settings.height]);
         let mut canvas = scene.still().clone();
         scene.draw(&mesh, &self.moment(last, &show, notes.last().map_or("", String::as_str)), &mut canvas);
@@ -196,7 +206,7 @@ impl Film {
     fn scene(&self, show: &Show, notes: &[String], size: [u32; 2]) -> Scene {
         let longest = notes.iter().max_by_key(|note| note.chars().count()).map_or("", String::as_str);
         let (title, mirror) = (&self.settings.title, self.settings.mirror);
-        Scene::new(&Plan { title, mirror, size, view: show.view, key: show.key.clone(), note: longest })
+        Scene::new(&Plan { title, mirror, sides: show.sides, size, view: show.view, key: show.key.clone(), note: longest })
     }
 
     fn moment<'a>(&'a self, frame: &'a Stored, show: &Show, note: &'a str) -> Moment<'a> {
@@ -205,7 +215,7 @@ impl Film {
             Some((scalar, values)) if scalar.at_nodes() => Values::Nodes(values, show.range),
             Some((_, values)) => Values::Cells(values, show.range),
         };
-        Moment { positions: &frame.positions, origin: self.origin.unwrap_or_default(), values, note }
+        Moment { positions: &frame.positions, origin: self.origin.unwrap_or_default(), obstacles: &frame.obstacles, values, note }
     }
 
     /// Field, colour range and view for all stored frames.
@@ -213,16 +223,32 @@ impl Film {
         let all = |k: usize| self.stored.iter().flat_map(move |frame| frame.values[k].iter().copied()).filter(|v| v.is_finite());
         // The first scalar that is not zero throughout; if all are, the last (equivalent stress before plastic strain).
         let scalar = (0..self.scalars.len()).find(|k| all(*k).any(|v| v != 0.0)).or(self.scalars.len().checked_sub(1));
-        let view = mirrored(self.view(), self.settings.mirror);
-        let Some(chosen) = scalar else { return Show { scalar, range: [0.0, 1.0], key: Key::Empty, view } };
+        let sides = self.stored.first().map_or([1.0; 2], |first| view::sides(self.nodes(first)));
+        let view = mirrored(self.view(sides), self.settings.mirror);
+        let Some(chosen) = scalar else { return Show { scalar, range: [0.0, 1.0], key: Key::Empty, view, sides } };
         let kind = self.scalars[chosen];
-        let (range, beyond) = colour_range(all(chosen), kind.starts_at_zero());
-        let key = Key::Bar { label: kind.label(), si: kind.kind.unit, range, beyond };
-        Show { scalar, range, key, view }
+        let states = kind.states();
+        let (range, beyond) = match states.len().checked_sub(1) {
+            Some(last) => ([0.0, last as f64], [false; 2]),
+            None => colour_range(all(chosen), kind.starts_at_zero()),
+        };
+        let key = Key::Bar { label: kind.label(), si: kind.kind.unit, range, beyond, states };
+        Show { scalar, range, key, view, sides }
     }
 
-    /// Box of all finite positions, m. If single nodes have been thrown far away (a run that failed), they don't count.
-    fn view(&self) -> [[f64; 2]; 2] {
+    /// Positions of a frame, m.
+    fn nodes<'a>(&self, frame: &'a Stored) -> impl ExactSizeIterator<Item = [f64; 2]> + Clone + use<'a> {
+        let origin = self.origin.unwrap_or_default();
+        frame.positions.iter().map(move |p| [f64::from(p[0]) + origin[0], f64::from(p[1]) + origin[1]])
+    }
+
+    /// What is to be seen of the obstacles beside `bodies` in one frame.
+    fn obstacles(&self, frame: &Stored, bodies: Extent, sides: [f64; 2]) -> Extent {
+        view::obstacles(&frame.obstacles, self.nodes(frame), bodies, view::room(bodies, self.settings.mirror, sides))
+    }
+
+    /// Box of all finite positions and of the obstacles near them, m. If single nodes have been thrown far away (a run that failed), they don't count.
+    fn view(&self, sides: [f64; 2]) -> Extent {
         let boxes: Vec<_> = self.stored.iter().map(|frame| extent(frame.positions.iter(), 0.0)).collect();
         let union = boxes.iter().copied().reduce(joined).unwrap_or(NOTHING);
         let mut view = union;
@@ -233,13 +259,16 @@ impl Film {
             }
         }
         let origin = self.origin.unwrap_or_default();
-        view.map(|corner| [corner[0] + origin[0], corner[1] + origin[1]])
+        let bodies = view.map(|corner| [corner[0] + origin[0], corner[1] + origin[1]]);
+        self.stored.iter().map(|frame| self.obstacles(frame, bodies, sides)).fold(bodies, joined)
     }
 
-    /// Box of the bodies in one frame, m, within the film's view `whole`: a still picture needs no room for where they were.
-    fn view_of(&self, frame: &Stored, whole: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
+    /// Box of the bodies in one frame and of the obstacles near them, m, within the film's view: a still picture needs no room for where they were.
+    fn view_of(&self, frame: &Stored, show: &Show) -> Extent {
+        let whole = show.view;
         let origin = self.origin.unwrap_or_default();
         let own = extent(frame.positions.iter(), 0.0).map(|corner| [corner[0] + origin[0], corner[1] + origin[1]]);
+        let own = joined(own, self.obstacles(frame, own, show.sides));
         let [low, high] = mirrored(own, self.settings.mirror);
         let kept = [[0, 1].map(|k| low[k].max(whole[0][k])), [0, 1].map(|k| high[k].min(whole[1][k]))];
         if (0..2).all(|k| kept[0][k] <= kept[1][k]) { kept } else { whole }
@@ -255,47 +284,6 @@ impl Film {
         debug_assert_eq!(decimals(step), digits as usize);
         self.stored.iter().map(|frame| format!("t = {} {}", number(frame.time * unit.factor, step), unit.name)).collect()
     }
-}
-
-const NOTHING: [[f64; 2]; 2] = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
-
-fn joined(a: [[f64; 2]; 2], b: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
-    [[a[0][0].min(b[0][0]), a[0][1].min(b[0][1])], [a[1][0].max(b[1][0]), a[1][1].max(b[1][1])]]
-}
-
-fn size(view: [[f64; 2]; 2]) -> f64 {
-    (view[1][0] - view[0][0]).max(view[1][1] - view[0][1])
-}
-
-/// Box of finite points without the share `trim` of them at each end of each axis.
-fn extent<'a>(points: impl Iterator<Item = &'a [f32; 2]> + Clone, trim: f64) -> [[f64; 2]; 2] {
-    let mut bounds = NOTHING;
-    for axis in 0..2 {
-        let finite = points.clone().filter(|p| p[0].is_finite() && p[1].is_finite()).map(|p| f64::from(p[axis]));
-        if trim == 0.0 {
-            (bounds[0][axis], bounds[1][axis]) =
-                finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
-        } else {
-            let mut sorted: Vec<f64> = finite.collect();
-            sorted.sort_unstable_by(f64::total_cmp);
-            let cut = (trim * sorted.len() as f64).ceil() as usize;
-            if let Some([low, .., high] | [low @ high]) = sorted.get(cut..sorted.len().saturating_sub(cut)) {
-                (bounds[0][axis], bounds[1][axis]) = (*low, *high);
-            }
-        }
-    }
-    bounds
-}
-
-/// The box and its mirror images.
-fn mirrored(mut view: [[f64; 2]; 2], mirror: [bool; 2]) -> [[f64; 2]; 2] {
-    for axis in 0..2 {
-        if mirror[axis] {
-            let far = view[0][axis].abs().max(view[1][axis].abs());
-            (view[0][axis], view[1][axis]) = (-far, far);
-        }
-    }
-    view
 }
 
 /// Range of the colour map, and whether values lie below or above it. Single peaks far above everything else don't set the range.
@@ -395,7 +383,7 @@ mod tests {
         frame.positions[7] = [1e9, -1e9];
         frame.positions[8] = [f64::NAN, 0.0];
         film.add(&frame);
-        assert!(size(film.view()) < 150.0, "{:?}", film.view());
+        assert!(size(film.view([1.0; 2])) < 150.0, "{:?}", film.view([1.0; 2]));
     }
 
     #[test]
@@ -403,24 +391,20 @@ mod tests {
         let mut film = Film::new(Cells::default(), FilmSettings { mirror: [true, false], ..FilmSettings::default() });
         film.add(&frame(0.0, 9.0));
         film.add(&frame(1.0, 2.0));
-        let whole = film.show().view;
+        let show = film.show();
+        let whole = show.view;
         assert_eq!(whole, [[-10.0, 0.0], [10.0, 1.0]]);
-        assert_eq!(film.view_of(&film.stored[1], whole), [[-3.0, 0.0], [3.0, 1.0]]);
+        assert_eq!(film.view_of(&film.stored[1], &show), [[-3.0, 0.0], [3.0, 1.0]]);
         film.add(&frame(2.0, f64::NAN));
-        assert_eq!(film.view_of(&film.stored[2], whole), whole, "nothing to be seen: the whole view");
+        assert_eq!(film.view_of(&film.stored[2], &show), whole, "nothing to be seen: the whole view");
     }
 
     #[test]
     fn far_from_the_origin_positions_stay_exact() {
         let mut film = Film::new(Cells::default(), FilmSettings::default());
         film.add(&frame(0.0, 1e8));
-        let view = film.view();
+        let view = film.view([1.0; 2]);
         assert_eq!((view[0][0], view[1][0]), (1e8, 1e8 + 1.0));
-    }
-
-    #[test]
-    fn mirroring_makes_the_view_symmetric() {
-        assert_eq!(mirrored([[-1.0, 2.0], [3.0, 4.0]], [true, false]), [[-3.0, 2.0], [3.0, 4.0]]);
     }
 
     #[test]

@@ -4,7 +4,9 @@
 use super::body::{Mesh, Values};
 use super::film::FilmSettings;
 use super::scene::{Key, Moment, Plan, Scene};
+use super::view::{self, NOTHING, joined, mirrored};
 use super::{PictureError, write_png};
+use crate::outline::LineReader;
 use embate_solver::output::{Cells, Frame};
 use std::path::Path;
 
@@ -16,20 +18,19 @@ pub fn mesh_png(frame: &Frame<2>, cells: &Cells, settings: &FilmSettings, path: 
     let mesh = Mesh::new(cells);
     let finite = || frame.positions.iter().filter(|p| p.iter().all(|v| v.is_finite()));
     let origin = finite().next().copied().unwrap_or_default();
-    let mut view = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
-    for p in finite() {
-        for k in 0..2 {
-            view[0][k] = view[0][k].min(if settings.mirror[k] { -p[k].abs() } else { p[k] });
-            view[1][k] = view[1][k].max(if settings.mirror[k] { p[k].abs() } else { p[k] });
-        }
-    }
+    let bodies = finite().fold(NOTHING, |view, p| joined(view, [*p, *p]));
+    let obstacles = LineReader::default().lines(frame);
+    let nodes = frame.positions.iter().copied();
+    let sides = view::sides(nodes.clone());
+    let seen = view::obstacles(&obstacles, nodes, bodies, view::room(bodies, settings.mirror, sides));
+    let view = mirrored(joined(bodies, seen), settings.mirror);
     let count = |number: usize, what: &str| format!("{number} {what}{}", if number == 1 { "" } else { "s" });
     let note = format!("{}, {}", count(mesh.len(), "element"), count(frame.positions.len(), "node"));
     let size = [settings.width, settings.height];
     let key = Key::Parts(cells.part_names.clone());
-    let mut scene = Scene::new(&Plan { title: &settings.title, mirror: settings.mirror, size, view, key, note: &note });
+    let mut scene = Scene::new(&Plan { title: &settings.title, mirror: settings.mirror, sides, size, view, key, note: &note });
     let positions: Vec<[f32; 2]> = frame.positions.iter().map(|p| [(p[0] - origin[0]) as f32, (p[1] - origin[1]) as f32]).collect();
     let mut canvas = scene.still().clone();
-    scene.draw(&mesh, &Moment { positions: &positions, origin, values: Values::Parts, note: &note }, &mut canvas);
+    scene.draw(&mesh, &Moment { positions: &positions, origin, obstacles: &obstacles, values: Values::Parts, note: &note }, &mut canvas);
     write_png(&canvas, path)
 }

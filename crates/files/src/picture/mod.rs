@@ -1,8 +1,8 @@
 //! Pictures of a run, as an engineer would show them: the moving field, the last state, the mesh, the history.
 //!
 //! Data comes from [`embate_solver::output`] (cells once, frames, history rows) and leaves as `animation.gif`, `final.png`, a mesh
-//! picture and two SVG plots. The way of a picture: `film` or `mesh` choose what to show, `scale` its units and ticks, `scene` lays out
-//! axes and colour bar, `body` hands cells and edges to `raster`, `text` writes, `animation` encodes; `plots` chooses curves, `svg` draws them.
+//! picture and two SVG plots. The way of a picture: `film` or `mesh` choose what to show, `view` how much of it, `scale` its units and ticks, `scene` lays out
+//! axes and colour bar, `obstacle` and `body` hand lines, cells and edges to `raster`, `text` writes, `animation` encodes; `plots` chooses curves, `svg` draws them.
 
 mod animation;
 mod body;
@@ -10,6 +10,7 @@ mod colour;
 mod field;
 mod film;
 mod mesh;
+mod obstacle;
 mod plots;
 
 mod raster;
@@ -18,6 +19,7 @@ mod scene;
 mod svg;
 
 mod text;
+mod view;
 
 pub use film::{Film, FilmSettings};
 pub use mesh::mesh_png;

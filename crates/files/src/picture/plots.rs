@@ -6,7 +6,7 @@ use super::svg::{Curve, Panel, chart};
 use super::{PictureError, write_whole};
 use std::path::Path;
 
-/// Writes `energy.svg` (all energies of the whole model over time) and `history.svg` (probe positions and contact forces, in panels over one
+/// Writes `energy.svg` (all energies of the whole model over time) and `history.svg` (probe positions and forces of contacts and obstacles, in panels over one
 /// time axis) into `folder`.
 ///
 /// `columns`: names as in `history.csv`, one of them `time` (else the first is the time); `rows`: one value per column, SI. Values that are
@@ -103,7 +103,7 @@ const ROUND_OFF: f64 = 1e-9;
 /// Probes that move less than this fraction of the distances between them are shown by their displacements: their positions would be flat lines.
 const FLAT: f64 = 0.05;
 
-/// One quantity of probes or contacts: its columns, with the names of their curves, by axis (y first: the direction in which most things fall).
+/// One quantity of probes, contacts or obstacles: its columns, with the names of their curves, by axis (y first: the direction in which most things fall).
 struct Quantity {
     name: &'static str,
     si: &'static str,
@@ -126,8 +126,14 @@ fn history(table: &Table<'_>) -> Vec<Panel> {
         })
     });
     let forces = AXES.map(|axis| {
-        let prefix = format!("contact.force_{axis}[");
-        columns(&|name| Some(name.strip_prefix(&prefix)?.strip_suffix(']')?.to_string()))
+        let prefixes = ["contact", "obstacle"].map(|kind| format!("{kind}.force_{axis}["));
+        let own = |name: &str| Some(prefixes.iter().find_map(|prefix| name.strip_prefix(prefix))?.strip_suffix(']')?.to_string());
+        columns(&|name| {
+            let own = own(name)?;
+            // A contact and an obstacle of the same name.
+            let is_twin = prefixes.iter().all(|prefix| table.columns.contains(&format!("{prefix}{own}]")));
+            Some(if is_twin && name.starts_with("obstacle") { format!("{own} (obstacle)") } else { own })
+        })
     });
     let from_start = is_flat(table, &positions);
     let name = if from_start { "displacement" } else { "position" };
@@ -220,6 +226,17 @@ mod tests {
         let columns = ["time", "A.x", "A.y", "contact.force_x[c]", "contact.force_y[c]"];
         let rows: Vec<Vec<f64>> = (0..9).map(f64::from).map(|t| vec![t, 1e-17 * t, 0.1 * t, 1e3 * t, 1e-8 * t]).collect();
         assert_eq!(names_of(&columns, &rows), ["position y", "contact force x"]);
+    }
+
+    #[test]
+    fn obstacles_are_shown_beside_contacts() {
+        let columns = ["time", "contact.force_y[a]", "obstacle.force_y[floor]", "obstacle.force_y[a]", "obstacle.force_x[floor]"];
+        let columns: Vec<String> = columns.iter().map(ToString::to_string).collect();
+        let rows: Vec<Vec<f64>> = (0..9).map(f64::from).map(|t| vec![t, t, 2.0 * t, 3.0 * t, 0.0]).collect();
+        let panels = history(&Table { columns: &columns, rows: &rows });
+        let curves: Vec<&str> = panels[0].curves.iter().map(|curve| curve.name.as_str()).collect();
+        assert_eq!((panels.len(), panels[0].name.as_str()), (1, "contact force y"));
+        assert_eq!(curves, ["a", "floor", "a (obstacle)"]);
     }
 
     #[test]

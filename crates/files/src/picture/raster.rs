@@ -240,7 +240,11 @@ impl Layer {
             if high[0] <= 0.0 || high[1] <= 0.0 || low[0] >= limit[0] || low[1] >= limit[1] {
                 return None;
             }
-            clip(polygon, limit, &mut self.clipped);
+            let corners: Vec<[f64; 2]> = polygon.iter().map(|p| p.map(f64::from)).collect();
+            let mut inside = Vec::new();
+            clip(&corners, [0.0; 2], limit.map(f64::from), &mut inside);
+            self.clipped.clear();
+            self.clipped.extend(inside.iter().map(|p| p.map(|v| v as f32)));
             polygon = &self.clipped;
             [low, high] = bounds(polygon)?;
         }
@@ -327,12 +331,12 @@ fn area(polygon: &[[f32; 2]]) -> f32 {
         .sum()
 }
 
-/// The part of `polygon` within `0..limit` in both directions (one side after the other; Sutherland and Hodgman 1974).
-fn clip(polygon: &[[f32; 2]], limit: [f32; 2], out: &mut Vec<[f32; 2]>) {
+/// The part of `polygon` between the corners `low` and `high` (one side after the other; Sutherland and Hodgman 1974).
+pub(super) fn clip(polygon: &[[f64; 2]], low: [f64; 2], high: [f64; 2], out: &mut Vec<[f64; 2]>) {
     let mut points = polygon.to_vec();
-    for (axis, bound, keep_below) in [(0, 0.0, false), (0, limit[0], true), (1, 0.0, false), (1, limit[1], true)] {
+    for (axis, bound, keep_below) in [(0, low[0], false), (0, high[0], true), (1, low[1], false), (1, high[1], true)] {
         out.clear();
-        let distance = |p: &[f32; 2]| if keep_below { bound - p[axis] } else { p[axis] - bound };
+        let distance = |p: &[f64; 2]| if keep_below { bound - p[axis] } else { p[axis] - bound };
         for i in 0..points.len() {
             let (a, b) = (points[i], points[(i + 1) % points.len()]);
             let (da, db) = (distance(&a), distance(&b));

@@ -1,19 +1,21 @@
 //! Layout of a pixel picture: title, axes with grid, colour bar or legend, all drawn once; then one frame after the other on a copy of it.
-//! `film` and `mesh` say what there is to show; bodies are drawn by `body`, the canvas goes to `animation` or to a PNG.
+//! `film` and `mesh` say what there is to show; obstacles and bodies are drawn by `obstacle` and `body`, the canvas goes to `animation` or to a PNG.
 
 use super::body::{Look, Mesh, Values};
 use super::colour::{self, BORDER, GRID, INK, MAP, TEXT, TEXT_FAINT};
+use super::obstacle;
 use super::raster::{Canvas, Layer};
 use super::scale::{Ticks, Unit, ticks, unit};
 use super::text::{self, Align, Pen, Weight};
+use crate::outline::Line;
 
 /// What stands right of the plot.
 #[derive(Clone, Debug)]
 pub(super) enum Key {
     /// Nothing.
     Empty,
-    /// A colour bar: name of the field, SI unit, range, and whether values lie below or above it.
-    Bar { label: String, si: &'static str, range: [f64; 2], beyond: [bool; 2] },
+    /// A colour bar: name of the field, SI unit, range, whether values lie below or above it, and names of the values 0, 1, ... if they are states.
+    Bar { label: String, si: &'static str, range: [f64; 2], beyond: [bool; 2], states: &'static [&'static str] },
     /// Names of parts.
     Parts(Vec<String>),
 }
@@ -23,6 +25,8 @@ pub(super) enum Key {
 pub(super) struct Plan<'a> {
     pub(super) title: &'a str,
     pub(super) mirror: [bool; 2],
+    /// On which side of each mirror line the model lies: 1 or −1.
+    pub(super) sides: [f64; 2],
     /// Largest size, pixels.
     pub(super) size: [u32; 2],
     /// Lower and upper corner of everything that must be seen, m, mirrored bodies included.
@@ -58,6 +62,7 @@ pub(super) struct Scene {
     plot: [usize; 4],
     font: f32,
     mirror: [bool; 2],
+    sides: [f64; 2],
     layer: Layer,
     looks: Option<Vec<Look>>,
     points: Vec<[f32; 2]>,
@@ -69,6 +74,7 @@ pub(super) struct Moment<'a> {
     /// Positions, m, from `origin`.
     pub(super) positions: &'a [[f32; 2]],
     pub(super) origin: [f64; 2],
+    pub(super) obstacles: &'a [Line],
     pub(super) values: Values<'a>,
     /// Text at the upper right.
     pub(super) note: &'a str,
@@ -107,7 +113,7 @@ impl Scene {
         camera.middle[0] = 0.5 * (plot[0] + plot[2]) as f64;
         let still = Canvas::new(width as usize, (top + high + below).round() as usize);
         let layer = Layer::new(plot[2].min(still.width) - plot[0], plot[3] - plot[1]);
-        let mut scene = Self { still, camera, plot, font, mirror: plan.mirror, layer, looks: None, points: Vec::new() };
+        let mut scene = Self { still, camera, plot, font, mirror: plan.mirror, sides: plan.sides, layer, looks: None, points: Vec::new() };
         scene.draw_axes(&axes);
         scene.draw_title(plan);
         scene.draw_key(&plan.key);
@@ -132,8 +138,15 @@ impl Scene {
         let signs = |mirrored: bool| if mirrored { &[1.0, -1.0][..] } else { &[1.0][..] };
         for y_sign in signs(self.mirror[1]) {
             for x_sign in signs(self.mirror[0]) {
+                let frame = self.obstacle_frame([*x_sign, *y_sign]);
+                moment.obstacles.iter().for_each(|line| obstacle::draw(&mut self.layer, line, &frame));
+            }
+        }
+        self.layer.compose(canvas, self.plot[0], self.plot[1]);
+        for y_sign in signs(self.mirror[1]) {
+            for x_sign in signs(self.mirror[0]) {
                 self.place(moment, [*x_sign, *y_sign]);
-                let unit = (self.font / 15.0).max(0.8);
+                let unit = self.unit();
                 let looks = self.looks.get_or_insert_with(|| mesh.looks(&self.points, unit));
                 mesh.draw(&mut self.layer, &self.points, planes, moment.values, looks);
             }
@@ -142,6 +155,27 @@ impl Scene {
         self.draw_symmetry(canvas);
         let pen = Pen { size: self.font, weight: Weight::Regular, colour: TEXT };
         text::draw(canvas, moment.note, self.still.width as f32 - self.font, 1.95 * self.font, Align::Right, pen);
+    }
+
+    /// Where obstacles are drawn in one of the mirror images: on its side of the mirror lines, or a floor would be drawn twice.
+    fn obstacle_frame(&self, sign: [f64; 2]) -> obstacle::Frame {
+        let zero = self.camera.pixel([0.0, 0.0]);
+        let zero = [0, 1].map(|k| zero[k] - self.plot[k] as f64);
+        let mut region = [[0.0; 2], [(self.plot[2] - self.plot[0]) as f64, (self.plot[3] - self.plot[1]) as f64]];
+        for axis in (0..2).filter(|k| self.mirror[*k]) {
+            // y grows downwards in pixels.
+            let is_upper = (self.sides[axis] * sign[axis] > 0.0) == (axis == 0);
+            let limit = zero[axis].clamp(0.0, region[1][axis]);
+            region[usize::from(!is_upper)][axis] = limit;
+        }
+        let scale = [self.camera.scale * sign[0], -self.camera.scale * sign[1]];
+        let mirrors = [0, 1].map(|k| self.mirror[k].then_some(zero[k]));
+        obstacle::Frame { zero, scale, region, mirrors, unit: f64::from(self.unit()) }
+    }
+
+    /// One for the usual font: lines grow with it.
+    fn unit(&self) -> f32 {
+        (self.font / 15.0).max(0.8)
     }
 
     /// Turns positions into pixels within the layer.
@@ -202,20 +236,20 @@ impl Scene {
         let width = self.still.width as f32;
         match key {
             Key::Empty => {}
-            Key::Bar { label, si, range, beyond } => {
-                let bar = Bar::new(si, *range);
+            Key::Bar { label, si, range, beyond, states } => {
+                let bar = Bar::new(si, *range, states);
                 let name = format!("{label}{}", bar.unit.bracket());
                 let room = width - 6.0 * font;
                 let name = text::fitted(&name, font, Weight::Regular, room);
                 text::draw(&mut self.still, &name, width - font, top - 0.6 * font, Align::Right, pen);
                 let (x0, x1) = ((right + 1.4 * font).round(), (right + 2.4 * font).round());
                 self.draw_bar(x0, x1, top, bottom, *beyond);
-                for (value, label) in bar.ticks.values.iter().zip(bar.ticks.labels()) {
+                for (value, label) in bar.values.iter().zip(&bar.labels) {
                     let share = (value / bar.unit.factor - range[0]) / (range[1] - range[0]);
                     let y = bottom - (f64::from(bottom - top) * share) as f32;
                     self.still.horizontal(x1, x1 + 0.3 * font, y, (font / 16.0).round().max(1.0), TEXT_FAINT);
                     let baseline = (y + 0.36 * font).clamp(top + 0.6 * font, bottom + 0.2 * font);
-                    text::draw(&mut self.still, &label, x1 + 0.6 * font, baseline, Align::Left, pen);
+                    text::draw(&mut self.still, label, x1 + 0.6 * font, baseline, Align::Left, pen);
                 }
             }
             Key::Parts(names) => {
@@ -308,13 +342,18 @@ impl Axes {
 /// Ticks of the colour bar.
 struct Bar {
     unit: Unit,
-    ticks: Ticks,
+    values: Vec<f64>,
+    labels: Vec<String>,
 }
 
 impl Bar {
-    fn new(si: &str, range: [f64; 2]) -> Self {
+    fn new(si: &str, range: [f64; 2], states: &[&str]) -> Self {
         let unit = unit(si, range[0].abs().max(range[1].abs()));
-        Self { ticks: ticks(range[0] * unit.factor, range[1] * unit.factor, 6), unit }
+        if states.is_empty() {
+            let ticks = ticks(range[0] * unit.factor, range[1] * unit.factor, 6);
+            return Self { labels: ticks.labels(), values: ticks.values, unit };
+        }
+        Self { values: (0..states.len()).map(|k| k as f64).collect(), labels: states.iter().map(ToString::to_string).collect(), unit }
     }
 }
 
@@ -323,7 +362,7 @@ fn key_width(plan: &Plan<'_>, font: f32, width: f32) -> f32 {
     let widest = |labels: &[String]| labels.iter().map(|l| text::width(l, font, Weight::Regular)).fold(0.0, f32::max);
     match &plan.key {
         Key::Empty => 1.5 * font,
-        Key::Bar { si, range, .. } => 4.0 * font + widest(&Bar::new(si, *range).ticks.labels()),
+        Key::Bar { si, range, states, .. } => 4.0 * font + widest(&Bar::new(si, *range, states).labels),
         Key::Parts(names) => (4.2 * font + widest(names)).min(0.3 * width),
     }
 }

@@ -6,7 +6,8 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Files of a run that lie in the folder itself.
-const FILES: &[&str] = &["summary.json", "history.csv", "fields.pvd", "animation.gif", "final.png", "energy.svg", "history.svg"];
+const FILES: &[&str] =
+    &["summary.json", "history.csv", "fields.pvd", "obstacles.pvd", "animation.gif", "final.png", "energy.svg", "history.svg"];
 /// Folder of the frames.
 const FRAMES: &str = "fields";
 /// Folder in which pictures are made before they are complete.
@@ -64,6 +65,11 @@ impl ResultFolder {
         format!("{FRAMES}/frame-{number:05}.vtu")
     }
 
+    /// Name of the obstacles at frame `number` relative to the folder.
+    pub(super) fn obstacles_name(number: usize) -> String {
+        format!("{FRAMES}/obstacles-{number:05}.vtu")
+    }
+
     /// Lets `make` write pictures into a side folder and moves those that are complete to their place.
     pub(super) fn add_pictures<E: std::fmt::Display>(&self, make: impl FnOnce(&Path) -> Result<(), E>) -> Result<(), String> {
         let side = self.path.join(PICTURES);
@@ -116,9 +122,10 @@ fn existing(path: &Path) -> Result<Vec<PathBuf>, ResultsError> {
     Ok(found)
 }
 
-/// `frame-00000.vtu`, with five digits or more, `.part` or not.
+/// `frame-00000.vtu` or `obstacles-00000.vtu`, with five digits or more, `.part` or not.
 fn is_frame(name: &str) -> bool {
-    let number = name.strip_suffix(".part").unwrap_or(name).strip_prefix("frame-").and_then(|rest| rest.strip_suffix(".vtu"));
+    let name = name.strip_suffix(".part").unwrap_or(name);
+    let number = ["frame-", "obstacles-"].iter().find_map(|prefix| name.strip_prefix(prefix)).and_then(|rest| rest.strip_suffix(".vtu"));
     number.is_some_and(|digits| digits.len() >= 5 && digits.bytes().all(|b| b.is_ascii_digit()))
 }
 
@@ -129,6 +136,7 @@ mod tests {
     #[test]
     fn only_own_frames_are_recognised() {
         assert!(is_frame("frame-00000.vtu") && is_frame("frame-123456.vtu") && is_frame("frame-00001.vtu.part"));
+        assert!(is_frame(ResultFolder::obstacles_name(7).strip_prefix("fields/").unwrap()));
         assert!(
             !is_frame("frame-0.vtu") && !is_frame("my-frame-00000.vtu") && !is_frame("frame-00000.vtk") && !is_frame("frame-0000x.vtu")
         );

@@ -8,6 +8,7 @@ use super::atomic::write_whole;
 use super::csv::CsvStream;
 use super::folder::ResultFolder;
 use super::report::{Report, RunStatus};
+use crate::outline::{Extent, LineReader};
 use crate::picture::{self, Film, FilmSettings};
 use crate::vtu::{self, VtuWriter};
 use embate_solver::model::Model;
@@ -164,17 +165,24 @@ fn picture_title(model: &Model) -> String {
     if model.title.is_empty() { model.name.clone() } else { model.title.clone() }
 }
 
-/// The field files of a run and their collection.
+/// The field files of a run, those of its obstacles, and their collections.
 struct Frames {
     writer: VtuWriter,
     written: Vec<(f64, String)>,
+    obstacles: Obstacles,
     step_last: Option<u64>,
     collected: Instant,
 }
 
 impl Frames {
     fn new(cells: &Cells) -> Self {
-        Self { writer: VtuWriter::new(cells), written: Vec::new(), step_last: None, collected: Instant::now() }
+        Self {
+            writer: VtuWriter::new(cells),
+            written: Vec::new(),
+            obstacles: Obstacles::default(),
+            step_last: None,
+            collected: Instant::now(),
+        }
     }
 
     /// Writes a frame; `false` when this step is there already, as when a run fails right at an output time.
@@ -184,6 +192,7 @@ impl Frames {
         }
         let name = ResultFolder::frame_name(self.written.len());
         write_whole(&folder.path().join(&name), &self.writer.bytes(frame, include)?)?;
+        self.obstacles.write(frame, self.written.len(), folder)?;
         self.written.push((frame.time, name));
         self.step_last = Some(frame.step);
         if self.written.len() <= COLLECTION_FRAMES || self.collected.elapsed() > COLLECTION_PAUSE {
@@ -194,7 +203,38 @@ impl Frames {
     }
 
     fn write_collection(&self, folder: &ResultFolder) -> Result<(), ResultsError> {
-        write_whole(&folder.path().join("fields.pvd"), vtu::collection(&self.written).as_bytes())
+        write_whole(&folder.path().join("fields.pvd"), vtu::collection(&self.written).as_bytes())?;
+        if self.obstacles.written.is_empty() {
+            return Ok(());
+        }
+        write_whole(&folder.path().join("obstacles.pvd"), vtu::collection(&self.obstacles.written).as_bytes())
+    }
+}
+
+/// The obstacle files of a run; none for a model without obstacles.
+#[derive(Default)]
+struct Obstacles {
+    lines: LineReader,
+    /// Box of all nodes of all frames so far: lines without end reach across it.
+    extent: Option<Extent>,
+    written: Vec<(f64, String)>,
+}
+
+impl Obstacles {
+    fn write(&mut self, frame: &Frame<2>, number: usize, folder: &ResultFolder) -> Result<(), ResultsError> {
+        if frame.outlines.is_empty() {
+            return Ok(());
+        }
+        for p in frame.positions.iter().filter(|p| p.iter().all(|v| v.is_finite())) {
+            let [low, high] = self.extent.unwrap_or([*p, *p]);
+            self.extent = Some([[0, 1].map(|k| low[k].min(p[k])), [0, 1].map(|k| high[k].max(p[k]))]);
+        }
+        let near = self.extent.unwrap_or_default();
+        let lines: Vec<Vec<[f64; 2]>> = self.lines.lines(frame).iter().map(|line| line.piece(near)).collect();
+        let name = ResultFolder::obstacles_name(number);
+        write_whole(&folder.path().join(&name), &vtu::obstacles(&lines, frame.time))?;
+        self.written.push((frame.time, name));
+        Ok(())
     }
 }
 

@@ -26,6 +26,17 @@ pub struct MomentumDrift {
     pub angular: Option<f64>,
 }
 
+/// Proof that no contact between surfaces was missed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct ContactCheck {
+    /// Pairs of a node and a segment whose paths within a step were checked for crossing, over all steps.
+    pub pairs_swept: u64,
+    /// Nodes that were found to go into a body.
+    pub crossings_found: u64,
+    /// Nodes inside a body without contact, over all steps; must be zero.
+    pub unverified: u64,
+}
+
 /// The contents of `summary.json`; the order of the fields is the order in the file. Numbers that are not finite become `null`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Report {
@@ -69,6 +80,8 @@ pub struct Report {
     pub momentum_drift: Option<MomentumDrift>,
     /// Deepest penetration seen, m.
     pub penetration_max: f64,
+    /// What was checked in the contacts.
+    pub contact: ContactCheck,
     /// Hash of positions and velocities at the end.
     pub state_hash: String,
     /// Things the user should know.
@@ -77,7 +90,7 @@ pub struct Report {
 
 impl Report {
     /// A report of the solver's figures; the rest is filled in by the recorder.
-    pub(super) fn of(summary: &Summary, model: &str, parts: &[String]) -> Self {
+    pub(crate) fn of(summary: &Summary, model: &str, parts: &[String]) -> Self {
         let momentum = MomentumDrift { linear: summary.momentum_drift_linear, angular: summary.momentum_drift_angular };
         Self {
             status: RunStatus::Done,
@@ -100,9 +113,19 @@ impl Report {
             ledger_residual: summary.ledger_residual,
             momentum_drift: (momentum.linear.is_some() || momentum.angular.is_some()).then_some(momentum),
             penetration_max: summary.penetration_max,
+            contact: ContactCheck {
+                pairs_swept: summary.contact.pairs_swept,
+                crossings_found: summary.contact.crossings_found,
+                unverified: summary.contact.unverified,
+            },
             state_hash: summary.state_hash.clone(),
             warnings: summary.warnings.clone(),
         }
+    }
+
+    /// The contents of `summary.json` as a tree.
+    pub(crate) fn value(&self) -> serde_json::Value {
+        serde_json::to_value(self).expect("plain numbers, texts and lists always have a JSON form")
     }
 
     /// The text of `summary.json`.

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used)] // what tests call may stop a test like the tests themselves
 
 use embate_files::picture::{Film, FilmSettings, PictureError, mesh_png, plots};
-use embate_solver::output::{CellKind, Cells, Field, Frame, field_kind};
+use embate_solver::output::{CellKind, Cells, Field, Frame, Outline, field_kind};
 use std::f64::consts::PI;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -197,6 +197,80 @@ fn vectors_and_components_can_be_shown() {
     }
 }
 
+/// A line around a point, from the angle `start` on, by `turn` in `count` steps; closed.
+fn arc(centre: [f64; 2], radius: f64, start: f64, turn: f64, count: u32) -> Vec<[f64; 2]> {
+    let at = |k: u32| start + turn * f64::from(k % count) / f64::from(count);
+    (0..=count).map(|k| [centre[0] + radius * at(k).cos(), centre[1] + radius * at(k).sin()]).collect()
+}
+
+/// Obstacles at `t` from 0 to 1: a floor without end, a slope beside it, a rolling solid, a box that holds everything, an open channel, the rigid wall at x = 0.
+fn outlines(t: f64) -> Vec<Outline<2>> {
+    let named = |name: &str, points| Outline { name: name.into(), points };
+    let tight = vec![[0.20, 0.16], [0.23, 0.06], [0.24, 0.16], [0.27, 0.06], [0.31, 0.06], [0.31, 0.16]];
+    vec![
+        named("floor", vec![[-9.0, -0.1], [9.0, -0.1]]),
+        named("slope", vec![[-9.0, 5.1], [9.0, -5.1]].into_iter().map(|p: [f64; 2]| [p[0] + 0.1, p[1] - 0.1]).collect()),
+        named("roller", arc([0.25 - 0.1 * t, -0.06], 0.03, -2.0 * t, -2.0 * PI, 48)),
+        named("box", vec![[-0.4, -0.2], [0.4, -0.2], [0.4, 0.35], [-0.4, 0.35], [-0.4, -0.2]]),
+        named("channel", tight),
+        named("ball", arc([0.0, 0.28], 0.04, 0.0, -2.0 * PI, 6)),
+        named("wall", vec![[0.0, -9.0], [0.0, 9.0]]),
+    ]
+}
+
+#[test]
+fn obstacles_are_seen_on_their_solid_side_in_film_and_picture() {
+    for (name, mirror) in [("whole", [false; 2]), ("mirrored", [true, false])] {
+        let folder = folder(&format!("obstacles-{name}"));
+        let mut film = Film::new(cells(), FilmSettings { mirror, ..settings() });
+        for k in 0..=10 {
+            let t = f64::from(k) / 10.0;
+            film.add(&Frame { outlines: outlines(t), ..state(t) });
+        }
+        film.finish(&folder).unwrap();
+        let picture = Picture::read(&folder.join("final.png"));
+        let middle = picture.body_columns(picture.height / 2);
+        assert!(!middle.is_empty(), "bodies are still seen");
+        mesh_png(&Frame { outlines: outlines(0.0), ..state(0.0) }, &cells(), &settings(), &folder.join("mesh.png")).unwrap();
+    }
+}
+
+#[test]
+fn a_floor_under_the_bodies_is_a_line_from_border_to_border() {
+    let folder = folder("floor");
+    let mut film = Film::new(cells(), settings());
+    let floor = Outline { name: "floor".into(), points: vec![[-1e4, -0.1], [1e4, -0.1]] };
+    film.add(&Frame { outlines: vec![floor], ..state(0.0) });
+    film.finish(&folder).unwrap();
+    let picture = Picture::read(&folder.join("final.png"));
+    let dark = |y: usize| (0..picture.width).filter(|x| picture.at(*x, y).iter().all(|c| *c < 80)).count();
+    let line = (0..picture.height).rev().find(|y| dark(*y) > picture.width * 7 / 10).expect("a dark line across the plot");
+    let body = (0..picture.height).rev().find(|y| picture.body_columns(*y).len() > 100).unwrap();
+    assert!(line > body, "the floor at {line} lies below the bodies, which end at {body}");
+    let grey = |y: usize| (0..picture.width).filter(|x| picture.at(*x, y).iter().all(|c| *c < 250)).count();
+    assert!(grey(line + 5) > picture.width * 7 / 10, "its solid side");
+    assert!(grey(line - 5) < picture.width / 10, "its free side");
+}
+
+#[test]
+fn a_field_of_the_surface_is_seen_where_it_has_values() {
+    for (field, value) in [("contact_gap", 1e-3), ("contact_status", 2.0), ("contact_pressure", 1e6)] {
+        let folder = folder(&format!("field-{field}"));
+        let mut frame = state(1.0);
+        let upper = |k: usize| k < 305 && k % 5 == 4;
+        let values = (0..frame.positions.len()).map(|k| if upper(k) { value * (1.0 + (k / 5) as f64 % 2.0) * 0.5 } else { f64::NAN });
+        frame.fields.push(Field { kind: field_kind(field).unwrap(), values: values.collect() });
+        let mut film = Film::new(cells(), FilmSettings { field: field.into(), ..settings() });
+        film.add(&frame);
+        film.finish(&folder).unwrap();
+        let picture = Picture::read(&folder.join("final.png"));
+        let coloured = (60..picture.height - 60).map(|y| picture.body_columns(y).len()).sum::<usize>();
+        let plain = (0..picture.height).flat_map(|y| (0..picture.width).map(move |x| (x, y)));
+        let plain = plain.filter(|(x, y)| picture.at(*x, *y) == [178, 184, 192]).count();
+        assert!(coloured > 1000 && plain > 1000, "{field}: {coloured} pixels with a value, {plain} without");
+    }
+}
+
 #[test]
 fn strange_frames_give_a_picture_and_no_panic() {
     let frame = |positions: Vec<[f64; 2]>| Frame { time: f64::NAN, step: 0, positions, fields: vec![], outlines: vec![] };
@@ -209,7 +283,19 @@ fn strange_frames_give_a_picture_and_no_panic() {
         }
         frame
     };
+    let odd = |points: Vec<[f64; 2]>| Frame { outlines: vec![Outline { name: "odd".into(), points }], ..state(0.5) };
     let cases = [
+        (
+            "obstacles",
+            vec![
+                odd(vec![]),
+                odd(vec![[0.1, 0.1]]),
+                odd(vec![[0.1, 0.1]; 5]),
+                odd(vec![[f64::NAN, 0.0], [1.0, 1.0]]),
+                odd(vec![[-1e300, 0.0], [1e300, 1e300]]),
+                odd(vec![[-1e9, 0.0], [1e9, 1.0], [0.0, -1e9], [-1e9, 0.0]]),
+            ],
+        ),
         ("empty", vec![frame(vec![])]),
         ("nan", vec![frame(vec![[f64::NAN; 2]; full])]),
         ("point", vec![frame(vec![[3.0, 4.0]; full])]),

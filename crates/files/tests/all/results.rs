@@ -2,7 +2,7 @@
 
 use embate_files::results::{OnProgress, Outcome, Recorder, ResultFolder, ResultsError, RunStatus};
 use embate_solver::model::Model;
-use embate_solver::output::{CellKind, Cells, FIELDS, Field, Frame, Location, Summary};
+use embate_solver::output::{CellKind, Cells, FIELDS, Field, Frame, Location, Outline, Summary};
 use embate_solver::simulation::{Control, Observer, Progress};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -67,6 +67,7 @@ fn summary(steps: u64) -> Summary {
         momentum_drift_linear: Some(1e-16),
         momentum_drift_angular: None,
         penetration_max: 0.0,
+        contact: embate_solver::contact::tracker::Certificate::default(),
         state_hash: "0123456789abcdef".into(),
         threads: 1,
         simd: "scalar".into(),
@@ -146,6 +147,7 @@ fn the_summary_has_its_keys_in_order() {
             "ledger_residual",
             "momentum_drift",
             "penetration_max",
+            "contact",
             "state_hash",
             "warnings"
         ]
@@ -268,17 +270,55 @@ fn a_lost_folder_is_reported_with_its_path() {
     assert!(outcome.unwritten.unwrap().to_string().contains("lost"));
 }
 
+/// A frame with a floor without end, a circle that moves, and a field of the surface that has no value inside.
+fn frame_with_obstacles(step: u64) -> Frame<2> {
+    let mut frame = frame(step);
+    let turned = |k: u32| -2.0 * std::f64::consts::PI * f64::from(k % 12) / 12.0;
+    let circle = (0..=12).map(|k| [3.0 + frame.time + turned(k).cos(), turned(k).sin()]).collect();
+    frame.outlines =
+        vec![Outline { name: "floor".into(), points: vec![[-1e3, -2.0], [1e3, -2.0]] }, Outline { name: "ball".into(), points: circle }];
+    let gap = frame.fields.iter_mut().find(|field| field.kind.name == "contact_gap").unwrap();
+    gap.values[2] = f64::NAN;
+    frame
+}
+
+fn record_obstacles(name: &str) -> PathBuf {
+    let path = fresh(name);
+    let mut recorder = Recorder::new(ResultFolder::create(&path, false).unwrap(), &model(), columns(), cells(), go_on()).unwrap();
+    for step in 0..=10 {
+        recorder.frame(&frame_with_obstacles(step)).unwrap();
+        recorder.row(&[step as f64 * 1e-4, 5.0]).unwrap();
+    }
+    assert!(recorder.finish(None, &summary(10), || None).unwritten.is_none());
+    path
+}
+
+#[test]
+fn obstacles_have_a_collection_of_their_own_with_the_times_of_the_fields() {
+    let folder = record_obstacles("obstacles");
+    let text = |name: &str| fs::read_to_string(folder.join(name)).unwrap();
+    assert_eq!(text("obstacles.pvd"), text("fields.pvd").replace("frame-", "obstacles-"));
+    assert_eq!(names(&folder.join("fields")).len(), 22);
+    ResultFolder::create(&folder, true).unwrap();
+    assert_eq!(names(&folder), ["fields"], "all of them are removed with the others");
+    assert!(names(&folder.join("fields")).is_empty());
+    let without = fresh("no-obstacles");
+    record(&without, go_on(), None);
+    assert!(!without.join("obstacles.pvd").exists());
+}
+
 /// Runs `tests/read_back.py` with the interpreter named by `EMBATE_PYTHON` (with meshio or vtk installed), as CI does.
 #[test]
 fn python_reads_the_results_back() {
     let folder = fresh("read-back");
     record(&folder, go_on(), None);
+    let with_obstacles = record_obstacles("read-back-obstacles");
     let Some(python) = std::env::var_os("EMBATE_PYTHON") else {
         eprintln!("skipped: EMBATE_PYTHON names no interpreter");
         return;
     };
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/read_back.py");
-    let output = Command::new(python).arg(script).arg(&folder).output().unwrap();
+    let output = Command::new(python).arg(script).args([&folder, &with_obstacles]).output().unwrap();
     let text = String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{text}");
 }

@@ -215,6 +215,10 @@ where
         bulk + 4.0 / 3.0 * shear
     }
 
+    fn bulk_modulus(&self) -> f64 {
+        self.law.stiffness()[0]
+    }
+
     fn is_plastic(&self) -> bool {
         M::PLASTIC_STRAIN.is_some()
     }

@@ -81,6 +81,8 @@ pub trait Block<const D: usize>: Send + Sync {
     fn state(&self, element: usize) -> ElementState;
     /// P-wave modulus K + 4µ/3 at rest, Pa: stiffness of the material under a contact surface.
     fn wave_modulus(&self) -> f64;
+    /// Bulk modulus K at rest, Pa.
+    fn bulk_modulus(&self) -> f64;
     /// Whether the law has a plastic strain.
     fn is_plastic(&self) -> bool;
 }

@@ -1,7 +1,8 @@
 //! Obstacles: their rigid bodies, their shapes, and the nodes that meet them.
 
-use super::{Builder, search_by_name, stiffness_of, terms};
-use crate::contact::node_segment::{NodeSegment, Slave};
+use super::{Builder, search_by_name, stiffness_of, terms_of};
+use crate::contact::formulation::Side;
+use crate::contact::node_segment::{NodeSegment, PassInput, Slave};
 use crate::contact::obstacle::circle::{Circle, RoundSegments};
 use crate::contact::obstacle::plane::Plane;
 use crate::contact::obstacle::{Both, NodeObstacle, OutlineShape, Shape};
@@ -11,13 +12,15 @@ use crate::contact::{self, Contact, ContactKind, Formulation, law, length};
 use crate::error::Fault;
 use crate::load::constraint::unit;
 use crate::mesh::surface::{NONE, Surface};
-use crate::model::{Load, Obstacle, ObstacleShape};
+use crate::model::{InitialPenetration, Interface, Load, Obstacle, ObstacleShape};
 use crate::rigid::{Body, Member, Weight};
 use std::f64::consts::TAU;
 
 /// The outside of the bodies that an obstacle stops.
 struct Met {
-    surface: Surface,
+    target: Target,
+    /// Segments on symmetry lines, which are left out of it.
+    lids: Vec<[u32; 2]>,
     /// Tributary length (m) and pressure stiffness (Pa/m) of each of its nodes.
     own: Vec<(f64, f64)>,
     /// Mean of both over the nodes.
@@ -35,7 +38,7 @@ impl Builder<'_> {
     pub(super) fn obstacles(&mut self) -> Vec<Contact> {
         let mut contacts = Vec::new();
         for (i, obstacle) in self.model.obstacles.iter().enumerate() {
-            let terms = terms(&obstacle.interface);
+            let terms = terms_of(&obstacle.interface);
             let made = self.met(obstacle, terms.law.reach()).and_then(|met| self.obstacle(obstacle, met));
             match made {
                 Ok((body, formulation)) => {
@@ -50,13 +53,13 @@ impl Builder<'_> {
     }
 
     fn met(&self, obstacle: &Obstacle, reach: f64) -> Result<Met, Fault> {
-        let surface = self.mesh.outside_without(&obstacle.parts, |segment| self.constraints.is_mirror(segment));
-        let surface = surface.map_err(|fault| Fault { path: ".parts".into(), ..fault })?;
-        let own = contact::node_stiffness(&surface, &self.stiffness_under(&surface), &self.mesh.positions);
+        let outline = self.outlined(|leave_out| self.mesh.outside_without(&obstacle.parts, leave_out), "the outside of these parts");
+        let outline = outline.map_err(|fault| Fault { path: ".parts".into(), ..fault })?;
+        let Side { target, lids, nodes: own, .. } = self.side(outline, &obstacle.interface);
         let count = own.len().max(1) as f64;
         let sum = own.iter().fold((0.0, 0.0), |sum, it| (sum.0 + it.0, sum.1 + it.1));
-        let longest = surface.segments.iter().map(|&segment| length(segment, &self.mesh.positions)).fold(0.0, f64::max);
-        Ok(Met { surface, own, mean: (sum.0 / count, sum.1 / count), longest, reach })
+        let longest = target.surface.segments.iter().map(|&segment| length(segment, &self.mesh.positions)).fold(0.0, f64::max);
+        Ok(Met { target, lids, own, mean: (sum.0 / count, sum.1 / count), longest, reach })
     }
 
     /// The body of an obstacle, and what makes springs at it.
@@ -134,8 +137,8 @@ impl Builder<'_> {
         let stiffness = stiffness_of(&obstacle.interface, law::Node { tributary: area, own, other: own, share: 1.0 }, 1);
         let slave = Slave { stiffness, area, slip: 0.0 };
         let centre = Target { surface: Surface { nodes: vec![node], ..Surface::default() }, mirrors: Vec::new() };
-        let tracker = self.tracker(vec![self.with_mirrors(met.surface), centre], &[(1, 0)]);
-        let segments = RoundSegments::new(tracker, slave, pushed, met.reach, body);
+        let tracker = self.tracker(met.target, met.lids, centre, &[(1, 0)]);
+        let segments = RoundSegments::new(tracker, slave, pushed, met.reach, body, ignores_start(&obstacle.interface));
         Ok((body, Box::new(Both::new([Box::new(nodes), Box::new(segments)]))))
     }
 
@@ -162,17 +165,21 @@ impl Builder<'_> {
             Slave { stiffness: stiffness_of(&obstacle.interface, here, passes), area: tributary / passes as f64, slip: 0.0 }
         };
         let of_parts =
-            met.surface.nodes.iter().zip(&met.own).map(|(&node, &(length, own))| slave(length, own, self.constraints.share(node)));
+            met.target.surface.nodes.iter().zip(&met.own).map(|(&node, &(length, own))| slave(length, own, self.constraints.share(node)));
         let of_corners = contact::node_stiffness(&surface, &vec![met.mean.1; lines.len()], &self.positions);
         let of_corners = of_corners.iter().map(|&(length, own)| slave(length.min(met.mean.0), own, 1.0));
-        let slaves = vec![of_parts.collect(), of_corners.collect()];
+        let passes = [of_parts.collect(), of_corners.collect()].map(|slaves| PassInput { slaves, ..PassInput::default() });
         let own = Target { surface, mirrors: Vec::new() };
-        let tracker = self.tracker(vec![self.with_mirrors(met.surface), own], &[(0, 1), (1, 0)]);
-        (body, Box::new(NodeSegment::new(tracker, slaves, obstacle.interface.thickness, met.reach)))
+        let tracker = self.tracker(met.target, met.lids, own, &[(0, 1), (1, 0)]);
+        let Interface { thickness, .. } = obstacle.interface;
+        let formulation = NodeSegment::new(tracker, passes.into(), thickness, met.reach, ignores_start(&obstacle.interface));
+        (body, Box::new(formulation))
     }
 
-    fn tracker(&self, targets: Vec<Target>, passes: &[(usize, usize)]) -> Tracker {
-        Tracker::new(targets, passes, search_by_name("").expect("the registry of searches is not empty"), &self.positions)
+    /// Follows the outside of the parts and a surface of the obstacle.
+    fn tracker(&self, parts: Target, lids: Vec<[u32; 2]>, obstacle: Target, passes: &[(usize, usize)]) -> Tracker {
+        let search = (search_by_name("").expect("the registry of searches is not empty").make)();
+        Tracker::new(vec![parts, obstacle], passes, search, &self.positions).with_bodies(&self.mesh.bodies(), &[lids, Vec::new()])
     }
 
     /// A node that belongs to no element.
@@ -194,8 +201,8 @@ impl Builder<'_> {
             let here = law::Node { tributary: length, own, other: own, share: self.constraints.share(node) };
             (!left_out(node)).then(|| (node, Slave { stiffness: stiffness_of(&obstacle.interface, here, 1), area: length, slip: 0.0 }))
         };
-        let nodes = met.surface.nodes.iter().zip(&met.own).filter_map(slave).collect();
-        NodeObstacle::new(shape, body, nodes, SKIN * met.mean.0 + met.reach)
+        let nodes = met.target.surface.nodes.iter().zip(&met.own).filter_map(slave).collect();
+        NodeObstacle::new(shape, body, nodes, SKIN * met.mean.0 + met.reach, ignores_start(&obstacle.interface))
     }
 
     /// The rigid body of an obstacle with its reference point, m.
@@ -224,6 +231,11 @@ impl Builder<'_> {
             ..Body::default()
         }
     }
+}
+
+/// Whether gaps that are negative when it begins to act count as zero. Nobody can say where bodies are when it begins later.
+fn ignores_start(interface: &Interface) -> bool {
+    interface.initial_penetration == InitialPenetration::Ignore || interface.active[0] > 0.0
 }
 
 /// Lines from node to node, as a surface.

@@ -7,9 +7,14 @@
 pub mod search;
 pub mod projection;
 pub mod tracker;
+pub mod initial;
 pub mod law;
 pub mod springs;
+pub mod formulation;
 pub mod node_segment;
+pub mod pinball;
+pub mod segment;
+pub mod tied;
 pub mod obstacle;
 pub mod traces;
 
@@ -17,7 +22,9 @@ use crate::mesh::surface::Surface;
 use crate::rigid::Bodies;
 use springs::{Spring, Springs, Totals};
 use std::ops::Range;
+use tied::Ties;
 use traces::Traces;
+use tracker::{Certificate, SearchReport};
 
 /// A vector of the plane.
 pub type Vector = [f64; 2];
@@ -30,6 +37,26 @@ pub trait Formulation: Send {
 
     /// Keeps what the next step needs of the solved springs, in the order of [`Formulation::detect`].
     fn remember(&mut self, solved: &[Spring]);
+
+    /// Energy of springs that broke in the last step and will not come back, J/m.
+    fn freed(&self) -> f64 {
+        0.0
+    }
+
+    /// Its ties, if it has such.
+    fn ties(&self) -> Option<Ties> {
+        None
+    }
+
+    /// What was checked so far, and whether a contact was missed.
+    fn certificate(&self) -> Certificate {
+        Certificate::default()
+    }
+
+    /// What the global search did, if there is one.
+    fn search_report(&self) -> Option<SearchReport> {
+        None
+    }
 }
 
 /// What a step shows to contacts.
@@ -82,6 +109,8 @@ pub struct Contact {
     pub totals: Totals,
     /// Deepest penetration in the last evaluation, m.
     pub penetration: f64,
+    /// Whether it pressed at any time so far.
+    pub has_pressed: bool,
     /// What friction took until the last half step, J/m.
     pub friction_work: f64,
     formulation: Box<dyn Formulation>,
@@ -95,7 +124,17 @@ impl Contact {
     /// A contact that has not acted yet.
     #[must_use]
     pub fn new(name: String, kind: ContactKind, formulation: Box<dyn Formulation>, active: [f64; 2]) -> Self {
-        Self { name, kind, totals: Totals::default(), penetration: 0.0, friction_work: 0.0, formulation, active, found: 0..0 }
+        Self {
+            name,
+            kind,
+            totals: Totals::default(),
+            penetration: 0.0,
+            has_pressed: false,
+            friction_work: 0.0,
+            formulation,
+            active,
+            found: 0..0,
+        }
     }
 
     /// Adds the springs of the step to `springs`; they follow the terms number `index`.
@@ -112,11 +151,31 @@ impl Contact {
     /// Sums up the solved springs: adds their forces to `forces` and `bodies`, and what they did in the update of `time_step` (s) to `traces`.
     pub fn collect(&mut self, springs: &Springs, forces: &mut [Vector], bodies: &mut Bodies, traces: &mut Traces, time_step: f64) {
         self.totals = springs.collect(self.found.clone(), forces, bodies);
+        self.has_pressed |= self.totals.pressing > 0.0;
         self.friction_work += self.totals.lost.friction;
         for spring in &springs.list[self.found.clone()] {
             traces.mark(springs, spring, time_step);
         }
         self.formulation.remember(&springs.list[self.found.clone()]);
+        self.totals.lost.freed = self.formulation.freed();
+    }
+
+    /// Its ties, if it has such.
+    #[must_use]
+    pub fn ties(&self) -> Option<Ties> {
+        self.formulation.ties()
+    }
+
+    /// What was checked so far, and whether a contact was missed.
+    #[must_use]
+    pub fn certificate(&self) -> Certificate {
+        self.formulation.certificate()
+    }
+
+    /// What the global search did, if there is one.
+    #[must_use]
+    pub fn search_report(&self) -> Option<SearchReport> {
+        self.formulation.search_report()
     }
 
     /// Moment (N) of the forces that the last step's springs put on what is not the rigid body `body`, about its reference point.

@@ -1,23 +1,70 @@
 //! Nodes against segments: a spring for each slave node, in a single pass, a double pass, or of a surface with itself.
 //!
-//! Where the nodes lie comes from the [`Tracker`]; stiffness, friction and thickness are those of the slave node.
+//! Where the nodes lie comes from the [`Tracker`]; friction and thickness are those of the slave node, the stiffness that of the softer side where they meet.
 
+use super::formulation::{FormulationKind, Setup};
 use super::projection::node_segment::{Projection, Target};
 use super::springs::{End, Spring, Springs};
-use super::tracker::{Touch, Tracker};
+use super::tracker::{Certificate, Memory, SearchReport, Touch, Tracker};
 use super::{Formulation, Scene, Vector};
+use crate::model;
+
+/// Registry entry.
+pub const DOUBLE_PASS: FormulationKind = FormulationKind {
+    name: "double_pass",
+    doc: "nodes against segments; each surface is slave once and target once in every force evaluation",
+    source: "Bittencourt and Creus (1995)",
+    make: |setup| {
+        let passes = setup.both_passes();
+        Ok(Box::new(NodeSegment::of(setup, passes)))
+    },
+};
+
+/// Registry entry.
+pub const SINGLE_PASS: FormulationKind = FormulationKind {
+    name: "single_pass",
+    doc: "nodes against segments; only the nodes of the slave surface are checked against the other one",
+    source: "Bittencourt and Creus (1995)",
+    make: |setup| {
+        let slave = if let model::Formulation::SinglePass { slave } = setup.contact.formulation { slave } else { 0 };
+        Ok(Box::new(NodeSegment::of(setup, [&[(0, 1)], &[(1, 0)]][slave.min(1)])))
+    },
+};
 
 /// The formulation.
 pub struct NodeSegment {
     tracker: Tracker,
-    /// Slave nodes of each pass, in the order of their surface.
-    slaves: Vec<Vec<Slave>>,
+    passes: Vec<PassInput>,
     /// Distance that the surfaces keep, m.
     thickness: f64,
     /// Largest gap at which the law pushes, m.
     reach: f64,
+    /// Whether gaps that are negative when the contact begins to act count as zero.
+    ignores_start: bool,
+    /// Initial positions, m: only where a surface meets itself at a distance.
+    initial: Vec<Vector>,
+    has_begun: bool,
     /// What was found in this step.
     touches: Vec<Touch>,
+}
+
+/// What a pass knows of its nodes and segments.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PassInput {
+    /// Slave nodes in the order of their surface; stiffness as their own side gives it.
+    pub slaves: Vec<Slave>,
+    /// Stiffness (N/m per metre of depth) of each slave by unit of pressure stiffness κ (Pa/m) of the target; empty where the stiffness is given.
+    pub per_modulus: Vec<f64>,
+    /// Smallest κ of the part behind each segment of the target, Pa/m.
+    pub moduli: Vec<f64>,
+}
+
+impl PassInput {
+    /// The softer of both sides decides, where they meet.
+    pub(super) fn stiffness(&self, slave: usize, segment: u32) -> f64 {
+        let own = self.slaves[slave].stiffness;
+        self.per_modulus.get(slave).map_or(own, |per| own.min(per * self.moduli[segment as usize]))
+    }
 }
 
 /// A slave node.
@@ -32,31 +79,95 @@ pub struct Slave {
 }
 
 impl NodeSegment {
-    /// For the passes of `tracker`; `slaves` per pass in the order of the slave surface's nodes, `reach` of the law, m.
+    /// For surfaces that do not meet themselves, with what each pass of `tracker` knows; `reach` of the law, m.
     #[must_use]
-    pub fn new(tracker: Tracker, slaves: Vec<Vec<Slave>>, thickness: f64, reach: f64) -> Self {
-        Self { tracker, slaves, thickness, reach, touches: Vec::new() }
+    pub fn new(tracker: Tracker, passes: Vec<PassInput>, thickness: f64, reach: f64, ignores_start: bool) -> Self {
+        Self { tracker, passes, thickness, reach, ignores_start, initial: Vec::new(), has_begun: false, touches: Vec::new() }
+    }
+
+    /// For a contact with these passes (slave, target). Where it ignores initial penetrations, gaps that are negative when it begins to act count as zero until the surfaces part.
+    #[must_use]
+    pub fn of(setup: Setup<'_>, passes: &[(usize, usize)]) -> Self {
+        // A surface that meets itself is met from both sides.
+        let sides = if setup.sides.len() == 1 { 2 } else { passes.len() };
+        let pass = |&(slave, target): &(usize, usize)| PassInput {
+            slaves: setup.slaves(slave, sides),
+            per_modulus: setup.per_modulus(slave, sides),
+            moduli: setup.sides[target].softest(),
+        };
+        let inputs = passes.iter().map(pass).collect();
+        let (thickness, reach) = (setup.contact.interface.thickness, (setup.law)().reach());
+        let initial = if thickness + reach > 0.0 { setup.positions.to_vec() } else { Vec::new() };
+        let ignores_start = setup.ignores_start();
+        let tracker = setup.tracker(passes);
+        Self { tracker, passes: inputs, thickness, reach, ignores_start, initial, has_begun: false, touches: Vec::new() }
+    }
+
+    /// Gap less the thickness. A surface keeps no more distance from itself than half of what it had: neighbours along a surface are near, and stay so.
+    fn gap(&self, touch: &Touch) -> f64 {
+        let gap = touch.projection.gap - self.thickness;
+        if !touch.own || self.initial.is_empty() {
+            return gap;
+        }
+        let target = self.tracker.target(touch.pass);
+        let distance = target.distance(self.initial[touch.node as usize], touch.projection.segment, &self.initial);
+        gap + (self.thickness + self.reach - 0.5 * distance.unwrap_or(0.0)).max(0.0)
+    }
+
+    /// Gap as the spring sees it, and the gap that counts as zero.
+    fn beyond(&self, touch: &Touch) -> (f64, f64) {
+        let gap = self.gap(touch);
+        let offset = if self.has_begun { kept(touch.memory.offset, gap) } else { gap.min(0.0) };
+        let offset = if self.ignores_start && !touch.own { offset } else { 0.0 };
+        (gap - offset, offset)
+    }
+}
+
+/// The gap that counts as zero (m, negative), after the gap has become `gap`: that of the start, until the surfaces part. One that went with the gap would give to springs
+/// what nobody put in.
+#[must_use]
+pub fn kept(offset: f64, gap: f64) -> f64 {
+    if gap < 0.0 { offset } else { 0.0 }
+}
+
+impl NodeSegment {
+    /// [`Formulation::detect`] for those slaves of the first pass that are not bound otherwise (`bound` by index; empty: all).
+    pub(super) fn detect_free(&mut self, bound: &[bool], scene: &Scene<'_>, springs: &mut Springs) {
+        self.touches.clear();
+        self.touches.extend_from_slice(self.tracker.track(scene.sweep, self.thickness + self.reach));
+        self.touches.retain(|touch| touch.pass > 0 || !bound.get(touch.slave).copied().unwrap_or(false));
+        for index in 0..self.touches.len() {
+            let touch = self.touches[index];
+            let pass = &self.passes[touch.pass];
+            let ends = ends(touch.node, &touch.projection, self.tracker.target(touch.pass), scene.sweep.new);
+            let Projection { normal, segment, .. } = touch.projection;
+            let (stiffness, area) = (pass.stiffness(touch.slave, segment), pass.slaves[touch.slave].area);
+            let (gap, offset) = self.beyond(&touch);
+            let (side, slip) = (self.tracker.side(touch.pass), touch.memory.slip);
+            springs.push(Spring { normal, gap, stiffness, area, side, slip, ..Spring::default() }, &ends);
+            self.touches[index].memory.offset = offset;
+        }
+        self.has_begun = true;
     }
 }
 
 impl Formulation for NodeSegment {
     fn detect(&mut self, scene: &Scene<'_>, springs: &mut Springs) {
-        self.touches.clear();
-        self.touches.extend_from_slice(self.tracker.track(scene.sweep, self.thickness + self.reach));
-        for touch in &self.touches {
-            let slave = self.slaves[touch.pass][touch.slave];
-            let ends = ends(touch.node, &touch.projection, self.tracker.target(touch.pass), scene.sweep.new);
-            let Projection { normal, gap, .. } = touch.projection;
-            let Slave { stiffness, area, slip } = slave;
-            let side = self.tracker.side(touch.pass);
-            springs.push(Spring { normal, gap: gap - self.thickness, stiffness, area, side, slip, ..Spring::default() }, &ends);
-        }
+        self.detect_free(&[], scene, springs);
     }
 
     fn remember(&mut self, solved: &[Spring]) {
         for (touch, spring) in self.touches.iter().zip(solved) {
-            self.slaves[touch.pass][touch.slave].slip = spring.slip_new;
+            self.tracker.remember(touch, Memory { slip: spring.slip_new, ..touch.memory });
         }
+    }
+
+    fn certificate(&self) -> Certificate {
+        self.tracker.certificate()
+    }
+
+    fn search_report(&self) -> Option<SearchReport> {
+        Some(self.tracker.search_report())
     }
 }
 

@@ -198,6 +198,14 @@ impl Mesh<2> {
         }
     }
 
+    /// Elements that are degenerate or not convex, after nodes have been moved.
+    #[must_use]
+    pub fn faults_of_elements(&self) -> Vec<Fault> {
+        let mut faults = Vec::new();
+        (0..self.parts.len()).for_each(|part| self.check_elements(part, &mut faults));
+        faults
+    }
+
     /// Nodes of a part, a `part.side` or a group, ascending; `None` when there is no such name.
     #[must_use]
     pub fn nodes(&self, name: &str) -> Option<Vec<u32>> {
@@ -210,6 +218,33 @@ impl Mesh<2> {
         self.points.get(name).cloned()
     }
 
+    /// Body of each node, from 0: what is joined by elements, of whatever parts, is one body. Bodies are numbered by their lowest nodes.
+    #[must_use]
+    pub fn bodies(&self) -> Vec<u32> {
+        let mut root: Vec<u32> = (0..self.positions.len() as u32).collect();
+        fn top(root: &mut [u32], mut node: u32) -> u32 {
+            while root[node as usize] != node {
+                root[node as usize] = root[root[node as usize] as usize];
+                node = root[node as usize];
+            }
+            node
+        }
+        for cell in self.parts.iter().flat_map(PartMesh::cells) {
+            for pair in cell.windows(2) {
+                let (a, b) = (top(&mut root, pair[0]), top(&mut root, pair[1]));
+                root[a.max(b) as usize] = a.min(b);
+            }
+        }
+        let mut count = 0;
+        let mut numbers = vec![0; root.len()];
+        for node in 0..root.len() as u32 {
+            let first = top(&mut root, node);
+            numbers[node as usize] = if first == node { count } else { numbers[first as usize] };
+            count += u32::from(first == node);
+        }
+        numbers
+    }
+
     /// Outside of some parts together (all when `parts` is empty): an edge between two of them is inside.
     ///
     /// # Errors
@@ -218,14 +253,14 @@ impl Mesh<2> {
         Surface::outside(self.parts.iter().filter(|part| parts.is_empty() || parts.contains(&part.name)).flat_map(PartMesh::cells))
     }
 
-    /// The same without the segments that `leave_out` names (those on a symmetry line, which are no outside of the whole body).
+    /// As [`Mesh::outside`], without the segments that `leave_out` names.
     ///
     /// # Errors
     /// As [`Mesh::outside`].
     pub fn outside_without(&self, parts: &[String], leave_out: impl Fn([u32; 2]) -> bool) -> Result<Surface, Fault> {
-        let whole = self.outside(parts)?;
-        let cells = self.parts.iter().filter(|part| parts.is_empty() || parts.contains(&part.name)).flat_map(PartMesh::cells);
-        Surface::new(whole.segments.into_iter().filter(|&segment| !leave_out(segment)).collect(), cells)
+        let cells = || self.parts.iter().filter(|part| parts.is_empty() || parts.contains(&part.name)).flat_map(PartMesh::cells);
+        let segments = surface::exterior(cells())?;
+        Surface::new(segments.into_iter().filter(|&segment| !leave_out(segment)).collect(), cells())
     }
 
     /// Surface of a part (its whole outside), a `part.side` or a one-dimensional group, without the segments that `leave_out` names (those on

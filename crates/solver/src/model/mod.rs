@@ -220,6 +220,19 @@ pub enum Formulation {
     Pinball,
 }
 
+impl Formulation {
+    /// Name in the model file and in [`crate::contact::formulation::FORMULATIONS`].
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::DoublePass => "double_pass",
+            Self::SinglePass { .. } => "single_pass",
+            Self::Segment => "segment",
+            Self::Pinball => "pinball",
+        }
+    }
+}
+
 /// What an automatic penalty is made from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum PenaltySource {

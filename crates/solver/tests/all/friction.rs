@@ -119,7 +119,7 @@ fn damping_takes_energy_and_keeps_both_momenta() {
 #[test]
 fn a_multiplier_holds_the_gap_at_round_off_and_loses_only_in_impacts() {
     let mut losses = vec![];
-    for refine in [1, 2] {
+    for refine in [1, 4] {
         let mut model = model(3e-4);
         // No lateral strain: ends that bulge are curved, and there the gap is zero to second order of the step only.
         for material in model.materials.values_mut() {
@@ -137,7 +137,6 @@ fn a_multiplier_holds_the_gap_at_round_off_and_loses_only_in_impacts() {
             simulation.advance(f64::INFINITY, 1).unwrap();
             deepest = deepest.max(history_end(&simulation, "contact.penetration[left-right]"));
             let now = simulation.ledger().stores.contact_damping;
-            eprintln!("{} t {:.4e} dt {:.4e} pen {:.3e} F {:.4e} loss {:.4e}", simulation.steps(), simulation.time(), simulation.time_step(), history_end(&simulation, "contact.penetration[left-right]"), history_end(&simulation, "contact.force_x[left-right]"), now);
             assert!(now >= lost - 1e-12, "it gives energy back: {lost} {now} in step {} {deepest}", simulation.steps());
             lost = lost.max(now);
         }
@@ -149,7 +148,7 @@ fn a_multiplier_holds_the_gap_at_round_off_and_loses_only_in_impacts() {
         // The bars part with exchanged velocities.
         assert!((history_end(&simulation, "left.vx") + 5.0).abs() < 0.15, "{}", history_end(&simulation, "left.vx"));
     }
-    assert!(losses[0] < 0.05 && losses[1] < 0.6 * losses[0], "the loss vanishes with the size of the elements: {losses:?}");
+    assert!(losses[0] < 0.05 && losses[1] < 0.4 * losses[0], "the loss vanishes with the size of the elements: {losses:?}");
 }
 
 #[test]

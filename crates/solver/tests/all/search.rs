@@ -315,6 +315,33 @@ fn a_node_that_crosses_a_thin_body_within_one_step_is_found() {
 }
 
 #[test]
+fn many_threads_find_the_same_pairs() {
+    let mut bodies = (vec![], vec![]);
+    for k in 0..1500 {
+        ring(&mut bodies, [f64::from(k % 40) * 1.9, f64::from(k / 40) * 2.1], 1.0, 17);
+    }
+    let scene = Scene::still(bodies.0, bodies.1, 0.1).moved(|i, x| [x[0] + 0.01 * (i % 7) as f64, x[1]]);
+    let alone = scene.pairs("grid");
+    assert!(alone.len() > 5000, "{}", alone.len());
+    for threads in [1, 2, 3, 7] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        assert_eq!(pool.install(|| scene.pairs("grid")), alone, "{threads} threads");
+    }
+}
+
+#[test]
+fn a_position_that_is_no_number_hides_no_facet_after_it() {
+    // Wherever it lies in a long chain, the facets that follow are found.
+    let positions: Vec<_> = (0..40).map(|i| [f64::from(i), 0.0]).chain((0..40).map(|i| [f64::from(i), 0.01])).collect();
+    let clean = Scene::still(positions, (0..39).map(|i| [i, i + 1]).collect(), 0.02);
+    for bad in 0..40 {
+        let mut scene = clean.clone();
+        scene.new[bad][1] = f64::NAN;
+        check(&scene);
+    }
+}
+
+#[test]
 fn positions_that_are_not_numbers_meet_nothing_and_disturb_nothing() {
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         for d in 0..2 {

@@ -69,7 +69,8 @@ pub const LAWS: &[ContactLawKind] = &[penalty::KIND, pressure_gap::KIND, multipl
 pub fn damped(law: &dyn Law, closing: &Closing<'_>, fraction: f64, rate_old: f64, time_steps: [f64; 2]) -> f64 {
     let Closing { spring, old, free, compliance } = *closing;
     let [before, after] = time_steps;
-    if compliance <= 0.0 {
+    // Multipliers have nothing to damp: they leave no rate behind.
+    if compliance <= 0.0 || !law.is_elastic() {
         return law.force(closing, time_steps);
     }
     // compliance = ½ dt^n · ½ (dt^{n−1} + dt^n) / m

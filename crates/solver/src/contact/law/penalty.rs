@@ -1,8 +1,12 @@
 //! Penalty: a spring that only pushes. F = k_n |G| where the gap G is negative, eq. (11) of the paper; energy ½ k_n G².
 //!
 //! Stiffness of a slave node: given (the paper's k_n), a pressure per depth times the node's tributary length, or automatic: the stiffness
-//! κ = (K + 4µ/3) L / A of the elements under the surface (modulus over element height) times the tributary length, the softer of both
-//! bodies; half of it in a double pass, where both passes act.
+//! κ of the elements under the surface times the tributary length, the softer of both bodies; half of it in a double pass, where both passes act. What κ is:
+//!
+//! - `wave_modulus`: (K + 4µ/3) L / A, the modulus of plane waves over the height of the element; as stiff as the element itself.
+//! - `bulk_modulus`: K L / A, as in Hallquist, Goudreau and Benson, Comput. Meth. Appl. Mech. Engng 51 (1985) 107-137 (K A² / V in space): softer for metals, nearly the same for rubber.
+//! - `time_step`: α m / (dt² A) with the node's mass m, its tributary length A, the first step dt and α = 0.1: a spring with k = α m / dt², for bodies whose moduli differ by
+//!   orders, or say nothing (the "soft constraint" of explicit codes, LS-DYNA Theory Manual, chapter on contact). With m ~ ρ A h / 2 and dt ~ 0.9 h / c it is about 0.06 (K + 4µ/3) A / h.
 
 use super::{ContactLawKind, Law, Node};
 use crate::contact::springs::{Closing, Spring};
@@ -34,6 +38,15 @@ pub const KIND: ContactLawKind = ContactLawKind {
     ],
 };
 
+/// Fraction α of m / dt² that `penalty_from = "time_step"` takes.
+const OF_TIME_STEP: f64 = 0.1;
+
+/// κ of a node from its mass m (kg/m), the first step dt (s) and its tributary length A (m): α m / (dt² A), Pa/m.
+#[must_use]
+pub fn of_time_step(mass: f64, time_step: f64, length: f64) -> f64 {
+    OF_TIME_STEP * mass / (time_step * time_step * length)
+}
+
 /// Spring stiffness of a slave node, N/m per metre of depth; `passes` 1 or 2.
 #[must_use]
 pub fn stiffness(penalty: model::Penalty, node: Node, passes: usize) -> f64 {
@@ -42,6 +55,18 @@ pub fn stiffness(penalty: model::Penalty, node: Node, passes: usize) -> f64 {
         // Tributary lengths end at the symmetry line already.
         model::Penalty::Pressure(pressure) => pressure * node.tributary,
         model::Penalty::Automatic { scale, .. } => scale * node.tributary * node.own.min(node.other) / passes as f64,
+    }
+}
+
+/// Pressure per depth between two segments with κ = `own` and `other` behind them, Pa/m.
+///
+/// A stiffness per node has none: formulations without slave nodes refuse it before.
+#[must_use]
+pub fn pressure(penalty: model::Penalty, own: f64, other: f64) -> f64 {
+    match penalty {
+        model::Penalty::PerNode(_) => 0.0,
+        model::Penalty::Pressure(pressure) => pressure,
+        model::Penalty::Automatic { scale, .. } => scale * own.min(other),
     }
 }
 

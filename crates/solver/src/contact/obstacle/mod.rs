@@ -6,8 +6,9 @@
 pub mod circle;
 pub mod plane;
 
-use super::node_segment::Slave;
+use super::node_segment::{Slave, kept};
 use super::springs::{End, Spring, Springs};
+use super::tracker::{Certificate, SearchReport};
 use super::{Formulation, Scene, Vector};
 use crate::output::Outline;
 use crate::rigid::Bodies;
@@ -36,6 +37,8 @@ pub struct Memory {
     pub presses: bool,
     /// Normal along which it is held, in the frame of the body.
     pub normal: Vector,
+    /// Gap that counts as zero, m.
+    pub offset: f64,
 }
 
 /// Where a node is with respect to an obstacle that has another side.
@@ -87,6 +90,9 @@ pub struct NodeObstacle {
     memories: Vec<Memory>,
     /// Nodes within this distance get a spring, m.
     reach: f64,
+    /// Whether gaps that are negative when it begins to act count as zero.
+    ignores_start: bool,
+    has_begun: bool,
     /// Indices of the nodes with springs in this step.
     found: Vec<u32>,
 }
@@ -94,8 +100,9 @@ pub struct NodeObstacle {
 impl NodeObstacle {
     /// For `nodes`; `reach` is a fraction of the nodes' spacing and the reach of the law, m.
     #[must_use]
-    pub fn new(shape: Box<dyn Shape>, body: usize, nodes: Vec<(u32, Slave)>, reach: f64) -> Self {
-        Self { shape, body, memories: vec![Memory::default(); nodes.len()], nodes, reach, found: Vec::new() }
+    pub fn new(shape: Box<dyn Shape>, body: usize, nodes: Vec<(u32, Slave)>, reach: f64, ignores_start: bool) -> Self {
+        let memories = vec![Memory::default(); nodes.len()];
+        Self { shape, body, memories, nodes, reach, ignores_start, has_begun: false, found: Vec::new() }
     }
 }
 
@@ -110,6 +117,10 @@ impl Formulation for NodeObstacle {
             let met = self.shape.meet(way, memory);
             let pressed = std::mem::replace(&mut memory.presses, false);
             let Some((gap, normal)) = met else { continue };
+            if self.ignores_start {
+                memory.offset = if self.has_begun { kept(memory.offset, gap) } else { gap.min(0.0) };
+            }
+            let gap = gap - memory.offset;
             let moved = [way.to[0] - way.from[0], way.to[1] - way.from[1]];
             // Who comes from behind, or past a corner, has pressed no spring that could give anything back.
             if gap >= 0.0 && !pressed && normal[0] * moved[0] + normal[1] * moved[1] > 2.0 * gap {
@@ -118,11 +129,12 @@ impl Formulation for NodeObstacle {
             // Well before it touches: a spring that closes unseen would give back what it never took.
             if gap <= self.reach + 4.0 * (moved[0].abs() + moved[1].abs()) {
                 let Slave { stiffness, area, slip } = slave;
-                let ends = [End::node(node, 1.0), End { at, share: -1.0, turn: [0.0; 2], point: x }];
+                let ends = [End::node(node, 1.0), End { at, share: -1.0, point: x, ..End::default() }];
                 springs.push(Spring { normal: body.to_global(normal), gap, stiffness, area, side: 1.0, slip, ..Spring::default() }, &ends);
                 self.found.push(index as u32);
             }
         }
+        self.has_begun = true;
     }
 
     fn remember(&mut self, solved: &[Spring]) {
@@ -162,5 +174,15 @@ impl Formulation for Both {
         let (first, second) = solved.split_at(self.split.min(solved.len()));
         self.parts[0].remember(first);
         self.parts[1].remember(second);
+    }
+
+    fn certificate(&self) -> Certificate {
+        let mut sum = self.parts[0].certificate();
+        sum += self.parts[1].certificate();
+        sum
+    }
+
+    fn search_report(&self) -> Option<SearchReport> {
+        self.parts.iter().find_map(|part| part.search_report())
     }
 }

@@ -10,14 +10,23 @@
 //! - *Rolled up.* Cell (x, y) is bucket (x + s y) mod m, m a power of two of about the number of groups. When the whole grid has at most m
 //!   cells, s is the length of a row and every cell has its own bucket; else s ≈ 0.618 m spreads rows evenly, and cells that share a bucket
 //!   only cost comparisons. Neighbours in x stay neighbours in memory: a row of cells is one piece of the sorted list.
+//! - *Eight at a time.* Boxes lie in eights side by side, so that one comparison of vectors tells which of them meet a box; a group of
+//!   facets never lies in two of the eights. See `compare`.
 //! - *Counting sort* of groups into buckets. What is done per facet runs through memory in the order of the list, and slave groups go through each
 //!   stage in batches and without branches on what was just loaded, so that the processor waits for many far places at a time.
 //! - *Whole numbers decide.* A cell number is a monotone function of the coordinate, whatever its rounding, and the number of cells that a box
 //!   spans is measured, so no pair is lost at cell boundaries.
 
+mod compare;
+mod worker;
+
+use super::eight::Eight;
 use super::extent::{Extent, Margin};
 use super::size_class::Sizes;
 use super::{Pair, Query, Search, SearchKind};
+use embate_lanes::{BATCH as GROUP, Level as Instructions};
+use rayon::prelude::*;
+use worker::Worker;
 
 pub(super) fn kind<const D: usize>() -> SearchKind<D> {
     SearchKind {
@@ -28,29 +37,43 @@ pub(super) fn kind<const D: usize>() -> SearchKind<D> {
     }
 }
 
-/// Most facets in a group, most slave nodes in a group.
-const GROUP: usize = 8;
 /// Edge of a cell over the largest group of its level.
 const CELL: f64 = 1.0;
 /// Buckets per group, rounded up to a power of two.
 const BUCKETS: usize = 1;
 
-/// Slave groups that go through each stage of the search together.
-const BATCH: usize = 16;
+/// Least number of slave nodes in a share.
+const SHARE: usize = 2048;
+/// Shares per thread: who is done early takes another.
+const SHARES: usize = 4;
+/// No bucket.
+const NOWHERE: u32 = u32::MAX;
 
 /// Storage kept between calls; nothing is allocated once it has grown to the size of the problem.
+#[derive(Default)]
 struct Grid<const D: usize> {
-    /// Box of each facet; [`Extent::NONE`] where a node is not finite.
-    facets: Vec<Extent<D>>,
+    cells: Cells<D>,
+    /// One for each share of the slave nodes.
+    workers: Vec<Worker<D>>,
+}
+
+/// The facets, sorted into cells.
+struct Cells<const D: usize> {
+    /// Instruction set of this machine; all give the same pairs.
+    instructions: Instructions,
+    /// Boxes of the facets, eight and eight; [`Extent::NONE`] where a node is not finite.
+    facets: Vec<Eight<D>>,
     /// Groups of facets in order.
     groups: Vec<Group<D>>,
-    /// The same, bucket by bucket.
-    sorted: Vec<Group<D>>,
+    /// Their boxes bucket by bucket, eight and eight.
+    sorted: Vec<Eight<D>>,
+    /// And their numbers.
+    order: Vec<u32>,
     /// Where each bucket begins in `sorted`; one more than there are buckets.
     begin: Vec<u32>,
-    /// Groups whose box is too large for numbers: compared with every slave node.
-    unbounded: Vec<Group<D>>,
-    /// Bucket of each group in `groups`; before that is known, the binary exponent of its size.
+    /// Groups whose box is too large for numbers: in no bucket, compared with every slave node.
+    unbounded: Vec<u32>,
+    /// Bucket of each group in `groups`; before that is known, the binary exponent of its size. [`NOWHERE`] for an unbounded one.
     place: Vec<u32>,
     /// Size classes.
     levels: Vec<Level<D>>,
@@ -58,26 +81,6 @@ struct Grid<const D: usize> {
     sizes: Sizes,
     /// Box of all groups that are not unbounded.
     bounds: Extent<D>,
-    /// A few groups of slave nodes that are worked on together.
-    slaves: Vec<SlaveGroup<D>>,
-    /// Where in `sorted` each of them has to look: beginnings and ends.
-    pieces: Vec<(u32, u32)>,
-    /// Groups of facets that each of them meets.
-    found: Vec<Group<D>>,
-}
-
-/// Slave nodes that follow each other in the query.
-struct SlaveGroup<const D: usize> {
-    /// Number of the first.
-    begin: usize,
-    /// How many.
-    count: usize,
-    /// Path of each; [`Extent::NONE`] where it is not finite.
-    paths: [Extent<D>; GROUP],
-    /// Box of all.
-    extent: Extent<D>,
-    /// Where its entries in `found` end; they begin where those of the group before end.
-    found: usize,
 }
 
 /// Facets `begin..end`.
@@ -147,45 +150,59 @@ impl<const D: usize> Level<D> {
     }
 }
 
-impl<const D: usize> Default for Grid<D> {
+impl<const D: usize> Default for Cells<D> {
     fn default() -> Self {
         Self {
+            instructions: Instructions::best(),
             facets: Vec::new(),
             groups: Vec::new(),
             sorted: Vec::new(),
+            order: Vec::new(),
             begin: Vec::new(),
             unbounded: Vec::new(),
             place: Vec::new(),
             levels: Vec::new(),
             sizes: Sizes::default(),
             bounds: Extent::NONE,
-            slaves: Vec::new(),
-            pieces: Vec::new(),
-            found: Vec::new(),
         }
     }
 }
 
 impl<const D: usize> Search<D> for Grid<D> {
     fn pairs(&mut self, query: &Query<'_, D>, pairs: &mut Vec<Pair>) {
+        let Self { cells, workers } = self;
+        cells.sort(query);
+        // Shares are for threads of the pool that this runs in, if any; they change no pair.
+        let threads = rayon::current_thread_index().map_or(1, |_| rayon::current_num_threads());
+        let count = (query.slaves.len() / SHARE).clamp(1, if threads > 1 { SHARES * threads } else { 1 });
+        workers.resize_with(count.max(workers.len()), Worker::default);
+        let share = query.slaves.len().div_ceil(count);
+        let shares = |number: usize| (number * share).min(query.slaves.len())..((number + 1) * share).min(query.slaves.len());
         pairs.clear();
-        self.group_facets(query);
-        self.choose_levels();
-        self.sort_into_buckets();
-        // Slave groups are as large as the most common facet groups.
-        let limit = self.levels.iter().max_by_key(|l| l.count).map_or(0.0, |l| 1.0 / l.inverse);
-        let mut slave = 0;
-        let mut written = 0;
-        while slave < query.slaves.len() {
-            slave = self.group_slaves(query, slave, limit);
-            self.look_around();
-            written = self.compare(query, pairs, written);
+        if count == 1 {
+            workers[0].search(cells, query, shares(0), pairs);
+            return;
         }
-        pairs.truncate(written);
+        let work = |(number, worker): (usize, &mut Worker<D>)| {
+            let mut pairs = std::mem::take(&mut worker.pairs);
+            worker.search(cells, query, shares(number), &mut pairs);
+            worker.pairs = pairs;
+        };
+        workers[..count].par_iter_mut().enumerate().for_each(work);
+        for worker in &workers[..count] {
+            pairs.extend_from_slice(&worker.pairs);
+        }
     }
 }
 
-impl<const D: usize> Grid<D> {
+impl<const D: usize> Cells<D> {
+    /// Takes in the facets of a query.
+    fn sort(&mut self, query: &Query<'_, D>) {
+        self.group_facets(query);
+        self.choose_levels();
+        self.sort_into_buckets();
+    }
+
     /// Boxes of all facets, taken together in groups.
     fn group_facets(&mut self, query: &Query<'_, D>) {
         let margin = Margin::new(query.reach);
@@ -200,13 +217,18 @@ impl<const D: usize> Grid<D> {
         let mut together = 0.0;
         for (nodes, facet) in query.facets.iter().zip(0_u32..) {
             let extent = Extent::of_facet(query, nodes, margin).unwrap_or(Extent::NONE);
-            self.facets.push(extent);
+            if (facet as usize).is_multiple_of(GROUP) {
+                self.facets.push(Eight::NONE);
+            }
             if extent.is_none() {
                 continue;
             }
+            if let Some(eight) = self.facets.last_mut() {
+                eight.set(facet as usize, &extent);
+            }
             let both = group.extent.with(&extent);
             together += extent.size();
-            if facet - group.begin < GROUP as u32 && both.size() <= together {
+            if facet / GROUP as u32 == group.begin / GROUP as u32 && both.size() <= together {
                 group.extent = both;
             } else {
                 self.add(group);
@@ -221,13 +243,17 @@ impl<const D: usize> Grid<D> {
     /// Takes in a group when it is complete; an empty one is dropped.
     fn add(&mut self, group: Group<D>) {
         let size = group.extent.size();
-        if !size.is_finite() {
-            self.unbounded.push(group);
-        } else if !group.extent.is_none() {
+        if group.extent.is_none() {
+            return;
+        }
+        if size.is_finite() {
             self.bounds = self.bounds.with(&group.extent);
             self.place.push(self.sizes.add(size));
-            self.groups.push(group);
+        } else {
+            self.unbounded.push(self.groups.len() as u32);
+            self.place.push(NOWHERE);
         }
+        self.groups.push(group);
     }
 
     /// One level per size class of the groups.
@@ -245,7 +271,7 @@ impl<const D: usize> Grid<D> {
 
     /// Counting sort of the groups by bucket, stable.
     fn sort_into_buckets(&mut self) {
-        for (group, place) in self.groups.iter().zip(&mut self.place) {
+        for (group, place) in self.groups.iter().zip(&mut self.place).filter(|(_, place)| **place != NOWHERE) {
             let level = &mut self.levels[self.sizes.class_of(*place)];
             let cell = std::array::from_fn(|d| level.cell(d, group.extent.low[d]));
             for d in 0..D {
@@ -260,147 +286,15 @@ impl<const D: usize> Grid<D> {
             sum += *begin;
             *begin = sum;
         }
-        self.sorted.resize(self.groups.len(), Group::NONE);
-        for (group, &place) in self.groups.iter().zip(&self.place).rev() {
+        self.sorted.resize(self.groups.len().div_ceil(GROUP), Eight::NONE);
+        self.order.resize(self.groups.len(), 0);
+        for (number, (group, &place)) in self.groups.iter().zip(&self.place).enumerate().rev().filter(|(_, (_, place))| **place != NOWHERE)
+        {
             let begin = &mut self.begin[place as usize];
             *begin -= 1;
-            self.sorted[*begin as usize] = *group;
-        }
-    }
-
-    /// The next few groups of slave nodes from `begin` on; returns where they end.
-    fn group_slaves(&mut self, query: &Query<'_, D>, mut begin: usize, limit: f64) -> usize {
-        self.slaves.clear();
-        while self.slaves.len() < BATCH && begin < query.slaves.len() {
-            let mut group = SlaveGroup { begin, count: 0, paths: [Extent::NONE; GROUP], extent: Extent::NONE, found: 0 };
-            for (path, &node) in group.paths.iter_mut().zip(&query.slaves[begin..]) {
-                *path = Extent::of_path(query, node).unwrap_or(Extent::NONE);
-                let both = group.extent.with(path);
-                if group.count > 0 && both.size() > limit {
-                    break;
-                }
-                group.extent = both;
-                group.count += 1;
-            }
-            begin += group.count;
-            self.slaves.push(group);
-        }
-        begin
-    }
-
-    /// For each group of slave nodes the groups of facets that meet its box, ascending, into `found`.
-    fn look_around(&mut self) {
-        self.pieces.clear();
-        for number in 0..self.slaves.len() {
-            if self.slaves[number].extent.meets(&self.bounds) {
-                for level in 0..self.levels.len() {
-                    self.look_at(level, number);
-                }
-            }
-            // One more piece for the unbounded ones, which marks the end of this group's pieces.
-            self.pieces.push((u32::MAX, 0));
-        }
-        let mut slaves = self.slaves.iter_mut();
-        let Some(mut group) = slaves.next() else { return };
-        let (mut first, mut end) = (0, 0);
-        for &(from, to) in &self.pieces {
-            if from < u32::MAX {
-                let piece = &self.sorted[from as usize..to as usize];
-                if self.found.len() < end + piece.len() {
-                    self.found.resize(end + piece.len(), Group::NONE);
-                }
-                for candidate in piece {
-                    self.found[end] = *candidate;
-                    end += usize::from(candidate.extent.meets(&group.extent));
-                }
-                continue;
-            }
-            if !self.unbounded.is_empty() && !group.extent.is_none() {
-                self.found.truncate(end);
-                self.found.extend(&self.unbounded);
-                end = self.found.len();
-            }
-            let own = &mut self.found[first..end];
-            own.sort_unstable_by_key(|g| g.begin);
-            // On a rolled up grid two rows of cells may share buckets.
-            let mut kept = 0;
-            for i in 0..own.len() {
-                if kept == 0 || own[kept - 1].begin != own[i].begin {
-                    own[kept] = own[i];
-                    kept += 1;
-                }
-            }
-            end = first + kept;
-            group.found = end;
-            first = end;
-            match slaves.next() {
-                Some(next) => group = next,
-                None => return,
-            }
-        }
-    }
-
-    /// Writes the pairs of the slave groups with the facets of the groups that they found, from `written` on; returns where they end.
-    fn compare(&self, query: &Query<'_, D>, pairs: &mut Vec<Pair>, mut written: usize) -> usize {
-        let mut first = 0;
-        for slaves in &self.slaves {
-            let found = &self.found[first..slaves.found];
-            first = slaves.found;
-            for (path, slave) in slaves.paths[..slaves.count].iter().zip(slaves.begin..) {
-                let node = query.slaves[slave];
-                for group in found.iter().filter(|g| g.extent.meets(path)) {
-                    if pairs.len() < written + GROUP {
-                        pairs.resize(written + 1024, Pair { slave: 0, facet: 0 });
-                    }
-                    let place = &mut pairs[written..written + GROUP];
-                    let mut count = 0;
-                    let range = group.begin as usize..group.end as usize;
-                    for ((extent, nodes), facet) in self.facets[range.clone()].iter().zip(&query.facets[range]).zip(group.begin..) {
-                        place[count % GROUP] = Pair { slave: slave as u32, facet };
-                        count += usize::from(extent.meets(path) & !nodes.contains(&node));
-                    }
-                    written += count;
-                }
-            }
-        }
-        written
-    }
-
-    /// Adds the pieces of `sorted` in which one level's groups lie that may meet the box of a group of slave nodes.
-    fn look_at(&mut self, level: usize, slaves: usize) {
-        let Self { levels, begin, pieces, .. } = self;
-        let (level, extent) = (&levels[level], &self.slaves[slaves].extent);
-        let low: [i64; D] = std::array::from_fn(|d| level.cell(d, extent.low[d]).saturating_sub(level.span).max(0));
-        let high: [i64; D] = std::array::from_fn(|d| level.cell(d, extent.high[d]).min(level.last[d]));
-        if (0..D).any(|d| low[d] > high[d]) {
-            return;
-        }
-        let mut add = |from: usize, to: usize| pieces.push((begin[from], begin[to]));
-        let buckets = level.mask as usize + 1;
-        let columns = (high[0] - low[0]) as u64;
-        let rows = (1..D).fold(1.0, |rows, d| rows * ((high[d] - low[d]) as f64 + 1.0));
-        if columns >= level.mask || rows > level.count as f64 {
-            add(level.base, level.base + buckets);
-            return;
-        }
-        let mut cell = low;
-        loop {
-            let first = level.bucket(&cell) as usize;
-            let end = first + columns as usize + 1;
-            add(level.base + first, level.base + end.min(buckets));
-            if end > buckets {
-                add(level.base, level.base + end - buckets);
-            }
-            // The next row: counts up like a meter.
-            let mut d = 1;
-            while d < D && cell[d] == high[d] {
-                cell[d] = low[d];
-                d += 1;
-            }
-            if d >= D {
-                return;
-            }
-            cell[d] += 1;
+            let at = *begin as usize;
+            self.sorted[at / GROUP].set(at, &group.extent);
+            self.order[at] = number as u32;
         }
     }
 }

@@ -7,6 +7,7 @@
 
 mod boxes;
 mod brute_force;
+mod eight;
 mod extent;
 mod grid;
 mod nearest_node;

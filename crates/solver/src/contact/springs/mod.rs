@@ -54,6 +54,8 @@ pub struct Spring {
     pub slides: bool,
     /// Energy at the whole step n, J/m, in step with ½ Σ m v^{n-1/2}·v^{n+1/2}: ½ (V(g^{n−½}) + V(g^{n+½})) + ½ F (g^{n+½} + g^{n−½} − 2 g^n).
     pub energy: f64,
+    /// Energy at n + ½ of the gap, and of a tie's slip, J/m.
+    pub stored: [f64; 2],
     /// Energy of the elastic slip at n, J/m: ¼ k (s^{n−½}² + s^{n+½}²).
     pub slip_energy: f64,
     /// Work of both forces in the velocity update, J/m.
@@ -73,6 +75,8 @@ pub struct Lost {
     pub damping: f64,
     /// The same two impulses times the old rates instead of the mean ones.
     pub old: [f64; 2],
+    /// Energy at n + ½ of springs that are no more at n + 1: ties that broke.
+    pub freed: f64,
 }
 
 impl std::ops::AddAssign for Lost {
@@ -81,18 +85,21 @@ impl std::ops::AddAssign for Lost {
         self.damping += other.damping;
         self.old[0] += other.old[0];
         self.old[1] += other.old[1];
+        self.freed += other.freed;
     }
 }
 
 /// What a spring does to one node or rigid body: rows of the rates of gap and slip.
 ///
-/// ġ = Σ share n·v, ṡ = Σ (share t + turn)·v with t = (n₂, −n₁). On a rigid body v is its velocity at `point`.
+/// ġ = Σ (share n + lean)·v, ṡ = Σ (share t + turn)·v with t = (n₂, −n₁). On a rigid body v is its velocity at `point`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct End {
     /// Node, or number of nodes + rigid body.
     pub at: u32,
     /// Share in the gap.
     pub share: f64,
+    /// What the gap's rate has beyond: of points that move along segments which are inclined to the tangent.
+    pub lean: Vector,
     /// What makes the slip rate blind to rotation of both surfaces together, and friction keep the angular momentum.
     pub turn: Vector,
     /// Where the forces act on a rigid body without nodes, m.
@@ -109,8 +116,20 @@ impl End {
     /// Force of a solved spring on this end, N/m.
     #[must_use]
     pub fn force(&self, spring: &Spring) -> Vector {
-        let t = tangent(spring.normal);
-        [0, 1].map(|d| self.share * spring.normal[d] * spring.force + (self.share * t[d] + self.turn[d]) * spring.friction)
+        let (gap_row, slip_row) = (self.gap_row(spring.normal), self.slip_row(tangent(spring.normal)));
+        [0, 1].map(|d| gap_row[d] * spring.force + slip_row[d] * spring.friction)
+    }
+
+    /// Row of the gap's rate.
+    #[inline]
+    fn gap_row(&self, normal: Vector) -> Vector {
+        [0, 1].map(|d| self.share * normal[d] + self.lean[d])
+    }
+
+    /// Row of the slip's rate.
+    #[inline]
+    fn slip_row(&self, tangent: Vector) -> Vector {
+        [0, 1].map(|d| self.share * tangent[d] + self.turn[d])
     }
 }
 
@@ -387,11 +406,11 @@ impl Springs {
             let mut link = Link::default();
             for k in spring.first as usize..(spring.first + spring.count) as usize {
                 let (end, movable) = (&self.ends[k], &self.movables[self.places[k] as usize]);
-                let row = movable.row([end.share * spring.normal[0], end.share * spring.normal[1]], end.point);
+                let row = movable.row(end.gap_row(spring.normal), end.point);
                 link.rate_old += dot(row, movable.velocity_old);
                 link.compliance += 0.5 * after * dot(row, movable.response(row));
                 if slips {
-                    let row = movable.row([end.share * t[0] + end.turn[0], end.share * t[1] + end.turn[1]], end.point);
+                    let row = movable.row(end.slip_row(t), end.point);
                     link.slip_rate_old += dot(row, movable.velocity_old);
                     link.slip_compliance += dot(row, movable.response(row));
                 }
@@ -425,6 +444,7 @@ impl Springs {
                 };
                 let bend = gap_new + link.gap_old - 2.0 * spring.gap;
                 spring_new.energy = 0.5 * (stored_old + stored_new) + 0.5 * elastic * bend;
+                spring_new.stored = [stored_new, 0.0];
                 let rate_mean = 0.5 * (link.rate_old + rates[0]);
                 let slip_mean = 0.5 * (link.slip_rate_old + rates[1]);
                 spring_new.work = mean_step * (spring.force * rate_mean + spring.friction * slip_mean);
@@ -446,6 +466,7 @@ impl Springs {
                         let stiffness = terms.law.slip_stiffness(&spring);
                         if stiffness.is_finite() {
                             let (old, new) = (spring.slip - 0.5 * before * link.slip_rate_old, spring.slip + 0.5 * after * rates[1]);
+                            spring_new.stored[1] = 0.5 * stiffness * new * new;
                             spring_new.energy +=
                                 0.25 * stiffness * (old * old + new * new) + 0.5 * spring.friction * (old + new - 2.0 * spring.slip);
                         } else {
@@ -466,9 +487,9 @@ impl Springs {
         let mut rates = [0.0; 2];
         for k in spring.first as usize..(spring.first + spring.count) as usize {
             let (end, movable) = (&self.ends[k], &self.movables[self.places[k] as usize]);
-            rates[0] += dot(movable.row([end.share * spring.normal[0], end.share * spring.normal[1]], end.point), movable.velocity);
+            rates[0] += dot(movable.row(end.gap_row(spring.normal), end.point), movable.velocity);
             if slips {
-                let row = movable.row([end.share * t[0] + end.turn[0], end.share * t[1] + end.turn[1]], end.point);
+                let row = movable.row(end.slip_row(t), end.point);
                 rates[1] += dot(row, movable.velocity);
             }
         }
@@ -593,7 +614,8 @@ impl Relaxing<'_> {
         let (n, t) = (spring.normal, tangent(spring.normal));
         for k in spring.first as usize..(spring.first + spring.count) as usize {
             let (end, movable) = (&springs.ends[k], &mut springs.movables[springs.places[k] as usize]);
-            let row = [0, 1].map(|d| end.share * n[d] * force + (end.share * t[d] + end.turn[d]) * friction);
+            let (gap_row, slip_row) = (end.gap_row(n), end.slip_row(t));
+            let row = [0, 1].map(|d| gap_row[d] * force + slip_row[d] * friction);
             let response = movable.response(movable.row(row, end.point));
             for d in 0..3 {
                 movable.velocity[d] += response[d];

@@ -236,13 +236,13 @@ impl Check<'_> {
 }
 
 /// What the formulation, a tie and the law of a contact don't allow.
-fn contradictions(contact: &Contact) -> [Contradiction; 11] {
+fn contradictions(contact: &Contact) -> [Contradiction; 6] {
     let interface = &contact.interface;
     let bodies = matches!(contact.partners, Partners::Bodies(_));
     let tied = contact.tied.is_some();
     let pinball = contact.formulation == Formulation::Pinball;
     let segment = contact.formulation == Formulation::Segment;
-    let multiplier = interface.law == ContactLaw::Multiplier;
+    let per_node = matches!(interface.law, ContactLaw::Penalty(Penalty::PerNode(_)));
     let pressure_gap = matches!(interface.law, ContactLaw::PressureGap { .. });
     [
         (
@@ -253,10 +253,10 @@ fn contradictions(contact: &Contact) -> [Contradiction; 11] {
         ),
         (bodies && tied, "tied", "a tie joins two surfaces, but `bodies` names none", "name the two surfaces in `between`"),
         (
-            multiplier && segment,
-            "formulation",
-            "multipliers at the points of `segment` over-constrain the interface: there are more points than nodes that could follow them",
-            "take `double_pass` or `single_pass`, or another law",
+            per_node && (segment || pinball),
+            "penalty",
+            "segments and pinballs have no slave nodes that a stiffness per node could belong to",
+            "give a pressure per depth (Pa/m), or leave it out",
         ),
         (
             pinball && tied,
@@ -265,31 +265,11 @@ fn contradictions(contact: &Contact) -> [Contradiction; 11] {
             "take `double_pass` or `single_pass` for a tie",
         ),
         (
-            pinball && interface.friction.is_some(),
-            "friction",
-            "pinballs have no tangent, so there is no friction",
-            "leave `friction` out, or take another formulation",
-        ),
-        (
-            pinball && interface.thickness > 0.0,
-            "thickness",
-            "the radius of pinballs follows from their elements, so they keep no other distance",
-            "leave `thickness` out, or take another formulation",
-        ),
-        (
-            pinball && pressure_gap,
-            "law",
-            "pinballs have no surface that a pressure could act on",
-            "take `penalty` or `multiplier`, or another formulation",
-        ),
-        (
             tied && segment,
             "formulation",
             "ties hold nodes, so there is no tie of segments",
             "take `double_pass` or `single_pass` for a tie",
         ),
-        (tied && interface.friction.is_some(), "friction", "tied surfaces don't slide", "leave out `friction` or `tied`"),
-        (tied && interface.damping != 0.0, "damping", "a tie has no damping", "leave out `damping` or `tied`"),
         (tied && pressure_gap, "law", "a pressure can't hold surfaces together", "take `penalty` or `multiplier` for a tie"),
     ]
 }

@@ -3,7 +3,7 @@
 use super::Kind::{Angle, Choice, Flag, Name, Points, Quantities, Quantity, Reference, References, Stiffness, Table, Vector};
 use super::Need::{Default, Optional, Required};
 use super::{Form, Group, Kind, Rule, Section, key};
-use crate::contact::{law, search};
+use crate::contact::{formulation, law, search};
 use crate::quantity::Dimension;
 use crate::quantity::Range::{Finite, NotNegative, Positive};
 
@@ -17,7 +17,7 @@ pub(super) static CONTACT: Section = Section {
         key("bodies", References(None), Optional("`between`"), "Parts that meet each other and themselves; `\"all\"` for all parts."),
         key(
             "formulation",
-            Choice(|| vec!["double_pass", "single_pass", "segment", "pinball"]),
+            Choice(formulations),
             Default("\"double_pass\""),
             "What is checked: the nodes of each surface against the segments of the other, only the nodes of `slave`, segments against segments, or disks in the elements.",
         ),
@@ -190,4 +190,8 @@ fn contact_laws() -> Vec<&'static str> {
 
 fn searches() -> Vec<&'static str> {
     search::registry::<2>().iter().map(|kind| kind.name).collect()
+}
+
+fn formulations() -> Vec<&'static str> {
+    formulation::FORMULATIONS.iter().map(|kind| kind.name).collect()
 }

@@ -1,0 +1,18 @@
+//! Verification: cases with a known answer, and whether the program gives it.
+//!
+//! A case is a folder with model files, a README and `expected.toml`. The walk: `expected.toml` and its models -> [`Case`] (`read.rs`, keys in
+//! `describe.rs`, data in `case.rs`) -> runs with what is kept of them (`run.rs`) -> numbers (`quantity.rs`) -> verdicts (`judge.rs`). The program's
+//! command `verify` prints them.
+
+mod case;
+mod describe;
+mod judge;
+mod quantity;
+mod read;
+mod run;
+
+pub use case::{Accepted, Case, Check, Combination, How, Place, Quantity, Source, TAKES, Take, Tier, With};
+pub use describe::expected_markdown;
+pub use judge::{CaseOutcome, CheckOutcome, verify};
+pub use read::{FILE_NAME, load};
+pub use run::VerifyError;

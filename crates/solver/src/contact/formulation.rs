@@ -1,0 +1,138 @@
+//! What a contact makes of its surfaces: the list of formulations, and what each is made from.
+//!
+//! The builder fills a [`Setup`] with plain numbers (contact knows nothing of elements); the formulation that the model names makes itself from it.
+//! One formulation a file, one line in [`FORMULATIONS`].
+
+use super::law::Law;
+use super::node_segment::Slave;
+use super::projection::node_segment::Target;
+use super::search::Search;
+use super::tracker::Tracker;
+use super::{Formulation, Vector, law, node_segment, pinball, segment, tied};
+use crate::error::Fault;
+use crate::model::{self, ContactLaw, InitialPenetration, Penalty};
+
+/// A formulation as the registry describes it.
+#[derive(Clone, Copy)]
+pub struct FormulationKind {
+    /// Name in the model file.
+    pub name: &'static str,
+    /// One line: what meets what.
+    pub doc: &'static str,
+    /// Where it comes from.
+    pub source: &'static str,
+    /// Makes one. Faults have paths relative to the contact.
+    pub make: fn(Setup<'_>) -> Result<Box<dyn Formulation>, Fault>,
+}
+
+/// Every formulation.
+pub const FORMULATIONS: &[FormulationKind] = &[node_segment::DOUBLE_PASS, node_segment::SINGLE_PASS, segment::KIND, pinball::KIND];
+
+/// The formulation of a contact.
+#[must_use]
+pub fn kind_of(contact: &model::Contact) -> Option<&'static FormulationKind> {
+    if contact.tied.is_some() {
+        return Some(&tied::KIND);
+    }
+    let name = contact.formulation.name();
+    FORMULATIONS.iter().find(|kind| kind.name == name)
+}
+
+/// A surface, and what contact needs of the elements behind it.
+#[derive(Clone, Debug, Default)]
+pub struct Side<'a> {
+    /// The surface.
+    pub target: Target,
+    /// Segments that were left out of it because they lie on a symmetry line.
+    pub lids: Vec<[u32; 2]>,
+    /// Pressure stiffness κ of the element behind each segment, Pa/m.
+    pub segments: Vec<f64>,
+    /// Part behind each segment.
+    pub parts: Vec<u32>,
+    /// Tributary length (m) and κ (Pa/m) of each node.
+    pub nodes: Vec<(f64, f64)>,
+    /// Nodes of the element behind each segment, counter-clockwise.
+    pub cells: Vec<&'a [u32]>,
+}
+
+impl Side<'_> {
+    /// Smallest κ of the segments of the same part, for each segment, Pa/m.
+    #[must_use]
+    pub fn softest(&self) -> Vec<f64> {
+        let mut softest = vec![f64::INFINITY; self.parts.iter().max().map_or(0, |&part| part as usize + 1)];
+        for (&stiffness, &part) in self.segments.iter().zip(&self.parts) {
+            softest[part as usize] = stiffness.min(softest[part as usize]);
+        }
+        self.parts.iter().map(|&part| softest[part as usize]).collect()
+    }
+}
+
+/// What a formulation is made from.
+pub struct Setup<'a> {
+    /// The contact as the model has it.
+    pub contact: &'a model::Contact,
+    /// Two surfaces, or one that meets itself.
+    pub sides: Vec<Side<'a>>,
+    /// Body of each node of the model.
+    pub bodies: &'a [u32],
+    /// Initial positions, m.
+    pub positions: &'a [Vector],
+    /// Makes the law of the normal force.
+    pub law: &'a dyn Fn() -> Box<dyn Law>,
+    /// Number of the terms that its ties follow, where it is tied.
+    pub tie_terms: usize,
+    /// Makes a search of the kind that the contact names.
+    pub search: &'a dyn Fn() -> Box<dyn Search<2>>,
+}
+
+impl Setup<'_> {
+    /// Passes (slave, target) of nodes of every surface against the other.
+    #[must_use]
+    pub fn both_passes(&self) -> &'static [(usize, usize)] {
+        if self.sides.len() == 1 { &[(0, 0)] } else { &[(0, 1), (1, 0)] }
+    }
+
+    /// Stiffness of the contact; of laws without one the automatic one, for what needs a scale.
+    #[must_use]
+    pub fn penalty(&self) -> Penalty {
+        if let ContactLaw::Penalty(penalty) = self.contact.interface.law { penalty } else { Penalty::default() }
+    }
+
+    /// Whether gaps that are negative when the contact begins to act count as zero. Nobody can say where bodies are when it begins later.
+    #[must_use]
+    pub fn ignores_start(&self) -> bool {
+        let interface = &self.contact.interface;
+        interface.initial_penetration == InitialPenetration::Ignore || interface.active[0] > 0.0
+    }
+
+    /// Follows the nodes of these passes.
+    #[must_use]
+    pub fn tracker(self, passes: &[(usize, usize)]) -> Tracker {
+        let (targets, lids): (Vec<_>, Vec<_>) = self.sides.into_iter().map(|side| (side.target, side.lids)).unzip();
+        Tracker::new(targets, passes, (self.search)(), self.positions).with_bodies(self.bodies, &lids)
+    }
+
+    /// The nodes of a side as slaves in one of `passes` passes.
+    #[must_use]
+    pub fn slaves(&self, side: usize, passes: usize) -> Vec<Slave> {
+        let Target { surface, mirrors } = &self.sides[side].target;
+        let of = |(&(tributary, own), node): (&(f64, f64), &u32)| {
+            let on_line = mirrors.binary_search_by_key(node, |&(node, _)| node).is_ok();
+            let node = law::Node { tributary, own, other: f64::INFINITY, share: if on_line { 0.5 } else { 1.0 } };
+            // In a double pass each side carries half of the pressure.
+            Slave { stiffness: law::penalty::stiffness(self.penalty(), node, passes), area: tributary / passes as f64, slip: 0.0 }
+        };
+        self.sides[side].nodes.iter().zip(&surface.nodes).map(of).collect()
+    }
+
+    /// Stiffness (N/m per metre of depth) of each node of a side by unit of pressure stiffness κ (Pa/m) of the target; empty where the stiffness is given.
+    #[must_use]
+    pub fn per_modulus(&self, side: usize, passes: usize) -> Vec<f64> {
+        match self.penalty() {
+            Penalty::Automatic { scale, .. } => {
+                self.sides[side].nodes.iter().map(|&(tributary, _)| scale * tributary / passes as f64).collect()
+            }
+            Penalty::PerNode(_) | Penalty::Pressure(_) => Vec::new(),
+        }
+    }
+}

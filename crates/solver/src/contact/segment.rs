@@ -1,0 +1,516 @@
+//! Segments against segments: the pressure of two surfaces is integrated over what they have in common, on the line between both.
+//!
+//! Two segments a (of the first surface) and b that face each other have the common direction t = (t_a − t_b)/|t_a − t_b| and the normal n ⟂ t. Their common part
+//! is where both projections on t overlap; at each of its Gauss points stand the points x_a and x_b of the segments with the same coordinate along t, and between
+//! them a spring with the gap g = n·(x_a − x_b) and the stiffness κ w ℓ (weight w, length ℓ of the common part). The forces are F ∂g/∂x of the four nodes: the gap does not
+//! change when both segments move together, so both momenta are exact. A uniform gap gives the consistent loads of a uniform pressure on both meshes, so flat surfaces pass the patch test whatever
+//! their nodes; node-to-segment contact does not. After Papadopoulos and Taylor, Comput. Meth. Appl. Mech. Engng 94 (1992) 373-389 (integration over the parts that
+//! segments have in common) and Puso and Laursen, Comput. Meth. Appl. Mech. Engng 193 (2004) 601-629 (common plane of both).
+//!
+//! Which pairs there are comes from the [`Tracker`], nodes of each surface against the other: the two segments at a node that touches, with the segment it touches and its neighbours.
+//! So nothing is paired with the back side of a thin body.
+
+use super::formulation::{FormulationKind, Setup};
+use super::law::{Law, penalty};
+use super::node_segment::kept;
+use super::springs::{End, Spring, Springs};
+use super::tracker::{Certificate, SearchReport, Tracker};
+use super::{Formulation, Scene, Vector};
+use crate::mesh::surface::{NONE, Surface};
+use crate::model::{ContactLaw, Penalty};
+
+/// Registry entry.
+pub const KIND: FormulationKind = FormulationKind {
+    name: "segment",
+    doc: "segments against segments, integrated over their common part: passes the contact patch test on any meshes",
+    source: "Papadopoulos and Taylor (1992); common plane as in Puso and Laursen (2004)",
+    make: |setup| Ok(Box::new(Segment::of(setup))),
+};
+
+/// Place (0 to 1) and weight of integration points.
+type Rule = &'static [[f64; 2]];
+const TWO: Rule = &[[0.211_324_865_405_187_13, 0.5], [0.788_675_134_594_812_9, 0.5]];
+const ONE: Rule = &[[0.5, 1.0]];
+/// Common parts shorter than this fraction of a segment are round-off.
+const SLIVER: f64 = 1e-9;
+/// A pair may be deeper than its nodes by this factor. Normals of segments that face each other differ from the common one by less than 45 degrees, 1/cos 45° = 1.41;
+/// what is deeper by more belongs to another side of a corner.
+const DEEPER: f64 = 2.0;
+
+/// The formulation.
+pub struct Segment {
+    tracker: Tracker,
+    /// Per surface.
+    chains: Vec<Chain>,
+    law: Box<dyn Law>,
+    penalty: Penalty,
+    rule: Rule,
+    /// Distance that the surfaces keep, m.
+    thickness: f64,
+    /// Largest gap at which the law pushes, m.
+    reach: f64,
+    start: Start,
+    /// Pairs of this step, ascending.
+    pairs: Vec<[u32; 2]>,
+    /// Those that have a common part.
+    commons: Vec<Meeting>,
+    /// Nodes that pairs join, as a forest by index of the first surface's nodes, then of the second's; and the least energy per area at ends in each tree, J/m².
+    tree: Vec<u32>,
+    least: Vec<f64>,
+    /// Pairs with springs in this step, and in the last one.
+    facing: Vec<Facing>,
+    before: Vec<Facing>,
+}
+
+/// What is known of the beginning.
+struct Start {
+    /// Whether gaps that are negative when the contact begins to act count as zero.
+    ignored: bool,
+    has_begun: bool,
+    /// Initial positions (m) and body of each node: only where surfaces keep a distance.
+    positions: Vec<Vector>,
+    bodies: Vec<u32>,
+}
+
+/// Two segments with a common part.
+#[derive(Clone, Copy)]
+struct Meeting {
+    pair: [u32; 2],
+    common: Common,
+    /// Pressure per depth, Pa/m.
+    pressure: f64,
+    /// Distance that they keep, m.
+    distance: f64,
+}
+
+/// What is known of a surface beyond its tracking.
+struct Chain {
+    /// κ behind each segment, Pa/m.
+    stiffness: Vec<f64>,
+    /// Indices of each segment's nodes among the surface's nodes.
+    local: Vec<[u32; 2]>,
+    /// Segments at node `i`: `around[starts[i]..starts[i + 1]]`.
+    starts: Vec<u32>,
+    around: Vec<u32>,
+    /// Depth of each node in this step, m; negative where it is outside.
+    depth: Vec<f64>,
+    /// Nodes whose depth is set.
+    deep: Vec<u32>,
+}
+
+/// Two segments with springs, and the elastic slips of these: they stay with the integration points of their pair. Points move along the segments
+/// only as fast as the surfaces slide, and where they slide friction sets the slip anew.
+#[derive(Clone, Copy, Debug, Default)]
+struct Facing {
+    pair: [u32; 2],
+    length: f64,
+    slips: [f64; 2],
+    /// Gaps that count as zero, m; not positive.
+    offsets: [f64; 2],
+}
+
+impl Chain {
+    fn new(surface: &Surface, stiffness: Vec<f64>) -> Self {
+        // Nodes of segments are nodes of the surface.
+        let local: Vec<[u32; 2]> = surface
+            .segments
+            .iter()
+            .map(|segment| segment.map(|node| surface.nodes.partition_point(|&other| other < node) as u32))
+            .collect();
+        let mut starts = vec![0; surface.nodes.len() + 1];
+        for &node in local.iter().flatten() {
+            starts[node as usize + 1] += 1;
+        }
+        for i in 1..starts.len() {
+            starts[i] += starts[i - 1];
+        }
+        let mut next = starts.clone();
+        let mut around = vec![0; 2 * local.len()];
+        for (segment, nodes) in local.iter().enumerate() {
+            for &node in nodes {
+                around[next[node as usize] as usize] = segment as u32;
+                next[node as usize] += 1;
+            }
+        }
+        let depth = vec![f64::NEG_INFINITY; surface.nodes.len()];
+        Self { stiffness, local, starts, around, depth, deep: Vec::new() }
+    }
+
+    fn around(&self, node: usize) -> &[u32] {
+        &self.around[self.starts[node] as usize..self.starts[node + 1] as usize]
+    }
+}
+
+impl Segment {
+    fn of(setup: Setup<'_>) -> Self {
+        let passes = setup.both_passes();
+        // With springs that don't give way two points a pair were more conditions than the nodes can meet.
+        let rule = if matches!(setup.contact.interface.law, ContactLaw::Multiplier) { ONE } else { TWO };
+        let law = (setup.law)();
+        let (penalty, thickness, reach) = (setup.penalty(), setup.contact.interface.thickness, law.reach());
+        let chains: Vec<Chain> = setup.sides.iter().map(|side| Chain::new(&side.target.surface, side.segments.clone())).collect();
+        let count = chains.iter().map(|chain| chain.depth.len()).sum();
+        let at_a_distance = thickness + reach > 0.0;
+        let start = Start {
+            ignored: setup.ignores_start(),
+            positions: if at_a_distance { setup.positions.to_vec() } else { Vec::new() },
+            bodies: if at_a_distance { setup.bodies.to_vec() } else { Vec::new() },
+            has_begun: false,
+        };
+        let tracker = setup.tracker(passes);
+        Self {
+            tracker,
+            chains,
+            law,
+            penalty,
+            rule,
+            thickness,
+            reach,
+            start,
+            pairs: Vec::new(),
+            commons: Vec::new(),
+            tree: vec![0; count],
+            least: vec![0.0; count],
+            facing: Vec::new(),
+            before: Vec::new(),
+        }
+    }
+
+    /// Surfaces of the segments of a pair.
+    fn surfaces(&self) -> [usize; 2] {
+        [0, self.chains.len() - 1]
+    }
+
+    /// The pairs that touching nodes lead to.
+    fn pair_up(&mut self, scene: &Scene<'_>) {
+        self.pairs.clear();
+        for chain in &mut self.chains {
+            for node in chain.deep.drain(..) {
+                chain.depth[node as usize] = f64::NEG_INFINITY;
+            }
+        }
+        let touches = self.tracker.track(scene.sweep, self.thickness + self.reach).to_vec();
+        for touch in touches {
+            let side = self.tracker.side(touch.pass);
+            let [slave, target] = if side > 0.0 { [0, 1] } else { [self.chains.len() - 1, 0] };
+            let chain = &mut self.chains[slave];
+            chain.depth[touch.slave] = chain.depth[touch.slave].max(-touch.projection.gap);
+            chain.deep.push(touch.slave as u32);
+            let (surface, b) = (&self.tracker.targets()[target].surface, touch.projection.segment);
+            for &a in self.chains[slave].around(touch.slave) {
+                for b in [surface.previous[b as usize], b, surface.next[b as usize]] {
+                    if b != NONE {
+                        let forward = if side == 0.0 { a < b } else { slave == 0 };
+                        self.pairs.push(if forward { [a, b] } else { [b, a] });
+                    }
+                }
+            }
+        }
+        self.pairs.sort_unstable();
+        self.pairs.dedup();
+    }
+
+    /// What two segments have in common; `None` where they don't face each other.
+    fn common(&self, pair: [u32; 2], positions: &[Vector]) -> Option<Common> {
+        let surfaces = self.surfaces();
+        let nodes = [0, 1].map(|k| self.tracker.targets()[surfaces[k]].surface.segments[pair[k] as usize]);
+        if nodes[0].iter().any(|node| nodes[1].contains(node)) {
+            return None;
+        }
+        let common = Common::new(nodes, positions)?;
+        let depth = |k: usize, end: usize| {
+            let chain = &self.chains[surfaces[k]];
+            chain.depth[chain.local[pair[k] as usize][end] as usize]
+        };
+        // The nodes at the beginning are a_0 and b_1, at the end a_1 and b_0.
+        for ([gap, ..], end) in common.ends.into_iter().zip([0, 1]) {
+            if gap < 0.0 && -gap > DEEPER * f64::max(depth(0, end), depth(1, 1 - end)) + SLIVER * common.length {
+                return None;
+            }
+        }
+        Some(common)
+    }
+
+    /// Elastic slips and offsets of the points of a pair: what they had, or what its first segment had in the mean.
+    fn kept(&self, pair: [u32; 2], length: f64) -> Facing {
+        if let Ok(at) = self.before.binary_search_by_key(&pair, |facing| facing.pair) {
+            return Facing { length, ..self.before[at] };
+        }
+        let first = self.before.partition_point(|facing| facing.pair[0] < pair[0]);
+        let same = self.before[first..].iter().take_while(|facing| facing.pair[0] == pair[0]);
+        let (mut sums, mut whole) = ([0.0; 2], 0.0);
+        for facing in same {
+            let part = facing.length / self.rule.len() as f64;
+            for k in 0..self.rule.len() {
+                sums = [sums[0] + part * facing.slips[k], sums[1] + part * facing.offsets[k]];
+            }
+            whole += facing.length;
+        }
+        let [slip, offset] = if whole > 0.0 { sums.map(|sum| sum / whole) } else { [0.0; 2] };
+        Facing { pair, length, slips: [slip; 2], offsets: [offset; 2] }
+    }
+
+    /// Distance that two segments keep, m. A body keeps no more distance from itself than half of what it had: neighbours along a surface are near, and stay so.
+    fn distance(&self, common: &Common) -> f64 {
+        let Start { positions, bodies, .. } = &self.start;
+        let [[a, _], [b, _]] = common.nodes;
+        if bodies.is_empty() || bodies[a as usize] != bodies[b as usize] {
+            return self.thickness;
+        }
+        let apart = common.nodes[0].iter().flat_map(|&a| common.nodes[1].map(|b| minus(positions[a as usize], positions[b as usize])));
+        let nearest = apart.map(|apart| dot(apart, apart)).fold(f64::INFINITY, f64::min).sqrt();
+        self.thickness - (self.thickness + self.reach - 0.5 * nearest).max(0.0)
+    }
+}
+
+impl Segment {
+    /// Energy (J/m²) and pressure (Pa) of the law at a gap.
+    fn density(&self, gap: f64, pressure: f64) -> [f64; 2] {
+        let spring = Spring { stiffness: pressure, area: 1.0, ..Spring::default() };
+        let small = 1e-6 * gap.abs();
+        // The slope of the energy by differences: exact for parabolas, and all laws are made of them.
+        let slope = |small: f64| 0.5 * (self.law.stored(&spring, gap - small) - self.law.stored(&spring, gap + small)) / small;
+        [self.law.stored(&spring, gap), if small > 0.0 { slope(small) } else { 0.0 }]
+    }
+
+    /// Index of a pair's first node in the forest.
+    fn place(&self, pair: [u32; 2], k: usize, end: usize) -> u32 {
+        let before = if self.surfaces()[k] == 0 { 0 } else { self.chains[0].depth.len() as u32 };
+        before + self.chains[self.surfaces()[k]].local[pair[k] as usize][end]
+    }
+
+    /// The region of a pair.
+    fn root(&mut self, pair: [u32; 2]) -> u32 {
+        let at = self.place(pair, 0, 0);
+        root(&mut self.tree, at)
+    }
+
+    /// Adds the springs of a pair.
+    fn connect(&mut self, Meeting { pair, common, pressure, distance }: Meeting, springs: &mut Springs) {
+        let at = self.root(pair);
+        let least = self.least[at as usize];
+        let mut facing = self.kept(pair, common.length);
+        for (k, &[place, weight]) in self.rule.iter().enumerate() {
+            let (gap, mut ends) = common.point(place);
+            let gap = gap - distance;
+            let offset = if self.start.has_begun { kept(facing.offsets[k], gap) } else { gap.min(0.0) };
+            facing.offsets[k] = if self.start.ignored { offset } else { 0.0 };
+            let gap = gap - facing.offsets[k];
+            let [energy, push] = self.density(gap, pressure);
+            if energy > least && push > 0.0 {
+                common.vary_area(&mut ends, -(energy - least) / push);
+            }
+            let (normal, area) = (common.normal, weight * common.area);
+            let side = if self.chains.len() == 1 { 0.0 } else { 1.0 };
+            let (stiffness, slip) = (pressure * area, facing.slips[k]);
+            springs.push(Spring { normal, gap, stiffness, area, side, slip, ..Spring::default() }, &ends);
+        }
+        self.facing.push(facing);
+    }
+
+    /// Joins the pairs that share nodes to regions, and finds the least energy per area at ends of common parts in each.
+    fn join(&mut self) {
+        for (i, root) in self.tree.iter_mut().enumerate() {
+            *root = i as u32;
+        }
+        self.least.fill(f64::INFINITY);
+        for index in 0..self.commons.len() {
+            let pair = self.commons[index].pair;
+            let first = self.root(pair);
+            for (k, end) in [(0, 1), (1, 0), (1, 1)] {
+                let at = self.place(pair, k, end);
+                let other = root(&mut self.tree, at);
+                let (low, high) = (first.min(other), first.max(other));
+                self.tree[high as usize] = low;
+            }
+        }
+        for index in 0..self.commons.len() {
+            let Meeting { pair, common, pressure, distance } = self.commons[index];
+            let at = self.root(pair) as usize;
+            for [gap, ..] in common.ends {
+                self.least[at] = self.least[at].min(self.density(gap - distance, pressure)[0]);
+            }
+        }
+    }
+}
+
+fn root(tree: &mut [u32], mut at: u32) -> u32 {
+    while tree[at as usize] != at {
+        tree[at as usize] = tree[tree[at as usize] as usize];
+        at = tree[at as usize];
+    }
+    at
+}
+
+impl Formulation for Segment {
+    fn detect(&mut self, scene: &Scene<'_>, springs: &mut Springs) {
+        self.pair_up(scene);
+        let surfaces = self.surfaces();
+        self.commons.clear();
+        for index in 0..self.pairs.len() {
+            let pair = self.pairs[index];
+            if let Some(common) = self.common(pair, scene.sweep.new) {
+                let [own, other] = [0, 1].map(|k| self.chains[surfaces[k]].stiffness[pair[k] as usize]);
+                let pressure = penalty::pressure(self.penalty, own, other);
+                self.commons.push(Meeting { pair, pressure, distance: self.distance(&common), common });
+            }
+        }
+        self.join();
+        std::mem::swap(&mut self.facing, &mut self.before);
+        self.facing.clear();
+        for index in 0..self.commons.len() {
+            self.connect(self.commons[index], springs);
+        }
+        self.start.has_begun = true;
+    }
+
+    fn certificate(&self) -> Certificate {
+        self.tracker.certificate()
+    }
+
+    fn search_report(&self) -> Option<SearchReport> {
+        Some(self.tracker.search_report())
+    }
+
+    fn remember(&mut self, solved: &[Spring]) {
+        for (facing, springs) in self.facing.iter_mut().zip(solved.chunks_exact(self.rule.len())) {
+            for (slip, spring) in facing.slips.iter_mut().zip(springs) {
+                *slip = spring.slip_new;
+            }
+        }
+    }
+}
+
+/// The common part of two segments.
+#[derive(Clone, Copy, Debug)]
+struct Common {
+    nodes: [[u32; 2]; 2],
+    positions: [[Vector; 2]; 2],
+    /// Points from the second segment to the first.
+    normal: Vector,
+    /// Coordinates along t of the nodes of both segments.
+    along: [[f64; 2]; 2],
+    /// Where the common part begins, and its length, m.
+    begin: f64,
+    length: f64,
+    /// Length times −t_a·t_b, m: segments that turn away from each other fade out instead of being dropped at a right angle.
+    area: f64,
+    /// Gap at the beginning and the end, and whose node is there: segment (0, 1) and its end (0, 1).
+    ends: [[f64; 3]; 2],
+}
+
+impl Common {
+    fn new(nodes: [[u32; 2]; 2], positions: &[Vector]) -> Option<Self> {
+        let positions = nodes.map(|nodes| nodes.map(|node| positions[node as usize]));
+        let [ta, tb] = positions.map(|[begin, end]| {
+            let along = minus(end, begin);
+            let length = dot(along, along).sqrt();
+            ([along[0] / length, along[1] / length], length)
+        });
+        let facing = -dot(ta.0, tb.0);
+        // NaN (a segment without length) fails the comparison too
+        if !(facing > 0.0) {
+            return None;
+        }
+        let sum = minus(ta.0, tb.0);
+        let size = dot(sum, sum).sqrt();
+        let t = [sum[0] / size, sum[1] / size];
+        let origin = positions[0][0];
+        let along = positions.map(|ends| ends.map(|x| dot(minus(x, origin), t)));
+        let [[a0, a1], [b0, b1]] = along;
+        // The first runs along t, the second against it.
+        let (begin, first) = if a0 >= b1 { (a0, [0.0, 0.0]) } else { (b1, [1.0, 1.0]) };
+        let (end, last) = if a1 <= b0 { (a1, [0.0, 1.0]) } else { (b0, [1.0, 0.0]) };
+        let length = end - begin;
+        if !(length > SLIVER * ta.1.min(tb.1)) {
+            return None;
+        }
+        let mut common = Self { nodes, positions, normal: [t[1], -t[0]], along, begin, length, area: length * facing, ends: [[0.0; 3]; 2] };
+        common.ends = [first, last].map(|[whose, end]| [0.0, whose, end]);
+        common.ends = [0.0, 1.0].map(|place| [common.point(place).0, common.ends[place as usize][1], common.ends[place as usize][2]]);
+        Some(common)
+    }
+
+    /// Gap at a place q (0 to 1) of the common part, and the ends of a spring there. The row of the gap is its whole derivative.
+    ///
+    /// The point of segment a is at ξ_a = (s − s_a0)/(s_a1 − s_a0) with s = (1 − q) s_begin + q s_end, of the nodes where the common part begins and ends;
+    /// coordinates change by ds_k = t·dx_k + h_k dφ (h_k: height of node k above t), where t turns by dφ = ½ (dφ_a + dφ_b). So
+    ///
+    /// dg = n·(Σ N dx_a − Σ M dx_b) + n·d_a dξ_a − n·d_b dξ_b        with d = x_1 − x_0 of a segment:
+    ///
+    /// where segments are inclined to each other, points that slide along them open or close the gap. (n turns too, but x_a − x_b is parallel to it.)
+    ///
+    /// Friction acts along t at both points, which are the gap apart; its couple is taken by forces across both segments, half of it each. So the slip rate
+    /// ṡ = t·(v_a − v_b) + ½ g (θ̇_a + θ̇_b) does not see rotations of both together, and friction keeps the angular momentum.
+    fn point(&self, place: f64) -> (f64, [End; 4]) {
+        let (n, origin) = (self.normal, self.positions[0][0]);
+        let t = [-n[1], n[0]];
+        let s = self.begin + place * self.length;
+        let weights = self.along.map(|[begin, end]| {
+            let share = (s - begin) / (end - begin);
+            [1.0 - share, share]
+        });
+        let [xa, xb] = [0, 1].map(|k| [0, 1].map(|d| weights[k][0] * self.positions[k][0][d] + weights[k][1] * self.positions[k][1][d]));
+        let gap = dot(minus(xa, xb), n);
+        let chord = self.positions.map(|[begin, end]| minus(end, begin));
+        // Derivative of the gap by the coordinate of each node along t: by s at the nodes of the ends, by the segments' own nodes.
+        let slopes = [0, 1].map(|k| dot(n, chord[k]) / (self.along[k][1] - self.along[k][0]) * if k == 0 { 1.0 } else { -1.0 });
+        let mut by_place = [0, 1].map(|k| weights[k].map(|weight| -slopes[k] * weight));
+        for ([_, whose, end], part) in self.ends.into_iter().zip([1.0 - place, place]) {
+            by_place[whose as usize][end as usize] += part * (slopes[0] + slopes[1]);
+        }
+        let height = |x: Vector| -dot(minus(x, origin), n);
+        let by_angle: f64 = (0..4).map(|i| by_place[i / 2][i % 2] * height(self.positions[i / 2][i % 2])).sum();
+        let end = |k: usize, i: usize| {
+            let half = self.half_angle(k, i);
+            let share = if k == 0 { weights[k][i] } else { -weights[k][i] };
+            let lean = [0, 1].map(|d| by_place[k][i] * t[d] + by_angle * half[d]);
+            End { at: self.nodes[k][i], share, lean, turn: half.map(|half| gap * half), ..End::default() }
+        };
+        (gap, [end(0, 0), end(0, 1), end(1, 0), end(1, 1)])
+    }
+
+    /// ½ dφ_k of segment k by the position of its end i.
+    fn half_angle(&self, k: usize, i: usize) -> Vector {
+        let chord = minus(self.positions[k][1], self.positions[k][0]);
+        let per_length = (i as f64 - 0.5) / dot(chord, chord);
+        [-chord[1] * per_length, chord[0] * per_length]
+    }
+
+    /// Adds `factor` times the derivative of ln(area) to the rows of the gap.
+    ///
+    /// d area / area = dℓ/ℓ − tan θ (dφ_a − dφ_b) with the angle θ between the segments, dℓ = t·(dx_end − dx_begin) + (h_end − h_begin) dφ.
+    fn vary_area(&self, ends: &mut [End; 4], factor: f64) {
+        let (n, per_length) = (self.normal, factor / self.length);
+        let t = [-n[1], n[0]];
+        let [da, db] = self.positions.map(|[begin, end]| minus(end, begin));
+        let tangent = (da[0] * db[1] - da[1] * db[0]) / -dot(da, db);
+        let mut rise = 0.0;
+        for ([_, whose, end], sign) in self.ends.into_iter().zip([-1.0, 1.0]) {
+            let (k, i) = (whose as usize, end as usize);
+            rise -= sign * dot(minus(self.positions[k][i], self.positions[0][0]), n);
+            for d in 0..2 {
+                ends[2 * k + i].lean[d] += sign * per_length * t[d];
+            }
+        }
+        for (index, end) in ends.iter_mut().enumerate() {
+            let (k, i) = (index / 2, index % 2);
+            let half = self.half_angle(k, i);
+            let turned = per_length * rise - 2.0 * factor * tangent * if k == 0 { 1.0 } else { -1.0 };
+            for d in 0..2 {
+                end.lean[d] += turned * half[d];
+            }
+        }
+    }
+}
+
+fn minus(a: Vector, b: Vector) -> Vector {
+    [a[0] - b[0], a[1] - b[1]]
+}
+
+fn dot(a: Vector, b: Vector) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+#[cfg(test)]
+mod tests;

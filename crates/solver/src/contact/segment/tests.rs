@@ -1,0 +1,190 @@
+use super::*;
+use crate::contact::formulation::Side;
+use crate::contact::projection::node_segment::Target;
+use crate::contact::search;
+use crate::contact::{Sweep, law};
+use crate::model;
+use crate::rigid::Bodies;
+
+/// Nodes of two facing chains: the first from x = 0 to `width` at y = 0 with the body below, the second back with the body above.
+struct Facing2 {
+    positions: Vec<Vector>,
+    surfaces: [Surface; 2],
+}
+
+fn facing(first: &[f64], second: &[f64], gap: f64, angle: f64) -> Facing2 {
+    let (sin, cos) = f64::sin_cos(angle);
+    let turned = |x: f64, y: f64| [cos * x - sin * y, sin * x + cos * y];
+    let mut positions: Vec<Vector> = first.iter().map(|&x| turned(x, 0.0)).collect();
+    positions.extend(second.iter().rev().map(|&x| turned(x, gap)));
+    let chain = |from: usize, count: usize| {
+        let segments: Vec<[u32; 2]> = (from..from + count - 1).map(|i| [i as u32, i as u32 + 1]).collect();
+        let count = segments.len() as u32;
+        Surface {
+            previous: (0..count).map(|i| i.checked_sub(1).unwrap_or(NONE)).collect(),
+            next: (0..count).map(|i| if i + 1 < count { i + 1 } else { NONE }).collect(),
+            nodes: (from as u32..=from as u32 + count).collect(),
+            segments,
+        }
+    };
+    let surfaces = [chain(0, first.len()), chain(first.len(), second.len())];
+    Facing2 { positions, surfaces }
+}
+
+fn even(count: usize) -> Vec<f64> {
+    (0..=count).map(|i| i as f64 / count as f64).collect()
+}
+
+/// Springs of the formulation at rest, with what acts in it.
+fn springs_of(model: &Facing2, penalty: Penalty) -> Springs {
+    let contact = model::Contact { formulation: model::Formulation::Segment, interface: penalty.into(), ..model::Contact::default() };
+    let side = |surface: &Surface| Side {
+        segments: vec![1.0; surface.segments.len()],
+        target: Target { surface: surface.clone(), mirrors: Vec::new() },
+        ..Side::default()
+    };
+    let search = || (search::registry::<2>()[0].make)();
+    let law = || -> Box<dyn Law> { Box::new(law::penalty::Penalty) };
+    let bodies: Vec<u32> = (0..model.positions.len()).map(|node| u32::from(node >= model.surfaces[0].nodes.len())).collect();
+    let sides = model.surfaces.iter().map(side).collect();
+    let setup = Setup { contact: &contact, sides, positions: &model.positions, law: &law, tie_terms: 0, search: &search, bodies: &bodies };
+    let mut formulation = (KIND.make)(setup).unwrap();
+    let mut springs = Springs::new(model.positions.len(), 0);
+    let sweep = Sweep { old: &model.positions, new: &model.positions };
+    formulation.detect(&Scene { sweep, bodies: &Bodies::default(), time: 0.0 }, &mut springs);
+    springs
+}
+
+/// Forces F = −k g at the nodes.
+fn forces(model: &Facing2, springs: &Springs) -> Vec<Vector> {
+    let mut forces = vec![[0.0; 2]; model.positions.len()];
+    for spring in &springs.list {
+        let force = spring.stiffness * (-spring.gap).max(0.0);
+        for end in springs.ends(spring) {
+            for d in 0..2 {
+                forces[end.at as usize][d] += (end.share * spring.normal[d] + end.lean[d]) * force;
+            }
+        }
+    }
+    forces
+}
+
+#[test]
+fn a_uniform_gap_gives_the_loads_of_a_uniform_pressure_on_any_two_meshes() {
+    let uneven = vec![0.0, 0.13, 0.2, 0.55, 0.81, 1.0];
+    for (first, second) in
+        [(even(4), even(5)), (even(8), even(11)), (even(12), even(11)), (even(5), even(5)), (uneven.clone(), even(7)), (even(1), uneven)]
+    {
+        for angle in [0.0, std::f64::consts::FRAC_PI_6, 2.0] {
+            let (gap, stiffness) = (-1e-3, 3e5);
+            let model = facing(&first, &second, gap, angle);
+            let springs = springs_of(&model, Penalty::Pressure(stiffness));
+            let found = forces(&model, &springs);
+            let pressure = -gap * stiffness;
+            let up = [-angle.sin(), angle.cos()];
+            for (surface, sign) in model.surfaces.iter().zip([-1.0, 1.0]) {
+                let mut consistent = vec![0.0; model.positions.len()];
+                for segment in &surface.segments {
+                    let [a, b] = segment.map(|node| model.positions[node as usize]);
+                    let half = 0.5 * pressure * ((b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2)).sqrt();
+                    segment.iter().for_each(|&node| consistent[node as usize] += half);
+                }
+                for &node in &surface.nodes {
+                    for d in 0..2 {
+                        let off = found[node as usize][d] - sign * up[d] * consistent[node as usize];
+                        assert!(off.abs() <= 1e-12 * pressure, "{first:?} {second:?} {angle}: {off}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn only_the_common_part_carries() {
+    let model = facing(&[0.0, 1.0, 2.0], &[1.5, 2.5, 3.5], -1e-3, 0.0);
+    let springs = springs_of(&model, Penalty::Pressure(1.0));
+    let length: f64 = springs.list.iter().map(|spring| spring.area).sum();
+    assert!((length - 0.5).abs() < 1e-14, "{length}");
+}
+
+/// Each node at the end of a common part once from each segment.
+fn inclined() -> [[Vector; 4]; 3] {
+    [
+        [[0.0, 0.0], [1.0, 0.1], [1.3, 0.25], [0.2, 0.15]],
+        [[0.0, 0.0], [1.0, -0.3], [0.7, 0.25], [-0.5, 0.35]],
+        [[0.1, 0.0], [0.8, 0.4], [1.1, 0.05], [-0.3, -0.25]],
+    ]
+}
+
+#[test]
+fn rates_are_those_of_the_motion_and_blind_to_rotations() {
+    let nodes = [[0, 1], [2, 3]];
+    for positions in inclined() {
+        let common = Common::new(nodes, &positions).unwrap();
+        let normal = common.normal;
+        let t = crate::contact::springs::tangent(normal);
+        for place in [0.2, 0.9] {
+            let (gap, ends) = common.point(place);
+            let rates = |v: &dyn Fn(usize) -> Vector| {
+                ends.iter().fold([0.0; 2], |sum: Vector, end| {
+                    let v = v(end.at as usize);
+                    let row = [0, 1].map(|d| end.share * t[d] + end.turn[d]);
+                    [sum[0] + end.share * dot(normal, v) + dot(end.lean, v), sum[1] + dot(row, v)]
+                })
+            };
+            for v in [[1.0, 0.0], [0.0, 1.0]] {
+                assert!(rates(&|_| v).iter().all(|rate| rate.abs() < 1e-14));
+            }
+            let turned = rates(&|node| [-positions[node][1], positions[node][0]]);
+            assert!(turned.iter().all(|rate| rate.abs() < 1e-14), "a rotation of both: {turned:?}");
+            assert!((rates(&|node| if node < 2 { t } else { [0.0; 2] })[1] - 1.0).abs() < 1e-14);
+            for node in 0..4 {
+                for d in 0..2 {
+                    let h = 1e-6;
+                    let moved = [h, -h].map(|h| {
+                        let mut positions = positions;
+                        positions[node][d] += h;
+                        Common::new(nodes, &positions).unwrap().point(place).0
+                    });
+                    let quotient = (moved[0] - moved[1]) / (2.0 * h);
+                    let rate = rates(&|other| if other == node { [0, 1].map(|e| f64::from(e == d)) } else { [0.0; 2] })[0];
+                    assert!((rate - quotient).abs() < 1e-8, "{gap} at {place} by node {node} {d}: {rate} {quotient}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_area_varies_as_difference_quotients_say() {
+    let nodes = [[0, 1], [2, 3]];
+    for positions in inclined() {
+        let area = |positions: &[Vector; 4]| Common::new(nodes, positions).unwrap().area;
+        let common = Common::new(nodes, &positions).unwrap();
+        let mut ends = [End::default(); 4];
+        common.vary_area(&mut ends, 3.0);
+        for node in 0..4 {
+            for d in 0..2 {
+                let h = 1e-6;
+                let moved = [h, -h].map(|h| {
+                    let mut positions = positions;
+                    positions[node][d] += h;
+                    area(&positions)
+                });
+                let quotient = 3.0 * (moved[0] - moved[1]) / (2.0 * h) / area(&positions);
+                assert!((ends[node].lean[d] - quotient).abs() < 1e-8, "{node} {d}: {} {quotient}", ends[node].lean[d]);
+            }
+        }
+    }
+}
+
+#[test]
+fn segments_that_do_not_face_each_other_have_nothing_in_common() {
+    let square = [[0.0, 0.0], [1.0, 0.0], [1.0, -1.0], [0.0, 1e-3]];
+    // One after the other, at a right angle, and turning its back.
+    assert!(Common::new([[0, 1], [1, 2]], &square).is_none());
+    assert!(Common::new([[0, 1], [0, 1]], &square).is_none());
+    assert!(Common::new([[0, 1], [1, 1]], &square).is_none());
+    assert!(Common::new([[0, 1], [1, 3]], &square).is_some());
+}

@@ -1,0 +1,36 @@
+//! What was checked in a run, for those who have to trust it: pairs, crossings, and what could not be explained.
+
+use std::ops::AddAssign;
+
+/// Proof that no contact was missed: every pair in reach is swept in every step, and the entries and exits of a node through the segments of a body, counted in
+/// whole numbers that lose nothing, must agree with the contacts that it has.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Certificate {
+    /// Pairs of a node and a segment whose paths within a step were checked for crossing, over all steps.
+    pub pairs_swept: u64,
+    /// Nodes that were found to go into a body.
+    pub crossings_found: u64,
+    /// Nodes that are inside a body, by the count of entries and exits, but not in contact with it, over all steps. Must be zero.
+    pub unverified: u64,
+}
+
+impl AddAssign for Certificate {
+    fn add_assign(&mut self, other: Self) {
+        self.pairs_swept += other.pairs_swept;
+        self.crossings_found += other.crossings_found;
+        self.unverified += other.unverified;
+    }
+}
+
+/// What the global search of a contact did.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SearchReport {
+    /// Steps in which the contact was looked at.
+    pub steps: u64,
+    /// Searches in these steps.
+    pub searches: u64,
+    /// Distance beyond which pairs are not kept, m.
+    pub skin: f64,
+    /// Pairs of a node and a segment at the end.
+    pub candidates: usize,
+}

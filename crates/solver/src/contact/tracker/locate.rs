@@ -1,0 +1,154 @@
+//! Where each slave node lies in a step: on the chain that it came in through while it is inside, else by crossing, else ahead of the nearest feature.
+//!
+//! Groups come with their candidates; touches go to the tracker. Every candidate is swept in every step, whatever is known of the node: the level of a group, the sum
+//! of entries less exits, is the proof that none was missed.
+
+use super::super::Sweep;
+use super::super::projection::node_segment::{Projection, Target, Vector};
+use super::group::Group;
+use super::{Certificate, Found, Memory, Touch};
+use crate::mesh::surface::NONE;
+
+/// A node nearer than this fraction of the skin is on the surface, as far as rounding lets one tell.
+const ROUNDING: f64 = 4e-9;
+/// A node that touches a face stays with it until it is farther away than this fraction of the skin (a millionth of a segment): surfaces that a multiplier holds at zero distance must not be
+/// passed from face to face of a corner by round-off.
+const HOLD: f64 = 4e-6;
+
+/// What locating reads.
+#[derive(Clone, Copy)]
+pub(super) struct View<'a> {
+    target: &'a Target,
+    pass: usize,
+    /// Whether slaves and targets are one surface.
+    own_surface: bool,
+    /// Distances below this are rounding, m.
+    rounding: f64,
+    /// Distances below this are touching, m.
+    hold: f64,
+    sweep: Sweep<'a>,
+}
+
+/// What the candidates of a group did in a step.
+#[derive(Default)]
+struct Passages {
+    exits: i32,
+    /// First and last entry: time and segment.
+    first: Option<(f64, u32)>,
+    last: Option<(f64, u32)>,
+}
+
+impl<'a> View<'a> {
+    pub(super) fn new(target: &'a Target, pass: usize, own_surface: bool, skin: f64, sweep: Sweep<'a>) -> Self {
+        Self { target, pass, own_surface, rounding: ROUNDING * skin, hold: HOLD * skin, sweep }
+    }
+
+    /// Locates the groups from number `first` on.
+    pub(super) fn look_at(&self, first: usize, groups: &mut [Group], candidates: &[u32], found: &mut Found) {
+        for (number, group) in groups.iter_mut().enumerate() {
+            let candidates = &candidates[group.begin as usize..group.end as usize];
+            found.certificate.pairs_swept += candidates.len() as u64;
+            match self.locate(group, candidates, &mut found.certificate) {
+                Some(projection) => {
+                    let Group { slave, node, own, kept, .. } = *group;
+                    let (slave, group) = (slave as usize, first + number);
+                    found.touches.push(Touch { pass: self.pass, slave, node, projection, group, own, memory: kept });
+                }
+                None => group.kept = Memory::default(),
+            }
+        }
+    }
+
+    fn locate(&self, group: &mut Group, candidates: &[u32], certificate: &mut Certificate) -> Option<Projection> {
+        let x = self.sweep.new[group.node as usize];
+        let passages = self.sweep_through(group.node, candidates);
+        group.level -= passages.exits;
+        let was_inside = group.memory != NONE;
+        if was_inside {
+            let projection = self.follow(x, group.memory, group.node).filter(|projection| projection.gap <= self.hold);
+            if let Some(inside) = projection {
+                group.memory = inside.segment;
+                return projection;
+            }
+            group.memory = NONE;
+        }
+        if group.open && (was_inside || passages.first.is_none()) {
+            // What goes around an end is not seen: only what comes in counts.
+            group.level = 0;
+        }
+        // Who just left may have been beyond a thin body: on its way back it goes through the far side, but does not come in there.
+        let entries = if !was_inside {
+            [passages.first, passages.last]
+        } else if group.level > 0 {
+            [passages.last, None]
+        } else {
+            [None, None]
+        };
+        for (_, segment) in entries.into_iter().flatten() {
+            if let Some(inside) = self.inside(x, segment, group.node) {
+                group.memory = inside.segment;
+                certificate.crossings_found += 1;
+                return Some(inside);
+            }
+        }
+        if group.level > 0 && !group.open {
+            let nearest = self.target.nearest(x, candidates, self.sweep.new);
+            if let Some(inside) = nearest.filter(|nearest| nearest.gap < 0.0 && !group.own) {
+                group.memory = inside.segment;
+                return Some(inside);
+            }
+            certificate.unverified += u64::from(nearest.is_none_or(|nearest| nearest.gap.abs() > self.rounding));
+        }
+        let ahead = match entries[0] {
+            // In and out again through another face.
+            Some((_, segment)) => self.follow(x, segment, group.node),
+            None => self.target.ahead(x, candidates, self.rounding, self.sweep.new),
+        }?;
+        if ahead.gap > self.hold {
+            return Some(ahead);
+        }
+        let touched = self.touched(group.node, candidates).unwrap_or(ahead);
+        group.memory = touched.segment;
+        Some(touched)
+    }
+
+    /// Of the faces that a node touches, that from which it was farthest before: the one that it comes upon.
+    fn touched(&self, node: u32, candidates: &[u32]) -> Option<Projection> {
+        let (x_old, x) = (self.sweep.old[node as usize], self.sweep.new[node as usize]);
+        let touches = |segment: u32| {
+            let projection = self.target.project(x, segment, self.sweep.new)?;
+            let before = self.target.side_of(x_old, segment, self.sweep.old)?;
+            (projection.gap.abs() <= self.hold).then_some((before, projection))
+        };
+        let farther = |best: (f64, Projection), other: (f64, Projection)| if other.0 > best.0 { other } else { best };
+        candidates.iter().filter_map(|&segment| touches(segment)).reduce(farther).map(|(_, projection)| projection)
+    }
+
+    /// The projection of a node that is inside, on the chain from `segment` on.
+    fn inside(&self, x: Vector, segment: u32, node: u32) -> Option<Projection> {
+        self.follow(x, segment, node).filter(|projection| projection.gap < 0.0)
+    }
+
+    fn follow(&self, x: Vector, segment: u32, node: u32) -> Option<Projection> {
+        let own = if self.own_surface { node } else { NONE };
+        self.target.follow_without(x, segment, own, self.sweep.new)
+    }
+
+    fn sweep_through(&self, node: u32, candidates: &[u32]) -> Passages {
+        let (x_old, x) = (self.sweep.old[node as usize], self.sweep.new[node as usize]);
+        let mut passages = Passages::default();
+        for &segment in candidates {
+            let Some(passage) = self.target.passage(x_old, x, segment, self.sweep.old, self.sweep.new) else { continue };
+            passages.exits += passage.exits;
+            if let Some(time) = passage.entered {
+                if passages.first.is_none_or(|(first, _)| time < first) {
+                    passages.first = Some((time, segment));
+                }
+                if passages.last.is_none_or(|(last, _)| time >= last) {
+                    passages.last = Some((time, segment));
+                }
+            }
+        }
+        passages
+    }
+}

@@ -1,0 +1,181 @@
+//! Where slave nodes lie with respect to the bodies of target surfaces, from step to step: candidates from the global search, the segment through which each
+//! node came in, and the projection of the step.
+//!
+//! Positions come from the step; what is found goes to the formulation, which makes springs of it. A slave node and a body make a group with a memory of its own and at
+//! most one touch, so a node between two bodies, or between another body and a fold of its own, meets both. Order is fixed: passes, then slave nodes, then bodies
+//! ascending; so results depend neither on the search nor on the number of threads.
+
+mod certificate;
+mod group;
+mod locate;
+mod reach;
+mod start;
+
+pub use certificate::{Certificate, SearchReport};
+pub use reach::SKIN;
+
+use super::Sweep;
+use super::projection::node_segment::{Projection, Target, Vector};
+use super::search::Search;
+use group::Pass;
+use rayon::prelude::*;
+use reach::Reach;
+
+/// A slave node that is inside a body, or within the skin of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Touch {
+    /// Pass that found it.
+    pub pass: usize,
+    /// Index of the node in its surface.
+    pub slave: usize,
+    /// The node.
+    pub node: u32,
+    /// Where it lies.
+    pub projection: Projection,
+    /// Number of the group of slave and body in this step.
+    pub group: usize,
+    /// Whether it is the node's own body.
+    pub own: bool,
+    /// What [`Tracker::remember`] was told of this group last; zero where it did not touch in the last step.
+    pub memory: Memory,
+}
+
+/// What a formulation keeps of a slave and a body while they touch.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Memory {
+    /// Elastic slip, m.
+    pub slip: f64,
+    /// Gap that counts as zero, m.
+    pub offset: f64,
+}
+
+/// Follows the nodes of surfaces along the bodies of other surfaces, or of their own.
+pub struct Tracker {
+    targets: Vec<Target>,
+    passes: Vec<Pass>,
+    reach: Reach,
+    touches: Vec<Touch>,
+    /// What the chunks of groups found in this step.
+    chunks: Vec<Found>,
+    certificate: Certificate,
+}
+
+/// What a chunk of groups found.
+#[derive(Default)]
+struct Found {
+    touches: Vec<Touch>,
+    certificate: Certificate,
+}
+
+/// Groups that one task looks at.
+const CHUNK: usize = 1024;
+/// Fewer groups are looked at by one thread.
+const SERIAL: usize = 4 * CHUNK;
+
+impl Tracker {
+    /// For the nodes of `targets[slave]` against `targets[target]` in each pass (slave, target), which may be the same surface; `positions` are the initial ones. Every
+    /// surface counts as one body: [`Tracker::with_bodies`] tells more.
+    #[must_use]
+    pub fn new(targets: Vec<Target>, passes: &[(usize, usize)], search: Box<dyn Search<2>>, positions: &[Vector]) -> Self {
+        let passes = passes.iter().map(|&(slave, target)| Pass::new(slave, target, &targets)).collect();
+        let reach = Reach::new(search, &targets, positions);
+        Self { targets, passes, reach, touches: Vec::new(), chunks: Vec::new(), certificate: Certificate::default() }
+    }
+
+    /// With the body of each node of the model, and per surface the segments that were left out of it because they lie on a symmetry line.
+    #[must_use]
+    pub fn with_bodies(mut self, bodies: &[u32], lids: &[Vec<[u32; 2]>]) -> Self {
+        for pass in &mut self.passes {
+            pass.set_bodies(&self.targets, bodies, lids.get(pass.target).map_or(&[], |lids| lids));
+        }
+        self
+    }
+
+    /// The surfaces.
+    #[must_use]
+    pub fn targets(&self) -> &[Target] {
+        &self.targets
+    }
+
+    /// Target of a pass.
+    #[must_use]
+    pub fn target(&self, pass: usize) -> &Target {
+        &self.targets[self.passes[pass].target]
+    }
+
+    /// Whether the slaves of a pass are the first surface (1), the second (−1), or both in one (0).
+    #[must_use]
+    pub fn side(&self, pass: usize) -> f64 {
+        let Pass { slave, target, .. } = self.passes[pass];
+        if slave == target { 0.0 } else { 1.0 - 2.0 * slave as f64 }
+    }
+
+    /// What was checked so far, and whether something was missed.
+    #[must_use]
+    pub fn certificate(&self) -> Certificate {
+        self.certificate
+    }
+
+    /// What the search cost so far.
+    #[must_use]
+    pub fn search_report(&self) -> SearchReport {
+        let candidates = self.passes.iter().map(|pass| pass.candidates.len()).sum();
+        SearchReport { candidates, ..self.reach.report }
+    }
+
+    /// Forgets what is known of the past.
+    pub fn forget(&mut self) {
+        self.reach.forget();
+        self.passes.iter_mut().for_each(Pass::forget);
+    }
+
+    /// Nodes that are inside, or near enough to come in during the next update, ascending by pass, slave and body. Pairs farther than the skin and `extra` (m)
+    /// are not looked at. In the first call nothing is known of the past: a node in another body is where the nearest feature of that body says.
+    pub fn track(&mut self, sweep: Sweep<'_>, extra: f64) -> &[Touch] {
+        self.reach.report.steps += 1;
+        let mut sweep = sweep;
+        if self.reach.is_left(sweep.new) {
+            let at_start = self.reach.is_new();
+            if at_start {
+                sweep.old = sweep.new;
+            }
+            let reach = self.reach.radius(sweep) + extra;
+            for pass in &mut self.passes {
+                pass.search(&self.targets, sweep, reach, &mut self.reach);
+                if at_start {
+                    pass.start(&self.targets, sweep.new);
+                }
+            }
+            self.reach.settle(sweep.new);
+        }
+        self.touches.clear();
+        // Within a pool of threads the groups are shared among them, in chunks that do not depend on their number.
+        let threads = rayon::current_thread_index().is_some();
+        for (number, pass) in self.passes.iter_mut().enumerate() {
+            let (groups, candidates, view) = pass.view(&self.targets, number, self.reach.skin, sweep);
+            let count = groups.len().div_ceil(CHUNK);
+            self.chunks.resize_with(count.max(self.chunks.len()), Found::default);
+            let look = |(index, (groups, found)): (usize, (&mut [group::Group], &mut Found))| {
+                found.touches.clear();
+                found.certificate = Certificate::default();
+                view.look_at(index * CHUNK, groups, candidates, found);
+            };
+            let found = &mut self.chunks[..count];
+            if threads && groups.len() >= SERIAL {
+                groups.par_chunks_mut(CHUNK).zip(found.par_iter_mut()).enumerate().for_each(look);
+            } else {
+                groups.chunks_mut(CHUNK).zip(found.iter_mut()).enumerate().for_each(look);
+            }
+            for found in &self.chunks[..count] {
+                self.touches.extend_from_slice(&found.touches);
+                self.certificate += found.certificate;
+            }
+        }
+        &self.touches
+    }
+
+    /// Keeps something of a touch of this step for the next.
+    pub fn remember(&mut self, touch: &Touch, memory: Memory) {
+        self.passes[touch.pass].groups[touch.group].kept = memory;
+    }
+}

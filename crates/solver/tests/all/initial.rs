@@ -1,0 +1,188 @@
+//! Bodies that are inside each other at the start: told with places, or their gap counts as zero, or they are moved apart without stress.
+#![allow(clippy::unwrap_used)] // what tests call may stop a test like the tests themselves
+
+use crate::bodies::*;
+use embate_solver::error::{Error, Fault};
+use embate_solver::model::{Contact, InitialPenetration, Model, Obstacle, Partners, Shape, Symmetry};
+use embate_solver::simulation::{Options, Simulation};
+use std::f64::consts::TAU;
+
+fn faults(model: &Model) -> Vec<Fault> {
+    match Simulation::new(model, &Options { threads: 1, simd: None }) {
+        Err(Error::Model(faults)) => faults,
+        Err(other) => panic!("{other}"),
+        Ok(_) => vec![],
+    }
+}
+
+/// Two blocks, the upper one 70 % of a segment inside the lower: more than the skin of later searches.
+fn overlapping(what: InitialPenetration) -> Model {
+    let mut model = model(2e-4);
+    add(&mut model, "lower", rectangle([0.0, 0.0], [0.1, 0.1], [5, 5]), [0.0, 0.0]);
+    add(&mut model, "upper", rectangle([0.031, 0.086], [0.04, 0.04], [2, 2]), [0.0, 0.0]);
+    touch(&mut model, "lower", "upper");
+    model.contacts[0].interface.initial_penetration = what;
+    model
+}
+
+#[test]
+fn bodies_that_overlap_at_the_start_are_refused_with_places_and_depths() {
+    let found = faults(&overlapping(InitialPenetration::Error));
+    assert!(found.iter().all(|fault| fault.path == "contact[0]" && fault.help.contains("push_out")), "{found:?}");
+    assert!(found.iter().filter(|fault| fault.message.contains("1.400e-2 m inside")).count() >= 3, "{found:?}");
+    assert!(found.iter().any(|fault| fault.message.contains("(5.100000e-2, 8.600000e-2)")), "{found:?}");
+}
+
+#[test]
+fn overlaps_of_any_depth_are_found_and_long_lists_are_counted() {
+    let scene = |shape: Shape, bodies: bool| {
+        let mut model = model(1e-4);
+        add(&mut model, "block", rectangle([-0.1, -0.1], [0.2, 0.2], [10, 10]), [0.0, 0.0]);
+        add(&mut model, "other", shape, [0.0, 0.0]);
+        if bodies {
+            model.contacts.push(Contact { name: "all".into(), partners: Partners::Bodies(vec![]), ..Contact::default() });
+        } else {
+            touch(&mut model, "block", "other");
+        }
+        faults(&model)
+    };
+    let ring = |inner: f64, outer: f64| Shape::Ring { centre: [0.0, 0.0], inner, outer, from: 0.0, to: TAU, elements: [2, 30] };
+    for bodies in [false, true] {
+        // Wholly inside, far from the surface.
+        let small = scene(rectangle([-0.01, -0.01], [0.02, 0.02], [2, 2]), bodies);
+        assert_eq!(small.len(), 8, "{small:?}");
+        assert!(small[0].message.contains("9.000e-2 m inside"), "{small:?}");
+        let many = scene(Shape::Disk { centre: [0.0, 0.0], radius: 0.03, elements: 8 }, bodies);
+        assert_eq!(many.len(), 21);
+        assert!(many[20].message.contains("and 12 more nodes"), "{:?}", many[20]);
+        // A ring around the block: inside its hole there is nothing.
+        assert_eq!(scene(ring(0.15, 0.16), bodies), []);
+        // The block's corners are in the wall.
+        let corners = scene(ring(0.13, 0.15), bodies);
+        assert!(!corners.is_empty() && corners.len() < 20, "{corners:?}");
+    }
+}
+
+#[test]
+fn a_half_model_knows_what_is_inside() {
+    // The model may lie on any side of its symmetry line.
+    for (axis, side) in [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)] {
+        let scene = |along: f64| {
+            // A box from 0 to `size` off the line, from `along` on along it.
+            let on = |size: f64, along: f64, elements: usize| {
+                let mut corner = [along; 2];
+                corner[axis] = if side > 0.0 { 0.0 } else { -size };
+                rectangle(corner, [size; 2], [elements; 2])
+            };
+            let mut model = model(1e-4);
+            add(&mut model, "block", on(0.2, 0.0, 4), [0.0, 0.0]);
+            add(&mut model, "other", on(0.02, along, 2), [0.0, 0.0]);
+            touch(&mut model, "block", "other");
+            let mut normal = [0.0; 2];
+            normal[axis] = 1.0;
+            model.symmetries.push(Symmetry { normal, ..Symmetry::default() });
+            faults(&model).len()
+        };
+        assert_eq!(scene(0.2), 0);
+        // All nodes but the one in the middle and that on the line between two others.
+        assert_eq!(scene(0.09), 7, "{axis} {side}");
+    }
+}
+
+#[test]
+fn ignored_penetrations_are_the_zero_until_the_surfaces_part() {
+    // At rest: nothing happens at all.
+    let (simulation, history) = run(&overlapping(InitialPenetration::Ignore));
+    assert_eq!(history.largest("energy.contact"), 0.0);
+    assert!(history.largest("energy.internal") < 1e-20 && simulation.summary().contact.unverified == 0);
+    let told = simulation.overview().initial_penetrations;
+    assert!(told.iter().any(|line| line.contains("1.400e-2 m inside") && line.contains("counts as zero")), "{told:?}");
+    // Pressed together, they push from there on.
+    let mut model = overlapping(InitialPenetration::Ignore);
+    model.parts[1].velocity = [0.0, -10.0];
+    let (simulation, history) = run(&model);
+    assert!(history.largest("energy.contact") > 1.0 && history.last("upper.vy") > 0.0, "{}", history.last("upper.vy"));
+    assert!(simulation.summary().penetration_max < 2e-3);
+    assert!(simulation.summary().energy_drift < 0.01);
+    // Apart and back again, they meet at the surface.
+    let mut model = overlapping(InitialPenetration::Ignore);
+    model.parts[1].velocity = [0.0, 20.0];
+    model.run.end = 2.4e-3;
+    model.obstacles.push(Obstacle::wall("ceiling", [0.0, 0.15], [0.0, -1.0]));
+    model.obstacles[0].parts = vec!["upper".into()];
+    let (_, history) = run(&model);
+    let (up, force) = (history.column("upper.y"), history.column("contact.force_y[lower-upper]"));
+    let touches = force.iter().zip(&up).filter(|(force, _)| **force != 0.0);
+    assert!(touches.clone().count() > 0 && touches.clone().all(|(_, y)| *y > 0.119), "{:?}", touches.collect::<Vec<_>>());
+}
+
+#[test]
+fn a_contact_that_begins_late_takes_what_is_there_as_zero() {
+    let mut model = overlapping(InitialPenetration::Error);
+    model.contacts[0].interface.active = [1e-4, f64::INFINITY];
+    let (_, history) = run(&model);
+    assert_eq!(history.largest("energy.contact"), 0.0);
+}
+
+#[test]
+fn pushed_out_bodies_are_apart_and_free_of_stress() {
+    let round = |what: InitialPenetration| {
+        let mut model = model(1e-4);
+        add(&mut model, "disk", Shape::Disk { centre: [0.0, 0.052], radius: 0.05, elements: 6 }, [0.0, 0.0]);
+        add(&mut model, "plate", rectangle([-0.1, -0.02], [0.2, 0.023], [31, 4]), [0.0, 0.0]);
+        model.contacts.push(Contact { name: "all".into(), partners: Partners::Bodies(vec![]), ..Contact::default() });
+        model.contacts[0].interface.initial_penetration = what;
+        model
+    };
+    for mut model in [round(InitialPenetration::PushOut), overlapping(InitialPenetration::PushOut)] {
+        if model.parts[0].name == "lower" {
+            // Not deeper than an element can give.
+            model.parts[1].shape = rectangle([0.031, 0.097], [0.04, 0.04], [2, 2]);
+        }
+        let simulation = simulation(&model);
+        assert!(simulation.overview().initial_penetrations.iter().any(|line| line.contains("pushed out")));
+        let (simulation, history) = run(&model);
+        assert!(simulation.summary().penetration_max < 1.2e-10, "{}", simulation.summary().penetration_max);
+        assert!(history.largest("energy.internal") < 1e-9, "{}", history.largest("energy.internal"));
+    }
+}
+
+#[test]
+fn nodes_that_are_pushed_out_stay_on_their_symmetry_line() {
+    let mut model = model(1e-5);
+    add(
+        &mut model,
+        "disk",
+        Shape::Ring { centre: [0.0, 0.052], inner: 0.03, outer: 0.05, from: -0.25 * TAU, to: 0.25 * TAU, elements: [3, 20] },
+        [0.0, 0.0],
+    );
+    add(&mut model, "plate", rectangle([0.0, -0.02], [0.1, 0.0225], [15, 4]), [0.0, 0.0]);
+    touch(&mut model, "disk", "plate");
+    model.contacts[0].interface.initial_penetration = InitialPenetration::PushOut;
+    model.symmetries.push(Symmetry { normal: [1.0, 0.0], ..Symmetry::default() });
+    let simulation = simulation(&model);
+    let on_line = simulation.frame().positions.iter().filter(|x| x[0].abs() < 1e-15).count();
+    assert_eq!(on_line, 4 + 4 + 5);
+    assert!(simulation.summary().penetration_max < 1e-10);
+}
+
+#[test]
+fn what_can_not_be_pushed_out_is_a_fault() {
+    let found = faults(&overlapping(InitialPenetration::PushOut));
+    assert!(
+        found.is_empty() || found.iter().any(|fault| fault.message.contains("not convex") || fault.message.contains("can't be pushed out"))
+    );
+    let mut model = overlapping(InitialPenetration::PushOut);
+    model.parts[1].shape = rectangle([0.031, 0.03], [0.04, 0.04], [2, 2]);
+    assert!(!faults(&model).is_empty());
+}
+
+#[test]
+fn nodes_behind_an_obstacle_are_refused() {
+    let mut model = model(1e-4);
+    add(&mut model, "block", rectangle([0.0, 0.0], [0.1, 0.1], [5, 5]), [0.0, 0.0]);
+    model.obstacles.push(Obstacle::wall("wall", [0.0, 0.01], [0.0, 1.0]));
+    let found = faults(&model);
+    assert_eq!(found.len(), 6, "{found:?}");
+    assert!(found[0].path == "obstacle[0]" && found[0].message.contains("1.000e-2 m inside"), "{found:?}");
+}

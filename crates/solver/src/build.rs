@@ -1,4 +1,4 @@
-//! From a model to a [`System`]: mesh, blocks, masses, contacts, walls, conditions. All faults are collected before anything runs.
+//! From a model to a [`System`]: mesh, blocks, masses, contacts, obstacles, rigid bodies, conditions. All faults are collected before anything runs.
 
 mod bodies;
 mod obstacles;

@@ -81,11 +81,12 @@ fn inside(tracker: &mut Tracker, thickness: f64, positions: &[Vector], tolerance
 }
 
 /// Moves nodes until none is inside another body, or nearer than `thickness` (m), by more than `tolerance` (m). A node and the segment that it is behind share the way so that the
-/// sum of squares is least, each along the directions in which it is not held. Returns what could not be moved out.
+/// sum of squares is least, each along the directions in which it is not held; nodes from number `fixed` on, those of obstacles, stay. Returns what could not be moved out.
 pub fn push_out(
     tracker: &mut Tracker,
     thickness: f64,
     positions: &mut [Vector],
+    fixed: usize,
     constraints: &Constraints<2>,
     tolerance: f64,
 ) -> Vec<Penetration> {
@@ -96,7 +97,7 @@ pub fn push_out(
         }
         for _ in 0..SWEEPS {
             for touch in &found {
-                part(tracker, touch, thickness + 0.5 * tolerance, positions, constraints);
+                part(tracker, touch, thickness + 0.5 * tolerance, positions, fixed, constraints);
             }
         }
     }
@@ -104,13 +105,14 @@ pub fn push_out(
 }
 
 /// Moves a node and the segment that it touches to a distance.
-fn part(tracker: &Tracker, touch: &Touch, distance: f64, positions: &mut [Vector], constraints: &Constraints<2>) {
+fn part(tracker: &Tracker, touch: &Touch, distance: f64, positions: &mut [Vector], fixed: usize, constraints: &Constraints<2>) {
     let target = tracker.target(touch.pass);
     let Some(here) = target.follow(positions[touch.node as usize], touch.projection.segment, positions) else { return };
     let [a, b] = target.surface.segments[here.segment as usize];
     let [wa, wb] = here.weights;
     let way = |(node, share): (u32, f64)| {
         let normal = here.normal;
+        let share = if (node as usize) < fixed { share } else { 0.0 };
         let free = constraints.of(node as usize).map_or(normal, |held| held.free_part(normal));
         (node, [share * free[0], share * free[1]], share * share * (free[0] * normal[0] + free[1] * normal[1]))
     };

@@ -3,7 +3,8 @@
 use crate::bodies::*;
 use embate_solver::error::Error;
 use embate_solver::model::{
-    Constraint, Curve, Drive, Friction, Interface, Load, Model, Motion, Obstacle, ObstacleShape, Penalty, Shape, Symmetry,
+    Constraint, Curve, Drive, Friction, InitialPenetration, Interface, Load, Model, Motion, Obstacle, ObstacleShape, Penalty, Shape,
+    Symmetry,
 };
 use embate_solver::simulation::{Options, Simulation};
 use std::f64::consts::TAU;
@@ -582,5 +583,42 @@ fn rigid_bodies_give_the_same_bits_for_any_number_of_threads() {
     let reference = outcome(1);
     for threads in [2, 3, 7] {
         assert!(outcome(threads) == reference, "{threads} threads");
+    }
+}
+
+#[test]
+fn what_is_behind_an_obstacle_at_the_start_is_refused_ignored_or_pushed_out() {
+    let shapes = [
+        ObstacleShape::Plane { point: [0.0, 0.002], normal: [0.0, 1.0], length: None },
+        ObstacleShape::Plane { point: [0.05, 0.002], normal: [0.0, 1.0], length: Some(0.2) },
+        ObstacleShape::Circle { centre: [0.05, -0.1], radius: 0.102, hollow: false },
+        ObstacleShape::Circle { centre: [0.05, 0.1], radius: 0.105, hollow: true },
+        ObstacleShape::Polyline { points: vec![[-0.1, 0.002], [0.2, 0.002]] },
+    ];
+    for shape in shapes {
+        let mut model = model(2e-4);
+        add(&mut model, "block", rectangle([0.0, 0.0], [0.1, 0.05], [8, 4]), [0.0, 0.0]);
+        model.obstacles.push(Obstacle::fixed("floor", shape.clone()));
+        let told = faults(&model);
+        assert!(
+            !told.is_empty() && told.iter().all(|fault| fault.contains("obstacle[0]") && fault.contains("inside")),
+            "{shape:?}: {told:?}"
+        );
+
+        model.obstacles[0].interface.initial_penetration = InitialPenetration::Ignore;
+        let ignored = to_end(&model);
+        assert!(!ignored.overview().initial_penetrations.is_empty());
+        assert_eq!((value(&ignored, "block.vy"), ignored.ledger().stores.contact), (0.0, 0.0), "{shape:?}");
+        // What is pressed further is resisted.
+        model.parts[0].velocity = [0.0, -2.0];
+        let pressed = to_end(&model);
+        assert!(value(&pressed, "block.vy") > -1.8 && pressed.summary().energy_drift < 0.02, "{shape:?}: {}", value(&pressed, "block.vy"));
+
+        model.parts[0].velocity = [0.0; 2];
+        model.obstacles[0].interface.initial_penetration = InitialPenetration::PushOut;
+        let moved = to_end(&model);
+        let told = moved.overview().initial_penetrations;
+        assert!(told.iter().all(|line| line.contains("floor") && line.contains("pushed out")) && !told.is_empty(), "{told:?}");
+        assert!(moved.summary().penetration_max < 1e-9 && moved.ledger().stores.total() < 1e-6, "{shape:?}: {:?}", moved.ledger().stores);
     }
 }

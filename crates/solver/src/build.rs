@@ -364,6 +364,11 @@ impl Builder<'_> {
         if surface.segments.is_empty() {
             return Err(Fault::new("", format!("{what} lies on a symmetry line altogether"), "name another surface"));
         }
+        Ok(Outlined { target: self.with_mirrors(surface), lids: lids.into_inner() })
+    }
+
+    /// A surface as a target that goes on beyond symmetry lines.
+    fn with_mirrors(&self, surface: Surface) -> Target {
         let starts =
             surface.segments.iter().zip(&surface.previous).filter(|(_, previous)| **previous == NONE).map(|(segment, _)| segment[0]);
         let ends = surface.segments.iter().zip(&surface.next).filter(|(_, next)| **next == NONE).map(|(segment, _)| segment[1]);
@@ -371,7 +376,7 @@ impl Builder<'_> {
         let mut mirrors: Vec<(u32, [f64; 2])> =
             open.filter_map(|node| Some((node, self.constraints.mirror_normals(node).next()?))).collect();
         mirrors.sort_by_key(|&(node, _)| node);
-        Ok(Outlined { target: Target { surface, mirrors }, lids: lids.into_inner() })
+        Target { surface, mirrors }
     }
 }
 

@@ -7,7 +7,7 @@ use crate::contact::tracker::{Certificate, SearchReport};
 use crate::contact::{Contact, ContactKind, search};
 use crate::error::{Error, Fault};
 use crate::mesh::PartMesh;
-use crate::model::{self, Cadence, InitialPenetration, Model};
+use crate::model::{self, Cadence, Model};
 use crate::output::{Cells, Frame, Summary};
 use crate::record::{Momentum, Recorded};
 use crate::step::{Governor, System};
@@ -201,7 +201,7 @@ impl Simulation {
                 continue;
             };
             let interface = &model.obstacles[index].interface;
-            if interface.initial_penetration != InitialPenetration::Error || interface.active[0] > 0.0 {
+            if initial::is_ignored(interface) {
                 continue;
             }
             let inside = contact.penetrations(&system.springs).filter(|&(_, depth)| depth > tolerance);

@@ -23,6 +23,26 @@ impl Results {
         self.rows.iter().map(|row| row[index]).collect()
     }
 
+    /// Mean of a column over the rows from one time to another.
+    fn mean(&self, name: &str, from: f64, to: f64) -> f64 {
+        let times = self.column("time");
+        let values: Vec<f64> =
+            times.into_iter().zip(self.column(name)).filter(|(time, _)| (from..=to).contains(time)).map(|(_, value)| value).collect();
+        values.iter().sum::<f64>() / values.len() as f64
+    }
+
+    /// First time at which a column is not zero.
+    fn begins(&self, name: &str) -> f64 {
+        self.rows_where(name, |value| value != 0.0).first().map_or(f64::INFINITY, |row| row.0)
+    }
+
+    /// Nothing was missed, and the books close.
+    fn is_sound(&self, drift: f64) {
+        assert_eq!(self.summary["status"], "done");
+        assert_eq!(self.summary["contact"]["unverified"], 0, "{}", self.summary);
+        assert!(self.figure("ledger_residual") < 1e-10 && self.figure("energy_drift") < drift, "{}", self.summary);
+    }
+
     /// Time and value of the rows where `is` holds for the column's value.
     fn rows_where(&self, name: &str, is: impl Fn(f64) -> bool) -> Vec<(f64, f64)> {
         self.column("time").into_iter().zip(self.column(name)).filter(|(_, value)| is(*value)).collect()
@@ -48,7 +68,19 @@ fn every_example_is_listed_here() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
     let mut names: Vec<_> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
     names.sort();
-    assert_eq!(names, ["rubber-disk", "tube-plate", "tube-plate-gmsh", "two-bars"], "give a new example its numbers");
+    let listed = [
+        "buckling-column",
+        "crushed-ring",
+        "ironing",
+        "rolling-ring",
+        "rubber-disk",
+        "thin-plates",
+        "three-rings",
+        "tube-plate",
+        "tube-plate-gmsh",
+        "two-bars",
+    ];
+    assert_eq!(names, listed, "give a new example its numbers");
 }
 
 #[test]
@@ -177,5 +209,61 @@ fn the_page_on_results_has_every_field_and_key() {
             page.contains(&format!("`{name}`")) || page.contains(&format!("`{name}[")),
             "docs/output.md does not explain the column {column}"
         );
+    }
+}
+
+fn is_near(value: f64, expected: f64, tolerance: f64) {
+    assert!((value - expected).abs() <= tolerance, "{value}, expected {expected} ± {tolerance}");
+}
+
+#[test]
+fn a_crushed_ring_carries_the_plastic_load_and_touches_itself() {
+    let results = run("crushed-ring", "example-crushed-ring");
+    results.is_sound(1e-5);
+    is_near(results.mean("obstacle.force_y[anvil]", 0.8e-3, 1.6e-3), 341e3, 10e3);
+    is_near(results.begins("contact.energy[self]"), 2.88e-3, 0.03e-3);
+}
+
+#[test]
+fn a_column_folds_on_itself_and_the_work_of_the_ram_is_found_again() {
+    let results = run("buckling-column", "example-buckling-column");
+    results.is_sound(1e-5);
+    is_near(results.begins("contact.energy[self]"), 1.82e-3, 0.05e-3);
+    is_near(*results.column("energy.external").last().unwrap(), 4200.0, 200.0);
+    assert!(results.figure("penetration_max") < 10e-6);
+}
+
+#[test]
+fn three_rings_in_a_box_keep_their_energy() {
+    let results = run("three-rings", "example-three-rings");
+    results.is_sound(0.01);
+    let total = results.column("energy.total");
+    is_near(total[total.len() - 1] / total[0], 1.0, 0.01);
+}
+
+#[test]
+fn a_thrown_ring_ends_rolling_with_about_half_its_velocity() {
+    let results = run("rolling-ring", "example-rolling-ring");
+    results.is_sound(0.005);
+    is_near(results.mean("ring.vx", 1.2, 1.5), 1.575, 0.05 * 1.575);
+}
+
+#[test]
+fn a_die_slides_over_a_slab_with_the_friction_that_was_given() {
+    let results = run("ironing", "example-ironing");
+    results.is_sound(1e-3);
+    let [along, across] = ["contact.force_x[sole]", "contact.force_y[sole]"].map(|name| results.mean(name, 0.3, 0.6));
+    is_near(-along / across, 0.31, 0.01);
+    is_near(across, 226e6, 5e6);
+}
+
+#[test]
+fn a_projectile_takes_a_row_of_plates_along_and_none_lets_it_through() {
+    let results = run("thin-plates", "example-thin-plates");
+    results.is_sound(1e-3);
+    is_near(*results.column("disk.vx").last().unwrap(), 106.3, 0.03 * 106.3);
+    for direction in ["linear", "angular"] {
+        let drift = results.summary["momentum_drift"][direction].as_f64().unwrap();
+        assert!(drift < 1e-12, "{direction}: {drift}");
     }
 }

@@ -2,17 +2,17 @@
 
 use super::{Builder, search_by_name, stiffness_of, terms_of};
 use crate::contact::formulation::Side;
-use crate::contact::node_segment::{NodeSegment, PassInput, Slave};
+use crate::contact::node_segment::{NodeSegment, Slave};
 use crate::contact::obstacle::circle::{Circle, RoundSegments};
 use crate::contact::obstacle::plane::Plane;
 use crate::contact::obstacle::{Both, NodeObstacle, OutlineShape, Shape};
 use crate::contact::projection::node_segment::Target;
 use crate::contact::tracker::{SKIN, Tracker};
-use crate::contact::{self, Contact, ContactKind, Formulation, law, length};
+use crate::contact::{self, Contact, ContactKind, Formulation, initial, law, length};
 use crate::error::Fault;
 use crate::load::constraint::unit;
 use crate::mesh::surface::{NONE, Surface};
-use crate::model::{InitialPenetration, Interface, Load, Obstacle, ObstacleShape};
+use crate::model::{Load, Obstacle, ObstacleShape};
 use crate::rigid::{Body, Member, Weight};
 use std::f64::consts::TAU;
 
@@ -83,11 +83,13 @@ impl Builder<'_> {
         normal: [f64; 2],
         length: Option<f64>,
     ) -> (usize, Box<dyn Formulation>) {
-        let reference = reference(obstacle);
-        let shape = plane(obstacle, point, normal, length, met.mean.0);
+        let reference = obstacle.reference.unwrap_or(point);
+        let half = length.map_or(f64::INFINITY, |length| 0.5 * length);
+        let middle = [point[0] - reference[0], point[1] - reference[1]];
+        let shape = Plane { middle, normal, half, thickness: obstacle.interface.thickness, shallow: SKIN * met.mean.0 };
         // Beyond every picture of the model.
-        let far = shape.half.min(20.0 * self.mesh.positions.iter().flatten().fold(0.0f64, |size, x| size.max(x.abs())));
-        let points = [1.0, -1.0].map(|side| [shape.middle[0] - side * far * normal[1], shape.middle[1] + side * far * normal[0]]);
+        let far = half.min(20.0 * self.mesh.positions.iter().flatten().fold(0.0f64, |size, x| size.max(x.abs())));
+        let points = [1.0, -1.0].map(|side| [middle[0] - side * far * normal[1], middle[1] + side * far * normal[0]]);
         let body = self.bodies.add(self.obstacle_body(obstacle, reference));
         self.outlines.push(OutlineShape { name: obstacle.name.clone(), body, points: points.into() });
         // Nodes that a symmetry line keeps on this plane need no spring.
@@ -103,11 +105,11 @@ impl Builder<'_> {
         radius: f64,
         hollow: bool,
     ) -> Result<(usize, Box<dyn Formulation>), Fault> {
-        let reference = reference(obstacle);
-        let shape = circle(obstacle, centre, radius, hollow);
-        let (middle, pushed) = (shape.middle, shape.radius);
+        let reference = obstacle.reference.unwrap_or(centre);
+        let middle = [centre[0] - reference[0], centre[1] - reference[1]];
+        let thickness = obstacle.interface.thickness;
+        let pushed = if hollow { radius - thickness } else { radius + thickness };
         if !(pushed > 0.0) {
-            let thickness = obstacle.interface.thickness;
             let message = format!("the thickness of {thickness} m leaves nothing of the hollow circle with a radius of {radius} m");
             return Err(Fault::new(".circle.radius", message, "take a smaller thickness or a larger circle"));
         }
@@ -118,31 +120,35 @@ impl Builder<'_> {
             [middle[0] + radius * cos, middle[1] + radius * sin]
         };
         let points = (0..=ROUND).map(place).collect();
+        let shape = Box::new(Circle { middle, radius: pushed, hollow });
         let mut rigid = self.obstacle_body(obstacle, reference);
         if hollow || pushed >= met.longest {
             let body = self.bodies.add(rigid);
             self.outlines.push(OutlineShape { name: obstacle.name.clone(), body, points });
-            return Ok((body, Box::new(self.node_obstacle(obstacle, &met, Box::new(shape), body, |_| false))));
+            return Ok((body, Box::new(self.node_obstacle(obstacle, &met, shape, body, |_| false))));
         }
         // Smaller than the segments: it can come in between the nodes.
         let node = self.add_node(centre);
         rigid.members.push(Member { node, arm: middle });
         let body = self.bodies.add_with_nodes(rigid, self.positions.len());
         self.outlines.push(OutlineShape { name: obstacle.name.clone(), body, points });
-        let nodes = self.node_obstacle(obstacle, &met, Box::new(shape), body, |_| false);
+        let nodes = self.node_obstacle(obstacle, &met, shape, body, |_| false);
         let (area, own) = met.mean;
         let stiffness = stiffness_of(&obstacle.interface, law::Node { tributary: area, own, other: own, share: 1.0 }, 1);
         let slave = Slave { stiffness, area, slip: 0.0 };
         let centre = Target { surface: Surface { nodes: vec![node], ..Surface::default() }, mirrors: Vec::new() };
         let tracker = self.tracker(met.target, met.lids, centre, &[(1, 0)]);
-        let segments = RoundSegments::new(tracker, slave, pushed, met.reach, body, ignores_start(&obstacle.interface));
+        let segments = RoundSegments::new(tracker, slave, [pushed, met.reach], body, initial::is_ignored(&obstacle.interface));
         Ok((body, Box::new(Both::new([Box::new(nodes), Box::new(segments)]))))
     }
 
     /// Points and lines are nodes and segments that move with the body, and meet the outside of the parts as surfaces meet: nodes of each against segments of the other.
     fn polyline(&mut self, obstacle: &Obstacle, met: Met, points: &[[f64; 2]]) -> (usize, Box<dyn Formulation>) {
-        let (own, closed) = distinct(points);
-        let reference = reference(obstacle);
+        let closed = points.len() > 3 && points.first() == points.last();
+        let count = points.len() - usize::from(closed);
+        let own = &points[..count];
+        let mean = [0, 1].map(|d| own.iter().map(|x| x[d]).sum::<f64>() / count as f64);
+        let reference = obstacle.reference.unwrap_or(mean);
         let arm = |x: &[f64; 2]| [x[0] - reference[0], x[1] - reference[1]];
         let mut rigid = self.obstacle_body(obstacle, reference);
         rigid.members = own.iter().map(|x| Member { node: self.add_node(*x), arm: arm(x) }).collect();
@@ -162,12 +168,10 @@ impl Builder<'_> {
             met.target.surface.nodes.iter().zip(&met.own).map(|(&node, &(length, own))| slave(length, own, self.constraints.share(node)));
         let of_corners = contact::node_stiffness(&surface, &vec![met.mean.1; lines.len()], &self.positions);
         let of_corners = of_corners.iter().map(|&(length, own)| slave(length.min(met.mean.0), own, 1.0));
-        let passes = [of_parts.collect(), of_corners.collect()].map(|slaves| PassInput { slaves, ..PassInput::default() });
+        let slaves = vec![of_parts.collect(), of_corners.collect()];
         let own = Target { surface, mirrors: Vec::new() };
         let tracker = self.tracker(met.target, met.lids, own, &[(0, 1), (1, 0)]);
-        let Interface { thickness, .. } = obstacle.interface;
-        let formulation = NodeSegment::new(tracker, passes.into(), thickness, met.reach, ignores_start(&obstacle.interface));
-        (body, Box::new(formulation))
+        (body, Box::new(NodeSegment::new(tracker, slaves, &obstacle.interface, met.reach)))
     }
 
     /// Follows the outside of the parts and a surface of the obstacle.
@@ -196,7 +200,7 @@ impl Builder<'_> {
             (!left_out(node)).then(|| (node, Slave { stiffness: stiffness_of(&obstacle.interface, here, 1), area: length, slip: 0.0 }))
         };
         let nodes = met.target.surface.nodes.iter().zip(&met.own).filter_map(slave).collect();
-        NodeObstacle::new(shape, body, nodes, SKIN * met.mean.0 + met.reach, ignores_start(&obstacle.interface))
+        NodeObstacle::new(shape, body, nodes, SKIN * met.mean.0 + met.reach, initial::is_ignored(&obstacle.interface))
     }
 
     /// The rigid body of an obstacle with its reference point, m.
@@ -225,53 +229,6 @@ impl Builder<'_> {
             ..Body::default()
         }
     }
-}
-
-/// Reference point of an obstacle, m.
-pub(super) fn reference(obstacle: &Obstacle) -> [f64; 2] {
-    obstacle.reference.unwrap_or_else(|| match &obstacle.shape {
-        ObstacleShape::Plane { point, .. } => *point,
-        ObstacleShape::Circle { centre, .. } => *centre,
-        ObstacleShape::Polyline { points } => {
-            let (own, _) = distinct(points);
-            [0, 1].map(|d| own.iter().map(|x| x[d]).sum::<f64>() / own.len() as f64)
-        }
-    })
-}
-
-/// The shape that nodes at a mean distance of `spacing` (m) meet, in the frame of the body; `None` for polylines, and where there is none.
-pub(super) fn shape(obstacle: &Obstacle, spacing: f64) -> Option<Box<dyn Shape>> {
-    match obstacle.shape {
-        ObstacleShape::Plane { point, normal, length } => Some(Box::new(plane(obstacle, point, unit(normal)?, length, spacing))),
-        ObstacleShape::Circle { centre, radius, hollow } => {
-            let circle = circle(obstacle, centre, radius, hollow);
-            (circle.radius > 0.0).then(|| Box::new(circle) as Box<dyn Shape>)
-        }
-        ObstacleShape::Polyline { .. } => None,
-    }
-}
-
-fn plane(obstacle: &Obstacle, point: [f64; 2], normal: [f64; 2], length: Option<f64>, spacing: f64) -> Plane {
-    let (reference, half) = (reference(obstacle), length.map_or(f64::INFINITY, |length| 0.5 * length));
-    let middle = [point[0] - reference[0], point[1] - reference[1]];
-    Plane { middle, normal, half, thickness: obstacle.interface.thickness, shallow: SKIN * spacing }
-}
-
-fn circle(obstacle: &Obstacle, centre: [f64; 2], radius: f64, hollow: bool) -> Circle {
-    let (reference, thickness) = (reference(obstacle), obstacle.interface.thickness);
-    let radius = if hollow { radius - thickness } else { radius + thickness };
-    Circle { middle: [centre[0] - reference[0], centre[1] - reference[1]], radius, hollow }
-}
-
-/// The points of a polyline, each once, and whether it is closed.
-pub(super) fn distinct(points: &[[f64; 2]]) -> (&[[f64; 2]], bool) {
-    let closed = points.len() > 3 && points.first() == points.last();
-    (&points[..points.len() - usize::from(closed)], closed)
-}
-
-/// Whether gaps that are negative when it begins to act count as zero. Nobody can say where bodies are when it begins later.
-fn ignores_start(interface: &Interface) -> bool {
-    interface.initial_penetration == InitialPenetration::Ignore || interface.active[0] > 0.0
 }
 
 /// Lines from node to node, as a surface.

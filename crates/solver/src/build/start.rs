@@ -1,23 +1,37 @@
 //! Penetrations at the start, found before anything is strained: refused, ignored, or pushed out.
 
-use super::obstacles::{chain, distinct, reference, shape};
 use super::{Builder, Outlined, search_by_name};
-use crate::contact::initial::{self, Penetration};
-use crate::contact::length;
-use crate::contact::obstacle::{Memory, Way};
+use crate::contact::initial::{self, Movable, Penetration};
 use crate::contact::projection::node_segment::Target;
 use crate::contact::search::Search;
-use crate::contact::tracker::Tracker;
+use crate::contact::tracker::{SKIN, Tracker};
+use crate::contact::{Vector, length};
 use crate::error::Fault;
+use crate::load::constraint::unit;
 use crate::mesh::Mesh;
 use crate::mesh::surface::Surface;
 use crate::model::{self, Formulation, InitialPenetration, Interface, Obstacle, ObstacleShape, Partners};
 
+/// Rounds over all contacts and obstacles: what is pushed out of one may come into another.
+const ROUNDS: usize = 20;
+
+/// A contact, or an obstacle made of nodes and segments, with what decides whether it penetrates.
+struct Meeting {
+    /// Index of the contact; `None`: of an obstacle.
+    contact: Option<usize>,
+    tracker: Tracker,
+    /// Distance that its surfaces keep, m.
+    thickness: f64,
+    /// Nodes of the obstacle, m.
+    points: Vec<Vector>,
+}
+
 impl Builder<'_> {
-    /// Penetrations of the contacts at the start: faults, or lines for the overview. Those that shall be pushed out are, in the mesh.
+    /// Penetrations at the start: faults, or lines for the overview. Those that shall be pushed out are, in the mesh.
     pub(super) fn part_at_start(&mut self) -> Vec<String> {
+        let tolerance = initial::TOLERANCE * initial::size(&self.mesh.positions);
         let mut lines = Vec::new();
-        let mut is_moved = false;
+        let mut pushed = Vec::new();
         for (i, contact) in self.model.contacts.iter().enumerate() {
             let Interface { initial_penetration, thickness, active, .. } = contact.interface;
             // Ties hold what is there; who begins later can't know. Wrong surfaces are told when contacts are made.
@@ -26,125 +40,145 @@ impl Builder<'_> {
             }
             let (Ok(outlines), Some(search)) = (self.outlines_of(contact), search_by_name(&contact.search)) else { continue };
             let mut tracker = tracker(outlines, passes_of(contact), (search.make)(), &self.mesh);
-            let tolerance = initial::TOLERANCE * initial::size(&self.mesh.positions);
             let found = initial::penetrations(&mut tracker, thickness, &self.mesh.positions, tolerance);
-            let path = format!("contact[{i}]");
             match initial_penetration {
-                InitialPenetration::Error => self.faults.extend(initial::faults(&path, &contact.name, &found)),
-                InitialPenetration::Ignore => lines.extend(initial::lines(&contact.name, &found, "this counts as zero")),
+                InitialPenetration::Error => self.faults.extend(initial::faults(&format!("contact[{i}]"), &contact.name, &found)),
+                InitialPenetration::Ignore => lines.extend(initial::lines(&contact.name, &found, IGNORED)),
                 InitialPenetration::PushOut => {
-                    lines.extend(initial::lines(&contact.name, &found, "it was pushed out"));
-                    is_moved |= !found.is_empty();
-                    let positions = &mut self.mesh.positions;
-                    let fixed = positions.len();
-                    let left = initial::push_out(&mut tracker, thickness, positions, fixed, &self.constraints, tolerance);
-                    self.faults.extend(left_inside(&path, &contact.name, &left));
+                    lines.extend(initial::lines(&contact.name, &found, PUSHED));
+                    pushed.push(Meeting { contact: Some(i), tracker, thickness, points: Vec::new() });
                 }
             }
         }
-        is_moved |= self.leave_obstacles(&mut lines);
+        let mut pushing = Vec::new();
+        for obstacle in self.model.obstacles.iter().filter(|it| it.interface.active[0] <= 0.0) {
+            // Faults are told when all springs are known: nothing can be seen better.
+            let what = match obstacle.interface.initial_penetration {
+                InitialPenetration::Error => continue,
+                InitialPenetration::Ignore => IGNORED,
+                InitialPenetration::PushOut => PUSHED,
+            };
+            let Ok(surface) = self.mesh.outside_without(&obstacle.parts, |segment| self.constraints.is_mirror(segment)) else { continue };
+            let behind = behind(obstacle, &surface, &self.mesh.positions);
+            lines.extend(initial::lines(&obstacle.name, &penetrations(&surface.nodes, &self.mesh.positions, &behind, tolerance), what));
+            if what == PUSHED {
+                pushed.extend(self.meeting(obstacle, surface.clone()));
+                pushing.push((surface.nodes, behind));
+            }
+        }
+        if !pushed.is_empty() || !pushing.is_empty() {
+            self.push_out(&mut pushed, &pushing, tolerance);
+        }
         self.positions.clone_from(&self.mesh.positions);
+        lines
+    }
+
+    fn push_out(&mut self, meetings: &mut [Meeting], obstacles: &[(Vec<u32>, Behind)], tolerance: f64) {
+        let mut is_moved = false;
+        for _ in 0..ROUNDS {
+            let mut moves = false;
+            let (count, constraints) = (self.mesh.positions.len(), &self.constraints);
+            let mut movable = Movable { positions: &mut self.mesh.positions, count, constraints, tolerance };
+            for (nodes, behind) in obstacles {
+                moves |= movable.push_off(nodes, behind);
+            }
+            for meeting in &mut *meetings {
+                movable.positions.extend(&meeting.points);
+                moves |= movable.push_out(&mut meeting.tracker, meeting.thickness);
+                movable.positions.truncate(count);
+            }
+            is_moved |= moves;
+            if !moves {
+                break;
+            }
+        }
+        for meeting in meetings {
+            // What is left behind obstacles is told when all springs are known.
+            let Some(i) = meeting.contact else { continue };
+            let left = initial::penetrations(&mut meeting.tracker, meeting.thickness, &self.mesh.positions, tolerance);
+            let faults = initial::faults(&format!("contact[{i}]"), &self.model.contacts[i].name, &left);
+            self.faults.extend(faults.into_iter().map(|fault| Fault {
+                message: format!("{} and can't be pushed out", fault.message),
+                help: "move the bodies apart".into(),
+                ..fault
+            }));
+        }
         if is_moved && self.faults.is_empty() {
             self.faults.extend(self.mesh.faults_of_elements());
         }
-        lines
-    }
-}
-
-impl Builder<'_> {
-    /// The same for obstacles that ignore what is behind them, or push it out; those that refuse it are asked when their springs are there. Tells whether something was moved.
-    fn leave_obstacles(&mut self, lines: &mut Vec<String>) -> bool {
-        let mut is_moved = false;
-        for (i, obstacle) in self.model.obstacles.iter().enumerate() {
-            let Interface { initial_penetration, active, .. } = obstacle.interface;
-            // Wrong surfaces are told when contacts are made.
-            let Ok(outline) = self.outlined(|leave_out| self.mesh.outside_without(&obstacle.parts, leave_out), "") else { continue };
-            if initial_penetration == InitialPenetration::Error || active[0] > 0.0 {
-                continue;
-            }
-            let pushes = initial_penetration == InitialPenetration::PushOut;
-            let (found, left) = if let ObstacleShape::Polyline { points } = &obstacle.shape {
-                self.leave_polyline(obstacle, points, outline, pushes)
-            } else {
-                self.leave_shape(obstacle, &outline.target.surface, pushes)
-            };
-            let done = if pushes { "it was pushed out" } else { "this counts as zero" };
-            lines.extend(initial::lines(&obstacle.name, &found, done));
-            if pushes {
-                is_moved |= !found.is_empty();
-                self.faults.extend(left_inside(&format!("obstacle[{i}]"), &obstacle.name, &left));
-            }
-        }
-        is_moved
     }
 
-    /// Nodes that are behind a plane or a circle, and those that still are after they were pushed out.
-    fn leave_shape(&mut self, obstacle: &Obstacle, surface: &Surface, pushes: bool) -> (Vec<Penetration>, Vec<Penetration>) {
-        let (tolerance, count) = (self.tolerance(), surface.nodes.len().max(1) as f64);
-        let spacing = surface.segments.iter().map(|&segment| length(segment, &self.mesh.positions)).sum::<f64>() / count;
-        let reference = reference(obstacle);
-        let Some(shape) = shape(obstacle, spacing) else { return Default::default() };
-        let gap = |[x, y]: [f64; 2]| {
-            let local = [x - reference[0], y - reference[1]];
-            shape.meet(Way { from: local, to: local }, &mut Memory::default()).filter(|&(gap, _)| gap < -tolerance)
+    /// An obstacle that may come in between nodes of the parts.
+    fn meeting(&self, obstacle: &Obstacle, surface: Surface) -> Option<Meeting> {
+        let thickness = obstacle.interface.thickness;
+        let (points, closed, radius) = match &obstacle.shape {
+            ObstacleShape::Circle { centre, radius, hollow: false } => (vec![*centre], true, *radius),
+            ObstacleShape::Polyline { points } => {
+                let closed = points.len() > 3 && points.first() == points.last();
+                (points[..points.len() - usize::from(closed)].to_vec(), closed, 0.0)
+            }
+            _ => return None,
         };
-        let (mut found, mut left) = (Vec::new(), Vec::new());
-        for &node in &surface.nodes {
-            let place = self.mesh.positions[node as usize];
-            let Some((depth, normal)) = gap(place) else { continue };
-            found.push(Penetration { node, place, depth: -depth });
-            let free = self.constraints.of(node as usize).map_or(normal, |held| held.free_part(normal));
-            let gain = free[0] * normal[0] + free[1] * normal[1];
-            if !pushes {
-                continue;
-            }
-            if gain > 1e-12 {
-                let way = (0.5 * tolerance - depth) / gain;
-                self.mesh.positions[node as usize] = [place[0] + way * free[0], place[1] + way * free[1]];
-            }
-            let place = self.mesh.positions[node as usize];
-            left.extend(gap(place).map(|(depth, _)| Penetration { node, place, depth: -depth }));
-        }
-        (found, left)
-    }
-
-    fn leave_polyline(
-        &mut self,
-        obstacle: &Obstacle,
-        points: &[[f64; 2]],
-        Outlined { target, lids }: Outlined,
-        pushes: bool,
-    ) -> (Vec<Penetration>, Vec<Penetration>) {
-        let Some(search) = search_by_name("") else { return Default::default() };
-        let (own, closed) = distinct(points);
-        let first = self.mesh.positions.len();
-        let mut positions = self.mesh.positions.clone();
-        positions.extend(own);
-        let line = Target { surface: chain((first as u32..positions.len() as u32).collect(), closed), mirrors: Vec::new() };
-        let tracker = Tracker::new(vec![target, line], &[(0, 1), (1, 0)], (search.make)(), &positions);
-        let mut tracker = tracker.with_bodies(&self.mesh.bodies(), &[lids, Vec::new()]);
-        let (thickness, tolerance) = (obstacle.interface.thickness, self.tolerance());
-        let found = initial::penetrations(&mut tracker, thickness, &positions, tolerance);
-        let mut left = Vec::new();
-        if pushes && !found.is_empty() {
-            left = initial::push_out(&mut tracker, thickness, &mut positions, first, &self.constraints, tolerance);
-            self.mesh.positions.copy_from_slice(&positions[..first]);
-        }
-        (found, left)
-    }
-
-    fn tolerance(&self) -> f64 {
-        initial::TOLERANCE * initial::size(&self.mesh.positions)
+        let first = self.mesh.positions.len() as u32;
+        let nodes: Vec<u32> = (first..first + points.len() as u32).collect();
+        let own = if points.len() > 1 { super::obstacles::chain(nodes, closed) } else { Surface { nodes, ..Surface::default() } };
+        let targets = vec![self.with_mirrors(surface), Target { surface: own, mirrors: Vec::new() }];
+        let passes: &[(usize, usize)] = if points.len() > 1 { &[(0, 1), (1, 0)] } else { &[(1, 0)] };
+        let positions: Vec<Vector> = self.mesh.positions.iter().chain(&points).copied().collect();
+        let search = (search_by_name("")?.make)();
+        let tracker = Tracker::new(targets, passes, search, &positions).with_bodies(&self.mesh.bodies(), &[]);
+        Some(Meeting { contact: None, tracker, thickness: thickness + radius, points })
     }
 }
 
-/// Faults of what could not be pushed out.
-fn left_inside(path: &str, name: &str, left: &[Penetration]) -> impl Iterator<Item = Fault> {
-    initial::faults(path, name, left).into_iter().map(|fault| Fault {
-        message: format!("{} and can't be pushed out", fault.message),
-        help: "move the bodies apart".into(),
-        ..fault
-    })
+/// What is done, in words.
+const IGNORED: &str = "this counts as zero";
+const PUSHED: &str = "it was pushed out";
+
+/// Gap (m) and normal of a point at an obstacle; `None` where the obstacle is not.
+type Behind = Box<dyn Fn(Vector) -> Option<(f64, Vector)>>;
+
+/// What says whether nodes are behind an obstacle; of a polyline nodes and segments say it.
+fn behind(obstacle: &Obstacle, surface: &Surface, positions: &[Vector]) -> Behind {
+    let thickness = obstacle.interface.thickness;
+    match obstacle.shape.clone() {
+        ObstacleShape::Plane { point, normal, length: wide } => {
+            let normal = unit(normal).unwrap_or_default();
+            let half = wide.map_or(f64::INFINITY, |wide| 0.5 * wide);
+            let lengths: f64 = surface.segments.iter().map(|&segment| length(segment, positions)).sum();
+            // A plate has another side.
+            let deepest = if wide.is_some() { SKIN * lengths / surface.nodes.len().max(1) as f64 } else { f64::INFINITY };
+            Box::new(move |x| {
+                let arm = [x[0] - point[0], x[1] - point[1]];
+                let gap = arm[0] * normal[0] + arm[1] * normal[1] - thickness;
+                let along = arm[0] * normal[1] - arm[1] * normal[0];
+                (along.abs() <= half && gap >= -deepest).then_some((gap, normal))
+            })
+        }
+        ObstacleShape::Circle { centre, radius, hollow } => Box::new(move |x| {
+            let arm = [x[0] - centre[0], x[1] - centre[1]];
+            let distance = arm[0].hypot(arm[1]);
+            let out = if distance > 0.0 { [arm[0] / distance, arm[1] / distance] } else { [1.0, 0.0] };
+            Some(if hollow { (radius - thickness - distance, [-out[0], -out[1]]) } else { (distance - radius - thickness, out) })
+        }),
+        ObstacleShape::Polyline { points } => {
+            let closed = points.len() > 3 && points.first() == points.last();
+            let count = points.len() - usize::from(closed);
+            let surface = super::obstacles::chain((0..count as u32).collect(), closed);
+            let all: Vec<u32> = (0..surface.segments.len() as u32).collect();
+            let target = Target { surface, mirrors: Vec::new() };
+            Box::new(move |x| target.nearest(x, &all, &points).map(|nearest| (nearest.gap - thickness, nearest.normal)))
+        }
+    }
+}
+
+fn penetrations(nodes: &[u32], positions: &[Vector], behind: &Behind, tolerance: f64) -> Vec<Penetration> {
+    let of = |&node: &u32| {
+        let place = positions[node as usize];
+        let (gap, _) = behind(place)?;
+        (gap < -tolerance).then_some(Penetration { node, place, depth: -gap })
+    };
+    nodes.iter().filter_map(of).collect()
 }
 
 /// Which nodes meet which surface: (slave, target).

@@ -3,6 +3,7 @@
 //! The builder fills a [`Setup`] with plain numbers (contact knows nothing of elements); the formulation that the model names makes itself from it.
 //! One formulation a file, one line in [`FORMULATIONS`].
 
+use super::initial::is_ignored;
 use super::law::Law;
 use super::node_segment::Slave;
 use super::projection::node_segment::Target;
@@ -10,7 +11,7 @@ use super::search::Search;
 use super::tracker::Tracker;
 use super::{Formulation, Vector, law, node_segment, pinball, segment, tied};
 use crate::error::Fault;
-use crate::model::{self, ContactLaw, InitialPenetration, Penalty};
+use crate::model::{self, ContactLaw, Penalty};
 
 /// A formulation as the registry describes it.
 #[derive(Clone, Copy)]
@@ -98,11 +99,10 @@ impl Setup<'_> {
         if let ContactLaw::Penalty(penalty) = self.contact.interface.law { penalty } else { Penalty::default() }
     }
 
-    /// Whether gaps that are negative when the contact begins to act count as zero. Nobody can say where bodies are when it begins later.
+    /// As [`is_ignored`].
     #[must_use]
     pub fn ignores_start(&self) -> bool {
-        let interface = &self.contact.interface;
-        interface.initial_penetration == InitialPenetration::Ignore || interface.active[0] > 0.0
+        is_ignored(&self.contact.interface)
     }
 
     /// Follows the nodes of these passes.

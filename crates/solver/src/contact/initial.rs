@@ -7,6 +7,7 @@ use super::tracker::{Touch, Tracker};
 use super::{Sweep, Vector};
 use crate::error::Fault;
 use crate::load::constraint::Constraints;
+use crate::model::{InitialPenetration, Interface};
 
 /// Penetrations deeper than this fraction of the model's size count.
 pub const TOLERANCE: f64 = 1e-9;
@@ -59,6 +60,20 @@ pub fn lines(name: &str, found: &[Penetration], what_is_done: &str) -> Vec<Strin
     lines
 }
 
+/// Whether gaps that are negative when an interface begins to act count as zero: where the model says so, or where it begins later, so that nobody can say where bodies
+/// are then.
+#[must_use]
+pub fn is_ignored(interface: &Interface) -> bool {
+    interface.initial_penetration == InitialPenetration::Ignore || interface.active[0] > 0.0
+}
+
+/// The gap that counts as zero (m, negative), after the gap has become `gap`: that of the start, until the surfaces part. One that went with the gap would give to springs
+/// what nobody put in.
+#[must_use]
+pub fn kept(offset: f64, gap: f64) -> f64 {
+    if gap < 0.0 { offset } else { 0.0 }
+}
+
 /// Size of a model for tolerances: its farthest coordinate, m.
 #[must_use]
 pub fn size(positions: &[Vector]) -> f64 {
@@ -80,50 +95,79 @@ fn inside(tracker: &mut Tracker, thickness: f64, positions: &[Vector], tolerance
     touches.iter().filter(|touch| !touch.own && touch.projection.gap - thickness < -tolerance).copied().collect()
 }
 
-/// Moves nodes until none is inside another body, or nearer than `thickness` (m), by more than `tolerance` (m). A node and the segment that it is behind share the way so that the
-/// sum of squares is least, each along the directions in which it is not held; nodes from number `fixed` on, those of obstacles, stay. Returns what could not be moved out.
-pub fn push_out(
-    tracker: &mut Tracker,
-    thickness: f64,
-    positions: &mut [Vector],
-    fixed: usize,
-    constraints: &Constraints<2>,
-    tolerance: f64,
-) -> Vec<Penetration> {
-    for _ in 0..ROUNDS {
-        let found = inside(tracker, thickness, positions, tolerance);
-        if found.is_empty() {
-            break;
+/// What may be moved at the start, and what must not.
+pub struct Movable<'a> {
+    /// m; nodes beyond `count` are those of obstacles and stay where they are.
+    pub positions: &'a mut Vec<Vector>,
+    /// Nodes of the model.
+    pub count: usize,
+    /// Directions in which nodes are held.
+    pub constraints: &'a Constraints<2>,
+    /// Depth that is round-off, m.
+    pub tolerance: f64,
+}
+
+impl Movable<'_> {
+    /// Moves nodes until none is inside another body, or nearer than `thickness` (m), by more than the tolerance, or until that has been tried often enough. A node and the
+    /// segment that it is behind share the way so that the sum of squares is least, each along the directions in which it is not held. Whether something was moved.
+    pub fn push_out(&mut self, tracker: &mut Tracker, thickness: f64) -> bool {
+        for round in 0..ROUNDS {
+            let found = inside(tracker, thickness, self.positions, self.tolerance);
+            if found.is_empty() {
+                return round > 0;
+            }
+            for _ in 0..SWEEPS {
+                for touch in &found {
+                    self.part(tracker, touch, thickness + 0.5 * self.tolerance);
+                }
+            }
         }
-        for _ in 0..SWEEPS {
-            for touch in &found {
-                part(tracker, touch, thickness + 0.5 * tolerance, positions, fixed, constraints);
+        true
+    }
+
+    /// Moves `nodes` out of an obstacle of which `project` tells gap (m) and normal. Whether something was moved.
+    pub fn push_off(&mut self, nodes: &[u32], project: impl Fn(Vector) -> Option<(f64, Vector)>) -> bool {
+        let mut is_moved = false;
+        for &node in nodes {
+            for _ in 0..ROUNDS {
+                let Some((gap, normal)) = project(self.positions[node as usize]).filter(|&(gap, _)| gap < -self.tolerance) else { break };
+                let (way, gain) = self.way(node, 1.0, normal);
+                if gain <= 1e-12 {
+                    break;
+                }
+                is_moved = true;
+                self.shift(node, way, (0.5 * self.tolerance - gap) / gain);
+            }
+        }
+        is_moved
+    }
+
+    /// Moves a node and the segment that it touches to a distance.
+    fn part(&mut self, tracker: &Tracker, touch: &Touch, distance: f64) {
+        let target = tracker.target(touch.pass);
+        let Some(here) = target.follow(self.positions[touch.node as usize], touch.projection.segment, self.positions) else { return };
+        let [a, b] = target.surface.segments[here.segment as usize];
+        let [wa, wb] = here.weights;
+        let ways = [(touch.node, 1.0), (a, -wa), (b, -wb)].map(|(node, share)| (node, self.way(node, share, here.normal)));
+        let gain: f64 = ways.iter().map(|(_, (_, gain))| gain).sum();
+        if here.gap < distance && gain > 1e-12 {
+            for (node, (way, _)) in ways {
+                self.shift(node, way, (distance - here.gap) / gain);
             }
         }
     }
-    penetrations(tracker, thickness, positions, tolerance)
-}
 
-/// Moves a node and the segment that it touches to a distance.
-fn part(tracker: &Tracker, touch: &Touch, distance: f64, positions: &mut [Vector], fixed: usize, constraints: &Constraints<2>) {
-    let target = tracker.target(touch.pass);
-    let Some(here) = target.follow(positions[touch.node as usize], touch.projection.segment, positions) else { return };
-    let [a, b] = target.surface.segments[here.segment as usize];
-    let [wa, wb] = here.weights;
-    let way = |(node, share): (u32, f64)| {
-        let normal = here.normal;
-        let share = if (node as usize) < fixed { share } else { 0.0 };
-        let free = constraints.of(node as usize).map_or(normal, |held| held.free_part(normal));
-        (node, [share * free[0], share * free[1]], share * share * (free[0] * normal[0] + free[1] * normal[1]))
-    };
-    let ways = [(touch.node, 1.0), (a, -wa), (b, -wb)].map(way);
-    let gain: f64 = ways.iter().map(|(_, _, gain)| gain).sum();
-    if here.gap >= distance || gain <= 1e-12 {
-        return;
-    }
-    for (node, way, _) in ways {
-        for d in 0..2 {
-            positions[node as usize][d] += (distance - here.gap) / gain * way[d];
+    /// Way of a node per unit of what opens a gap with its `share`, and how much of the gap this opens.
+    fn way(&self, node: u32, share: f64, normal: Vector) -> (Vector, f64) {
+        if node as usize >= self.count {
+            return ([0.0; 2], 0.0);
         }
+        let free = self.constraints.of(node as usize).map_or(normal, |held| held.free_part(normal));
+        ([share * free[0], share * free[1]], share * share * (free[0] * normal[0] + free[1] * normal[1]))
+    }
+
+    fn shift(&mut self, node: u32, way: Vector, by: f64) {
+        let x = &mut self.positions[node as usize];
+        *x = [x[0] + by * way[0], x[1] + by * way[1]];
     }
 }

@@ -3,6 +3,7 @@
 //! Where the nodes lie comes from the [`Tracker`]; friction and thickness are those of the slave node, the stiffness that of the softer side where they meet.
 
 use super::formulation::{FormulationKind, Setup};
+use super::initial::{is_ignored, kept};
 use super::projection::node_segment::{Projection, Target};
 use super::springs::{End, Spring, Springs};
 use super::tracker::{Certificate, Memory, SearchReport, Touch, Tracker};
@@ -79,12 +80,6 @@ pub struct Slave {
 }
 
 impl NodeSegment {
-    /// For surfaces that do not meet themselves, with what each pass of `tracker` knows; `reach` of the law, m.
-    #[must_use]
-    pub fn new(tracker: Tracker, passes: Vec<PassInput>, thickness: f64, reach: f64, ignores_start: bool) -> Self {
-        Self { tracker, passes, thickness, reach, ignores_start, initial: Vec::new(), has_begun: false, touches: Vec::new() }
-    }
-
     /// For a contact with these passes (slave, target). Where it ignores initial penetrations, gaps that are negative when it begins to act count as zero until the surfaces part.
     #[must_use]
     pub fn of(setup: Setup<'_>, passes: &[(usize, usize)]) -> Self {
@@ -101,6 +96,15 @@ impl NodeSegment {
         let ignores_start = setup.ignores_start();
         let tracker = setup.tracker(passes);
         Self { tracker, passes: inputs, thickness, reach, ignores_start, initial, has_begun: false, touches: Vec::new() }
+    }
+
+    /// For the passes of `tracker` with slaves whose stiffness is known; `reach` of the law, m.
+    #[must_use]
+    pub fn new(tracker: Tracker, slaves: Vec<Vec<Slave>>, interface: &model::Interface, reach: f64) -> Self {
+        let passes = slaves.into_iter().map(|slaves| PassInput { slaves, ..PassInput::default() }).collect();
+        let ignores_start = is_ignored(interface);
+        let (thickness, initial, touches) = (interface.thickness, Vec::new(), Vec::new());
+        Self { tracker, passes, thickness, reach, ignores_start, initial, has_begun: false, touches }
     }
 
     /// Gap less the thickness. A surface keeps no more distance from itself than half of what it had: neighbours along a surface are near, and stay so.
@@ -121,13 +125,6 @@ impl NodeSegment {
         let offset = if self.ignores_start && !touch.own { offset } else { 0.0 };
         (gap - offset, offset)
     }
-}
-
-/// The gap that counts as zero (m, negative), after the gap has become `gap`: that of the start, until the surfaces part. One that went with the gap would give to springs
-/// what nobody put in.
-#[must_use]
-pub fn kept(offset: f64, gap: f64) -> f64 {
-    if gap < 0.0 { offset } else { 0.0 }
 }
 
 impl NodeSegment {

@@ -11,8 +11,8 @@
 //! pressures. Stiffness of a pair: that of the automatic penalty, min(κ₁, κ₂) times the shorter of the two lengths (the penalty form); with the law `multiplier` the Lagrangian form.
 
 use super::formulation::{FormulationKind, Setup, Side};
+use super::initial::kept;
 use super::law::penalty;
-use super::node_segment::kept;
 use super::search::{Pair, Query, Search};
 use super::springs::{End, Spring, Springs};
 use super::tracker::SKIN;

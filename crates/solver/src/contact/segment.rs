@@ -11,8 +11,8 @@
 //! So nothing is paired with the back side of a thin body.
 
 use super::formulation::{FormulationKind, Setup};
+use super::initial::kept;
 use super::law::{Law, penalty};
-use super::node_segment::kept;
 use super::springs::{End, Spring, Springs};
 use super::tracker::{Certificate, SearchReport, Tracker};
 use super::{Formulation, Scene, Vector};

@@ -253,7 +253,7 @@ impl Mesh<2> {
         Surface::outside(self.parts.iter().filter(|part| parts.is_empty() || parts.contains(&part.name)).flat_map(PartMesh::cells))
     }
 
-    /// As [`Mesh::outside`], without the segments that `leave_out` names.
+    /// The same without the segments that `leave_out` names (those on a symmetry line, which are no outside of the whole body).
     ///
     /// # Errors
     /// As [`Mesh::outside`].

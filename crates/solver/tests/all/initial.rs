@@ -3,7 +3,7 @@
 
 use crate::bodies::*;
 use embate_solver::error::{Error, Fault};
-use embate_solver::model::{Contact, InitialPenetration, Model, Obstacle, Partners, Shape, Symmetry};
+use embate_solver::model::{Contact, InitialPenetration, Model, Obstacle, ObstacleShape, Partners, Shape, Symmetry};
 use embate_solver::simulation::{Options, Simulation};
 use std::f64::consts::TAU;
 
@@ -185,4 +185,49 @@ fn nodes_behind_an_obstacle_are_refused() {
     let found = faults(&model);
     assert_eq!(found.len(), 6, "{found:?}");
     assert!(found[0].path == "obstacle[0]" && found[0].message.contains("1.000e-2 m inside"), "{found:?}");
+}
+
+/// A block that some obstacle is a little inside of, and where its nodes may not be then.
+/// Distance of a point from an obstacle, m.
+type Gap = Box<dyn Fn([f64; 2]) -> f64>;
+
+fn with_obstacles() -> Vec<(&'static str, Model, Gap)> {
+    let with = |shape: ObstacleShape| {
+        let mut model = model(1e-5);
+        add(&mut model, "block", rectangle([0.0, 0.0], [0.1, 0.1], [5, 5]), [0.0, 0.0]);
+        model.obstacles.push(Obstacle::fixed("obstacle", shape));
+        model
+    };
+    let away = |centre: [f64; 2]| move |x: [f64; 2]| (x[0] - centre[0]).hypot(x[1] - centre[1]);
+    let plane = ObstacleShape::Plane { point: [0.0, 0.001], normal: [0.1, 1.0], length: None };
+    let plate = ObstacleShape::Plane { point: [0.05, 0.0008], normal: [0.0, 1.0], length: Some(0.2) };
+    let big = ObstacleShape::Circle { centre: [0.05, -0.299], radius: 0.3, hollow: false };
+    let small = ObstacleShape::Circle { centre: [0.052, -0.003], radius: 0.004, hollow: false };
+    let hollow = ObstacleShape::Circle { centre: [0.05, 0.05], radius: 0.0702, hollow: true };
+    let tip = ObstacleShape::Polyline { points: vec![[-0.2, -0.1], [0.049, 0.001], [0.2, -0.1], [-0.2, -0.1]] };
+    vec![
+        ("plane", with(plane), Box::new(|x| (0.1 * x[0] + x[1] - 0.001) / 1.01_f64.sqrt())),
+        ("plate", with(plate), Box::new(|x| x[1] - 0.0008)),
+        ("circle", with(big), Box::new(move |x| away([0.05, -0.299])(x) - 0.3)),
+        ("small circle", with(small), Box::new(|_| 0.0)),
+        ("hollow circle", with(hollow), Box::new(move |x| 0.0702 - away([0.05, 0.05])(x))),
+        ("tip", with(tip), Box::new(|_| 0.0)),
+    ]
+}
+
+#[test]
+fn bodies_are_pushed_out_of_obstacles_or_left_in_peace() {
+    for (name, mut model, gap) in with_obstacles() {
+        let refused = faults(&model);
+        assert!(!refused.is_empty() && refused.iter().all(|fault| fault.path == "obstacle[0]"), "{name}: {refused:?}");
+        model.obstacles[0].interface.initial_penetration = InitialPenetration::PushOut;
+        let (simulation, history) = run(&model);
+        let summary = simulation.summary();
+        assert!(summary.penetration_max < 1.1e-10 && history.largest("energy.total") < 1e-9, "{name}: {summary:?}");
+        assert!(simulation.frame().positions.iter().all(|x| gap(*x) > -1.1e-10), "{name}");
+        model.obstacles[0].interface.initial_penetration = InitialPenetration::Ignore;
+        let (simulation, history) = run(&model);
+        assert_eq!(history.largest("energy.contact"), 0.0, "{name}");
+        assert_eq!(simulation.summary().penetration_max, 0.0, "{name}");
+    }
 }

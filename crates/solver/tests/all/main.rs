@@ -8,6 +8,7 @@ mod patches;
 
 mod bars;
 mod blocks;
+mod certificate;
 mod conditions;
 mod contact;
 mod elements;

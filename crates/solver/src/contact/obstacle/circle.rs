@@ -9,7 +9,8 @@
 
 use super::{Memory, Shape, State, Way};
 use crate::contact::Vector;
-use crate::contact::node_segment::{Slave, kept};
+use crate::contact::initial::kept;
+use crate::contact::node_segment::Slave;
 use crate::contact::springs::{End, Spring, Springs};
 use crate::contact::tracker::{self, Certificate, SearchReport, Touch, Tracker};
 use crate::contact::{Formulation, Scene};
@@ -106,7 +107,7 @@ impl Shape for Circle {
 
 /// A circle against segments: it comes in between their nodes.
 pub struct RoundSegments {
-    /// One slave, the centre, against the bodies' outside.
+    /// One slave, the centre, against the bodies' outside: a touch for each body that is near.
     tracker: Tracker,
     slave: Slave,
     radius: f64,
@@ -117,60 +118,62 @@ pub struct RoundSegments {
     /// Whether gaps that are negative when it begins to act count as zero.
     ignores_start: bool,
     has_begun: bool,
-    /// What was found in this step, one for each body.
-    touches: Vec<Touch>,
+    found: Vec<Touch>,
 }
 
 impl RoundSegments {
-    /// For a circle of this radius (m) whose centre is the only slave of `tracker`; `reach` of the law, m.
+    /// For a circle of this radius (m) whose centre is the only slave of `tracker`; `reach` of the law, m. With `ignores_start` gaps that are negative when it begins to act count
+    /// as zero until the surfaces part.
     #[must_use]
-    pub fn new(tracker: Tracker, slave: Slave, radius: f64, reach: f64, body: usize, ignores_start: bool) -> Self {
-        Self { tracker, slave, radius, reach, body, ignores_start, has_begun: false, touches: Vec::new() }
+    pub fn new(tracker: Tracker, slave: Slave, [radius, reach]: [f64; 2], body: usize, ignores_start: bool) -> Self {
+        Self { tracker, slave, radius, reach, body, ignores_start, has_begun: false, found: Vec::new() }
     }
 
-    /// The ends of a spring where the circle touches; the slip does not see rotation of both together: see [`crate::contact::node_segment::ends`].
-    fn ends(&self, touch: &Touch, positions: &[Vector]) -> [End; 3] {
-        let (projection, centre) = (touch.projection, positions[touch.node as usize]);
-        let normal = projection.normal;
+    /// The spring at a body that is near, and its ends.
+    fn spring(&self, touch: &Touch, positions: &[Vector]) -> (Spring, [End; 3]) {
+        let projection = touch.projection;
+        let (normal, centre) = (projection.normal, positions[touch.node as usize]);
+        // Where the circle touches.
         let point = [centre[0] - self.radius * normal[0], centre[1] - self.radius * normal[1]];
         let [a, b] = self.tracker.target(touch.pass).surface.segments[projection.segment as usize];
         let (xa, xb) = (positions[a as usize], positions[b as usize]);
         let along = [xb[0] - xa[0], xb[1] - xa[1]];
-        let (square, gap) = (dot(along, along), projection.gap - self.radius);
+        let square = dot(along, along);
+        // The slip does not see rotation of both together: see `node_segment::ends`.
+        let gap = projection.gap - self.radius;
         let turn = if square > 0.0 { [-along[1] * gap / square, along[0] * gap / square] } else { [0.0; 2] };
         let [wa, wb] = projection.weights;
         // A node comes first: it stands for the place in messages.
-        [
+        let ends = [
             End { at: a, share: -wa, turn: [-turn[0], -turn[1]], ..End::default() },
             End { at: b, share: -wb, turn, ..End::default() },
             End { at: (positions.len() + self.body) as u32, share: 1.0, point, ..End::default() },
-        ]
+        ];
+        let (Slave { stiffness, area, .. }, slip) = (self.slave, touch.memory.slip);
+        let gap = gap - touch.memory.offset;
+        (Spring { normal, gap, stiffness, area, side: -1.0, slip, ..Spring::default() }, ends)
     }
 }
 
 impl Formulation for RoundSegments {
     fn detect(&mut self, scene: &Scene<'_>, springs: &mut Springs) {
-        self.touches.clear();
-        self.touches.extend_from_slice(self.tracker.track(scene.sweep, self.radius + self.reach));
-        let Slave { stiffness, area, .. } = self.slave;
-        for index in 0..self.touches.len() {
-            let touch = self.touches[index];
-            let ends = self.ends(&touch, scene.sweep.new);
-            let gap = touch.projection.gap - self.radius;
-            let offset = match (self.ignores_start, self.has_begun) {
-                (false, _) => 0.0,
-                (true, false) => gap.min(0.0),
-                (true, true) => kept(touch.memory.offset, gap),
-            };
-            let (normal, slip) = (touch.projection.normal, touch.memory.slip);
-            springs.push(Spring { normal, gap: gap - offset, stiffness, area, side: -1.0, slip, ..Spring::default() }, &ends);
-            self.touches[index].memory.offset = offset;
+        let mut found = std::mem::take(&mut self.found);
+        found.clear();
+        found.extend_from_slice(self.tracker.track(scene.sweep, self.radius + self.reach));
+        for touch in &mut found {
+            if self.ignores_start {
+                let gap = touch.projection.gap - self.radius;
+                touch.memory.offset = if self.has_begun { kept(touch.memory.offset, gap) } else { gap.min(0.0) };
+            }
+            let (spring, ends) = self.spring(touch, scene.sweep.new);
+            springs.push(spring, &ends);
         }
+        self.found = found;
         self.has_begun = true;
     }
 
     fn remember(&mut self, solved: &[Spring]) {
-        for (touch, spring) in self.touches.iter().zip(solved) {
+        for (touch, spring) in self.found.iter().zip(solved) {
             self.tracker.remember(touch, tracker::Memory { slip: spring.slip_new, ..touch.memory });
         }
     }

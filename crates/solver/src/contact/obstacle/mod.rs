@@ -6,7 +6,8 @@
 pub mod circle;
 pub mod plane;
 
-use super::node_segment::{Slave, kept};
+use super::initial::kept;
+use super::node_segment::Slave;
 use super::springs::{End, Spring, Springs};
 use super::tracker::{Certificate, SearchReport};
 use super::{Formulation, Scene, Vector};
@@ -98,7 +99,8 @@ pub struct NodeObstacle {
 }
 
 impl NodeObstacle {
-    /// For `nodes`; `reach` is a fraction of the nodes' spacing and the reach of the law, m.
+    /// For `nodes`; `reach` is a fraction of the nodes' spacing and the reach of the law, m. With `ignores_start` gaps that are negative when it begins to act count as zero
+    /// until the surfaces part.
     #[must_use]
     pub fn new(shape: Box<dyn Shape>, body: usize, nodes: Vec<(u32, Slave)>, reach: f64, ignores_start: bool) -> Self {
         let memories = vec![Memory::default(); nodes.len()];
@@ -116,7 +118,10 @@ impl Formulation for NodeObstacle {
             let way = Way { from: body.to_local_old(scene.sweep.old[node as usize]), to: body.to_local(x) };
             let met = self.shape.meet(way, memory);
             let pressed = std::mem::replace(&mut memory.presses, false);
-            let Some((gap, normal)) = met else { continue };
+            let Some((gap, normal)) = met else {
+                memory.offset = 0.0;
+                continue;
+            };
             if self.ignores_start {
                 memory.offset = if self.has_begun { kept(memory.offset, gap) } else { gap.min(0.0) };
             }
@@ -169,13 +174,6 @@ impl Formulation for Both {
         second.detect(scene, springs);
     }
 
-    fn remember(&mut self, solved: &[Spring]) {
-        // Nothing is found, and nothing solved, while the contact does not act.
-        let (first, second) = solved.split_at(self.split.min(solved.len()));
-        self.parts[0].remember(first);
-        self.parts[1].remember(second);
-    }
-
     fn certificate(&self) -> Certificate {
         let mut sum = self.parts[0].certificate();
         sum += self.parts[1].certificate();
@@ -184,5 +182,12 @@ impl Formulation for Both {
 
     fn search_report(&self) -> Option<SearchReport> {
         self.parts.iter().find_map(|part| part.search_report())
+    }
+
+    fn remember(&mut self, solved: &[Spring]) {
+        // Nothing is found, and nothing solved, while the contact does not act.
+        let (first, second) = solved.split_at(self.split.min(solved.len()));
+        self.parts[0].remember(first);
+        self.parts[1].remember(second);
     }
 }

@@ -107,10 +107,10 @@ impl Pass {
         &'a mut self,
         targets: &'a [Target],
         number: usize,
-        skin: f64,
+        skin_and_extra: [f64; 2],
         sweep: Sweep<'a>,
     ) -> (&'a mut [Group], &'a [u32], View<'a>) {
-        let view = View::new(&targets[self.target], number, self.slave == self.target, skin, sweep);
+        let view = View::new(&targets[self.target], number, self.slave == self.target, skin_and_extra, sweep);
         (&mut self.groups, &self.candidates, view)
     }
 

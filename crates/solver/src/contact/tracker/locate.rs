@@ -15,6 +15,10 @@ const ROUNDING: f64 = 4e-9;
 /// passed from face to face of a corner by round-off.
 const HOLD: f64 = 4e-6;
 
+/// Nodes are seen that may come in with so many times the last motion, and this fraction of the skin (half a per cent of a segment) for those that are set in motion now.
+const LOOK_AHEAD: f64 = 4.0;
+const START: f64 = 0.02;
+
 /// What locating reads.
 #[derive(Clone, Copy)]
 pub(super) struct View<'a> {
@@ -26,6 +30,8 @@ pub(super) struct View<'a> {
     rounding: f64,
     /// Distances below this are touching, m.
     hold: f64,
+    /// Distance at which nodes are seen that do not move, m.
+    near: f64,
     sweep: Sweep<'a>,
 }
 
@@ -39,8 +45,8 @@ struct Passages {
 }
 
 impl<'a> View<'a> {
-    pub(super) fn new(target: &'a Target, pass: usize, own_surface: bool, skin: f64, sweep: Sweep<'a>) -> Self {
-        Self { target, pass, own_surface, rounding: ROUNDING * skin, hold: HOLD * skin, sweep }
+    pub(super) fn new(target: &'a Target, pass: usize, own_surface: bool, [skin, extra]: [f64; 2], sweep: Sweep<'a>) -> Self {
+        Self { target, pass, own_surface, rounding: ROUNDING * skin, hold: HOLD * skin, near: extra + START * skin, sweep }
     }
 
     /// Locates the groups from number `first` on.
@@ -105,11 +111,26 @@ impl<'a> View<'a> {
             None => self.target.ahead(x, candidates, self.rounding, self.sweep.new),
         }?;
         if ahead.gap > self.hold {
-            return Some(ahead);
+            return (ahead.gap <= self.near + LOOK_AHEAD * self.motion(group.node, ahead.segment)).then_some(ahead);
         }
         let touched = self.touched(group.node, candidates).unwrap_or(ahead);
         group.memory = touched.segment;
         Some(touched)
+    }
+
+    /// Bound of how much the gap between a node and a segment changed in the step, m.
+    fn motion(&self, node: u32, segment: u32) -> f64 {
+        let way = |node: u32| {
+            let (a, b) = (self.sweep.old[node as usize], self.sweep.new[node as usize]);
+            [b[0] - a[0], b[1] - a[1]]
+        };
+        let own = way(node);
+        let against = |end: u32| {
+            let [x, y] = way(end);
+            (own[0] - x).abs() + (own[1] - y).abs()
+        };
+        let [a, b] = self.target.surface.segments[segment as usize];
+        against(a).max(against(b))
     }
 
     /// Of the faces that a node touches, that from which it was farthest before: the one that it comes upon.

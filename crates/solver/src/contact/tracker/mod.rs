@@ -67,6 +67,8 @@ struct Found {
     certificate: Certificate,
 }
 
+/// The first search looks this much farther: surfaces with open ends may overlap at the start.
+const FIRST: f64 = 4.0;
 /// Groups that one task looks at.
 const CHUNK: usize = 1024;
 /// Fewer groups are looked at by one thread.
@@ -141,10 +143,11 @@ impl Tracker {
             }
             let reach = self.reach.radius(sweep) + extra;
             for pass in &mut self.passes {
-                pass.search(&self.targets, sweep, reach, &mut self.reach);
                 if at_start {
+                    pass.search(&self.targets, sweep, FIRST * reach, &mut self.reach);
                     pass.start(&self.targets, sweep.new);
                 }
+                pass.search(&self.targets, sweep, reach, &mut self.reach);
             }
             self.reach.settle(sweep.new);
         }
@@ -152,7 +155,7 @@ impl Tracker {
         // Within a pool of threads the groups are shared among them, in chunks that do not depend on their number.
         let threads = rayon::current_thread_index().is_some();
         for (number, pass) in self.passes.iter_mut().enumerate() {
-            let (groups, candidates, view) = pass.view(&self.targets, number, self.reach.skin, sweep);
+            let (groups, candidates, view) = pass.view(&self.targets, number, [self.reach.skin, extra], sweep);
             let count = groups.len().div_ceil(CHUNK);
             self.chunks.resize_with(count.max(self.chunks.len()), Found::default);
             let look = |(index, (groups, found)): (usize, (&mut [group::Group], &mut Found))| {

@@ -7,8 +7,6 @@ use super::certificate::SearchReport;
 
 /// Skin as a fraction of the mean segment length: how far bodies may move before the next global search.
 pub const SKIN: f64 = 0.25;
-/// The first search looks this many skins far: surfaces with open ends may overlap at the start.
-const FIRST: f64 = 4.0;
 /// The global search is asked for a little more than is kept, so that what is kept does not depend on how each search rounds.
 pub(super) const SLACK: f64 = 1.001;
 
@@ -48,8 +46,7 @@ impl Reach {
 
     /// How far to search now, m.
     pub(super) fn radius(&self, sweep: Sweep<'_>) -> f64 {
-        let skin = if self.is_new() { FIRST * self.skin } else { self.skin };
-        skin + 2.0 * self.fastest(sweep)
+        self.skin + 2.0 * self.fastest(sweep)
     }
 
     /// Notes where the nodes were searched.

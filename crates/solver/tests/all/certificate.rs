@@ -1,0 +1,149 @@
+//! No contact is missed: what the tracker finds is held against winding numbers that are counted anew in every step, for bodies that move at random and at any speed, and whole
+//! runs certify themselves.
+#![allow(clippy::unwrap_used)] // what tests call may stop a test like the tests themselves
+
+use crate::bodies::*;
+use embate_solver::contact::Sweep;
+use embate_solver::contact::projection::node_segment::{Target, Vector};
+use embate_solver::contact::search::registry;
+use embate_solver::contact::tracker::Tracker;
+use embate_solver::mesh::surface::Surface;
+use embate_solver::model::{Contact, Partners, Shape};
+use proptest::prelude::*;
+use std::f64::consts::TAU;
+
+/// Rings of quadrilaterals (outer and inner chain each) with some nodes around, and their bodies.
+struct Rings {
+    target: Target,
+    bodies: Vec<u32>,
+    /// Initial positions about the centre of each ring, and where the centre is.
+    shapes: Vec<Vector>,
+}
+
+/// `count` rings of `around` elements; node 2 i is inside, node 2 i + 1 outside.
+fn rings(count: usize, around: usize, inner: f64, flat: f64) -> Rings {
+    let (mut cells, mut bodies, mut shapes) = (Vec::new(), Vec::new(), Vec::new());
+    for ring in 0..count {
+        let first = shapes.len();
+        let at = |i: usize, side: usize| (first + 2 * (i % around) + side) as u32;
+        for i in 0..around {
+            let angle = TAU * (i as f64 + 0.1 * ring as f64) / around as f64;
+            for radius in [inner, 1.0] {
+                shapes.push([radius * angle.cos(), flat * radius * angle.sin()]);
+                bodies.push(ring as u32);
+            }
+            cells.push([at(i, 0), at(i, 1), at(i + 1, 1), at(i + 1, 0)]);
+        }
+    }
+    let surface = Surface::outside(cells.iter().map(<[u32; 4]>::as_slice)).unwrap();
+    Rings { target: Target { surface, mirrors: vec![] }, bodies, shapes }
+}
+
+impl Rings {
+    /// Positions with each ring turned and moved.
+    fn placed(&self, places: &[([f64; 2], f64)]) -> Vec<Vector> {
+        let place = |(x, &body): (&Vector, &u32)| {
+            let ([cx, cy], angle) = places[body as usize];
+            let (sin, cos) = angle.sin_cos();
+            [cx + cos * x[0] - sin * x[1], cy + sin * x[0] + cos * x[1]]
+        };
+        self.shapes.iter().zip(&self.bodies).map(place).collect()
+    }
+
+    /// How often a node is inside a body, by the ray along +x; `None` where it is too near to the surface for rounding.
+    fn winding(&self, x: Vector, body: u32, positions: &[Vector]) -> Option<i32> {
+        let mut sum = 0;
+        for (segment, _) in self.target.surface.segments.iter().zip(0..).filter(|(segment, _)| self.bodies[segment[0] as usize] == body) {
+            let [a, b] = segment.map(|node| positions[node as usize]);
+            let cross = (b[0] - a[0]) * (x[1] - a[1]) - (b[1] - a[1]) * (x[0] - a[0]);
+            if self.target.distance(x, self.target.surface.segments.iter().position(|it| it == segment)? as u32, positions)? < 1e-9 {
+                return None;
+            }
+            // The body is on the right.
+            sum += match (a[1] <= x[1], b[1] <= x[1]) {
+                (true, false) if cross > 0.0 => -1,
+                (false, true) if cross < 0.0 => 1,
+                _ => 0,
+            };
+        }
+        Some(sum)
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 150, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn whoever_is_inside_a_body_is_in_contact_with_it(
+        count in 2_usize..4, around in 5_usize..14, inner in 0.3..0.9_f64, flat in 0.15..1.0_f64,
+        start in prop::collection::vec((prop::array::uniform2(-1.5..1.5_f64), 0.0..TAU), 4),
+        moves in prop::collection::vec((prop::array::uniform2(-1.0..1.0_f64), -0.5..0.5_f64), 4 * 12),
+        speeds in prop::collection::vec(-4.0..0.3_f64, 12),
+    ) {
+        let rings = rings(count, around, inner, flat);
+        let mut places: Vec<_> = start[..count].to_vec();
+        let mut old = rings.placed(&places);
+        let search = (registry::<2>()[0].make)();
+        let mut tracker = Tracker::new(vec![rings.target.clone()], &[(0, 0)], search, &old).with_bodies(&rings.bodies, &[]);
+        for (step, speed) in speeds.iter().enumerate() {
+            let speed = 10.0_f64.powf(*speed);
+            if step > 0 {
+                for (body, (place, angle)) in places.iter_mut().enumerate() {
+                    let (by, turn) = moves[4 * step + body];
+                    *place = [place[0] + speed * by[0], place[1] + speed * by[1]];
+                    *angle += speed.min(1.0) * turn;
+                }
+            }
+            let new = rings.placed(&places);
+            let touches = tracker.track(Sweep { old: &old, new: &new }, 0.0).to_vec();
+            for (node, &x) in new.iter().enumerate() {
+                for body in 0..count as u32 {
+                    let touch = touches.iter().find(|touch| {
+                        touch.node == node as u32 && rings.bodies[rings.target.surface.segments[touch.projection.segment as usize][0] as usize] == body
+                    });
+                    if rings.bodies[node] == body {
+                        // Rigid bodies never touch themselves.
+                        prop_assert!(touch.is_none_or(|touch| touch.own && touch.projection.gap >= 0.0), "{step} {node}: {touch:?}");
+                    } else if rings.winding(x, body, &new).is_some_and(|winding| winding > 0) {
+                        prop_assert!(touch.is_some_and(|touch| touch.projection.gap < 0.0), "{step} {node} in {body}: {touch:?}");
+                    }
+                }
+            }
+            old = new;
+        }
+        prop_assert_eq!(tracker.certificate().unverified, 0);
+    }
+}
+
+#[test]
+fn runs_certify_themselves() {
+    // A block that shatters through a pile of plates and bounces among them, everybody against everybody.
+    let mut model = model(3e-3);
+    model.materials.insert("heavy".into(), elastic(1e10, 1e5));
+    for plate in 0..4 {
+        let name = format!("plate{plate}");
+        add(&mut model, &name, rectangle([-0.1, -0.004 * f64::from(plate)], [0.2, 0.002], [40, 1]), [0.0, 0.0]);
+        model.parts[plate as usize].material = "heavy".into();
+    }
+    add(&mut model, "block", Shape::Disk { centre: [0.01, 0.05], radius: 0.03, elements: 4 }, [5.0, -60.0]);
+    model.contacts.push(Contact { name: "all".into(), partners: Partners::Bodies(vec![]), ..Contact::default() });
+    let (simulation, history) = run(&model);
+    let summary = simulation.summary();
+    assert!(history.largest("energy.contact") > 1.0);
+    assert!(summary.contact.unverified == 0 && summary.contact.crossings_found > 100, "{summary:?}");
+    assert!(summary.warnings.is_empty(), "{:?}", summary.warnings);
+    let searches = simulation.searches();
+    assert_eq!((searches.len(), searches[0].search.as_str(), searches[0].report.steps), (1, "grid", summary.steps + 1));
+    assert!(searches[0].report.searches < summary.steps / 2 && searches[0].pairs_swept == summary.contact.pairs_swept, "{searches:?}");
+}
+
+#[test]
+fn a_contact_that_transmits_nothing_is_mentioned() {
+    let mut model = model(1e-5);
+    add(&mut model, "one", rectangle([0.0, 0.0], [0.1, 0.1], [3, 3]), [0.0, 0.0]);
+    add(&mut model, "two", rectangle([0.2, 0.0], [0.1, 0.1], [3, 3]), [0.0, 0.0]);
+    touch(&mut model, "one", "two");
+    let (simulation, _) = run(&model);
+    let warnings = simulation.summary().warnings;
+    assert_eq!(warnings, ["contact \"one-two\" transmitted nothing in the whole run"]);
+}

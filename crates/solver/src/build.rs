@@ -91,7 +91,9 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
     let nodes = positions.len();
     let assembly = Assembly::new(nodes, &inputs);
     velocities.resize(nodes, [0.0; 2]);
-    let outside = if contacts.is_empty() { Surface::default() } else { mesh.outside(&[]).map_err(|fault| vec![fault])? };
+    // A symmetry line is no surface: pressures count the length on the model's side.
+    let outside =
+        mesh.outside_without(&[], |segment| contacts.is_empty() || constraints.is_mirror(segment)).map_err(|fault| vec![fault])?;
     let traces = Traces::new(outside, &mesh.positions);
     let limits =
         Limits { end: model.run.end, safety: model.run.safety, energy: model.run.energy_limit, step: model.run.step_limit.unwrap_or(0.0) };

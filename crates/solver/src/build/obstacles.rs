@@ -1,6 +1,6 @@
 //! Obstacles: their rigid bodies, their shapes, and the nodes that meet them.
 
-use super::{Builder, Outlined, search_by_name, stiffness_of, terms_of};
+use super::{Builder, search_by_name, stiffness_of, terms_of};
 use crate::contact::formulation::Side;
 use crate::contact::node_segment::{NodeSegment, Slave};
 use crate::contact::obstacle::circle::{Circle, RoundSegments};
@@ -18,7 +18,9 @@ use std::f64::consts::TAU;
 
 /// The outside of the bodies that an obstacle stops.
 struct Met {
-    surface: Surface,
+    target: Target,
+    /// Segments on symmetry lines, which are left out of it.
+    lids: Vec<[u32; 2]>,
     /// Tributary length (m) and pressure stiffness (Pa/m) of each of its nodes.
     own: Vec<(f64, f64)>,
     /// Mean of both over the nodes.
@@ -51,14 +53,13 @@ impl Builder<'_> {
     }
 
     fn met(&self, obstacle: &Obstacle, reach: f64) -> Result<Met, Fault> {
-        let surface = self.mesh.outside_without(&obstacle.parts, |segment| self.constraints.is_mirror(segment));
-        let surface = surface.map_err(|fault| Fault { path: ".parts".into(), ..fault })?;
-        let outline = Outlined { target: Target { surface, mirrors: Vec::new() }, lids: Vec::new() };
-        let Side { target: Target { surface, .. }, nodes: own, .. } = self.side(outline, &obstacle.interface);
+        let outline = self.outlined(|leave_out| self.mesh.outside_without(&obstacle.parts, leave_out), "the outside of these parts");
+        let outline = outline.map_err(|fault| Fault { path: ".parts".into(), ..fault })?;
+        let Side { target, lids, nodes: own, .. } = self.side(outline, &obstacle.interface);
         let count = own.len().max(1) as f64;
         let sum = own.iter().fold((0.0, 0.0), |sum, it| (sum.0 + it.0, sum.1 + it.1));
-        let longest = surface.segments.iter().map(|&segment| length(segment, &self.mesh.positions)).fold(0.0, f64::max);
-        Ok(Met { surface, own, mean: (sum.0 / count, sum.1 / count), longest, reach })
+        let longest = target.surface.segments.iter().map(|&segment| length(segment, &self.mesh.positions)).fold(0.0, f64::max);
+        Ok(Met { target, lids, own, mean: (sum.0 / count, sum.1 / count), longest, reach })
     }
 
     /// The body of an obstacle, and what makes springs at it.
@@ -136,7 +137,7 @@ impl Builder<'_> {
         let stiffness = stiffness_of(&obstacle.interface, law::Node { tributary: area, own, other: own, share: 1.0 }, 1);
         let slave = Slave { stiffness, area, slip: 0.0 };
         let centre = Target { surface: Surface { nodes: vec![node], ..Surface::default() }, mirrors: Vec::new() };
-        let tracker = self.tracker(vec![self.with_mirrors(met.surface), centre], &[(1, 0)]);
+        let tracker = self.tracker(met.target, met.lids, centre, &[(1, 0)]);
         let segments = RoundSegments::new(tracker, slave, [pushed, met.reach], body, initial::is_ignored(&obstacle.interface));
         Ok((body, Box::new(Both::new([Box::new(nodes), Box::new(segments)]))))
     }
@@ -164,20 +165,19 @@ impl Builder<'_> {
             Slave { stiffness: stiffness_of(&obstacle.interface, here, passes), area: tributary / passes as f64, slip: 0.0 }
         };
         let of_parts =
-            met.surface.nodes.iter().zip(&met.own).map(|(&node, &(length, own))| slave(length, own, self.constraints.share(node)));
+            met.target.surface.nodes.iter().zip(&met.own).map(|(&node, &(length, own))| slave(length, own, self.constraints.share(node)));
         let of_corners = contact::node_stiffness(&surface, &vec![met.mean.1; lines.len()], &self.positions);
         let of_corners = of_corners.iter().map(|&(length, own)| slave(length.min(met.mean.0), own, 1.0));
         let slaves = vec![of_parts.collect(), of_corners.collect()];
         let own = Target { surface, mirrors: Vec::new() };
-        let tracker = self.tracker(vec![self.with_mirrors(met.surface), own], &[(0, 1), (1, 0)]);
+        let tracker = self.tracker(met.target, met.lids, own, &[(0, 1), (1, 0)]);
         (body, Box::new(NodeSegment::new(tracker, slaves, &obstacle.interface, met.reach)))
     }
 
-    fn tracker(&self, targets: Vec<Target>, passes: &[(usize, usize)]) -> Tracker {
+    /// Follows the outside of the parts and a surface of the obstacle.
+    fn tracker(&self, parts: Target, lids: Vec<[u32; 2]>, obstacle: Target, passes: &[(usize, usize)]) -> Tracker {
         let search = (search_by_name("").expect("the registry of searches is not empty").make)();
-        let mut bodies = self.mesh.bodies();
-        bodies.resize(self.positions.len(), u32::MAX);
-        Tracker::new(targets, passes, search, &self.positions).with_bodies(&bodies, &[])
+        Tracker::new(vec![parts, obstacle], passes, search, &self.positions).with_bodies(&self.mesh.bodies(), &[lids, Vec::new()])
     }
 
     /// A node that belongs to no element.
@@ -199,7 +199,7 @@ impl Builder<'_> {
             let here = law::Node { tributary: length, own, other: own, share: self.constraints.share(node) };
             (!left_out(node)).then(|| (node, Slave { stiffness: stiffness_of(&obstacle.interface, here, 1), area: length, slip: 0.0 }))
         };
-        let nodes = met.surface.nodes.iter().zip(&met.own).filter_map(slave).collect();
+        let nodes = met.target.surface.nodes.iter().zip(&met.own).filter_map(slave).collect();
         NodeObstacle::new(shape, body, nodes, SKIN * met.mean.0 + met.reach, initial::is_ignored(&obstacle.interface))
     }
 

@@ -12,7 +12,7 @@ use crate::contact::Vector;
 use crate::contact::initial::kept;
 use crate::contact::node_segment::Slave;
 use crate::contact::springs::{End, Spring, Springs};
-use crate::contact::tracker::{self, Certificate, Touch, Tracker};
+use crate::contact::tracker::{self, Certificate, SearchReport, Touch, Tracker};
 use crate::contact::{Formulation, Scene};
 
 /// The circle, in the frame of its body.
@@ -180,6 +180,10 @@ impl Formulation for RoundSegments {
 
     fn certificate(&self) -> Certificate {
         self.tracker.certificate()
+    }
+
+    fn search_report(&self) -> Option<SearchReport> {
+        Some(self.tracker.search_report())
     }
 }
 

@@ -9,7 +9,7 @@ pub mod plane;
 use super::initial::kept;
 use super::node_segment::Slave;
 use super::springs::{End, Spring, Springs};
-use super::tracker::Certificate;
+use super::tracker::{Certificate, SearchReport};
 use super::{Formulation, Scene, Vector};
 use crate::output::Outline;
 use crate::rigid::Bodies;
@@ -178,6 +178,10 @@ impl Formulation for Both {
         let mut sum = self.parts[0].certificate();
         sum += self.parts[1].certificate();
         sum
+    }
+
+    fn search_report(&self) -> Option<SearchReport> {
+        self.parts.iter().find_map(|part| part.search_report())
     }
 
     fn remember(&mut self, solved: &[Spring]) {

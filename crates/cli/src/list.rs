@@ -22,6 +22,8 @@ enum What {
     Materials,
     /// Global contact searches
     Searches,
+    /// Contact formulations
+    Formulations,
     /// Contact laws
     Laws,
     /// Fields of the output
@@ -40,6 +42,7 @@ impl What {
             Self::Elements => elements(),
             Self::Materials => materials(),
             Self::Searches => searches(),
+            Self::Formulations => formulations(),
             Self::Laws => laws(),
             Self::Fields => fields(),
         }
@@ -68,6 +71,15 @@ fn searches() -> String {
     for (index, search) in contact::search::registry::<2>().iter().enumerate() {
         let name = if index == 0 { format!("{} (default)", search.name) } else { search.name.to_string() };
         entry(&mut text, &name, search.doc, search.source);
+    }
+    text
+}
+
+fn formulations() -> String {
+    let mut text = String::from("Contact formulations (contact.formulation)\n");
+    for (index, kind) in contact::formulation::FORMULATIONS.iter().enumerate() {
+        let name = if index == 0 { format!("{} (default)", kind.name) } else { kind.name.to_string() };
+        entry(&mut text, &name, kind.doc, kind.source);
     }
     text
 }

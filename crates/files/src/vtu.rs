@@ -3,7 +3,7 @@
 //! A [`Frame`] and its [`Cells`] become the bytes of one file: a short XML head, then all arrays as appended raw binary,
 //! little-endian, each in zlib blocks with 64-bit headers. What never changes during a run (connectivity, cell types,
 //! parts) is encoded once by [`VtuWriter::new`]. Equal input gives equal bytes on every machine. The bytes go to
-//! [`crate::results`], ParaView and `tests/read_back.py` read them. [`obstacles`] makes a file of obstacles in the same way.
+//! [`crate::results`], ParaView and `tests/read_back.py` read them. `obstacles` makes a file of obstacles in the same way.
 //! Source: VTK file formats, "XML formats", `vtkZLibDataCompressor`.
 
 use embate_solver::output::{CellKind, Cells, Field, FieldKind, Frame, Location};

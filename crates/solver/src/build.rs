@@ -316,7 +316,7 @@ impl Builder<'_> {
         };
         let Some(kind) = formulation::kind_of(contact) else {
             let message = format!("there is no formulation \"{}\"", contact.formulation.name());
-            return Err(vec![Fault::new("formulation", message, "see `embate list`")]);
+            return Err(vec![Fault::new("formulation", message, "see `embate list formulations`")]);
         };
         let setup = Setup {
             contact,

@@ -86,7 +86,13 @@ fn lists_hold_everything_in_the_registries() {
 
 #[test]
 fn one_list_can_be_chosen() {
-    for (what, title) in [("elements", "Elements"), ("materials", "Materials"), ("searches", "Searches"), ("fields", "Fields")] {
+    for (what, title) in [
+        ("elements", "Elements"),
+        ("materials", "Materials"),
+        ("searches", "Searches"),
+        ("formulations", "Contact formulations"),
+        ("fields", "Fields"),
+    ] {
         let answer = embate(here(), ["list", what]);
         assert_eq!(answer.code, Some(0));
         assert!(answer.out.starts_with(title));

@@ -18,6 +18,8 @@ pub trait Law: Send + Sync {
     fn stored(&self, spring: &Spring, gap: f64) -> f64;
     /// Stiffness −dF/dg of a spring at a gap, N/m per metre of depth.
     fn stiffness(&self, spring: &Spring, gap: f64) -> f64;
+    /// Mean force between two gaps, [V(old) − V(new)] / (new − old), N/m: without the difference of energies, which is round-off where they are near each other.
+    fn mean_force(&self, spring: &Spring, old: f64, new: f64) -> f64;
     /// Stiffness of the elastic slip, N/m per metre of depth.
     fn slip_stiffness(&self, spring: &Spring) -> f64 {
         spring.stiffness
@@ -87,21 +89,9 @@ pub fn damped(law: &dyn Law, closing: &Closing<'_>, fraction: f64, rate_old: f64
         };
         let stiffness = law.stiffness(spring, old.min(new));
         let rate = 0.5 * (rate_old + 2.0 * (new - spring.gap) / after);
-        (gradient(law, spring, old, new) - 2.0 * fraction * (stiffness * mass).sqrt() * closed * rate).max(0.0)
+        (law.mean_force(spring, old, new) - 2.0 * fraction * (stiffness * mass).sqrt() * closed * rate).max(0.0)
     };
     fixed_point(response)
-}
-
-/// Mean force of an elastic law between two gaps: [V(old) − V(new)] / (new − old).
-#[must_use]
-pub fn gradient(law: &dyn Law, spring: &Spring, old: f64, new: f64) -> f64 {
-    let moved = new - old;
-    // Near each other the difference of energies is round-off; the force at the middle is the same to second order.
-    if moved.abs() <= 1e-7 * (old.abs() + new.abs()) {
-        let (middle, small) = (0.5 * (old + new), 1e-4 * (old.abs() + new.abs()));
-        return if small > 0.0 { 0.5 * (law.stored(spring, middle - small) - law.stored(spring, middle + small)) / small } else { 0.0 };
-    }
-    (law.stored(spring, old) - law.stored(spring, new)) / moved
 }
 
 /// The force F with F = `response`(F), where the response falls as the force grows.
@@ -156,5 +146,27 @@ mod tests {
         assert_eq!(fixed_point(|_| -1.0), 0.0);
         let found = fixed_point(|force: f64| (1.0 - force).max(0.0).powi(2) * 5.0);
         assert!((found - 5.0 * (1.0 - found).powi(2)).abs() < 1e-14);
+    }
+
+    #[test]
+    fn a_mean_force_is_the_difference_of_energies_by_the_way() {
+        let spring = Spring { stiffness: 3.0, area: 1.5, ..Spring::default() };
+        let laws: [Box<dyn Law>; 3] = [
+            Box::new(penalty::Penalty),
+            Box::new(tie::Tie { rigid: false }),
+            Box::new(pressure_gap::PressureGap::new(&[-2.0, -1.0, 0.5], &[7.0, 2.0, 0.0])),
+        ];
+        for law in laws {
+            for old in [-3.0, -1.5, -0.2, 0.0, 0.3, 2.0] {
+                for new in [-4.0, -1.2, -0.1, 0.1, 0.4, 3.0] {
+                    let expected = (law.stored(&spring, old) - law.stored(&spring, new)) / (new - old);
+                    let found = law.mean_force(&spring, old, new);
+                    assert!((found - expected).abs() <= 1e-13 * (1.0 + expected.abs()), "{old} {new}: {found} {expected}");
+                }
+                // Near each other: the force itself.
+                let (a, b) = (law.mean_force(&spring, old, old + 1e-12), law.mean_force(&spring, old, old));
+                assert!((a - b).abs() < 1e-10, "{old}: {a} {b}");
+            }
+        }
     }
 }

@@ -31,6 +31,9 @@ impl Law for Multiplier {
     fn stiffness(&self, _: &Spring, _: f64) -> f64 {
         f64::INFINITY
     }
+    fn mean_force(&self, _: &Spring, _: f64, _: f64) -> f64 {
+        0.0
+    }
     fn slip_stiffness(&self, _: &Spring) -> f64 {
         f64::INFINITY
     }

@@ -84,6 +84,15 @@ impl Law for Penalty {
     fn stiffness(&self, spring: &Spring, _: f64) -> f64 {
         spring.stiffness
     }
+    fn mean_force(&self, spring: &Spring, old: f64, new: f64) -> f64 {
+        // The square of the deeper gap counts as far as it is closed.
+        let (deep, high) = (old.min(new), old.max(new));
+        match (deep < 0.0, high < 0.0) {
+            (false, _) => 0.0,
+            (true, true) => -0.5 * spring.stiffness * (old + new),
+            (true, false) => 0.5 * spring.stiffness * deep * (deep / (high - deep)),
+        }
+    }
 }
 
 /// The force F ≥ 0 with F (g₊ − g₋) = V(g₋) − V(g₊) and g₊ = `free` + `compliance` F; `old` is g₋.

@@ -3,7 +3,7 @@
 //! Below the deepest gap the pressure goes on with the last slope. Positive gaps with a pressure are allowed: a soft layer that is
 //! not modelled.
 
-use super::{ContactLawKind, Law, fixed_point, gradient};
+use super::{ContactLawKind, Law, fixed_point};
 use crate::contact::springs::{Closing, Spring};
 
 /// Registry entry.
@@ -50,13 +50,27 @@ impl Law for PressureGap {
         if old >= self.reach() && free >= self.reach() {
             return 0.0;
         }
-        fixed_point(|force| gradient(self, spring, old, free + compliance * force))
+        fixed_point(|force| self.mean_force(spring, old, free + compliance * force))
     }
     fn stored(&self, spring: &Spring, gap: f64) -> f64 {
         spring.area * self.at(gap)[1]
     }
     fn stiffness(&self, spring: &Spring, gap: f64) -> f64 {
         spring.area * self.at(gap)[2]
+    }
+    fn mean_force(&self, spring: &Spring, old: f64, new: f64) -> f64 {
+        let (low, high) = (old.min(new), old.max(new));
+        if low == high {
+            return spring.area * self.at(low)[0];
+        }
+        // Piece by piece, the mean of each by its share: no difference of energies.
+        let (mut sum, mut from) = (0.0, low);
+        let knots = self.points.iter().skip(1).map(|point| point[0]).filter(|&knot| low < knot && knot < high);
+        for to in knots.chain([high]) {
+            sum += 0.5 * (self.at(from)[0] + self.at(to)[0]) * ((to - from) / (high - low));
+            from = to;
+        }
+        spring.area * sum
     }
     fn slip_stiffness(&self, spring: &Spring) -> f64 {
         let steepest = self.points.windows(2).map(|two| (two[0][1] - two[1][1]) / (two[1][0] - two[0][0])).fold(0.0, f64::max);

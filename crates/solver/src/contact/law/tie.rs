@@ -26,6 +26,9 @@ impl Law for Tie {
     fn stiffness(&self, spring: &Spring, _: f64) -> f64 {
         self.slip_stiffness(spring)
     }
+    fn mean_force(&self, spring: &Spring, old: f64, new: f64) -> f64 {
+        if self.rigid { 0.0 } else { -0.5 * spring.stiffness * (old + new) }
+    }
     fn slip_stiffness(&self, spring: &Spring) -> f64 {
         if self.rigid { f64::INFINITY } else { spring.stiffness }
     }

@@ -435,12 +435,10 @@ impl Springs {
                 let gap_new = spring.gap + 0.5 * after * rates[0];
                 let (stored_old, stored_new) = (terms.law.stored(&spring, link.gap_old), terms.law.stored(&spring, gap_new));
                 // Part of the force that the energy explains; the rest is damping, or a multiplier's.
-                let moved = gap_new - link.gap_old;
                 let elastic = match terms.law.is_elastic() {
                     false => 0.0,
                     true if terms.damping == 0.0 => spring.force,
-                    true if moved == 0.0 => spring.force,
-                    true => (stored_old - stored_new) / moved,
+                    true => terms.law.mean_force(&spring, link.gap_old, gap_new),
                 };
                 let bend = gap_new + link.gap_old - 2.0 * spring.gap;
                 spring_new.energy = 0.5 * (stored_old + stored_new) + 0.5 * elastic * bend;

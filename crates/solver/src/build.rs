@@ -47,6 +47,7 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
     let mut builder = Builder {
         model,
         faults: Vec::new(),
+        body_of_node: mesh.bodies(),
         constraints: Constraints::new(model, &mesh, &curves)?,
         curves,
         positions: mesh.positions.clone(),
@@ -155,6 +156,8 @@ pub(crate) fn part_masses(mesh: &Mesh<2>, blocks: &[Box<dyn Block<2>>]) -> Vec<V
 struct Builder<'a> {
     model: &'a Model,
     mesh: Mesh<2>,
+    /// Body that each node of the mesh belongs to.
+    body_of_node: Vec<u32>,
     constraints: Constraints<2>,
     curves: Curves,
     faults: Vec<Fault>,
@@ -273,9 +276,8 @@ impl Builder<'_> {
     fn contacts(&mut self) -> Vec<Contact> {
         let mut contacts = Vec::new();
         let mut tied = BTreeMap::new();
-        let bodies = self.mesh.bodies();
         for (i, contact) in self.model.contacts.iter().enumerate() {
-            match self.contact(contact, &bodies) {
+            match self.contact(contact) {
                 Ok((made, terms)) => {
                     self.terms.push(terms);
                     if let Some(ties) = made.ties() {
@@ -308,7 +310,7 @@ impl Builder<'_> {
     }
 
     /// A contact and what acts in its springs; faults have paths relative to the contact.
-    fn contact(&self, contact: &model::Contact, bodies: &[u32]) -> Result<(Contact, Terms), Vec<Fault>> {
+    fn contact(&self, contact: &model::Contact) -> Result<(Contact, Terms), Vec<Fault>> {
         let sides = self.outlines_of(contact)?.into_iter().map(|outline| self.side(outline, &contact.interface)).collect();
         let Some(search) = search_by_name(&contact.search) else {
             let message = format!("there is no search \"{}\"", contact.search);
@@ -321,7 +323,7 @@ impl Builder<'_> {
         let setup = Setup {
             contact,
             sides,
-            bodies,
+            bodies: &self.body_of_node,
             positions: &self.mesh.positions,
             law: &|| law_of(&contact.interface),
             tie_terms: first_of_ties(self.model) + self.ties.len(),

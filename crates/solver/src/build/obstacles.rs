@@ -144,10 +144,8 @@ impl Builder<'_> {
 
     /// Points and lines are nodes and segments that move with the body, and meet the outside of the parts as surfaces meet: nodes of each against segments of the other.
     fn polyline(&mut self, obstacle: &Obstacle, met: Met, points: &[[f64; 2]]) -> (usize, Box<dyn Formulation>) {
-        let closed = points.len() > 3 && points.first() == points.last();
-        let count = points.len() - usize::from(closed);
-        let own = &points[..count];
-        let mean = [0, 1].map(|d| own.iter().map(|x| x[d]).sum::<f64>() / count as f64);
+        let (own, closed) = distinct(points);
+        let mean = [0, 1].map(|d| own.iter().map(|x| x[d]).sum::<f64>() / own.len() as f64);
         let reference = obstacle.reference.unwrap_or(mean);
         let arm = |x: &[f64; 2]| [x[0] - reference[0], x[1] - reference[1]];
         let mut rigid = self.obstacle_body(obstacle, reference);
@@ -177,7 +175,7 @@ impl Builder<'_> {
     /// Follows the outside of the parts and a surface of the obstacle.
     fn tracker(&self, parts: Target, lids: Vec<[u32; 2]>, obstacle: Target, passes: &[(usize, usize)]) -> Tracker {
         let search = (search_by_name("").expect("the registry of searches is not empty").make)();
-        Tracker::new(vec![parts, obstacle], passes, search, &self.positions).with_bodies(&self.mesh.bodies(), &[lids, Vec::new()])
+        Tracker::new(vec![parts, obstacle], passes, search, &self.positions).with_bodies(&self.body_of_node, &[lids, Vec::new()])
     }
 
     /// A node that belongs to no element.
@@ -229,6 +227,12 @@ impl Builder<'_> {
             ..Body::default()
         }
     }
+}
+
+/// The points of a polyline, each once, and whether it is closed: then it ends at its first point.
+pub(super) fn distinct(points: &[[f64; 2]]) -> (&[[f64; 2]], bool) {
+    let closed = points.len() > 3 && points.first() == points.last();
+    (&points[..points.len() - usize::from(closed)], closed)
 }
 
 /// Lines from node to node, as a surface.

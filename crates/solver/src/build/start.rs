@@ -1,5 +1,6 @@
 //! Penetrations at the start, found before anything is strained: refused, ignored, or pushed out.
 
+use super::obstacles::{chain, distinct};
 use super::{Builder, Outlined, search_by_name};
 use crate::contact::initial::{self, Movable, Penetration};
 use crate::contact::projection::node_segment::Target;
@@ -8,7 +9,6 @@ use crate::contact::tracker::{SKIN, Tracker};
 use crate::contact::{Vector, length};
 use crate::error::Fault;
 use crate::load::constraint::unit;
-use crate::mesh::Mesh;
 use crate::mesh::surface::Surface;
 use crate::model::{self, Formulation, InitialPenetration, Interface, Obstacle, ObstacleShape, Partners};
 
@@ -39,7 +39,7 @@ impl Builder<'_> {
                 continue;
             }
             let (Ok(outlines), Some(search)) = (self.outlines_of(contact), search_by_name(&contact.search)) else { continue };
-            let mut tracker = tracker(outlines, passes_of(contact), (search.make)(), &self.mesh);
+            let mut tracker = self.tracker_at_start(outlines, passes_of(contact), (search.make)());
             let found = initial::penetrations(&mut tracker, thickness, &self.mesh.positions, tolerance);
             match initial_penetration {
                 InitialPenetration::Error => self.faults.extend(initial::faults(&format!("contact[{i}]"), &contact.name, &found)),
@@ -71,6 +71,11 @@ impl Builder<'_> {
         }
         self.positions.clone_from(&self.mesh.positions);
         lines
+    }
+
+    fn tracker_at_start(&self, outlines: Vec<Outlined>, passes: &[(usize, usize)], search: Box<dyn Search<2>>) -> Tracker {
+        let (targets, lids): (Vec<_>, Vec<_>) = outlines.into_iter().map(|Outlined { target, lids }| (target, lids)).unzip();
+        Tracker::new(targets, passes, search, &self.mesh.positions).with_bodies(&self.body_of_node, &lids)
     }
 
     fn push_out(&mut self, meetings: &mut [Meeting], obstacles: &[(Vec<u32>, Behind)], tolerance: f64) {
@@ -114,19 +119,19 @@ impl Builder<'_> {
         let (points, closed, radius) = match &obstacle.shape {
             ObstacleShape::Circle { centre, radius, hollow: false } => (vec![*centre], true, *radius),
             ObstacleShape::Polyline { points } => {
-                let closed = points.len() > 3 && points.first() == points.last();
-                (points[..points.len() - usize::from(closed)].to_vec(), closed, 0.0)
+                let (own, closed) = distinct(points);
+                (own.to_vec(), closed, 0.0)
             }
             _ => return None,
         };
         let first = self.mesh.positions.len() as u32;
         let nodes: Vec<u32> = (first..first + points.len() as u32).collect();
-        let own = if points.len() > 1 { super::obstacles::chain(nodes, closed) } else { Surface { nodes, ..Surface::default() } };
+        let own = if points.len() > 1 { chain(nodes, closed) } else { Surface { nodes, ..Surface::default() } };
         let targets = vec![self.with_mirrors(surface), Target { surface: own, mirrors: Vec::new() }];
         let passes: &[(usize, usize)] = if points.len() > 1 { &[(0, 1), (1, 0)] } else { &[(1, 0)] };
         let positions: Vec<Vector> = self.mesh.positions.iter().chain(&points).copied().collect();
         let search = (search_by_name("")?.make)();
-        let tracker = Tracker::new(targets, passes, search, &positions).with_bodies(&self.mesh.bodies(), &[]);
+        let tracker = Tracker::new(targets, passes, search, &positions).with_bodies(&self.body_of_node, &[]);
         Some(Meeting { contact: None, tracker, thickness: thickness + radius, points })
     }
 }
@@ -162,9 +167,8 @@ fn behind(obstacle: &Obstacle, surface: &Surface, positions: &[Vector]) -> Behin
             Some(if hollow { (radius - thickness - distance, [-out[0], -out[1]]) } else { (distance - radius - thickness, out) })
         }),
         ObstacleShape::Polyline { points } => {
-            let closed = points.len() > 3 && points.first() == points.last();
-            let count = points.len() - usize::from(closed);
-            let surface = super::obstacles::chain((0..count as u32).collect(), closed);
+            let (own, closed) = distinct(&points);
+            let surface = chain((0..own.len() as u32).collect(), closed);
             let all: Vec<u32> = (0..surface.segments.len() as u32).collect();
             let target = Target { surface, mirrors: Vec::new() };
             Box::new(move |x| target.nearest(x, &all, &points).map(|nearest| (nearest.gap - thickness, nearest.normal)))
@@ -189,9 +193,4 @@ fn passes_of(contact: &model::Contact) -> &'static [(usize, usize)] {
         (_, Formulation::SinglePass { .. }) => &[(1, 0)],
         _ => &[(0, 1), (1, 0)],
     }
-}
-
-fn tracker(outlines: Vec<Outlined>, passes: &[(usize, usize)], search: Box<dyn Search<2>>, mesh: &Mesh<2>) -> Tracker {
-    let (targets, lids): (Vec<_>, Vec<_>) = outlines.into_iter().map(|Outlined { target, lids }| (target, lids)).unzip();
-    Tracker::new(targets, passes, search, &mesh.positions).with_bodies(&mesh.bodies(), &lids)
 }

@@ -67,11 +67,17 @@ pub fn is_ignored(interface: &Interface) -> bool {
     interface.initial_penetration == InitialPenetration::Ignore || interface.active[0] > 0.0
 }
 
-/// The gap that counts as zero (m, negative), after the gap has become `gap`: that of the start, until the surfaces part. One that went with the gap would give to springs
-/// what nobody put in.
+/// The gap that counts as zero (m, negative), now that the gap is `gap`: that at which the interface began to act, until the surfaces part. One that went with the gap would
+/// give to springs what nobody put in. `offset` is that of the step before; it has none before it has begun.
 #[must_use]
-pub fn kept(offset: f64, gap: f64) -> f64 {
-    if gap < 0.0 { offset } else { 0.0 }
+pub fn kept(has_begun: bool, offset: f64, gap: f64) -> f64 {
+    if !has_begun {
+        gap.min(0.0)
+    } else if gap < 0.0 {
+        offset
+    } else {
+        0.0
+    }
 }
 
 /// Size of a model for tolerances: its farthest coordinate, m.

@@ -121,7 +121,7 @@ impl NodeSegment {
     /// Gap as the spring sees it, and the gap that counts as zero.
     fn beyond(&self, touch: &Touch) -> (f64, f64) {
         let gap = self.gap(touch);
-        let offset = if self.has_begun { kept(touch.memory.offset, gap) } else { gap.min(0.0) };
+        let offset = kept(self.has_begun, touch.memory.offset, gap);
         let offset = if self.ignores_start && !touch.own { offset } else { 0.0 };
         (gap - offset, offset)
     }

@@ -297,7 +297,7 @@ impl Formulation for Pinball {
                 let had = (a[0] - b[0]).hypot(a[1] - b[1]) - touching;
                 gap += (self.thickness + self.reach - 0.5 * had.max(0.0)).max(0.0);
             }
-            let offset = if self.has_begun { kept(near.offset, gap) } else { gap.min(0.0) };
+            let offset = kept(self.has_begun, near.offset, gap);
             near.offset = if self.ignores_start || own { offset } else { 0.0 };
             let area = one.length.min(other.length);
             let stiffness = area * penalty::pressure(self.penalty, one.stiffness, other.stiffness);

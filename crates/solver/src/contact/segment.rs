@@ -14,7 +14,7 @@ use super::formulation::{FormulationKind, Setup};
 use super::initial::kept;
 use super::law::{Law, penalty};
 use super::springs::{End, Spring, Springs};
-use super::tracker::{Certificate, SearchReport, Tracker};
+use super::tracker::{Certificate, SearchReport, Touch, Tracker};
 use super::{Formulation, Scene, Vector};
 use crate::mesh::surface::{NONE, Surface};
 use crate::model::{ContactLaw, Penalty};
@@ -50,6 +50,8 @@ pub struct Segment {
     /// Largest gap at which the law pushes, m.
     reach: f64,
     start: Start,
+    /// Nodes that touch in this step.
+    touches: Vec<Touch>,
     /// Pairs of this step, ascending.
     pairs: Vec<[u32; 2]>,
     /// Those that have a common part.
@@ -167,6 +169,7 @@ impl Segment {
             thickness,
             reach,
             start,
+            touches: Vec::new(),
             pairs: Vec::new(),
             commons: Vec::new(),
             tree: vec![0; count],
@@ -189,8 +192,9 @@ impl Segment {
                 chain.depth[node as usize] = f64::NEG_INFINITY;
             }
         }
-        let touches = self.tracker.track(scene.sweep, self.thickness + self.reach).to_vec();
-        for touch in touches {
+        self.touches.clear();
+        self.touches.extend_from_slice(self.tracker.track(scene.sweep, self.thickness + self.reach));
+        for touch in &self.touches {
             let side = self.tracker.side(touch.pass);
             let [slave, target] = if side > 0.0 { [0, 1] } else { [self.chains.len() - 1, 0] };
             let chain = &mut self.chains[slave];
@@ -293,7 +297,7 @@ impl Segment {
         for (k, &[place, weight]) in self.rule.iter().enumerate() {
             let (gap, mut ends) = common.point(place);
             let gap = gap - distance;
-            let offset = if self.start.has_begun { kept(facing.offsets[k], gap) } else { gap.min(0.0) };
+            let offset = kept(self.start.has_begun, facing.offsets[k], gap);
             facing.offsets[k] = if self.start.ignored { offset } else { 0.0 };
             let gap = gap - facing.offsets[k];
             let [energy, push] = self.density(gap, pressure);

@@ -3,21 +3,12 @@
 //! Plane strain with ν = 0 and free sides is uniaxial: c = √(E/ρ). Wall: force ρ c v A for 2L/c, then the bar flies back with its speed
 //! (Carpenter, Taylor and Katona 1991). Two equal bars: force ½ ρ c Δv A for 2L/c, then the velocities are exchanged.
 
-use crate::bodies::{add, elastic, model, rectangle, simulation};
+use crate::bodies::{add, rectangle, simulation, slender};
 use embate_solver::model::{Contact, Formulation, Model, Obstacle, Penalty};
 use embate_solver::simulation::Simulation;
 
 const YOUNG: f64 = 200e9;
 const DENSITY: f64 = 7800.0;
-
-/// A model of bars that don't grow thicker under compression.
-fn slender(end: f64, young: f64, density: f64) -> Model {
-    let mut model = model(end);
-    let mut material = elastic(young, density);
-    material.parameters.insert("poisson".into(), 0.0);
-    model.materials.insert("soft".into(), material);
-    model
-}
 
 /// A bar of length 2 m and height 0.5 m (tall elements: the step is that of the bar, not of the height) that flies at 1.5 m/s towards a wall 1 mm away. `axis` 0 or 1: along x or y.
 fn bar_and_wall(elements: usize, scale: f64, axis: usize) -> Model {

@@ -1,6 +1,7 @@
 //! Models in code for the tests: short words for bodies, contacts and runs.
 #![allow(clippy::unwrap_used)] // what tests call may stop a test like the tests themselves
 
+use embate_solver::error::{Error, Fault};
 use embate_solver::model::{Contact, ImportedMesh, Material, MeshGroup, Model, Part, Probe, ProbeAt, Run, Shape};
 use embate_solver::output::Frame;
 use embate_solver::simulation::{Control, Observer, ObserverError, Options, Progress, Simulation};
@@ -10,6 +11,29 @@ use std::sync::Arc;
 pub(crate) fn elastic(young: f64, density: f64) -> Material {
     let parameters = [("young", young), ("poisson", 0.3), ("density", density)];
     Material { law: "elastic".into(), parameters: parameters.map(|(key, value)| (key.to_string(), value)).into() }
+}
+
+/// What is wrong with a model; nothing if a simulation can be made of it.
+pub(crate) fn model_faults(model: &Model) -> Vec<Fault> {
+    match Simulation::new(model, &Options { threads: 1, simd: None }) {
+        Err(Error::Model(faults)) => faults,
+        Err(other) => panic!("{other}"),
+        Ok(_) => vec![],
+    }
+}
+
+/// The same in words.
+pub(crate) fn faults(model: &Model) -> Vec<String> {
+    model_faults(model).iter().map(ToString::to_string).collect()
+}
+
+/// A model whose material has no lateral strain: bars in plane strain are uniaxial, and don't grow thicker under compression.
+pub(crate) fn slender(end: f64, young: f64, density: f64) -> Model {
+    let mut model = model(end);
+    let mut material = elastic(young, density);
+    material.parameters.insert("poisson".into(), 0.0);
+    model.materials.insert("soft".into(), material);
+    model
 }
 
 /// A model without bodies and a material `soft` with a sound speed of 1160 m/s.

@@ -1,20 +1,10 @@
 //! Prescribed motion, symmetry, walls and gravity through the public face.
 
 use crate::bodies::*;
-use embate_solver::error::Error;
 use embate_solver::model::{Constraint, Load, Model, Obstacle, Penalty, Symmetry};
-use embate_solver::simulation::{Options, Simulation};
 
 fn fix(model: &mut Model, on: &str, velocity: [Option<f64>; 2]) {
     model.constraints.push(Constraint { on: on.into(), velocity: velocity.map(|velocity| velocity.map(Into::into)) });
-}
-
-fn faults(model: &Model) -> Vec<String> {
-    match Simulation::new(model, &Options { threads: 1, simd: None }) {
-        Err(Error::Model(faults)) => faults.iter().map(ToString::to_string).collect(),
-        Err(other) => panic!("{other}"),
-        Ok(_) => vec![],
-    }
 }
 
 #[test]

@@ -53,15 +53,6 @@ fn momentum_is_kept_and_the_books_close_with_every_law_and_formulation() {
     }
 }
 
-/// Material without lateral strain: bars in plane strain are uniaxial.
-fn slender(end: f64, young: f64, density: f64) -> Model {
-    let mut model = model(end);
-    let mut material = elastic(young, density);
-    material.parameters.insert("poisson".into(), 0.0);
-    model.materials.insert("soft".into(), material);
-    model
-}
-
 /// Two equal bars, 50 elements of 2 mm each, that meet at 20 m/s; mean force and gap on the plateau, fraction of the closed form, and the model's force.
 fn bars(formulation: Formulation, law: ContactLaw) -> (Vec<f64>, Vec<f64>, Simulation, f64) {
     let (young, density, length, height) = (1e9, 1000.0, 0.1, 0.02);

@@ -2,18 +2,9 @@
 #![allow(clippy::unwrap_used)] // what tests call may stop a test like the tests themselves
 
 use crate::bodies::*;
-use embate_solver::error::{Error, Fault};
 use embate_solver::model::{Contact, InitialPenetration, Model, Obstacle, ObstacleShape, Partners, Shape, Symmetry};
-use embate_solver::simulation::{Options, Simulation};
-use std::f64::consts::TAU;
 
-fn faults(model: &Model) -> Vec<Fault> {
-    match Simulation::new(model, &Options { threads: 1, simd: None }) {
-        Err(Error::Model(faults)) => faults,
-        Err(other) => panic!("{other}"),
-        Ok(_) => vec![],
-    }
-}
+use std::f64::consts::TAU;
 
 /// Two blocks, the upper one 70 % of a segment inside the lower: more than the skin of later searches.
 fn overlapping(what: InitialPenetration) -> Model {
@@ -27,7 +18,7 @@ fn overlapping(what: InitialPenetration) -> Model {
 
 #[test]
 fn bodies_that_overlap_at_the_start_are_refused_with_places_and_depths() {
-    let found = faults(&overlapping(InitialPenetration::Error));
+    let found = model_faults(&overlapping(InitialPenetration::Error));
     assert!(found.iter().all(|fault| fault.path == "contact[0]" && fault.help.contains("push_out")), "{found:?}");
     assert!(found.iter().filter(|fault| fault.message.contains("1.400e-2 m inside")).count() >= 3, "{found:?}");
     assert!(found.iter().any(|fault| fault.message.contains("(5.100000e-2, 8.600000e-2)")), "{found:?}");
@@ -44,7 +35,7 @@ fn overlaps_of_any_depth_are_found_and_long_lists_are_counted() {
         } else {
             touch(&mut model, "block", "other");
         }
-        faults(&model)
+        model_faults(&model)
     };
     let ring = |inner: f64, outer: f64| Shape::Ring { centre: [0.0, 0.0], inner, outer, from: 0.0, to: TAU, elements: [2, 30] };
     for bodies in [false, true] {
@@ -81,7 +72,7 @@ fn a_half_model_knows_what_is_inside() {
             let mut normal = [0.0; 2];
             normal[axis] = 1.0;
             model.symmetries.push(Symmetry { normal, ..Symmetry::default() });
-            faults(&model).len()
+            model_faults(&model).len()
         };
         assert_eq!(scene(0.2), 0);
         // All nodes but the one in the middle and that on the line between two others.
@@ -168,13 +159,13 @@ fn nodes_that_are_pushed_out_stay_on_their_symmetry_line() {
 
 #[test]
 fn what_can_not_be_pushed_out_is_a_fault() {
-    let found = faults(&overlapping(InitialPenetration::PushOut));
+    let found = model_faults(&overlapping(InitialPenetration::PushOut));
     assert!(
         found.is_empty() || found.iter().any(|fault| fault.message.contains("not convex") || fault.message.contains("can't be pushed out"))
     );
     let mut model = overlapping(InitialPenetration::PushOut);
     model.parts[1].shape = rectangle([0.031, 0.03], [0.04, 0.04], [2, 2]);
-    assert!(!faults(&model).is_empty());
+    assert!(!model_faults(&model).is_empty());
 }
 
 #[test]
@@ -182,7 +173,7 @@ fn nodes_behind_an_obstacle_are_refused() {
     let mut model = model(1e-4);
     add(&mut model, "block", rectangle([0.0, 0.0], [0.1, 0.1], [5, 5]), [0.0, 0.0]);
     model.obstacles.push(Obstacle::wall("wall", [0.0, 0.01], [0.0, 1.0]));
-    let found = faults(&model);
+    let found = model_faults(&model);
     assert_eq!(found.len(), 6, "{found:?}");
     assert!(found[0].path == "obstacle[0]" && found[0].message.contains("1.000e-2 m inside"), "{found:?}");
 }
@@ -218,7 +209,7 @@ fn with_obstacles() -> Vec<(&'static str, Model, Gap)> {
 #[test]
 fn bodies_are_pushed_out_of_obstacles_or_left_in_peace() {
     for (name, mut model, gap) in with_obstacles() {
-        let refused = faults(&model);
+        let refused = model_faults(&model);
         assert!(!refused.is_empty() && refused.iter().all(|fault| fault.path == "obstacle[0]"), "{name}: {refused:?}");
         model.obstacles[0].interface.initial_penetration = InitialPenetration::PushOut;
         let (simulation, history) = run(&model);

@@ -1,7 +1,6 @@
 //! Rigid parts and obstacles against closed forms: free, driven, rolling, sliding, hit.
 
 use crate::bodies::*;
-use embate_solver::error::Error;
 use embate_solver::model::{
     Constraint, Curve, Drive, Friction, InitialPenetration, Interface, Load, Model, Motion, Obstacle, ObstacleShape, Penalty, Shape,
     Symmetry,
@@ -42,14 +41,6 @@ fn to_end(model: &Model) -> Simulation {
     let mut simulation = simulation(model);
     simulation.advance(f64::INFINITY, u64::MAX).unwrap();
     simulation
-}
-
-fn faults(model: &Model) -> Vec<String> {
-    match Simulation::new(model, &Options { threads: 1, simd: None }) {
-        Err(Error::Model(faults)) => faults.iter().map(ToString::to_string).collect(),
-        Err(other) => panic!("{other}"),
-        Ok(_) => vec![],
-    }
 }
 
 #[test]

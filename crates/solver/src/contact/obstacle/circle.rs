@@ -163,7 +163,7 @@ impl Formulation for RoundSegments {
         for touch in &mut found {
             if self.ignores_start {
                 let gap = touch.projection.gap - self.radius;
-                touch.memory.offset = if self.has_begun { kept(touch.memory.offset, gap) } else { gap.min(0.0) };
+                touch.memory.offset = kept(self.has_begun, touch.memory.offset, gap);
             }
             let (spring, ends) = self.spring(touch, scene.sweep.new);
             springs.push(spring, &ends);

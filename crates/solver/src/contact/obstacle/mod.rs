@@ -123,7 +123,7 @@ impl Formulation for NodeObstacle {
                 continue;
             };
             if self.ignores_start {
-                memory.offset = if self.has_begun { kept(memory.offset, gap) } else { gap.min(0.0) };
+                memory.offset = kept(self.has_begun, memory.offset, gap);
             }
             let gap = gap - memory.offset;
             let moved = [way.to[0] - way.from[0], way.to[1] - way.from[1]];

@@ -15,6 +15,7 @@ use crate::contact::springs::friction::Friction;
 use crate::contact::springs::{Springs, Tangential, Terms};
 use crate::contact::traces::Traces;
 use crate::contact::{self, Contact, ContactKind, search};
+use crate::element::ElementOptions;
 use crate::energy::{Ledger, Sums};
 use crate::error::Fault;
 use crate::load::constraint::Constraints;
@@ -203,7 +204,13 @@ impl Builder<'_> {
                 ));
                 continue;
             };
-            let input = BlockInput { element: &part.element, material, connectivity: &mesh.connectivity, positions: &self.mesh.positions };
+            let viscosity = self.model.run.bulk_viscosity;
+            let input = BlockInput {
+                options: ElementOptions { hourglass: part.hourglass },
+                stress_state: &part.stress_state,
+                viscosity: (viscosity != [0.0; 2]).then_some(viscosity),
+                ..BlockInput::new(&part.element, material, &mesh.connectivity, &self.mesh.positions)
+            };
             match make(&input) {
                 Some(block) => blocks.push(block),
                 None => self.faults.push(Fault::new(format!("part[{i}]"), "its element or law is unknown", "see `embate list`")),

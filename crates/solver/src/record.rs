@@ -4,13 +4,26 @@ use crate::block::ElementState;
 use crate::contact::ContactKind;
 use crate::contact::springs::Tangential;
 use crate::error::Fault;
+use crate::material::Variable;
 use crate::model::{Model, ProbeAt};
 use crate::output::{CellKind, Cells, FIELDS, Field, FieldKind, Frame, Needs};
 use crate::rigid::Body;
 use crate::step::{System, Vector};
 
 /// Columns of energies, after `energy.`.
-const ENERGIES: [&str; 9] = ["kinetic", "internal", "plastic", "contact", "friction", "contact_damping", "damping", "external", "total"];
+const ENERGIES: [&str; 11] = [
+    "kinetic",
+    "internal",
+    "plastic",
+    "hourglass",
+    "bulk_viscosity",
+    "contact",
+    "friction",
+    "contact_damping",
+    "damping",
+    "external",
+    "total",
+];
 /// Columns of a rigid body that moves: reference point, angle and their velocities.
 const MOTION: [&str; 6] = ["x", "y", "angle", "vx", "vy", "spin"];
 
@@ -30,7 +43,7 @@ struct Probe {
 
 impl Recorded {
     pub(crate) fn new(model: &Model, system: &System) -> Result<Self, Vec<Fault>> {
-        let has_plastic = system.blocks.iter().any(|block| block.is_plastic());
+        let has_plastic = system.blocks.iter().any(|block| block.has(Variable::PlasticStrain));
         let has_contact = !system.contacts.is_empty();
         let has_friction = system.terms.iter().any(|terms| matches!(terms.tangential, Tangential::Friction(_)));
         let wanted = |kind: &&FieldKind| {
@@ -88,7 +101,16 @@ impl Recorded {
     pub(crate) fn row(&self, system: &System) -> Vec<f64> {
         let (stores, external) = (system.ledger.stores, system.ledger.external);
         let mut row = vec![system.time, system.time_step, stores.kinetic, stores.elastic + stores.plastic, stores.plastic];
-        row.extend([stores.contact, stores.friction, stores.contact_damping, stores.damping, external, stores.total() - external]);
+        row.extend([
+            stores.hourglass,
+            stores.bulk_viscosity,
+            stores.contact,
+            stores.friction,
+            stores.contact_damping,
+            stores.damping,
+            external,
+            stores.total() - external,
+        ]);
         for ((part, block), report) in system.mesh.parts.iter().zip(&system.blocks).zip(&system.reports) {
             let n = part.nodes_per_element;
             let corner = |(k, &node): (usize, &u32)| block.corner_mass(k / n, k % n) * system.specific_kinetic(node as usize);
@@ -170,7 +192,7 @@ fn values(name: &str, system: &System) -> Vec<f64> {
         "stress" => by_element(system, |state| [state.stress[0], state.stress[1], state.stress[2], state.stress[3]]),
         "von_mises" => by_element(system, |state| [von_mises(&state.stress)]),
         "pressure" => by_element(system, |state| [-(state.stress[0] + state.stress[1] + state.stress[2]) / 3.0]),
-        "plastic_strain" => by_element(system, |state| [state.plastic_strain]),
+        "plastic_strain" => by_element(system, |state| [state.variables[Variable::PlasticStrain as usize]]),
         "energy_density" => by_element(system, |state| [state.energy_density]),
         _ => Vec::new(),
     }

@@ -306,8 +306,15 @@ impl System {
         for totals in totals() {
             lost += totals.lost;
         }
-        let stores =
-            Stores { kinetic: sum.kinetic, elastic: elements.stored, plastic: elements.dissipated, contact: springs, ..Stores::default() };
+        let stores = Stores {
+            kinetic: sum.kinetic,
+            elastic: elements.stored,
+            plastic: elements.dissipated,
+            hourglass: elements.hourglass,
+            bulk_viscosity: elements.viscous,
+            contact: springs,
+            ..Stores::default()
+        };
         if !(sum.kinetic_half.is_finite() && stores.total().is_finite()) {
             return Err(self.not_finite());
         }

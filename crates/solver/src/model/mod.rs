@@ -56,11 +56,13 @@ pub struct Run {
     pub step_limit: Option<f64>,
     /// Largest number of steps; `None`: no limit.
     pub max_steps: Option<u64>,
+    /// Linear and quadratic coefficient of the bulk viscosity; both zero: none.
+    pub bulk_viscosity: [f64; 2],
 }
 
 impl Default for Run {
     fn default() -> Self {
-        Self { end: 0.0, safety: 0.9, energy_limit: 0.05, step_limit: None, max_steps: None }
+        Self { end: 0.0, safety: 0.9, energy_limit: 0.05, step_limit: None, max_steps: None, bulk_viscosity: [0.0; 2] }
     }
 }
 
@@ -71,6 +73,8 @@ pub struct Material {
     pub law: String,
     /// Parameters by key, SI, `density` included.
     pub parameters: BTreeMap<String, f64>,
+    /// Parameters that are lists.
+    pub lists: BTreeMap<String, Vec<f64>>,
 }
 
 /// `[[part]]`: a body of one material and one element kind.
@@ -82,6 +86,10 @@ pub struct Part {
     pub material: String,
     /// Name in the element registry.
     pub element: String,
+    /// Coefficient of its hourglass control, where it has one; `None`: that of the control's source.
+    pub hourglass: Option<f64>,
+    /// Name in the registry of stress states; empty: plane strain.
+    pub stress_state: String,
     /// Where its elements come from.
     pub shape: Shape,
     /// Initial velocity of the centre of mass, m/s.
@@ -90,6 +98,23 @@ pub struct Part {
     pub spin: f64,
     /// `Some`: the part is a rigid body and moves so.
     pub rigid: Option<Motion>,
+}
+
+impl Default for Part {
+    /// A unit square of one element at rest, in plane strain, without name or material.
+    fn default() -> Self {
+        Self {
+            name: String::new(),
+            material: String::new(),
+            element: "quad4".into(),
+            hourglass: None,
+            stress_state: String::new(),
+            shape: Shape::Rectangle { corner: [0.0; 2], size: [1.0; 2], elements: [1; 2] },
+            velocity: [0.0; 2],
+            spin: 0.0,
+            rigid: None,
+        }
+    }
 }
 
 /// How a rigid body may move: per degree of freedom driven (zero is fixed), or free (`None`).

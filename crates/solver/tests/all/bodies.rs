@@ -10,7 +10,7 @@ use std::sync::Arc;
 /// Elastic with Poisson's ratio 0.3.
 pub(crate) fn elastic(young: f64, density: f64) -> Material {
     let parameters = [("young", young), ("poisson", 0.3), ("density", density)];
-    Material { law: "elastic".into(), parameters: parameters.map(|(key, value)| (key.to_string(), value)).into() }
+    Material { law: "elastic".into(), parameters: parameters.map(|(key, value)| (key.to_string(), value)).into(), ..Material::default() }
 }
 
 /// What is wrong with a model; nothing if a simulation can be made of it.
@@ -55,7 +55,7 @@ pub(crate) fn mapped_rectangle() -> Shape {
 
 /// Adds a body with a probe of its mean position and velocity.
 pub(crate) fn add(model: &mut Model, name: &str, shape: Shape, velocity: [f64; 2]) {
-    model.parts.push(Part { name: name.into(), material: "soft".into(), element: "quad4".into(), shape, velocity, spin: 0.0, rigid: None });
+    model.parts.push(Part { name: name.into(), material: "soft".into(), element: "quad4".into(), shape, velocity, ..Part::default() });
     model.probes.push(Probe { name: name.into(), at: ProbeAt::Set { set: name.into() } });
 }
 

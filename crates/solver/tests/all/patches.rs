@@ -41,12 +41,19 @@ fn value(parameter: &Parameter, poisson: f64) -> f64 {
 }
 
 pub(crate) fn parameters(kind: &LawKind, poisson: f64) -> BTreeMap<String, f64> {
-    kind.parameters.iter().map(|parameter| (parameter.name.to_string(), value(parameter, poisson))).collect()
+    let numbers = kind.parameters.iter().filter(|parameter| parameter.list == 0);
+    numbers.map(|parameter| (parameter.name.to_string(), value(parameter, poisson))).collect()
+}
+
+/// Lists of two ascending values for parameters that are lists.
+pub(crate) fn lists(kind: &LawKind) -> BTreeMap<String, Vec<f64>> {
+    let lists = kind.parameters.iter().filter(|parameter| parameter.list > 0);
+    lists.map(|parameter| (parameter.name.to_string(), [0.4, 0.5].map(|factor| factor * value(parameter, 0.3)).to_vec())).collect()
 }
 
 pub(crate) fn material(law: &str, poisson: f64) -> Material {
     let kind = LAWS.iter().find(|kind| kind.name == law).unwrap();
-    Material { law: law.into(), parameters: parameters(kind, poisson) }
+    Material { law: law.into(), parameters: parameters(kind, poisson), lists: lists(kind) }
 }
 
 /// Calls `check(element, law)` for every pair of the registries.
@@ -159,7 +166,7 @@ pub(crate) struct Body {
 
 impl Body {
     pub(crate) fn new(element: &str, material: &Material, positions: &[[f64; 2]], connectivity: &[u32]) -> Self {
-        let block = make(&BlockInput { element, material, connectivity, positions }).unwrap();
+        let block = make(&BlockInput::new(element, material, connectivity, positions)).unwrap();
         let corners = vec![Batch::default(); block.corner_batches()];
         let mut body = Self {
             block,

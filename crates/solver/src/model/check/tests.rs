@@ -10,15 +10,7 @@ use std::sync::Arc;
 /// A sound model made by code: a ring, a block of a mesh, everything that acts on them.
 fn sound() -> Model {
     let parameters = [("density", 7800.0), ("young", 2e11), ("poisson", 0.3)].map(|(key, value)| (key.to_string(), value));
-    let part = |name: &str, shape| Part {
-        name: name.into(),
-        material: "steel".into(),
-        element: "quad4".into(),
-        shape,
-        velocity: [0.0; 2],
-        spin: 0.0,
-        rigid: None,
-    };
+    let part = |name: &str, shape| Part { name: name.into(), material: "steel".into(), shape, ..Part::default() };
     let group = |name: &str, dimension, cells| MeshGroup { name: name.into(), dimension, cells };
     let mesh = ImportedMesh {
         source: "block.msh".into(),
@@ -28,7 +20,9 @@ fn sound() -> Model {
     let ring = Shape::Ring { centre: [0.0; 2], inner: 1.0, outer: 2.0, from: 0.0, to: std::f64::consts::PI, elements: [1, 8] };
     let mut model = Model { name: "test".into(), meshes: vec![Arc::new(mesh)], ..Model::default() };
     model.run.end = 1.0;
-    model.materials.insert("steel".into(), Material { law: "elastic".into(), parameters: parameters.into_iter().collect() });
+    model
+        .materials
+        .insert("steel".into(), Material { law: "elastic".into(), parameters: parameters.into_iter().collect(), ..Material::default() });
     model.parts = vec![part("ring", ring), part("block", Shape::Group { mesh: 0, group: "body".into() })];
     model.contacts = vec![Contact::between("hit", "ring.outer", "upper")];
     model.obstacles = vec![Obstacle::wall("wall", [0.0; 2], [1.0, 0.0])];

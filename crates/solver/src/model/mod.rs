@@ -6,6 +6,7 @@ pub mod check;
 pub mod describe;
 pub mod reference;
 
+use crate::element::{ELEMENTS, ElementKind};
 use crate::quantity::Dimension;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -73,15 +74,17 @@ pub struct Material {
     pub parameters: BTreeMap<String, f64>,
 }
 
-/// `[[part]]`: a body of one material and one element kind.
+/// `[[part]]`: a body of one material and one element kind for each number of nodes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Part {
     /// Unique name.
     pub name: String,
     /// Key of [`Model::materials`].
     pub material: String,
-    /// Name in the element registry.
+    /// Name in the element registry: what its quadrilaterals are.
     pub element: String,
+    /// The same for its triangles, if it has any.
+    pub element_triangles: String,
     /// Where its elements come from.
     pub shape: Shape,
     /// Initial velocity of the centre of mass, m/s.
@@ -90,6 +93,30 @@ pub struct Part {
     pub spin: f64,
     /// `Some`: the part is a rigid body and moves so.
     pub rigid: Option<Motion>,
+}
+
+/// A still `quad4` and `tri3` part of nothing, to build on.
+impl Default for Part {
+    fn default() -> Self {
+        Self {
+            name: String::new(),
+            material: String::new(),
+            element: "quad4".into(),
+            element_triangles: "tri3".into(),
+            shape: Shape::Group { mesh: usize::MAX, group: String::new() },
+            velocity: [0.0; 2],
+            spin: 0.0,
+            rigid: None,
+        }
+    }
+}
+
+impl Part {
+    /// The element that has so many nodes; `None` when the part names none.
+    #[must_use]
+    pub fn element_of(&self, nodes: usize) -> Option<&'static ElementKind> {
+        ELEMENTS.iter().find(|kind| kind.nodes == nodes && (kind.name == self.element || kind.name == self.element_triangles))
+    }
 }
 
 /// How a rigid body may move: per degree of freedom driven (zero is fixed), or free (`None`).

@@ -54,6 +54,9 @@ fn part(record: &Record, meshes: &mut Meshes<'_>, faults: &mut Faults) -> Part {
         name: record.text("name"),
         material: record.text("material"),
         element: record.text("element"),
+        element_triangles: Some(record.text("element_triangles"))
+            .filter(|name| !name.is_empty())
+            .unwrap_or(Part::default().element_triangles),
         shape: shape(record, meshes, faults),
         velocity: record.vector("velocity"),
         spin: record.number("spin").unwrap_or(f64::NAN),

@@ -10,15 +10,7 @@ use std::sync::Arc;
 /// A sound model made by code: a ring, a block of a mesh, everything that acts on them.
 fn sound() -> Model {
     let parameters = [("density", 7800.0), ("young", 2e11), ("poisson", 0.3)].map(|(key, value)| (key.to_string(), value));
-    let part = |name: &str, shape| Part {
-        name: name.into(),
-        material: "steel".into(),
-        element: "quad4".into(),
-        shape,
-        velocity: [0.0; 2],
-        spin: 0.0,
-        rigid: None,
-    };
+    let part = |name: &str, shape| Part { name: name.into(), material: "steel".into(), shape, ..Part::default() };
     let group = |name: &str, dimension, cells| MeshGroup { name: name.into(), dimension, cells };
     let mesh = ImportedMesh {
         source: "block.msh".into(),
@@ -159,7 +151,7 @@ fn faults_that_only_code_can_make_are_found() {
     assert_eq!(paths(|model| model.parts[1].shape = Shape::Group { mesh: 3, group: "body".into() }), ["part[1].mesh"]);
     let mesh = |change: fn(&mut ImportedMesh)| paths(|model| change(Arc::make_mut(&mut model.meshes[0])));
     assert_eq!(mesh(|mesh| mesh.groups[0].cells[0] = vec![0, 1, 2, 9]), ["part[1].mesh.group"]);
-    assert_eq!(mesh(|mesh| mesh.groups[0].cells[0] = vec![0, 1, 2]), ["part[1].mesh.group"]);
+    assert_eq!(mesh(|mesh| mesh.groups[0].cells[0] = vec![0, 1]), ["part[1].mesh.group"]);
     assert_eq!(mesh(|mesh| mesh.groups[0].cells.clear()), ["part[1].mesh.group"]);
     assert_eq!(mesh(|mesh| mesh.positions[0][0] = f64::NAN), ["part[1].mesh.group"]);
     assert_eq!(Model::default().check().len(), 2);

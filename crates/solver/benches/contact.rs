@@ -31,8 +31,7 @@ fn stack(elements: usize, speed: f64) -> Model {
         let size = [along as f64 * SIZE, THROUGH as f64 * SIZE];
         let velocity = [0.0, if strip % 2 == 0 { speed } else { -speed }];
         let shape = Shape::Rectangle { corner: [0.3 * SIZE * (strip % 2) as f64, y], size, elements: [along, THROUGH] };
-        let (material, element) = ("soft".into(), "quad4".into());
-        model.parts.push(Part { name: format!("strip{strip}"), material, element, shape, velocity, ..Part::default() });
+        model.parts.push(Part { name: format!("strip{strip}"), material: "soft".into(), shape, velocity, ..Part::default() });
     }
     model.output.pictures = false;
     model

@@ -23,7 +23,7 @@ use crate::load::curve::Curves;
 use crate::load::damping::Damping;
 use crate::load::gravity;
 use crate::mesh::surface::{NONE, Surface};
-use crate::mesh::{Mesh, PartMesh};
+use crate::mesh::{ElementGroup, Mesh};
 use crate::model::{self, ContactLaw, Interface, Model, Partners, Penalty, PenaltySource};
 use crate::rigid::Bodies;
 use crate::step::{CHUNK, Governor, Limits, System};
@@ -68,7 +68,7 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         return Err(builder.faults);
     }
     let mut blocks = builder.blocks();
-    if blocks.len() < model.parts.len() {
+    if blocks.len() < builder.mesh.groups.len() {
         return Err(builder.faults);
     }
     let part_mass = part_masses(&builder.mesh, &blocks);
@@ -89,7 +89,7 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
     terms.resize_with(first_of_ties(model), || terms_of(&Interface::default()));
     terms.extend(ties);
     let inputs: Vec<(&dyn Block<2>, usize, &[u32])> =
-        blocks.iter().zip(&mesh.parts).map(|(block, part)| (block.as_ref(), part.nodes_per_element, &part.connectivity[..])).collect();
+        blocks.iter().zip(&mesh.groups).map(|(block, group)| (block.as_ref(), group.nodes_per_element, &group.connectivity[..])).collect();
     let nodes = positions.len();
     let assembly = Assembly::new(nodes, &inputs);
     velocities.resize(nodes, [0.0; 2]);
@@ -102,7 +102,7 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
     let elements: usize = blocks.iter().map(|block| block.elements()).sum();
     Ok(System {
         corners: vec![Batch::default(); assembly.corner_batches],
-        rigid: model.parts.iter().map(|part| part.rigid.is_some()).collect(),
+        rigid: mesh.groups.iter().map(|group| model.parts[group.part].rigid.is_some()).collect(),
         positions_old: positions.clone(),
         positions,
         velocities_old: velocities.clone(),
@@ -142,16 +142,18 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
 
 /// Mass of each part on each of its nodes, kg/m, nodes ascending.
 pub(crate) fn part_masses(mesh: &Mesh<2>, blocks: &[Box<dyn Block<2>>]) -> Vec<Vec<(u32, f64)>> {
-    let of = |(part, block): (&PartMesh, &dyn Block<2>)| {
+    let of = |part: usize| {
         let mut sums = vec![0.0; mesh.positions.len()];
-        for (k, &node) in part.connectivity.iter().enumerate() {
-            sums[node as usize] += block.corner_mass(k / part.nodes_per_element, k % part.nodes_per_element);
+        for (group, block) in mesh.groups.iter().zip(blocks).filter(|(group, _)| group.part == part) {
+            for (k, &node) in group.connectivity.iter().enumerate() {
+                sums[node as usize] += block.corner_mass(k / group.nodes_per_element, k % group.nodes_per_element);
+            }
         }
-        let mut nodes = part.nodes.clone();
+        let mut nodes = mesh.parts[part].nodes.clone();
         nodes.sort_unstable();
         nodes.into_iter().map(|node| (node, sums[node as usize])).collect()
     };
-    mesh.parts.iter().zip(blocks.iter().map(AsRef::as_ref)).map(of).collect()
+    (0..mesh.parts.len()).map(of).collect()
 }
 
 struct Builder<'a> {
@@ -168,7 +170,7 @@ struct Builder<'a> {
     mass: Vec<f64>,
     /// The elements behind all edges, sorted by the nodes of the edge.
     under: Vec<Under>,
-    /// Wave modulus and bulk modulus of each part, Pa.
+    /// Wave modulus and bulk modulus of each group of elements, Pa.
     moduli: Vec<[f64; 2]>,
     /// First time step, s; only where a contact asks for it.
     time_step: f64,
@@ -188,14 +190,17 @@ struct Under {
     nodes: [u32; 2],
     /// L / A: one over the height of the element, 1/m.
     flatness: f64,
-    part: u32,
+    /// Index of the group of elements, and the element in it.
+    group: u32,
     element: u32,
 }
 
 impl Builder<'_> {
+    /// A block for each group of elements.
     fn blocks(&mut self) -> Vec<Box<dyn Block<2>>> {
         let mut blocks = Vec::new();
-        for (i, (part, mesh)) in self.model.parts.iter().zip(&self.mesh.parts).enumerate() {
+        for group in &self.mesh.groups {
+            let (i, part) = (group.part, &self.model.parts[group.part]);
             let Some(material) = self.model.materials.get(&part.material) else {
                 self.faults.push(Fault::new(
                     format!("part[{i}].material"),
@@ -204,12 +209,13 @@ impl Builder<'_> {
                 ));
                 continue;
             };
+            let element = part.element_of(group.nodes_per_element).map_or("", |kind| kind.name);
             let viscosity = self.model.run.bulk_viscosity;
             let input = BlockInput {
                 options: ElementOptions { hourglass: part.hourglass },
                 stress_state: &part.stress_state,
                 viscosity: (viscosity != [0.0; 2]).then_some(viscosity),
-                ..BlockInput::new(&part.element, material, &mesh.connectivity, &self.mesh.positions)
+                ..BlockInput::new(element, material, &group.connectivity, &self.mesh.positions)
             };
             match make(&input) {
                 Some(block) => blocks.push(block),
@@ -221,8 +227,8 @@ impl Builder<'_> {
 
     /// What the stiffness of contacts is made from: elements behind every edge, moduli and the first step.
     fn find_elements_under_surfaces(&mut self, blocks: &mut [Box<dyn Block<2>>], level: Level) {
-        for (part_index, part) in self.mesh.parts.iter().enumerate() {
-            for (element, cell) in part.connectivity.chunks_exact(part.nodes_per_element).enumerate() {
+        for (group_index, group) in self.mesh.groups.iter().enumerate() {
+            for (element, cell) in group.cells().enumerate() {
                 let x = |corner: usize| self.mesh.positions[cell[corner % cell.len()] as usize];
                 let area = 0.5 * (0..cell.len()).map(|c| x(c)[0] * x(c + 1)[1] - x(c)[1] * x(c + 1)[0]).sum::<f64>();
                 for c in 0..cell.len() {
@@ -230,7 +236,7 @@ impl Builder<'_> {
                     let length = ((b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2)).sqrt();
                     // Outside segments run against the element's own direction.
                     let nodes = [cell[(c + 1) % cell.len()], cell[c]];
-                    self.under.push(Under { nodes, flatness: length / area, part: part_index as u32, element: element as u32 });
+                    self.under.push(Under { nodes, flatness: length / area, group: group_index as u32, element: element as u32 });
                 }
             }
         }
@@ -240,15 +246,15 @@ impl Builder<'_> {
         if interfaces.into_iter().any(|interface| source_of(interface) == PenaltySource::TimeStep) {
             let velocities = vec![[0.0; 2]; self.mesh.positions.len()];
             let motion = Motion { positions: &self.mesh.positions, velocities: &velocities, time_step: 0.0 };
-            let stable = |(block, part): (&mut Box<dyn Block<2>>, &model::Part)| {
-                if part.rigid.is_some() {
+            let stable = |(block, group): (&mut Box<dyn Block<2>>, &ElementGroup)| {
+                if self.model.parts[group.part].rigid.is_some() {
                     return f64::INFINITY;
                 }
                 let mut corners = vec![Batch::default(); block.corner_batches()];
                 block.advance(&motion, level, &mut corners, false).time_step_squared
             };
             self.time_step =
-                self.model.run.safety * blocks.iter_mut().zip(&self.model.parts).map(stable).fold(f64::INFINITY, f64::min).sqrt();
+                self.model.run.safety * blocks.iter_mut().zip(&self.mesh.groups).map(stable).fold(f64::INFINITY, f64::min).sqrt();
         }
     }
 
@@ -259,7 +265,7 @@ impl Builder<'_> {
     /// What is behind a surface, with the stiffness that an interface asks for.
     fn side(&self, Outlined { target, lids }: Outlined, interface: &Interface) -> Side<'_> {
         let (surface, positions, source) = (&target.surface, &self.mesh.positions, source_of(interface));
-        let modulus = |under: &Under| self.moduli[under.part as usize][usize::from(source == PenaltySource::BulkModulus)] * under.flatness;
+        let modulus = |under: &Under| self.moduli[under.group as usize][usize::from(source == PenaltySource::BulkModulus)] * under.flatness;
         let mut segments: Vec<f64> = surface.segments.iter().map(|&segment| self.under(segment).map_or(0.0, modulus)).collect();
         let mut nodes = contact::node_stiffness(surface, &segments, positions);
         if source == PenaltySource::TimeStep {
@@ -270,13 +276,14 @@ impl Builder<'_> {
             segments = surface.segments.iter().map(|&[a, b]| 0.5 * (of(a) + of(b))).collect();
         }
         let cell = |&segment: &[u32; 2]| {
-            self.under(segment).map_or(&[][..], |under| {
-                let part = &self.mesh.parts[under.part as usize];
-                &part.connectivity[under.element as usize * part.nodes_per_element..][..part.nodes_per_element]
-            })
+            self.under(segment).map_or(&[][..], |under| self.mesh.groups[under.group as usize].cell(under.element as usize))
         };
         let cells = surface.segments.iter().map(cell).collect();
-        let parts = surface.segments.iter().map(|&segment| self.under(segment).map_or(0, |under| under.part)).collect();
+        let parts = surface
+            .segments
+            .iter()
+            .map(|&segment| self.under(segment).map_or(0, |under| self.mesh.groups[under.group as usize].part as u32))
+            .collect();
         Side { lids, segments, parts, nodes, cells, target }
     }
 

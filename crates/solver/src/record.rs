@@ -111,11 +111,14 @@ impl Recorded {
             external,
             stores.total() - external,
         ]);
-        for ((part, block), report) in system.mesh.parts.iter().zip(&system.blocks).zip(&system.reports) {
-            let n = part.nodes_per_element;
+        let mut of_parts = vec![[0.0; 3]; system.mesh.parts.len()];
+        for ((group, block), report) in system.mesh.groups.iter().zip(&system.blocks).zip(&system.reports) {
+            let n = group.nodes_per_element;
             let corner = |(k, &node): (usize, &u32)| block.corner_mass(k / n, k % n) * system.specific_kinetic(node as usize);
-            row.extend([part.connectivity.iter().enumerate().map(corner).sum(), report.stored + report.dissipated, report.dissipated]);
+            let energies = [group.connectivity.iter().enumerate().map(corner).sum(), report.stored + report.dissipated, report.dissipated];
+            of_parts[group.part].iter_mut().zip(energies).for_each(|(sum, energy): (&mut f64, f64)| *sum += energy);
         }
+        row.extend(of_parts.iter().flatten());
         for contact in &system.contacts {
             let totals = &contact.totals;
             row.extend([totals.resultant[0], totals.resultant[1], totals.energy + totals.slip_energy, contact.penetration]);
@@ -210,10 +213,14 @@ fn by_node<const N: usize>(system: &System, value: impl Fn(usize) -> [f64; N]) -
 /// Values of every element, part by part in the user's order.
 fn by_element<const N: usize>(system: &System, value: impl Fn(&ElementState) -> [f64; N]) -> Vec<f64> {
     let mut values = Vec::new();
-    for (part, block) in system.mesh.parts.iter().zip(&system.blocks) {
-        let first = values.len();
-        values.resize(first + N * block.elements(), 0.0);
-        for (element, &user) in part.user_elements.iter().enumerate() {
+    // Groups of a part follow each other and share its numbering.
+    let (mut first, mut last) = (0, None);
+    for (group, block) in system.mesh.groups.iter().zip(&system.blocks) {
+        if last != Some(group.part) {
+            (first, last) = (values.len(), Some(group.part));
+            values.resize(first + N * system.mesh.elements_of(group.part), 0.0);
+        }
+        for (element, &user) in group.user_elements.iter().enumerate() {
             values[first + N * user as usize..][..N].copy_from_slice(&value(&block.state(element)));
         }
     }
@@ -263,11 +270,10 @@ pub(crate) fn cells(system: &System) -> Cells {
     let mut cells = Cells { offsets: vec![0], ..Cells::default() };
     for (index, part) in system.mesh.parts.iter().enumerate() {
         cells.part_names.push(part.name.clone());
-        let n = part.nodes_per_element;
-        let mut order: Vec<usize> = (0..part.elements()).collect();
-        order.sort_unstable_by_key(|&element| part.user_elements[element]);
-        for element in order {
-            let cell = &part.connectivity[element * n..(element + 1) * n];
+        let mut order: Vec<(u32, &[u32])> =
+            system.mesh.groups_of(index).flat_map(|group| group.user_elements.iter().copied().zip(group.cells())).collect();
+        order.sort_unstable();
+        for (_, cell) in order {
             cells.nodes.extend(cell.iter().map(|&node| system.mesh.user_nodes[node as usize]));
             cells.offsets.push(cells.nodes.len() as u32);
             cells.kinds.push(if cell.len() == 3 { CellKind::Triangle } else { CellKind::Quadrilateral });

@@ -6,6 +6,7 @@ pub mod check;
 pub mod describe;
 pub mod reference;
 
+use crate::element::{ELEMENTS, ElementKind};
 use crate::quantity::Dimension;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -77,15 +78,17 @@ pub struct Material {
     pub lists: BTreeMap<String, Vec<f64>>,
 }
 
-/// `[[part]]`: a body of one material and one element kind.
+/// `[[part]]`: a body of one material and one element kind for each number of nodes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Part {
     /// Unique name.
     pub name: String,
     /// Key of [`Model::materials`].
     pub material: String,
-    /// Name in the element registry.
+    /// Name in the element registry: what its quadrilaterals are.
     pub element: String,
+    /// The same for its triangles, if it has any.
+    pub element_triangles: String,
     /// Coefficient of its hourglass control, where it has one; `None`: that of the control's source.
     pub hourglass: Option<f64>,
     /// Name in the registry of stress states; empty: plane strain.
@@ -100,20 +103,29 @@ pub struct Part {
     pub rigid: Option<Motion>,
 }
 
+/// A still `quad4` and `tri3` part of nothing, to build on.
 impl Default for Part {
-    /// A unit square of one element at rest, in plane strain, without name or material.
     fn default() -> Self {
         Self {
             name: String::new(),
             material: String::new(),
             element: "quad4".into(),
+            element_triangles: "tri3".into(),
             hourglass: None,
             stress_state: String::new(),
-            shape: Shape::Rectangle { corner: [0.0; 2], size: [1.0; 2], elements: [1; 2] },
+            shape: Shape::Group { mesh: usize::MAX, group: String::new() },
             velocity: [0.0; 2],
             spin: 0.0,
             rigid: None,
         }
+    }
+}
+
+impl Part {
+    /// The element that has so many nodes; `None` when the part names none.
+    #[must_use]
+    pub fn element_of(&self, nodes: usize) -> Option<&'static ElementKind> {
+        ELEMENTS.iter().find(|kind| kind.nodes == nodes && (kind.name == self.element || kind.name == self.element_triangles))
     }
 }
 

@@ -55,7 +55,7 @@ pub(crate) fn mapped_rectangle() -> Shape {
 
 /// Adds a body with a probe of its mean position and velocity.
 pub(crate) fn add(model: &mut Model, name: &str, shape: Shape, velocity: [f64; 2]) {
-    model.parts.push(Part { name: name.into(), material: "soft".into(), element: "quad4".into(), shape, velocity, ..Part::default() });
+    model.parts.push(Part { name: name.into(), material: "soft".into(), shape, velocity, ..Part::default() });
     model.probes.push(Probe { name: name.into(), at: ProbeAt::Set { set: name.into() } });
 }
 

@@ -44,7 +44,6 @@ fn bar_of_parts(law: &str, size: [f64; 2], elements: [usize; 2], end: f64, veloc
         model.parts.push(Part {
             name: format!("part{k}"),
             material: "m".into(),
-            element: "quad4".into(),
             shape: Shape::Group { mesh: 0, group: name },
             velocity,
             ..Part::default()

@@ -57,6 +57,9 @@ fn part(record: &Record, meshes: &mut Meshes<'_>, faults: &mut Faults) -> Part {
         element: record.text("element"),
         hourglass: record.number("hourglass"),
         stress_state: record.text("stress_state"),
+        element_triangles: Some(record.text("element_triangles"))
+            .filter(|name| !name.is_empty())
+            .unwrap_or(Part::default().element_triangles),
         shape: shape(record, meshes, faults),
         velocity: record.vector("velocity"),
         spin: record.number("spin").unwrap_or(f64::NAN),

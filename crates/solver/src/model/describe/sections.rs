@@ -77,7 +77,8 @@ static PART: Section = Section {
     keys: &[
         key("name", Name, Required, "Unique name."),
         key("material", Reference, Required, "Name of a `[material.NAME]` section."),
-        key("element", Choice(elements), Default("\"quad4\""), "Kind of element."),
+        key("element", Choice(elements), Default("\"quad4\""), "Kind of element: what quadrilaterals are."),
+        key("element_triangles", Choice(triangles), Optional("`tri3`"), "What triangles are, where the part has some."),
         key(
             "hourglass",
             Quantity(Dimension::NONE, NotNegative),
@@ -284,7 +285,15 @@ fn laws() -> Vec<&'static str> {
 }
 
 fn elements() -> Vec<&'static str> {
-    element::registry().iter().map(|kind| kind.name).collect()
+    elements_of(4)
+}
+
+fn triangles() -> Vec<&'static str> {
+    elements_of(3)
+}
+
+fn elements_of(nodes: usize) -> Vec<&'static str> {
+    element::registry().iter().filter(|kind| kind.nodes == nodes).map(|kind| kind.name).collect()
 }
 
 fn stress_states() -> Vec<&'static str> {

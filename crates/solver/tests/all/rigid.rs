@@ -446,6 +446,37 @@ fn a_free_circle_in_a_hollow_one_keeps_momenta_and_energy() {
 }
 
 #[test]
+fn a_free_circle_without_friction_gets_no_spin() {
+    // Of a node that it meets with its outside or inside, and of segments that it meets with its edge; soft and stiff.
+    for (radius, scale) in [(0.04, 1.0), (0.04, 1e3), (0.004, 1.0), (0.004, 100.0), (-0.12, 1.0), (-0.12, 100.0)] {
+        let mut model = model(2e-3);
+        model.run.energy_limit = 0.1;
+        add(&mut model, "block", rectangle([-0.06, -0.05], [0.12, 0.05], [9, 4]), [3.0, 0.0]);
+        model.parts[0].spin = 10.0;
+        let shape = if radius > 0.0 {
+            ObstacleShape::Circle { centre: [0.0123, radius + 1e-4], radius, hollow: false }
+        } else {
+            ObstacleShape::Circle { centre: [0.0, 0.05], radius: -radius, hollow: true }
+        };
+        model.obstacles.push(Obstacle {
+            motion: Motion::default(),
+            mass: Some(2.0),
+            inertia: Some(1e-3),
+            velocity: [0.0, if radius > 0.0 { -4.0 } else { 8.0 }],
+            interface: Penalty::automatic(scale).into(),
+            ..Obstacle::fixed("ball", shape)
+        });
+        let (simulation, history) = run(&model);
+        assert!(history.column("obstacle.force_y[ball]").iter().any(|f| f.abs() > 1e3), "{radius} {scale}: it was hit");
+        // Impulse times rounding of the arm, over the inertia.
+        let spin = history.column("obstacle.spin[ball]").into_iter().map(f64::abs).fold(0.0, f64::max);
+        assert!(spin < 1e-9, "{radius} {scale}: {spin:e}");
+        let summary = simulation.summary();
+        assert!(summary.momentum_drift_linear.unwrap() < 1e-12 && summary.momentum_drift_angular.unwrap() < 1e-12, "{summary:?}");
+    }
+}
+
+#[test]
 fn a_polyline_has_convex_and_concave_corners() {
     // A ridge (nodes do not see its tip) under the middle of coarse elements, and a valley that holds a ball.
     let mut model = model(4e-3);

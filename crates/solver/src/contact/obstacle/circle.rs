@@ -77,7 +77,8 @@ impl Circle {
         };
         if let Some(normal) = held {
             let is_in = dot(normal, to) < self.radius || memory.presses;
-            if is_in && !(inside(to) && dot(normal, radius) > NEAR) {
+            // A normal of its own is for what came far: else the radius, so that the force goes through the centre and turns nothing.
+            if is_in && !((inside(to) || self.is_short(moved)) && dot(normal, radius) > NEAR) {
                 (memory.state, memory.normal) = (State::Held, normal);
                 return normal;
             }

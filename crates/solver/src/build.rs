@@ -58,7 +58,6 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         time_step: 0.0,
         bodies: Bodies::default(),
         terms: Vec::new(),
-        ties: Vec::new(),
         outlines: Vec::new(),
         mesh,
     };
@@ -84,9 +83,7 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
     if !builder.faults.is_empty() {
         return Err(builder.faults);
     }
-    let Builder { mesh, constraints, curves, positions, mass, body_parts, bodies, mut terms, ties, outlines, .. } = builder;
-    terms.resize_with(first_of_ties(model), || terms_of(&Interface::default()));
-    terms.extend(ties);
+    let Builder { mesh, constraints, curves, positions, mass, body_parts, bodies, terms, outlines, .. } = builder;
     let inputs: Vec<(&dyn Block<2>, usize, &[u32])> =
         blocks.iter().zip(&mesh.parts).map(|(block, part)| (block.as_ref(), part.nodes_per_element, &part.connectivity[..])).collect();
     let nodes = positions.len();
@@ -174,10 +171,8 @@ struct Builder<'a> {
     bodies: Bodies,
     /// Rigid parts and their bodies.
     body_parts: Vec<(usize, usize)>,
-    /// What acts in each contact, then in each obstacle.
+    /// What acts in contacts, ties and obstacles, as they are made.
     terms: Vec<Terms>,
-    /// What acts in ties.
-    ties: Vec<Terms>,
     outlines: Vec<OutlineShape>,
 }
 
@@ -278,10 +273,8 @@ impl Builder<'_> {
         let mut tied = BTreeMap::new();
         for (i, contact) in self.model.contacts.iter().enumerate() {
             match self.contact(contact) {
-                Ok((made, terms)) => {
-                    self.terms.push(terms);
+                Ok(made) => {
                     if let Some(ties) = made.ties() {
-                        self.ties.push(terms_of_ties(&contact.interface));
                         self.tied_once(&format!("contact[{i}].tied"), &contact.name, &ties.nodes, &mut tied);
                     }
                     contacts.push(made);
@@ -309,8 +302,16 @@ impl Builder<'_> {
         tied.extend(nodes.iter().map(|&node| (node, contact)));
     }
 
-    /// A contact and what acts in its springs; faults have paths relative to the contact.
-    fn contact(&self, contact: &model::Contact) -> Result<(Contact, Terms), Vec<Fault>> {
+    /// Adds what acts in springs; returns its number.
+    fn add_terms(&mut self, terms: Terms) -> usize {
+        self.terms.push(terms);
+        self.terms.len() - 1
+    }
+
+    /// A contact; faults have paths relative to it.
+    fn contact(&mut self, contact: &model::Contact) -> Result<Contact, Vec<Fault>> {
+        let terms = self.add_terms(terms_of(&contact.interface));
+        let tie_terms = if contact.tied.is_some() { self.add_terms(terms_of_ties(&contact.interface)) } else { terms };
         let sides = self.outlines_of(contact)?.into_iter().map(|outline| self.side(outline, &contact.interface)).collect();
         let Some(search) = search_by_name(&contact.search) else {
             let message = format!("there is no search \"{}\"", contact.search);
@@ -326,11 +327,12 @@ impl Builder<'_> {
             bodies: &self.body_of_node,
             positions: &self.mesh.positions,
             law: &|| law_of(&contact.interface),
-            tie_terms: first_of_ties(self.model) + self.ties.len(),
+            passes: (kind.passes)(contact),
+            tie_terms,
             search: &|| (search.make)(),
         };
         let made = (kind.make)(setup).map_err(|fault| vec![fault])?;
-        Ok((Contact::new(contact.name.clone(), ContactKind::Contact, made, contact.interface.active), terms_of(&contact.interface)))
+        Ok(Contact::new(contact.name.clone(), ContactKind::Contact, made, terms, contact.interface.active))
     }
 
     /// The surfaces of a contact: two, or one that meets itself. Faults have paths relative to the contact.
@@ -412,11 +414,6 @@ fn terms_of(interface: &Interface) -> Terms {
 fn terms_of_ties(interface: &Interface) -> Terms {
     let rigid = matches!(interface.law, ContactLaw::Multiplier);
     Terms { law: Box::new(law::tie::Tie { rigid }), tangential: Tangential::Tied, damping: 0.0 }
-}
-
-/// Terms of ties follow those of contacts and obstacles.
-fn first_of_ties(model: &Model) -> usize {
-    model.contacts.len() + model.obstacles.len()
 }
 
 /// Stiffness of a slave node; of laws without a penalty that of the automatic one, for what needs a scale.

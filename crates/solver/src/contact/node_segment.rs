@@ -2,7 +2,7 @@
 //!
 //! Where the nodes lie comes from the [`Tracker`]; friction and thickness are those of the slave node, the stiffness that of the softer side where they meet.
 
-use super::formulation::{FormulationKind, Setup};
+use super::formulation::{FormulationKind, Setup, both_passes, one_pass};
 use super::initial::{is_ignored, kept};
 use super::projection::node_segment::{Projection, Target};
 use super::springs::{End, Spring, Springs};
@@ -15,10 +15,8 @@ pub const DOUBLE_PASS: FormulationKind = FormulationKind {
     name: "double_pass",
     doc: "nodes against segments; each surface is slave once and target once in every force evaluation",
     source: "Bittencourt and Creus (1995)",
-    make: |setup| {
-        let passes = setup.both_passes();
-        Ok(Box::new(NodeSegment::of(setup, passes)))
-    },
+    passes: both_passes,
+    make: |setup| Ok(Box::new(NodeSegment::of(setup))),
 };
 
 /// Registry entry.
@@ -26,10 +24,8 @@ pub const SINGLE_PASS: FormulationKind = FormulationKind {
     name: "single_pass",
     doc: "nodes against segments; only the nodes of the slave surface are checked against the other one",
     source: "Bittencourt and Creus (1995)",
-    make: |setup| {
-        let slave = if let model::Formulation::SinglePass { slave } = setup.contact.formulation { slave } else { 0 };
-        Ok(Box::new(NodeSegment::of(setup, [&[(0, 1)], &[(1, 0)]][slave.min(1)])))
-    },
+    passes: one_pass,
+    make: |setup| Ok(Box::new(NodeSegment::of(setup))),
 };
 
 /// The formulation.
@@ -80,9 +76,10 @@ pub struct Slave {
 }
 
 impl NodeSegment {
-    /// For a contact with these passes (slave, target). Where it ignores initial penetrations, gaps that are negative when it begins to act count as zero until the surfaces part.
+    /// For the passes of a contact. Where it ignores initial penetrations, gaps that are negative when it begins to act count as zero until the surfaces part.
     #[must_use]
-    pub fn of(setup: Setup<'_>, passes: &[(usize, usize)]) -> Self {
+    pub fn of(setup: Setup<'_>) -> Self {
+        let passes = setup.passes;
         // A surface that meets itself is met from both sides.
         let sides = if setup.sides.len() == 1 { 2 } else { passes.len() };
         let pass = |&(slave, target): &(usize, usize)| PassInput {
@@ -94,7 +91,7 @@ impl NodeSegment {
         let (thickness, reach) = (setup.contact.interface.thickness, (setup.law)().reach());
         let initial = if thickness + reach > 0.0 { setup.positions.to_vec() } else { Vec::new() };
         let ignores_start = setup.ignores_start();
-        let tracker = setup.tracker(passes);
+        let tracker = setup.tracker();
         Self { tracker, passes: inputs, thickness, reach, ignores_start, initial, has_begun: false, touches: Vec::new() }
     }
 

@@ -47,7 +47,16 @@ fn springs_of(model: &Facing2, penalty: Penalty) -> Springs {
     let law = || -> Box<dyn Law> { Box::new(law::penalty::Penalty) };
     let bodies: Vec<u32> = (0..model.positions.len()).map(|node| u32::from(node >= model.surfaces[0].nodes.len())).collect();
     let sides = model.surfaces.iter().map(side).collect();
-    let setup = Setup { contact: &contact, sides, positions: &model.positions, law: &law, tie_terms: 0, search: &search, bodies: &bodies };
+    let setup = Setup {
+        contact: &contact,
+        sides,
+        positions: &model.positions,
+        law: &law,
+        tie_terms: 0,
+        search: &search,
+        bodies: &bodies,
+        passes: both_passes(&contact),
+    };
     let mut formulation = (KIND.make)(setup).unwrap();
     let mut springs = Springs::new(model.positions.len(), 0);
     let sweep = Sweep { old: &model.positions, new: &model.positions };

@@ -171,18 +171,23 @@ impl Formulation for NodeSegment {
 /// rotations of both together, and its transpose, the friction, keeps the angular momentum.
 #[must_use]
 pub fn ends(node: u32, projection: &Projection, target: &Target, positions: &[Vector]) -> [End; 3] {
-    let [a, b] = target.surface.segments[projection.segment as usize];
+    let segment = target.surface.segments[projection.segment as usize];
     let [wa, wb] = projection.weights;
-    let (x, xa, xb) = (positions[node as usize], positions[a as usize], positions[b as usize]);
-    let along = [xb[0] - xa[0], xb[1] - xa[1]];
-    let square = along[0] * along[0] + along[1] * along[1];
+    let [xa, xb] = segment.map(|node| positions[node as usize]);
+    let x = positions[node as usize];
     let foot = [wa * xa[0] + wb * xb[0], wa * xa[1] + wb * xb[1]];
     let arm = (x[0] - foot[0]) * projection.normal[0] + (x[1] - foot[1]) * projection.normal[1];
+    let [a, b] = segment_ends(segment, projection.weights, arm, positions);
+    [End::node(node, 1.0), a, b]
+}
+
+/// The nodes of a segment as ends of a spring to what is seen from its foot at the distance `arm` (m), and slides there.
+#[must_use]
+pub fn segment_ends([a, b]: [u32; 2], [wa, wb]: [f64; 2], arm: f64, positions: &[Vector]) -> [End; 2] {
+    let (xa, xb) = (positions[a as usize], positions[b as usize]);
+    let along = [xb[0] - xa[0], xb[1] - xa[1]];
+    let square = along[0] * along[0] + along[1] * along[1];
     // arm / L times the segment's normal
     let turn = if square > 0.0 { [-along[1] * arm / square, along[0] * arm / square] } else { [0.0; 2] };
-    [
-        End::node(node, 1.0),
-        End { at: a, share: -wa, turn: [-turn[0], -turn[1]], ..End::default() },
-        End { at: b, share: -wb, turn, ..End::default() },
-    ]
+    [End { at: a, share: -wa, turn: [-turn[0], -turn[1]], ..End::default() }, End { at: b, share: -wb, turn, ..End::default() }]
 }

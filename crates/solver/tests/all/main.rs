@@ -17,6 +17,7 @@ mod friction;
 mod free_bodies;
 mod initial;
 mod materials;
+mod obstacles;
 mod plasticity;
 mod projectiles;
 mod projection;

@@ -17,7 +17,7 @@ use crate::contact::traces::Traces;
 use crate::contact::{self, Contact, ContactKind, search};
 use crate::energy::{Ledger, Sums};
 use crate::error::Fault;
-use crate::load::constraint::Constraints;
+use crate::load::constraint::{Constraints, unit};
 use crate::load::curve::Curves;
 use crate::load::damping::Damping;
 use crate::load::gravity;
@@ -384,6 +384,40 @@ impl Builder<'_> {
         mirrors.sort_by_key(|&(node, _)| node);
         Target { surface, mirrors }
     }
+}
+
+impl Builder<'_> {
+    /// Symmetry lines behind which there is nothing of the parts that they hold: number, a point, and the unit normal that points to the parts.
+    fn mirror_lines(&self) -> impl Iterator<Item = (usize, [f64; 2], [f64; 2])> {
+        let tolerance = contact::initial::TOLERANCE * contact::initial::size(&self.mesh.positions);
+        self.model.symmetries.iter().enumerate().filter_map(move |(number, symmetry)| {
+            let normal = unit(symmetry.normal)?;
+            let parts = self.mesh.parts.iter().filter(|part| symmetry.parts.is_empty() || symmetry.parts.contains(&part.name));
+            let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+            for &node in parts.flat_map(|part| &part.nodes) {
+                let distance = height(self.mesh.positions[node as usize], symmetry.point, normal);
+                (low, high) = (low.min(distance), high.max(distance));
+            }
+            if low >= -tolerance {
+                Some((number, symmetry.point, normal))
+            } else {
+                (high <= tolerance).then_some((number, symmetry.point, normal.map(|n| -n)))
+            }
+        })
+    }
+
+    /// Whether a point lies on a symmetry line of one of these parts (none: all) or beyond it, where the mirror images of the parts are.
+    fn is_beyond_mirrors(&self, x: [f64; 2], parts: &[String]) -> bool {
+        let tolerance = contact::initial::TOLERANCE * contact::initial::size(&self.mesh.positions);
+        let concerns = |held: &[String]| held.is_empty() || parts.is_empty() || held.iter().any(|part| parts.contains(part));
+        self.mirror_lines()
+            .any(|(number, point, normal)| concerns(&self.model.symmetries[number].parts) && height(x, point, normal) <= tolerance)
+    }
+}
+
+/// How far `x` is from the line through `point`, along its normal, m.
+fn height(x: [f64; 2], point: [f64; 2], normal: [f64; 2]) -> f64 {
+    (x[0] - point[0]) * normal[0] + (x[1] - point[1]) * normal[1]
 }
 
 /// A surface of a contact.

@@ -29,6 +29,15 @@ struct Met {
     reach: f64,
 }
 
+impl Met {
+    /// A point of the obstacle as a slave: it has as much as a node of the parts.
+    fn point(&self, obstacle: &Obstacle) -> Slave {
+        let (area, own) = self.mean;
+        let here = law::Node { tributary: area, own, other: own, share: 1.0 };
+        Slave { stiffness: stiffness_of(&obstacle.interface, here, 1), area, slip: 0.0 }
+    }
+}
+
 /// Points of the outline of a circle.
 const ROUND: usize = 96;
 
@@ -66,7 +75,7 @@ impl Builder<'_> {
     /// The body of an obstacle, and what makes springs at it.
     fn obstacle(&mut self, obstacle: &Obstacle, met: Met) -> Result<(usize, Box<dyn Formulation>), Fault> {
         match &obstacle.shape {
-            ObstacleShape::Plane { point, normal, length } => self.plane(obstacle, &met, *point, *normal, *length),
+            ObstacleShape::Plane { point, normal, length } => self.plane(obstacle, met, *point, *normal, *length),
             ObstacleShape::Circle { centre, radius, hollow } => self.circle(obstacle, met, *centre, *radius, *hollow),
             ObstacleShape::Polyline { points } => Ok(self.polyline(obstacle, met, points)),
         }
@@ -75,21 +84,32 @@ impl Builder<'_> {
     fn plane(
         &mut self,
         obstacle: &Obstacle,
-        met: &Met,
+        met: Met,
         point: [f64; 2],
         normal: [f64; 2],
         length: Option<f64>,
     ) -> Result<(usize, Box<dyn Formulation>), Fault> {
         let reference = obstacle.reference.unwrap_or(point);
         let shape = plane(seen(point, reference), normal, length, obstacle.interface.thickness, met.mean.0)?;
-        let Plane { middle, normal, half, .. } = shape;
         // Beyond every picture of the model.
-        let far = half.min(20.0 * self.mesh.positions.iter().flatten().fold(0.0f64, |size, x| size.max(x.abs())));
-        let points = [1.0, -1.0].map(|side| [middle[0] - side * far * normal[1], middle[1] + side * far * normal[0]]);
-        let body = self.bodies.add(self.obstacle_body(obstacle, reference));
-        self.outlines.push(OutlineShape { name: obstacle.name.clone(), body, points: points.into() });
-        let held = |node: u32| self.is_held_along(node, normal);
-        Ok((body, Box::new(self.node_obstacle(obstacle, met, Box::new(shape), body, held))))
+        let far = shape.half.min(20.0 * initial::size(&self.mesh.positions));
+        let points = shape.at([-far, far]).into();
+        let mut rigid = self.obstacle_body(obstacle, reference);
+        let arms = shape.ends().into_iter().flatten();
+        let ends: Vec<(Vector, Vector)> = arms.map(|arm| (arm, [reference[0] + arm[0], reference[1] + arm[1]])).collect();
+        let ends = ends.into_iter().filter(|&(_, x)| !self.is_beyond_mirrors(x, &obstacle.parts)).collect::<Vec<_>>();
+        rigid.members = ends.into_iter().map(|(arm, x)| Member { node: self.add_node(x), arm }).collect();
+        let own: Vec<u32> = rigid.members.iter().map(|member| member.node).collect();
+        let body = self.bodies.add_with_nodes(rigid, self.positions.len());
+        self.outlines.push(OutlineShape { name: obstacle.name.clone(), body, points });
+        let held = |node: u32| self.is_held_along(node, shape.normal);
+        let nodes = self.node_obstacle(obstacle, &met, Box::new(shape), body, held);
+        if own.is_empty() {
+            return Ok((body, Box::new(nodes)));
+        }
+        let slaves = vec![vec![met.point(obstacle); own.len()]];
+        let tracker = self.tracker(met.outline, points_only(own), &[(1, 0)], &self.positions);
+        Ok((body, Box::new(Both::new([Box::new(nodes), Box::new(NodeSegment::new(tracker, slaves, &obstacle.interface, met.reach))]))))
     }
 
     /// Whether a symmetry line keeps a node at its distance from a plane: then it needs no spring.
@@ -128,11 +148,8 @@ impl Builder<'_> {
         let body = self.bodies.add_with_nodes(rigid, self.positions.len());
         self.outlines.push(OutlineShape { name: obstacle.name.clone(), body, points });
         let nodes = self.node_obstacle(obstacle, &met, shape, body, |_| false);
-        let (area, own) = met.mean;
-        let stiffness = stiffness_of(&obstacle.interface, law::Node { tributary: area, own, other: own, share: 1.0 }, 1);
-        let slave = Slave { stiffness, area, slip: 0.0 };
-        let centre = Target { surface: Surface { nodes: vec![node], ..Surface::default() }, mirrors: Vec::new() };
-        let tracker = self.tracker(met.outline, centre, &[(1, 0)], &self.positions);
+        let slave = met.point(obstacle);
+        let tracker = self.tracker(met.outline, points_only(vec![node]), &[(1, 0)], &self.positions);
         let segments = RoundSegments::new(tracker, slave, [pushed, met.reach], body, initial::is_ignored(&obstacle.interface));
         Ok((body, Box::new(Both::new([Box::new(nodes), Box::new(segments)]))))
     }
@@ -249,6 +266,11 @@ pub(super) fn circle(middle: Vector, radius: f64, hollow: bool, thickness: f64) 
         return Err(Fault::new(".circle.radius", message, "take a smaller thickness or a larger circle"));
     }
     Ok(Circle { middle, radius: pushed, hollow })
+}
+
+/// Nodes without segments, which are slaves only.
+pub(super) fn points_only(nodes: Vec<u32>) -> Target {
+    Target { surface: Surface { nodes, ..Surface::default() }, mirrors: Vec::new() }
 }
 
 /// The points of a polyline, each once, and whether it is closed: then it ends at its first point.

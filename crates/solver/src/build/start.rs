@@ -1,6 +1,6 @@
 //! Penetrations at the start, found before anything is strained: refused, ignored, or pushed out.
 
-use super::obstacles::{chain, circle, distinct, plane};
+use super::obstacles::{chain, circle, distinct, plane, points_only};
 use super::{Builder, Outlined, search_by_name};
 use crate::contact::formulation::{self, Passes};
 use crate::contact::initial::{self, Movable, Penetration};
@@ -132,19 +132,24 @@ impl Builder<'_> {
     fn meeting(&self, obstacle: &Obstacle, outline: Outlined) -> Option<Meeting> {
         let thickness = obstacle.interface.thickness;
         let (points, closed, radius) = match &obstacle.shape {
-            ObstacleShape::Circle { centre, radius, hollow: false } => (vec![*centre], true, *radius),
+            ObstacleShape::Circle { centre, radius, hollow: false } => (vec![*centre], None, *radius),
             ObstacleShape::Polyline { points } => {
                 let (own, closed) = distinct(points);
-                (own.to_vec(), closed, 0.0)
+                (own.to_vec(), Some(closed), 0.0)
             }
-            _ => return None,
+            ObstacleShape::Plane { point, normal, length } => {
+                let ends = plane(*point, *normal, *length, thickness, 0.0).ok()?.ends()?.into_iter();
+                (ends.filter(|&x| !self.is_beyond_mirrors(x, &obstacle.parts)).collect(), None, 0.0)
+            }
+            ObstacleShape::Circle { hollow: true, .. } => return None,
         };
         let first = self.mesh.positions.len() as u32;
         let nodes: Vec<u32> = (first..first + points.len() as u32).collect();
-        let own = if points.len() > 1 { chain(nodes, closed) } else { Surface { nodes, ..Surface::default() } };
-        let passes: &[(usize, usize)] = if points.len() > 1 { &[(0, 1), (1, 0)] } else { &[(1, 0)] };
+        let passes: &[(usize, usize)] = if closed.is_some() { &[(0, 1), (1, 0)] } else { &[(1, 0)] };
+        let own = closed
+            .map_or_else(|| points_only(nodes.clone()), |closed| Target { surface: chain(nodes.clone(), closed), mirrors: Vec::new() });
         let positions: Vec<Vector> = self.mesh.positions.iter().chain(&points).copied().collect();
-        let tracker = self.tracker(outline, Target { surface: own, mirrors: Vec::new() }, passes, &positions);
+        let tracker = self.tracker(outline, own, passes, &positions);
         Some(Meeting { contact: None, tracker, thickness: thickness + radius, points })
     }
 }

@@ -1,7 +1,9 @@
 //! Obstacles: planes, circles and polylines that are fixed, driven or free; what goes through them, and what is behind them at the start.
 
 use crate::bodies::*;
-use embate_solver::model::{Constraint, Curve, Drive, InitialPenetration, Motion, Obstacle, ObstacleShape, Penalty, Shape};
+use embate_solver::model::{
+    Constraint, Curve, Drive, InitialPenetration, Interface, Motion, Obstacle, ObstacleShape, Penalty, Shape, Symmetry,
+};
 
 #[test]
 fn a_free_plane_that_is_hit_keeps_both_momenta_and_the_energy() {
@@ -150,6 +152,63 @@ fn a_polyline_has_convex_and_concave_corners() {
 }
 
 #[test]
+fn the_end_of_a_plane_stops_a_segment_between_its_nodes() {
+    // A plate on edge under the middle of the only segment of a block: no node of the block comes near its plane. Fixed, and free with friction and a thickness.
+    let plate = ObstacleShape::Plane { point: [0.0, -0.101], normal: [1.0, 0.0], length: Some(0.2) };
+    for (free, friction, thickness) in [(false, 0.0, 0.0), (true, 0.0, 0.0), (true, 0.3, 0.0), (false, 0.0, 5e-4)] {
+        let mut model = model(3e-3);
+        add(&mut model, "block", rectangle([-0.051, 0.0], [0.1, 0.1], [1, 1]), [0.0, -5.0]);
+        let interface = Interface { thickness, ..rough(friction) };
+        let fixed = Obstacle { interface, ..Obstacle::fixed("plate", plate.clone()) };
+        let loose = Obstacle { motion: Motion::default(), mass: Some(20.0), inertia: Some(0.1), ..fixed.clone() };
+        model.obstacles.push(if free { loose } else { fixed });
+        let (simulation, history) = run(&model);
+        let lowest = history.column("block.y").into_iter().fold(f64::INFINITY, f64::min);
+        let way = if free { 0.012 } else { 0.004 };
+        assert!(lowest > 0.05 - way, "{free} {friction} {thickness}: {lowest}");
+        let rebound = history.last("block.vy") - if free { history.last("obstacle.vy[plate]") } else { 0.0 };
+        assert!(rebound > 2.0, "{free} {friction} {thickness}: {rebound}");
+        let summary = simulation.summary();
+        assert!(summary.ledger_residual < 1e-12 && summary.energy_drift < 0.01, "{free} {friction} {thickness}: {summary:?}");
+        assert!(summary.penetration_max < 2e-3 && summary.contact.unverified == 0, "{summary:?}");
+        if free {
+            assert!(summary.momentum_drift_linear.unwrap() < 1e-12 && summary.momentum_drift_angular.unwrap() < 1e-12, "{summary:?}");
+        }
+        // A plate that begins in the block is told, and pushed out of it.
+        model.parts[0].shape = rectangle([-0.051, -0.003], [0.1, 0.1], [1, 1]);
+        let told = faults(&model);
+        assert!(told.len() == 1 && told[0].contains("obstacle[0]") && told[0].contains("inside"), "{told:?}");
+        model.obstacles[0].interface.initial_penetration = InitialPenetration::PushOut;
+        model.parts[0].velocity = [0.0; 2];
+        let moved = to_end(&model);
+        assert!(moved.summary().penetration_max < 1e-9 && moved.ledger().stores.total() < 1e-6, "{:?}", moved.summary());
+    }
+}
+
+#[test]
+fn a_plane_that_ends_at_or_beyond_a_symmetry_line_goes_on_there() {
+    // Half of a block on half of a plate, and on a whole one, as a whole block on a whole plate.
+    let plate =
+        |from: f64, to: f64| ObstacleShape::Plane { point: [0.5 * (from + to), -1e-4], normal: [0.0, 1.0], length: Some(to - from) };
+    let outcome = |from: f64, shape: ObstacleShape| {
+        let mut model = model(1e-3);
+        let elements = if from < 0.0 { 12 } else { 6 };
+        add(&mut model, "block", rectangle([from, 0.0], [0.06 - from, 0.05], [elements, 5]), [0.0, -5.0]);
+        if from == 0.0 {
+            model.symmetries.push(Symmetry { normal: [1.0, 0.0], ..Symmetry::default() });
+        }
+        model.obstacles.push(Obstacle { interface: Penalty::PerNode(1e9).into(), ..Obstacle::fixed("plate", shape) });
+        let (simulation, history) = run(&model);
+        assert!(simulation.summary().energy_drift < 0.01, "{:?}", simulation.summary());
+        history.last("block.y")
+    };
+    let whole = outcome(-0.06, plate(-0.04, 0.04));
+    for half in [outcome(0.0, plate(0.0, 0.04)), outcome(0.0, plate(-0.04, 0.04))] {
+        assert!((half - whole).abs() < 1e-9, "{half} {whole}");
+    }
+}
+
+#[test]
 fn a_free_polyline_keeps_both_momenta_and_moves_with_its_outline() {
     let mut model = model(3e-3);
     add(&mut model, "ball", Shape::Disk { centre: [0.0, 0.0], radius: 0.03, elements: 4 }, [15.0, 2.0]);
@@ -208,9 +267,10 @@ fn nothing_goes_through_a_thin_obstacle_at_any_speed() {
                 simulation.summary().energy_drift
             );
         }
-        // Beside the plate and beside the pin there is nothing.
+        // Beside the plate and beside the pin there is nothing; ends of a plate are seen ahead by the way of a step.
+        let beside = 0.02 + speed * dt;
         for obstacle in [
-            Obstacle { shape: ObstacleShape::Plane { point: [0.1, 0.02], normal: [-1.0, 0.0], length: Some(0.03) }, ..plate(0.0) },
+            Obstacle { shape: ObstacleShape::Plane { point: [0.1, beside], normal: [-1.0, 0.0], length: Some(0.03) }, ..plate(0.0) },
             pin(0.1, 3e-3),
         ] {
             model.obstacles = vec![obstacle];

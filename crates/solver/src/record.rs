@@ -3,12 +3,14 @@
 use crate::block::ElementState;
 use crate::contact::ContactKind;
 use crate::contact::springs::Tangential;
+use crate::contact::traces::State;
 use crate::error::Fault;
 use crate::material::Variable;
 use crate::model::{Model, ProbeAt};
 use crate::output::{CellKind, Cells, FIELDS, Field, FieldKind, Frame, Needs};
 use crate::rigid::Body;
 use crate::step::{System, Vector};
+use std::cell::OnceCell;
 
 /// Columns of energies, after `energy.`.
 const ENERGIES: [&str; 11] = [
@@ -147,7 +149,8 @@ impl Recorded {
     }
 
     pub(crate) fn frame(&self, system: &System) -> Frame<2> {
-        let fields = self.fields.iter().map(|&kind| Field { kind, values: values(kind.name, system) }).collect();
+        let surface = OnSurface::default();
+        let fields = self.fields.iter().map(|&kind| Field { kind, values: values(kind.name, system, &surface) }).collect();
         let mut positions = vec![[0.0; 2]; system.mesh.user_nodes.len()];
         for (x, &user) in system.positions.iter().zip(&system.mesh.user_nodes) {
             positions[user as usize] = *x;
@@ -170,28 +173,30 @@ fn motion(system: &System, body: usize) -> [f64; 6] {
     [body.centre[0], body.centre[1], body.angle, u, v, spin]
 }
 
+/// What several fields of a frame are taken from, found when the first of them asks.
+#[derive(Default)]
+struct OnSurface {
+    /// Pressure and shear stress of every node, Pa.
+    tractions: OnceCell<Vec<[f64; 2]>>,
+    states: OnceCell<Vec<State>>,
+}
+
 /// Values of one of [`FIELDS`], in the user's order.
-fn values(name: &str, system: &System) -> Vec<f64> {
+fn values(name: &str, system: &System, surface: &OnSurface) -> Vec<f64> {
+    let traces = &system.traces;
+    let tractions = || surface.tractions.get_or_init(|| traces.tractions(&system.contact_forces, &system.positions));
+    let states = || surface.states.get_or_init(|| traces.states(&system.springs));
     let moved = |node: usize| [0, 1].map(|d| system.positions[node][d] - system.mesh.positions[node][d]);
     match name {
         "displacement" => by_node(system, moved),
         "velocity" => by_node(system, |node| velocity(system, node)),
         "contact_force" => by_node(system, |node| system.contact_forces[node]),
-        "contact_pressure" | "contact_shear" => {
-            let tractions = system.traces.tractions(&system.contact_forces, &system.positions);
-            let component = usize::from(name == "contact_shear");
-            by_node(system, |node| [tractions[node][component]])
-        }
-        "contact_gap" => {
-            let states = system.traces.states(&system.springs);
-            by_node(system, |node| [states[node].gap])
-        }
-        "contact_status" => {
-            let states = system.traces.states(&system.springs);
-            by_node(system, |node| [states[node].status])
-        }
-        "contact_slip" => by_node(system, |node| [system.traces.slip(node)]),
-        "friction_heat" => by_node(system, |node| [system.traces.heat(node)]),
+        "contact_pressure" => by_node(system, |node| [tractions()[node][0]]),
+        "contact_shear" => by_node(system, |node| [tractions()[node][1]]),
+        "contact_gap" => by_node(system, |node| [states()[node].gap]),
+        "contact_status" => by_node(system, |node| [states()[node].status]),
+        "contact_slip" => by_node(system, |node| [traces.slip(node)]),
+        "friction_heat" => by_node(system, |node| [traces.heat(node)]),
         "stress" => by_element(system, |state| [state.stress[0], state.stress[1], state.stress[2], state.stress[3]]),
         "von_mises" => by_element(system, |state| [von_mises(&state.stress)]),
         "pressure" => by_element(system, |state| [-(state.stress[0] + state.stress[1] + state.stress[2]) / 3.0]),

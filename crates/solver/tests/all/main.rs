@@ -18,6 +18,7 @@ mod free_bodies;
 mod initial;
 mod materials;
 mod mixed;
+mod obstacles;
 mod plasticity;
 mod projectiles;
 mod projection;

@@ -24,13 +24,15 @@ use crate::load::damping::Damping;
 use crate::load::gravity;
 use crate::mesh::surface::{NONE, Surface};
 use crate::mesh::{ElementGroup, Mesh};
-use crate::model::{self, ContactLaw, Interface, Model, Partners, Penalty, PenaltySource};
+use crate::model::{self, ContactLaw, Interface, Model, Partners, Penalty, PenaltySource, Symmetry};
 use crate::rigid::Bodies;
 use crate::step::{CHUNK, Governor, Limits, System};
 use embate_lanes::{Batch, Level};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
+/// Nodes nearer to the axis than this fraction of the model's size are on it.
+const ON_AXIS: f64 = 1e-9;
 /// Below so many elements threads cost more than they bring.
 const SERIAL: usize = 4096;
 
@@ -44,6 +46,8 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         return Err(faults);
     }
     let mesh = Mesh::new(model)?;
+    let with_axis = with_axis(model, &mesh)?;
+    let model = with_axis.as_ref().unwrap_or(model);
     let curves = Curves::new(model);
     let mut builder = Builder {
         model,
@@ -135,6 +139,27 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         limits,
         level,
     })
+}
+
+/// An axisymmetric model with its axis as a symmetry line, if it touches that.
+fn with_axis(model: &Model, mesh: &Mesh<2>) -> Result<Option<Model>, Vec<Fault>> {
+    if !model.is_axisymmetric() {
+        return Ok(None);
+    }
+    let size = mesh.positions.iter().flatten().fold(0.0f64, |size, x| size.max(x.abs()));
+    if let Some([x, y]) = mesh.positions.iter().find(|x| x[0] < -ON_AXIS * size) {
+        let message = format!("an axisymmetric part has a node at a negative radius, ({x:.6e}, {y:.6e}) m");
+        return Err(vec![Fault::new("part", message, "x is the radius: move the part to the right of the axis x = 0")]);
+    }
+    let touches = mesh.positions.iter().any(|x| x[0] <= ON_AXIS * size);
+    let axis = Symmetry { normal: [1.0, 0.0], ..Symmetry::default() };
+    let is_there = |symmetry: &Symmetry| symmetry.parts.is_empty() && symmetry.point[0] == 0.0 && symmetry.normal[1] == 0.0;
+    if !touches || model.symmetries.iter().any(is_there) {
+        return Ok(None);
+    }
+    let mut model = model.clone();
+    model.symmetries.push(axis);
+    Ok(Some(model))
 }
 
 /// Mass of each part on each of its nodes, kg/m, nodes ascending.

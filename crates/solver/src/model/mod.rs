@@ -6,6 +6,7 @@ pub mod check;
 pub mod describe;
 pub mod reference;
 
+use crate::block::stress_state::STRESS_STATES;
 use crate::element::{ELEMENTS, ElementKind};
 use crate::quantity::Dimension;
 use std::collections::BTreeMap;
@@ -59,6 +60,14 @@ pub struct Run {
     pub max_steps: Option<u64>,
     /// Linear and quadratic coefficient of the bulk viscosity; both zero: none.
     pub bulk_viscosity: [f64; 2],
+}
+
+impl Model {
+    /// Whether the model is a body of revolution: its parts are all axisymmetric, or none is.
+    #[must_use]
+    pub fn is_axisymmetric(&self) -> bool {
+        self.parts.iter().any(Part::is_axisymmetric)
+    }
 }
 
 impl Default for Run {
@@ -122,6 +131,12 @@ impl Default for Part {
 }
 
 impl Part {
+    /// Whether x is its radius.
+    #[must_use]
+    pub fn is_axisymmetric(&self) -> bool {
+        STRESS_STATES.iter().any(|kind| kind.name == self.stress_state && kind.axisymmetric)
+    }
+
     /// The element that has so many nodes; `None` when the part names none.
     #[must_use]
     pub fn element_of(&self, nodes: usize) -> Option<&'static ElementKind> {

@@ -25,4 +25,5 @@ mod projection;
 mod rigid;
 mod search;
 mod self_contact;
+mod stress_states;
 mod swept;

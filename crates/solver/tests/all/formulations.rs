@@ -47,8 +47,34 @@ fn momentum_is_kept_and_the_books_close_with_every_law_and_formulation() {
                     let drift = if name == "corner in a notch" && formulation == Formulation::DoublePass { 0.05 } else { 0.01 };
                     assert!(summary.energy_drift <= drift, "{what}: {summary:?}");
                     assert!(summary.penetration_max < 0.25 * segment, "{what}: {summary:?}");
+                    assert_eq!(simulation.sweeps().1, 0, "{what}: forces that were not solved");
                 }
             }
+        }
+    }
+}
+
+#[test]
+fn springs_as_stiff_as_one_likes_are_solved_and_the_books_close() {
+    for formulation in [Formulation::DoublePass, Formulation::Segment] {
+        for (name, model, _) in scenes() {
+            let drift = |scale: f64| {
+                let mut model = model.clone();
+                for contact in &mut model.contacts {
+                    contact.formulation = formulation;
+                    contact.interface.law = ContactLaw::Penalty(Penalty::automatic(scale));
+                }
+                model.run.energy_limit = 1.0;
+                let (simulation, _) = run(&model);
+                let (summary, (sweeps, unsolved)) = (simulation.summary(), simulation.sweeps());
+                let what = format!("{formulation:?} {name} {scale:e}");
+                assert!(unsolved == 0 && sweeps < 200, "{what}: {sweeps} sweeps, {unsolved} steps not solved");
+                assert!(summary.ledger_residual <= 1e-12, "{what}: {summary:?}");
+                summary.energy_drift
+            };
+            let drifts = [1.0, 1e1, 1e2, 1e3, 1e4, 1e5].map(drift);
+            // With stiffer ones up to nine tenths of the energy drift in some scenes although the forces are solved: only the solution and the books are asserted there.
+            assert!(drifts[..2].iter().all(|&drift| drift <= 0.05), "{formulation:?} {name}: {drifts:?}");
         }
     }
 }
@@ -276,7 +302,8 @@ fn ties_that_bind_nothing_or_a_node_twice_are_told() {
 
 /// V-1 of the contact patch test (Taylor and Papadopoulos 1991; data of Crisfield 2000): two blocks 1 m x 0.5 m, three rows of elements each, pressed together by 10 mm, brought to rest by
 /// damping; turned by an angle as a whole. Largest |σ/σ_mean − 1| across the interface and |σ_other/σ_mean| of all elements.
-fn patch_error(formulation: Formulation, penalty: Penalty, [lower, upper]: [usize; 2], angle: f64) -> f64 {
+fn patch_error(formulation: Formulation, penalty: Penalty, meshes: [usize; 2], angle: f64) -> f64 {
+    let [lower, upper] = meshes;
     let (sin, cos) = f64::sin_cos(angle);
     let turn = move |[x, y]: [f64; 2]| [cos * x - sin * y, sin * x + cos * y];
     let mut model = slender(2.0, 1e6, 1000.0);
@@ -301,6 +328,7 @@ fn patch_error(formulation: Formulation, penalty: Penalty, [lower, upper]: [usiz
     model.contacts.push(Contact { formulation, interface: penalty.into(), ..Contact::between("seam", "lower-top", "upper-bottom") });
     let mut simulation = simulation(&model);
     simulation.advance(f64::INFINITY, u64::MAX).unwrap();
+    assert_eq!(simulation.sweeps().1, 0, "{formulation:?} {meshes:?}: forces that were not solved");
     let frame = simulation.frame();
     let stresses = &frame.fields.iter().find(|field| field.kind.name == "stress").unwrap().values;
     // xx, yy, zz, xy turned back: across the interface, along it, and shear.

@@ -54,13 +54,15 @@ pub struct Run {
     pub energy_limit: f64,
     /// Time step (s) below which the run stops; `None`: a thousandth of the first stable step.
     pub step_limit: Option<f64>,
+    /// Largest time step (s), and that of a model of rigid parts alone; `None`: what the elements need, also those of rigid parts if there are no others.
+    pub time_step: Option<f64>,
     /// Largest number of steps; `None`: no limit.
     pub max_steps: Option<u64>,
 }
 
 impl Default for Run {
     fn default() -> Self {
-        Self { end: 0.0, safety: 0.9, energy_limit: 0.05, step_limit: None, max_steps: None }
+        Self { end: 0.0, safety: 0.9, energy_limit: 0.05, step_limit: None, time_step: None, max_steps: None }
     }
 }
 

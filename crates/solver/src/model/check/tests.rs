@@ -76,6 +76,7 @@ fn a_number_that_is_not_finite_is_found_wherever_it_is() {
         ("run.safety", |m| &mut m.run.safety),
         ("run.energy_limit", |m| &mut m.run.energy_limit),
         ("run.step_limit", |m| m.run.step_limit.insert(0.0)),
+        ("run.time_step", |m| m.run.time_step.insert(0.0)),
         ("material.steel.young", |m| m.materials.get_mut("steel").and_then(|it| it.parameters.get_mut("young")).expect("young")),
         ("part[0].velocity[1]", |m| &mut m.parts[0].velocity[1]),
         ("part[0].ring.centre[1]", |m| ring(m, 0)),

@@ -71,7 +71,7 @@ fn a_number_that_is_not_finite_is_found_wherever_it_is() {
         let Shape::Ring { centre, inner, outer, from, to, .. } = &mut model.parts[0].shape else { unreachable!("part 0 is the ring") };
         [&mut centre[1], inner, outer, from, to].into_iter().nth(which).expect("five numbers")
     }
-    let places: [(&str, Place); 30] = [
+    let places: [(&str, Place); 31] = [
         ("run.end", |m| &mut m.run.end),
         ("run.safety", |m| &mut m.run.safety),
         ("run.energy_limit", |m| &mut m.run.energy_limit),

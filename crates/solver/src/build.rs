@@ -98,8 +98,9 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
     let outside =
         mesh.outside_without(&[], |segment| contacts.is_empty() || constraints.is_mirror(segment)).map_err(|fault| vec![fault])?;
     let traces = Traces::new(outside, &mesh.positions);
-    let limits =
-        Limits { end: model.run.end, safety: model.run.safety, energy: model.run.energy_limit, step: model.run.step_limit.unwrap_or(0.0) };
+    let run = &model.run;
+    let (step, largest) = (run.step_limit.unwrap_or(0.0), run.time_step.unwrap_or(f64::INFINITY));
+    let limits = Limits { end: run.end, safety: run.safety, energy: run.energy_limit, step, largest };
     let elements: usize = blocks.iter().map(|block| block.elements()).sum();
     Ok(System {
         corners: vec![Batch::default(); assembly.corner_batches],
@@ -273,8 +274,16 @@ impl Builder<'_> {
                 let mut corners = vec![Batch::default(); block.corner_batches()];
                 block.advance(&motion, level, &mut corners, false).time_step_squared
             };
-            self.time_step =
+            let elements =
                 self.model.run.safety * blocks.iter_mut().zip(&self.mesh.groups).map(stable).fold(f64::INFINITY, f64::min).sqrt();
+            self.time_step = elements.min(self.model.run.time_step.unwrap_or(f64::INFINITY));
+            if self.time_step == f64::INFINITY {
+                self.faults.push(Fault::new(
+                    "run.time_step",
+                    "a penalty is made from the time step, but all parts are rigid and no step is given",
+                    "give `time_step`, or take another `penalty_from`",
+                ));
+            }
         }
     }
 

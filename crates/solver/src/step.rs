@@ -44,6 +44,8 @@ pub struct Limits {
     pub energy: f64,
     /// Smallest time step, s.
     pub step: f64,
+    /// Largest time step, s; infinite: none is given.
+    pub largest: f64,
 }
 
 /// Who sets the time step.
@@ -51,6 +53,8 @@ pub struct Limits {
 pub enum Governor {
     /// An element of the block whose smallest squared step this is.
     Element(f64),
+    /// The model, by the largest step that it allows.
+    Given,
     /// The end of the run, or growth from a smaller step.
     Schedule,
 }
@@ -187,13 +191,16 @@ impl System {
         self.reports.iter().fold(Report::NOTHING, |sum, &report| sum.join(report))
     }
 
-    /// The next step: the elements' bound (which is that of the nodes in contact too, see [`crate::contact::springs`]), growth, and the end.
+    /// The next step: the elements' bound (which is that of the nodes in contact too, see [`crate::contact::springs`]), the largest one of the model, growth, and the end.
     fn stable_step(&mut self, elements: &Report) -> Result<f64, Error> {
         if elements.determinant <= 0.0 {
             return Err(self.inverted());
         }
         let mut time_step = self.limits.safety * elements.time_step_squared.sqrt();
         let mut governor = Governor::Element(elements.time_step_squared);
+        if self.limits.largest < time_step {
+            (time_step, governor) = (self.limits.largest, Governor::Given);
+        }
         if time_step < self.limits.step || time_step.is_nan() {
             return Err(self.collapsed(time_step, governor));
         }
@@ -350,10 +357,10 @@ impl System {
         self.time_step_old / (self.time_step_old + self.time_step)
     }
 
-    /// Gives rigid parts their first and last look: they never pull. Only where nothing else does they set the step, that which their elements would need.
+    /// Gives rigid parts their first and last look: they never pull. Only where nothing else does, nor the model, they set the step: that which their elements would need.
     fn see_rigid_parts(&mut self) {
         let motion = Motion { positions: &self.positions, velocities: &self.velocities, time_step: 0.0 };
-        let alone = self.rigid.iter().all(|&rigid| rigid);
+        let alone = self.rigid.iter().all(|&rigid| rigid) && self.limits.largest == f64::INFINITY;
         let mut rest = &mut self.corners[..];
         for ((block, report), rigid) in self.blocks.iter_mut().zip(&mut self.reports).zip(&self.rigid) {
             let (corners, others) = rest.split_at_mut(block.corner_batches());

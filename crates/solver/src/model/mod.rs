@@ -56,6 +56,8 @@ pub struct Run {
     pub energy_limit: f64,
     /// Time step (s) below which the run stops; `None`: a thousandth of the first stable step.
     pub step_limit: Option<f64>,
+    /// Largest time step (s), and that of a model of rigid parts alone; `None`: what the elements need, also those of rigid parts if there are no others.
+    pub time_step: Option<f64>,
     /// Largest number of steps; `None`: no limit.
     pub max_steps: Option<u64>,
     /// Linear and quadratic coefficient of the bulk viscosity; both zero: none.
@@ -72,7 +74,7 @@ impl Model {
 
 impl Default for Run {
     fn default() -> Self {
-        Self { end: 0.0, safety: 0.9, energy_limit: 0.05, step_limit: None, max_steps: None, bulk_viscosity: [0.0; 2] }
+        Self { end: 0.0, safety: 0.9, energy_limit: 0.05, step_limit: None, time_step: None, max_steps: None, bulk_viscosity: [0.0; 2] }
     }
 }
 

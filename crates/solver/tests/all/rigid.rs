@@ -1,7 +1,9 @@
 //! Rigid parts against closed forms: free, driven, rolling, sliding, hit; and damping.
 
 use crate::bodies::*;
-use embate_solver::model::{Constraint, Curve, Drive, Interface, Load, Model, Motion, Obstacle, ObstacleShape, Shape, Symmetry};
+use embate_solver::model::{
+    Constraint, Curve, Drive, Interface, Load, Model, Motion, Obstacle, ObstacleShape, Penalty, PenaltySource, Shape, Symmetry,
+};
 use embate_solver::simulation::{Options, Simulation};
 use std::f64::consts::TAU;
 
@@ -298,6 +300,32 @@ fn a_block_on_a_slope_sticks_or_slides_as_its_friction_says() {
             assert!(simulation.summary().ledger_residual < 1e-11, "{:?}", simulation.summary());
         }
     }
+}
+
+#[test]
+fn a_model_of_rigid_parts_takes_the_step_that_it_is_given() {
+    let mut model = model(0.2);
+    add(&mut model, "stone", rectangle([0.0, 0.001], [0.1, 0.1], [4, 4]), [0.0, -1.0]);
+    stiffen(&mut model, "stone", Motion::default());
+    model.obstacles.push(Obstacle { interface: Penalty::PerNode(1e5).into(), ..Obstacle::wall("floor", [0.0; 2], [0.0, 1.0]) });
+    let own = simulation(&model).time_step();
+    assert!(own < 5e-5, "without one that of its elements: {own}");
+    model.run.time_step = Some(1e-4);
+    assert!((simulation(&model).time_step() - 1e-4).abs() < 1e-18);
+    let (simulation, history) = run(&model);
+    // Half a vibration on five springs of 1e5 N/m², and back again.
+    assert!((history.last("stone.vy") - 1.0).abs() < 1e-9, "{}", history.last("stone.vy"));
+    assert!(simulation.summary().steps == 2000 && simulation.summary().energy_drift < 1e-9, "{:?}", simulation.summary());
+    // Where something deforms it is the largest one.
+    model.parts[0].rigid = None;
+    assert!((self::simulation(&model).time_step() / own - 1.0).abs() < 1e-6);
+    model.run.time_step = Some(0.5 * own);
+    assert!((self::simulation(&model).time_step() / own - 0.5).abs() < 1e-6);
+    // A penalty from the time step needs one.
+    stiffen(&mut model, "stone", Motion::default());
+    model.run.time_step = None;
+    model.obstacles[0].interface = Penalty::Automatic { scale: 1.0, source: PenaltySource::TimeStep }.into();
+    assert!(faults(&model).iter().any(|fault| fault.contains("run.time_step")), "{:?}", faults(&model));
 }
 
 #[test]

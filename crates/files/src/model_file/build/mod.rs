@@ -45,6 +45,7 @@ fn run(record: &Record) -> Run {
         safety: number("safety"),
         energy_limit: number("energy_limit"),
         step_limit: record.number("step_limit"),
+        time_step: record.number("time_step"),
         max_steps: record.integer("max_steps"),
         bulk_viscosity: record.vector("bulk_viscosity"),
     }

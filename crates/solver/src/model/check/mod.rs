@@ -116,6 +116,9 @@ impl Check<'_> {
                 self.fault("run.step_limit", "the step limit is not smaller than the end time, so no step could be taken", "");
             }
         }
+        if let Some(largest) = run.time_step {
+            self.number("run.time_step", largest);
+        }
         if run.max_steps == Some(0) {
             self.fault("run.max_steps", "`max_steps` must be at least 1, but it is 0", "leave it out for no limit");
         }

@@ -48,6 +48,12 @@ static RUN: Section = Section {
             Optional("a thousandth of the first stable step"),
             "Time step below which the run stops.",
         ),
+        key(
+            "time_step",
+            Quantity(Dimension::TIME, Positive),
+            Optional("what the elements need"),
+            "Largest time step. A model of rigid parts alone takes just this one, and without it the step that their elements would need if they were not rigid.",
+        ),
         key("max_steps", Integer(1), Optional("no limit"), "Largest number of steps."),
         key(
             "bulk_viscosity",

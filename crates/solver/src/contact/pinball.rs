@@ -28,7 +28,8 @@ pub const KIND: FormulationKind = FormulationKind {
 };
 
 /// Disks of one element nearer than this fraction of their radii are one: at a corner, and where both sides of a thin body are in one element.
-const SAME: f64 = 0.5;
+/// A little more than a half, which elements with L/h = 1.5 have in their corners: round-off is not to decide.
+const SAME: f64 = 0.500001;
 
 /// The formulation.
 pub struct Pinball {

@@ -56,10 +56,13 @@ impl Ends {
         }
         self.near.clear();
         self.near.resize(self.lengths.len(), false);
-        let surface = &target.surface;
-        for segment in 0..surface.segments.len() {
-            if (0..2).any(|end| target.is_free(segment as u32, end, positions)) {
-                for near in [surface.previous[segment], segment as u32, surface.next[segment]] {
+        let Surface { previous, next, .. } = &target.surface;
+        let after = |segment: u32| next.get(segment as usize).copied().unwrap_or(NONE);
+        for (segment, (&before, &follower)) in (0..).zip(previous.iter().zip(next)) {
+            // An end between two segments is looked at once.
+            let ends = target.is_free(segment, 1, positions) || (before == NONE && target.is_free(segment, 0, positions));
+            if ends {
+                for near in [before, segment, follower, after(follower)] {
                     if let Some(near) = self.near.get_mut(near as usize) {
                         *near = true;
                     }
@@ -121,8 +124,8 @@ impl Ends {
             || self.overlaps(slaves, target, (slave, projection.segment, end), positions)
     }
 
-    /// Whether a node that is beyond a free end may come upon the face there: it is in front of it, near its end, or was before the step and came down no deeper beside the end than the
-    /// band is wide. (The face that goes on has no end but the depth of who is on it; who is deep beside a body has nothing to do with its top.)
+    /// Whether a node that is beyond a free end comes upon the face there: from the front, where the face goes straight on. (One that comes from the side would run into the slope, which
+    /// is steep for a motion along the face; who is beside a body has nothing to do with its top.)
     pub(super) fn comes_over(
         target: &Target,
         beyond: &Projection,
@@ -134,14 +137,10 @@ impl Ends {
         let (Some(old), Some(new)) = (target.seen(x_old, beyond.segment, sweep.old), target.seen(x, beyond.segment, sweep.new)) else {
             return false;
         };
-        let near = |gap: f64, beyond: f64| gap >= -band && beyond <= 2.0 * band;
-        if beyond.gap >= -hold {
-            return near(new.gap, new.beyond());
-        }
-        let gap_old = old.gap + fall_off(old.beyond(), band)[0];
-        let time = (gap_old / (gap_old - beyond.gap)).clamp(0.0, 1.0);
-        let at = |a: f64, b: f64| a + time * (b - a);
-        gap_old >= -hold && near(at(old.gap, new.gap), at(old.beyond(), new.beyond()))
+        let straight = |beyond: f64| fall_off(beyond, band)[1] == 0.0;
+        let time = if new.gap >= -hold { 1.0 } else { (old.gap / (old.gap - new.gap)).clamp(0.0, 1.0) };
+        let in_front = new.gap >= -hold || old.gap >= -hold;
+        in_front && straight(new.beyond()) && straight(old.beyond() + time * (new.beyond() - old.beyond()))
     }
 }
 

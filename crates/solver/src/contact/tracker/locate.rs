@@ -118,7 +118,7 @@ impl<'a> View<'a> {
             None => self.target.first_ahead(x, candidates, self.rounding, self.sweep.new)?,
         };
         let beside = if self.ends.is_near(nearest) && !group.own { self.beside(x, group, nearest) } else { None };
-        let ahead = beside.or(ahead)?;
+        let ahead = beside.or_else(|| ahead.filter(|ahead| !self.ends.is_near(ahead.segment) || !self.slides_by(x, group, ahead)))?;
         if ahead.gap > self.hold {
             return (ahead.gap <= self.near + LOOK_AHEAD * self.motion(group.node, ahead.segment)).then_some(ahead);
         }
@@ -132,6 +132,12 @@ impl<'a> View<'a> {
     /// As [`Ends::admit`]; a surface that meets itself has no ends in this sense.
     fn may_hold(&self, group: &Group, projection: &Projection) -> bool {
         group.own || self.ends.admit(&self.slaves.surface, self.target, group.slave, projection, self.sweep.new)
+    }
+
+    /// Whether a node is exactly over the end of a face, as far as round-off lets one tell, and none of the face's business.
+    fn slides_by(&self, x: Vector, group: &Group, ahead: &Projection) -> bool {
+        let seen = self.target.seen(x, ahead.segment, self.sweep.new);
+        seen.is_some_and(|seen| seen.is_at_end()) && !self.may_hold(group, ahead)
     }
 
     /// The projection on a face, or on that around the edge where the node may not be in contact through the first.

@@ -83,10 +83,8 @@ fn momentum_is_kept_and_the_books_close_in_every_kind_of_contact() {
         assert!(summary.momentum_drift_linear.unwrap() <= 1e-12, "{name}: {summary:?}");
         assert!(summary.momentum_drift_angular.unwrap() <= 1e-12, "{name}: {summary:?}");
         assert!(summary.ledger_residual <= 1e-12, "{name}: {summary:?}");
-        // A single corner carries the notch: where it leaves a face at an edge, its spring's energy goes.
-        let drift = if name == "corner in a notch" { 0.05 } else { 0.01 };
-        assert!(summary.energy_drift <= drift, "{name}: {summary:?}");
-        assert!(summary.penetration_max < 0.1 * segment, "{name}: {summary:?}");
+        assert!(summary.energy_drift <= 0.01, "{name}: {summary:?}");
+        assert!(summary.penetration_max < 0.15 * segment, "{name}: {summary:?}");
     }
 }
 

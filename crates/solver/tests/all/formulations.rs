@@ -43,9 +43,7 @@ fn momentum_is_kept_and_the_books_close_with_every_law_and_formulation() {
                     assert!(summary.momentum_drift_linear.unwrap() <= 1e-12, "{what}: {summary:?}");
                     assert!(summary.momentum_drift_angular.unwrap() <= 1e-12, "{what}: {summary:?}");
                     assert!(summary.ledger_residual <= 1e-12, "{what}: {summary:?}");
-                    // Where a single node carries a corner and leaves a face at an edge, its spring's energy goes.
-                    let drift = if name == "corner in a notch" && formulation == Formulation::DoublePass { 0.05 } else { 0.01 };
-                    assert!(summary.energy_drift <= drift, "{what}: {summary:?}");
+                    assert!(summary.energy_drift <= 0.01, "{what}: {summary:?}");
                     assert!(summary.penetration_max < 0.25 * segment, "{what}: {summary:?}");
                     assert_eq!(simulation.sweeps().1, 0, "{what}: forces that were not solved");
                 }
@@ -361,7 +359,7 @@ fn a_double_pass_errs_in_the_patch_test_less_with_stiffer_springs_and_a_single_p
     for meshes in [[4, 5], [8, 11]] {
         let errors = |formulation| [1e7, 1e8].map(|stiffness| patch_error(formulation, Penalty::Pressure(stiffness), meshes, 0.0));
         let [soft, stiff] = errors(Formulation::DoublePass);
-        assert!(soft < 0.03 && stiff < 0.6 * soft, "{meshes:?}: {soft} {stiff}");
+        assert!(soft < 0.03 && stiff < 0.7 * soft, "{meshes:?}: {soft} {stiff}");
         for slave in [0, 1] {
             let [soft, stiff] = errors(Formulation::SinglePass { slave });
             assert!(soft < 0.12 && stiff < 0.12 && stiff > 0.015, "{meshes:?}, slave {slave}: {soft} {stiff}");

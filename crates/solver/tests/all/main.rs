@@ -12,6 +12,7 @@ mod certificate;
 mod conditions;
 mod contact;
 mod elements;
+mod ends;
 mod formulations;
 mod friction;
 mod free_bodies;

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)] // what tests call may stop a test like the tests themselves
 
 use embate_solver::error::{Error, Fault};
-use embate_solver::model::{Contact, ImportedMesh, Material, MeshGroup, Model, Part, Probe, ProbeAt, Run, Shape};
+use embate_solver::model::{Contact, ImportedMesh, Material, MeshGroup, Model, Part, Probe, ProbeAt, Rectangle, Run, Shape};
 use embate_solver::output::Frame;
 use embate_solver::simulation::{Control, Observer, ObserverError, Options, Progress, Simulation};
 use std::sync::Arc;
@@ -45,7 +45,7 @@ pub(crate) fn model(end: f64) -> Model {
 }
 
 pub(crate) fn rectangle(corner: [f64; 2], size: [f64; 2], elements: [usize; 2]) -> Shape {
-    Shape::Rectangle { corner, size, elements }
+    Shape::Rectangle(Rectangle { corner, size, elements, ..Rectangle::default() })
 }
 
 /// A small block.

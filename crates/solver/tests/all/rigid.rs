@@ -2,8 +2,8 @@
 
 use crate::bodies::*;
 use embate_solver::model::{
-    Constraint, Curve, Drive, Friction, InitialPenetration, Interface, Load, Model, Motion, Obstacle, ObstacleShape, Penalty, Shape,
-    Symmetry,
+    Constraint, Curve, Disk, Drive, Friction, InitialPenetration, Interface, Load, Model, Motion, Obstacle, ObstacleShape, Penalty, Ring,
+    Shape, Symmetry,
 };
 use embate_solver::simulation::{Options, Simulation};
 use std::f64::consts::TAU;
@@ -29,7 +29,7 @@ fn driven(velocity: [Option<f64>; 2], spin: Option<f64>) -> Motion {
 }
 
 fn ring(inner: f64, outer: f64, centre: [f64; 2], elements: [usize; 2]) -> Shape {
-    Shape::Ring { centre, inner, outer, from: 0.0, to: TAU, elements }
+    Shape::Ring(Ring { centre, inner, outer, from: 0.0, to: TAU, elements, ..Ring::default() })
 }
 
 fn value(simulation: &Simulation, column: &str) -> f64 {
@@ -73,7 +73,7 @@ fn a_free_rigid_part_flies_and_spins_without_end_and_without_strain() {
 fn a_part_begins_with_its_spin_whether_rigid_or_not() {
     for rigid in [false, true] {
         let mut model = model(1e-6);
-        add(&mut model, "disk", Shape::Disk { centre: [0.3, 0.2], radius: 0.1, elements: 4 }, [1.0, 2.0]);
+        add(&mut model, "disk", Shape::Disk(Disk { centre: [0.3, 0.2], radius: 0.1, elements: 4 }), [1.0, 2.0]);
         model.parts[0].spin = 50.0;
         model.parts[0].rigid = rigid.then(Motion::default);
         let frame = simulation(&model).frame();
@@ -90,7 +90,7 @@ fn a_free_rigid_part_that_is_hit_keeps_both_momenta_and_the_energy() {
     for (first, second) in [(true, false), (false, true), (true, true)] {
         for interface in [Interface::default(), rough(0.3)] {
             let mut model = model(2e-3);
-            add(&mut model, "ball", Shape::Disk { centre: [0.0, 0.0], radius: 0.03, elements: 4 }, [12.0, 1.0]);
+            add(&mut model, "ball", Shape::Disk(Disk { centre: [0.0, 0.0], radius: 0.03, elements: 4 }), [12.0, 1.0]);
             add(&mut model, "block", rectangle([0.031, -0.01], [0.03, 0.08], [3, 8]), [0.0, 0.0]);
             model.parts[0].spin = 100.0;
             for (part, rigid) in model.parts.iter_mut().zip([first, second]) {
@@ -110,7 +110,7 @@ fn a_free_rigid_part_that_is_hit_keeps_both_momenta_and_the_energy() {
 #[test]
 fn a_free_plane_that_is_hit_keeps_both_momenta_and_the_energy() {
     let mut model = model(4e-3);
-    add(&mut model, "ball", Shape::Disk { centre: [0.02, 0.0], radius: 0.03, elements: 4 }, [0.0, -12.0]);
+    add(&mut model, "ball", Shape::Disk(Disk { centre: [0.02, 0.0], radius: 0.03, elements: 4 }), [0.0, -12.0]);
     model.obstacles.push(Obstacle {
         motion: Motion::default(),
         mass: Some(4.0),
@@ -423,7 +423,7 @@ fn a_circle_is_pressed_into_a_block_and_comes_out_again_with_nothing_lost() {
 #[test]
 fn a_free_circle_in_a_hollow_one_keeps_momenta_and_energy() {
     let mut model = model(6e-3);
-    add(&mut model, "ball", Shape::Disk { centre: [0.0, 0.0], radius: 0.03, elements: 4 }, [12.0, 5.0]);
+    add(&mut model, "ball", Shape::Disk(Disk { centre: [0.0, 0.0], radius: 0.03, elements: 4 }), [12.0, 5.0]);
     let free = |name: &str, shape: ObstacleShape, mass: f64| Obstacle {
         motion: Motion::default(),
         mass: Some(mass),
@@ -450,7 +450,7 @@ fn a_polyline_has_convex_and_concave_corners() {
     // A ridge (nodes do not see its tip) under the middle of coarse elements, and a valley that holds a ball.
     let mut model = model(4e-3);
     add(&mut model, "plank", rectangle([-0.05, 0.011], [0.1, 0.03], [5, 2]), [0.0, -8.0]);
-    add(&mut model, "ball", Shape::Disk { centre: [0.2, 0.04], radius: 0.02, elements: 4 }, [0.0, -8.0]);
+    add(&mut model, "ball", Shape::Disk(Disk { centre: [0.2, 0.04], radius: 0.02, elements: 4 }), [0.0, -8.0]);
     let points = vec![[-0.3, 0.0], [-0.005, 0.0], [0.0, 0.01], [0.005, 0.0], [0.1, 0.0], [0.1, 0.1], [0.2, 0.0], [0.3, 0.1]];
     model.obstacles.push(Obstacle::fixed("ground", ObstacleShape::Polyline { points }));
     model.obstacles[0].parts = vec!["plank".into(), "ball".into()];
@@ -468,7 +468,7 @@ fn a_polyline_has_convex_and_concave_corners() {
 #[test]
 fn a_free_polyline_keeps_both_momenta_and_moves_with_its_outline() {
     let mut model = model(3e-3);
-    add(&mut model, "ball", Shape::Disk { centre: [0.0, 0.0], radius: 0.03, elements: 4 }, [15.0, 2.0]);
+    add(&mut model, "ball", Shape::Disk(Disk { centre: [0.0, 0.0], radius: 0.03, elements: 4 }), [15.0, 2.0]);
     // A square, clockwise.
     let points = vec![[0.035, -0.02], [0.035, 0.02], [0.075, 0.02], [0.075, -0.02], [0.035, -0.02]];
     model.obstacles.push(Obstacle {

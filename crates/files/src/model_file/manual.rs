@@ -42,12 +42,7 @@ pub fn reference_markdown() -> String {
         for group in section.groups {
             let _ = writeln!(out, "And the keys of [{}](#{}).\n", group.title, group.title.to_lowercase().replace(' ', "-"));
         }
-        for key in section.keys {
-            if let Kind::Table(inner) = key.kind {
-                let _ = writeln!(out, "### `{}`\n\n{}\n", header(inner), inner.doc);
-                table(&mut out, inner.keys, inner.rules);
-            }
-        }
+        tables_in(&mut out, section.keys);
         if let Some(more) = section.more {
             laws(&mut out, more.keys);
         }
@@ -69,6 +64,17 @@ fn groups_after(out: &mut String, section: &Section) {
         if last.is_some_and(|last| last.name == section.name) {
             let _ = writeln!(out, "## {}\n\n{}\n", group.title, group.doc);
             table(out, group.keys, group.rules);
+            tables_in(out, group.keys);
+        }
+    }
+}
+
+/// The tables that some of the keys stand for.
+fn tables_in(out: &mut String, keys: &[Key]) {
+    for key in keys {
+        if let Kind::Table(inner) = key.kind {
+            let _ = writeln!(out, "### `{}`\n\n{}\n", header(inner), inner.doc);
+            table(out, inner.keys, inner.rules);
         }
     }
 }
@@ -128,6 +134,7 @@ fn words(key: &Key) -> String {
         Kind::Vector(dimension, range) => format!("`[x, y]`: {}{}", of(dimension), within(range)),
         Kind::Quantities(dimension, range, least) => format!("list of {least} or more: {}{}", of(dimension), within(range)),
         Kind::Values => "list of 1 or more: numbers, or quantities of one dimension".to_string(),
+        Kind::Outlines(least) => format!("list of lists of {least} or more `[x, y]`: {}", of(Dimension::LENGTH)),
         Kind::Points(least) => format!("list of {least} or more `[x, y]`: {}", of(Dimension::LENGTH)),
         Kind::Velocities => "`{ x, y }`: each a velocity, m/s, or the name of a curve".to_string(),
         Kind::Motion => MOTION.to_string(),

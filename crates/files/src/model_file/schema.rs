@@ -189,7 +189,8 @@ fn of_key(key: &Key) -> Json {
         Kind::Vector(dimension, range) => list(quantity(dimension, range), Some(2)),
         Kind::Quantities(dimension, range, least) => at_least(quantity(dimension, range), least),
         Kind::Values => at_least(quantity(Dimension::VELOCITY, Range::Finite), 1),
-        Kind::Points(least) => at_least(list(quantity(Dimension::LENGTH, Range::Finite), Some(2)), least),
+        Kind::Points(least) => points(least),
+        Kind::Outlines(least) => at_least(points(least), 1),
         Kind::Drive(dimension) => quantity(dimension, Range::Finite),
         Kind::Velocities => courses(&["x", "y"]),
         Kind::Motion => courses(&["x", "y", "rotation"]),
@@ -235,6 +236,10 @@ fn list(items: Json, count: Option<usize>) -> Json {
         Some(count) => json.with("minItems", count.clone()).with("maxItems", count),
         None => json.with("minItems", Json::Number(1.0)),
     }
+}
+
+fn points(least: usize) -> Json {
+    at_least(list(quantity(Dimension::LENGTH, Range::Finite), Some(2)), least)
 }
 
 fn at_least(items: Json, count: usize) -> Json {

@@ -20,6 +20,7 @@ pub(super) enum Datum {
     /// Numbers of one dimension; `None` where none has a unit.
     Values(Vec<f64>, Option<Dimension>),
     Points(Vec<[f64; 2]>),
+    Outlines(Vec<Vec<[f64; 2]>>),
     /// Prescribed motion along x and y and around.
     Courses([Option<Course>; 3]),
     Integer(u64),
@@ -197,6 +198,10 @@ impl<'a> At<'a> {
         Ok(items)
     }
 
+    fn points(&self, least: usize) -> Read<Vec<[f64; 2]>> {
+        self.each(self.list(least)?, |at| at.vector(Dimension::LENGTH, Range::Finite))
+    }
+
     /// A velocity, the name of a curve, or `"free"`. A text that begins like a number is one.
     fn course(&self, dimension: Dimension, free: bool) -> Read<Course> {
         let like_a_number = |text: &str| text.is_empty() || text.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '-' | '+' | '.'));
@@ -263,7 +268,8 @@ pub(super) fn read(key: &Key, node: &Node, path: &str) -> Read<Datum> {
             Datum::Numbers(values.into_iter().map(|(value, _)| value).collect())
         }
         Kind::Values => at.values(at.list(1)?)?,
-        Kind::Points(least) => Datum::Points(at.each(at.list(least)?, |at| at.vector(Dimension::LENGTH, Range::Finite))?),
+        Kind::Points(least) => Datum::Points(at.points(least)?),
+        Kind::Outlines(least) => Datum::Outlines(at.each(at.list(1)?, |at| at.points(least))?),
         Kind::Velocities => at.courses(&["x", "y"], false)?,
         Kind::Motion => at.courses(&["x", "y", "rotation"], true)?,
         Kind::Rigid => match node.value {
@@ -311,6 +317,7 @@ fn item(kind: Kind) -> Kind {
         Kind::Vector(dimension, range) | Kind::Quantities(dimension, range, _) => Kind::Quantity(dimension, range),
         Kind::Values => Kind::Quantity(Dimension::NONE, Range::Finite),
         Kind::Points(_) => Kind::Vector(Dimension::LENGTH, Range::Finite),
+        Kind::Outlines(least) => Kind::Points(least),
         Kind::Integers(_, least) => Kind::Integer(least),
         Kind::References(_) => Kind::Reference,
         Kind::Choices(known) => Kind::Choice(known),
@@ -336,6 +343,7 @@ pub(super) fn words(kind: Kind) -> String {
         }
         Kind::Values => "a list of numbers".to_string(),
         Kind::Points(least) => format!("a list of at least {least} points"),
+        Kind::Outlines(least) => format!("a list of lists of at least {least} points"),
         Kind::Drive(Dimension::RATE) => "an angular velocity or the name of a curve".to_string(),
         Kind::Drive(dimension) => format!("a {} or the name of a curve", units::quantity(dimension)),
         Kind::Velocities => "a table with x, y or both".to_string(),
@@ -369,6 +377,7 @@ pub(super) fn example(key: &Key) -> String {
         Kind::Quantities(dimension, _, least) => format!("[{}]", vec![number(dimension); least].join(", ")),
         Kind::Values => "[0, \"5 m/s\"]".to_string(),
         Kind::Points(_) => "[[0, 0], [\"3 mm\", 0]]".to_string(),
+        Kind::Outlines(_) => "[[[0, 0], [\"3 mm\", 0], [0, \"3 mm\"]]]".to_string(),
         Kind::Drive(dimension) => number(dimension),
         Kind::Velocities => "{ x = \"5 m/s\" }".to_string(),
         Kind::Motion => "{ x = \"5 m/s\", rotation = \"free\" }".to_string(),

@@ -8,6 +8,8 @@ pub mod reference;
 
 use crate::block::stress_state::STRESS_STATES;
 use crate::element::{ELEMENTS, ElementKind};
+use crate::mesh::shapes::Count;
+pub use crate::mesh::shapes::{Disk, Edge, Path, Polygon, Quadrilateral, Rectangle, Ring, Shape, Trapezoid};
 use crate::quantity::Dimension;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -106,6 +108,8 @@ pub struct Part {
     pub stress_state: String,
     /// Where its elements come from.
     pub shape: Shape,
+    /// Where the body of a built-in shape goes.
+    pub placement: Placement,
     /// Initial velocity of the centre of mass, m/s.
     pub velocity: [f64; 2],
     /// Initial spin about the centre of mass, rad/s, counter-clockwise.
@@ -125,6 +129,7 @@ impl Default for Part {
             hourglass: None,
             stress_state: String::new(),
             shape: Shape::Group { mesh: usize::MAX, group: String::new() },
+            placement: Placement::default(),
             velocity: [0.0; 2],
             spin: 0.0,
             rigid: None,
@@ -137,6 +142,12 @@ impl Part {
     #[must_use]
     pub fn is_axisymmetric(&self) -> bool {
         STRESS_STATES.iter().any(|kind| kind.name == self.stress_state && kind.axisymmetric)
+    }
+
+    /// How large its mesh will be, where it has a built-in shape.
+    #[must_use]
+    pub fn count(&self) -> Option<Count> {
+        Some(self.shape.count()?.times(self.placement.copies.map_or(1, |copies| copies.count)))
     }
 
     /// The element that has so many nodes; `None` when the part names none.
@@ -189,50 +200,41 @@ pub struct Curve {
     pub dimension: Option<Dimension>,
 }
 
-/// Where the elements of a part come from. Angles in radians, lengths in metres.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Shape {
-    /// Axis-parallel rectangle; sides `left`, `right`, `bottom`, `top`.
-    Rectangle {
-        /// Lower left corner.
-        corner: [f64; 2],
-        /// Width and height.
-        size: [f64; 2],
-        /// Elements along x and y.
-        elements: [usize; 2],
-    },
-    /// Ring or sector, counter-clockwise from angle `from` to angle `to` (full circle when they differ by 2π);
-    /// sides `inner`, `outer` and, for a sector, `start`, `end`.
-    Ring {
-        /// Centre.
-        centre: [f64; 2],
-        /// Inner radius.
-        inner: f64,
-        /// Outer radius.
-        outer: f64,
-        /// First angle, from +x counter-clockwise.
-        from: f64,
-        /// Last angle, greater than `from` by at most 2π.
-        to: f64,
-        /// Elements through the wall and around.
-        elements: [usize; 2],
-    },
-    /// Full disk without needle elements: a square core and a ring of quadrilaterals around it; side `outer`.
-    Disk {
-        /// Centre.
-        centre: [f64; 2],
-        /// Radius.
-        radius: f64,
-        /// Elements around a quarter of the circumference.
-        elements: usize,
-    },
-    /// A group of an imported mesh.
-    Group {
-        /// Index into [`Model::meshes`].
-        mesh: usize,
-        /// Name of a two-dimensional group.
-        group: String,
-    },
+/// Where the body of a built-in shape goes: it is mirrored, then turned, then moved, then copied.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Placement {
+    /// A line that it is mirrored on.
+    pub mirror: Option<Mirror>,
+    /// Angle by which it is turned, rad, counter-clockwise.
+    pub rotation: f64,
+    /// Point about which it is turned, m.
+    pub rotation_point: [f64; 2],
+    /// How far it is moved, m.
+    pub translation: [f64; 2],
+    /// How often it is there.
+    pub copies: Option<Copies>,
+}
+
+/// A line to mirror on.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Mirror {
+    /// A point of it, m.
+    pub point: [f64; 2],
+    /// Its normal, of any length but zero.
+    pub normal: [f64; 2],
+}
+
+/// Bodies of one part that follow each other: each is turned and then moved as often as there are others before it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Copies {
+    /// How many bodies there are in all.
+    pub count: usize,
+    /// How far each is moved from the one before, m.
+    pub translation: [f64; 2],
+    /// Angle by which each is turned from the one before, rad, counter-clockwise.
+    pub angle: f64,
+    /// Point about which they are turned, m.
+    pub point: [f64; 2],
 }
 
 /// A mesh that came from a file: plane nodes and named groups of cells. Parts that use the same mesh share its nodes.

@@ -3,7 +3,7 @@
 use crate::patches::{DENSITY, YOUNG, every_pair, material};
 use embate_lanes::Level;
 use embate_solver::material::LAWS;
-use embate_solver::model::{Constraint, ImportedMesh, Load, MeshGroup, Model, Part, Run, Shape};
+use embate_solver::model::{Constraint, ImportedMesh, Load, MeshGroup, Model, Part, Rectangle, Run, Shape};
 use embate_solver::simulation::{Options, Simulation};
 use std::sync::Arc;
 
@@ -20,7 +20,7 @@ fn bar(element: &str, law: &str, size: [f64; 2], elements: [usize; 2], end: f64)
             name: "bar".into(),
             material: "m".into(),
             element: element.into(),
-            shape: Shape::Rectangle { corner: [0.0; 2], size, elements },
+            shape: Shape::Rectangle(Rectangle { corner: [0.0; 2], size, elements, ..Rectangle::default() }),
             ..Part::default()
         }],
         ..Model::default()

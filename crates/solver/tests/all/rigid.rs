@@ -2,7 +2,7 @@
 
 use crate::bodies::*;
 use embate_solver::model::{
-    Constraint, Curve, Drive, Interface, Load, Model, Motion, Obstacle, ObstacleShape, Penalty, PenaltySource, Shape, Symmetry,
+    Constraint, Curve, Disk, Drive, Interface, Load, Model, Motion, Obstacle, ObstacleShape, Penalty, PenaltySource, Ring, Shape, Symmetry,
 };
 use embate_solver::simulation::{Options, Simulation};
 use std::f64::consts::TAU;
@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 const G: f64 = 9.81;
 
 fn ring(inner: f64, outer: f64, centre: [f64; 2], elements: [usize; 2]) -> Shape {
-    Shape::Ring { centre, inner, outer, from: 0.0, to: TAU, elements }
+    Shape::Ring(Ring { centre, inner, outer, from: 0.0, to: TAU, elements, ..Ring::default() })
 }
 
 #[test]
@@ -43,7 +43,7 @@ fn a_free_rigid_part_flies_and_spins_without_end_and_without_strain() {
 fn a_part_begins_with_its_spin_whether_rigid_or_not() {
     for rigid in [false, true] {
         let mut model = model(1e-6);
-        add(&mut model, "disk", Shape::Disk { centre: [0.3, 0.2], radius: 0.1, elements: 4 }, [1.0, 2.0]);
+        add(&mut model, "disk", Shape::Disk(Disk { centre: [0.3, 0.2], radius: 0.1, elements: 4 }), [1.0, 2.0]);
         model.parts[0].spin = 50.0;
         model.parts[0].rigid = rigid.then(Motion::default);
         let frame = simulation(&model).frame();
@@ -60,7 +60,7 @@ fn a_free_rigid_part_that_is_hit_keeps_both_momenta_and_the_energy() {
     for (first, second) in [(true, false), (false, true), (true, true)] {
         for interface in [Interface::default(), rough(0.3)] {
             let mut model = model(2e-3);
-            add(&mut model, "ball", Shape::Disk { centre: [0.0, 0.0], radius: 0.03, elements: 4 }, [12.0, 1.0]);
+            add(&mut model, "ball", Shape::Disk(Disk { centre: [0.0, 0.0], radius: 0.03, elements: 4 }), [12.0, 1.0]);
             add(&mut model, "block", rectangle([0.031, -0.01], [0.03, 0.08], [3, 8]), [0.0, 0.0]);
             model.parts[0].spin = 100.0;
             for (part, rigid) in model.parts.iter_mut().zip([first, second]) {

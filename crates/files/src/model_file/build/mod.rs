@@ -11,7 +11,10 @@ use super::reader::{Document, Record};
 use super::units::shorten;
 use super::value::Datum;
 use crate::gmsh;
-use embate_solver::model::{Cadence, ImportedMesh, Material, Model, Output, Part, Partners, Probe, ProbeAt, Run, Shape, Symmetry};
+use embate_solver::mesh::shapes::Values;
+use embate_solver::model::{
+    Cadence, Copies, ImportedMesh, Material, Mirror, Model, Output, Part, Partners, Placement, Probe, ProbeAt, Run, Shape, Symmetry,
+};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -62,6 +65,7 @@ fn part(record: &Record, meshes: &mut Meshes<'_>, faults: &mut Faults) -> Part {
             .filter(|name| !name.is_empty())
             .unwrap_or(Part::default().element_triangles),
         shape: shape(record, meshes, faults),
+        placement: placement(record),
         velocity: record.vector("velocity"),
         spin: record.number("spin").unwrap_or(f64::NAN),
         rigid: motion::rigid(record),
@@ -69,23 +73,8 @@ fn part(record: &Record, meshes: &mut Meshes<'_>, faults: &mut Faults) -> Part {
 }
 
 fn shape(part: &Record, meshes: &mut Meshes<'_>, faults: &mut Faults) -> Shape {
-    let number = |record: &Record, name| record.number(name).unwrap_or(f64::NAN);
-    if let Some(it) = part.table("rectangle") {
-        return Shape::Rectangle { corner: it.vector("corner"), size: it.vector("size"), elements: it.counts("elements") };
-    }
-    if let Some(it) = part.table("ring") {
-        return Shape::Ring {
-            centre: it.vector("centre"),
-            inner: number(it, "inner"),
-            outer: number(it, "outer"),
-            from: number(it, "from"),
-            to: number(it, "to"),
-            elements: it.counts("elements"),
-        };
-    }
-    if let Some(it) = part.table("disk") {
-        let elements = it.integer("elements").map_or(usize::MAX, |count| usize::try_from(count).unwrap_or(usize::MAX));
-        return Shape::Disk { centre: it.vector("centre"), radius: number(it, "radius"), elements };
+    if let Some(shape) = part.tables().find_map(|(name, table)| Shape::read(name, table)) {
+        return shape;
     }
     let mesh = part.table("mesh").and_then(|it| Some((meshes.index(it, faults)?, it.text("group"))));
     if mesh.is_none() {
@@ -93,6 +82,23 @@ fn shape(part: &Record, meshes: &mut Meshes<'_>, faults: &mut Faults) -> Shape {
     }
     let (mesh, group) = mesh.unwrap_or((usize::MAX, String::new()));
     Shape::Group { mesh, group }
+}
+
+fn placement(part: &Record) -> Placement {
+    let mut placement = Placement { translation: part.vector("translation"), ..Placement::default() };
+    if let Some(it) = part.table("mirror") {
+        placement.mirror = Some(Mirror { point: it.vector("point"), normal: it.vector("normal") });
+    }
+    if let Some(it) = part.table("rotation") {
+        placement.rotation = it.number("angle").unwrap_or(f64::NAN);
+        placement.rotation_point = it.vector("point");
+    }
+    if let Some(it) = part.table("copies") {
+        let angle = it.number("angle").unwrap_or(f64::NAN);
+        let count = Values::count(it, "count");
+        placement.copies = Some(Copies { count, translation: it.vector("translation"), angle, point: it.vector("point") });
+    }
+    placement
 }
 
 /// The mesh files of a model, each read once per scale.

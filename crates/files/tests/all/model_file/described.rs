@@ -99,6 +99,12 @@ fn values(kind: Kind) -> Vec<Bad> {
             all.push(bad("[[0, 0], 1]", "[1]", "must be a list of 2 numbers"));
             all
         }
+        Kind::Outlines(least) => {
+            let inside = |it: Bad| Bad { value: format!("[{}]", it.value), at: if it.at.is_empty() { "[0]" } else { "[0][0][1]" }, ..it };
+            let mut all: Vec<Bad> = values(Kind::Points(least)).into_iter().filter(|it| it.at != "[1]").map(inside).collect();
+            all.extend(["5", "[]", "\"1 m\"", "{}"].map(|value| bad(value, "", "must be a list of")));
+            all
+        }
         Kind::Velocities => driven(&[".x", ".y"]),
         Kind::Motion => driven(&[".x", ".y", ".rotation"]),
         Kind::Rigid => driven(&[".x", ".y", ".rotation"]),
@@ -161,7 +167,9 @@ fn every_key_refuses_every_bad_value_at_its_place() {
             let path = section_path(section);
             count += try_all(key, &format!("{path}.{}", key.name), &[]);
             if let Kind::Table(inner) = key.kind {
-                let own = ["ring", "rectangle", "disk", "mesh"].iter().position(|name| *name == inner.name).map(|index| index % 3);
+                // Shapes are in the parts of the sound model in this order; those that are not take the place of the first.
+                let own = ["ring", "rectangle", "disk", "trapezoid", "quadrilateral", "path"];
+                let own = own.iter().position(|name| *name == inner.name);
                 let index = own.or(["plane", "circle", "polyline"].iter().position(|name| *name == inner.name)).unwrap_or(0);
                 for key in inner.all_keys() {
                     count += try_all(key, &format!("{}.{index}.{}.{}", section.name, inner.name, key.name), &[]);

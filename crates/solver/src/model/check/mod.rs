@@ -7,6 +7,8 @@ mod contact;
 mod motion;
 mod parts;
 
+pub(crate) use parts::CheckOf;
+
 use super::describe::{self, out_of_range, suggestion};
 use super::reference::{Reference, excerpt};
 use super::{Cadence, Material, Model, Part, Probe, ProbeAt, Shape};
@@ -247,7 +249,7 @@ impl Check<'_> {
             ProbeAt::Node { part, node } => {
                 self.known(&format!("{path}.part"), "part", part, &known);
                 let found = self.model.parts.iter().find(|it| it.name == *part);
-                if let Some(count) = found.and_then(|it| node_count(self.model, &it.shape))
+                if let Some(count) = found.and_then(|it| node_count(self.model, it))
                     && *node as u128 >= count
                 {
                     let help = format!("nodes are numbered from 0 to {}", count.saturating_sub(1));
@@ -315,17 +317,12 @@ pub fn name_is_plain(name: &str) -> Result<(), (String, String)> {
 }
 
 /// Number of nodes, where it can be told without meshing.
-fn node_count(model: &Model, shape: &Shape) -> Option<u128> {
-    let grid = |first: u128, second: u128| Some(first.saturating_mul(second));
-    match shape {
-        Shape::Rectangle { elements, .. } => grid(elements[0] as u128 + 1, elements[1] as u128 + 1),
-        Shape::Ring { elements, .. } => grid(elements[0] as u128 + 1, elements[1] as u128 + u128::from(shape.sides().len() == 4)),
-        Shape::Disk { .. } => None,
-        Shape::Group { mesh, group } => {
-            let it = model.meshes.get(*mesh)?.groups.iter().find(|it| it.name == *group && it.dimension == 2)?;
-            Some(it.cells.iter().flatten().collect::<BTreeSet<_>>().len() as u128)
-        }
+fn node_count(model: &Model, part: &Part) -> Option<u128> {
+    if let Shape::Group { mesh, group } = &part.shape {
+        let it = model.meshes.get(*mesh)?.groups.iter().find(|it| it.name == *group && it.dimension == 2)?;
+        return Some(it.cells.iter().flatten().collect::<BTreeSet<_>>().len() as u128);
     }
+    part.count().filter(|count| count.exact).map(|count| count.nodes as u128)
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use super::*;
 use crate::model::{
     Constraint, Contact, ContactLaw, Curve, Drive, Formulation, Friction, ImportedMesh, Load, Material, MeshGroup, Motion, Obstacle,
-    ObstacleShape, Partners, Penalty, Symmetry,
+    ObstacleShape, Partners, Penalty, Ring, Symmetry,
 };
 use std::sync::Arc;
 
@@ -17,7 +17,15 @@ fn sound() -> Model {
         positions: vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]],
         groups: vec![group("body", 2, vec![vec![0, 1, 2, 3]]), group("upper", 1, vec![vec![2, 3]])],
     };
-    let ring = Shape::Ring { centre: [0.0; 2], inner: 1.0, outer: 2.0, from: 0.0, to: std::f64::consts::PI, elements: [1, 8] };
+    let ring = Shape::Ring(Ring {
+        centre: [0.0; 2],
+        inner: 1.0,
+        outer: 2.0,
+        from: 0.0,
+        to: std::f64::consts::PI,
+        elements: [1, 8],
+        ..Ring::default()
+    });
     let mut model = Model { name: "test".into(), meshes: vec![Arc::new(mesh)], ..Model::default() };
     model.run.end = 1.0;
     model
@@ -62,7 +70,9 @@ fn a_sound_model_has_no_fault() {
 fn a_number_that_is_not_finite_is_found_wherever_it_is() {
     type Place = fn(&mut Model) -> &mut f64;
     fn ring(model: &mut Model, which: usize) -> &mut f64 {
-        let Shape::Ring { centre, inner, outer, from, to, .. } = &mut model.parts[0].shape else { unreachable!("part 0 is the ring") };
+        let Shape::Ring(Ring { centre, inner, outer, from, to, .. }) = &mut model.parts[0].shape else {
+            unreachable!("part 0 is the ring")
+        };
         [&mut centre[1], inner, outer, from, to].into_iter().nth(which).expect("five numbers")
     }
     let places: [(&str, Place); 31] = [
@@ -135,7 +145,7 @@ fn a_number_that_is_not_finite_is_found_wherever_it_is() {
 fn names_mean_parts_before_groups_before_sides() {
     let mut model = sound();
     assert_eq!(model.reference("ring", None), Ok(Reference::Part(0)));
-    assert_eq!(model.reference("ring.start", Some(1)), Ok(Reference::Side { part: 0, side: "start" }));
+    assert_eq!(model.reference("ring.start", Some(1)), Ok(Reference::Side { part: 0, side: 2 }));
     assert_eq!(model.reference("upper", Some(1)), Ok(Reference::Group { mesh: 0, group: 1 }));
     model.parts[1].name = "upper".into();
     assert_eq!(model.reference("upper", Some(1)), Ok(Reference::Part(1)));

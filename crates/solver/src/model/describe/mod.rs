@@ -105,6 +105,8 @@ pub enum Kind {
     Values,
     /// A list of at least so many points.
     Points(usize),
+    /// A list of such lists.
+    Outlines(usize),
     /// A velocity (or angular velocity) or the name of a curve: part of the next three.
     Drive(Dimension),
     /// A table with `x`, `y` or both: prescribed velocities.
@@ -192,7 +194,7 @@ pub struct More {
     pub keys: fn(&str) -> Option<Vec<Key>>,
 }
 
-const fn key(name: &'static str, kind: Kind, need: Need, doc: &'static str) -> Key {
+pub(crate) const fn key(name: &'static str, kind: Kind, need: Need, doc: &'static str) -> Key {
     Key { name, kind, need, doc }
 }
 
@@ -229,7 +231,7 @@ impl Key {
             | Kind::Quantities(dimension, range, _) => Some((dimension, range)),
             Kind::Drive(dimension) => Some((dimension, Range::Finite)),
             Kind::Velocities => Some((Dimension::VELOCITY, Range::Finite)),
-            Kind::Points(_) => Some((Dimension::LENGTH, Range::Finite)),
+            Kind::Points(_) | Kind::Outlines(_) => Some((Dimension::LENGTH, Range::Finite)),
             Kind::Stiffness(range) => Some((Dimension::PRESSURE, range)),
             Kind::Cadence => Some((Dimension::TIME, Range::Positive)),
             Kind::Values

@@ -1,10 +1,11 @@
 //! The sections of the model file but those of contacts and obstacles: their keys, and where the names come from that a key chooses from.
 
-use super::Kind::{Angle, Choice, Flag, Integer, Integers, Name, Quantities, Quantity, Reference, References, Table, Text, Vector};
+use super::Kind::{Angle, Choice, Flag, Integer, Name, Quantities, Quantity, Reference, References, Table, Text, Vector};
 use super::Need::{self, Default, Optional, Required};
 use super::contact::{CONTACT, OBSTACLE};
 use super::{Form, Key, Kind, More, Rule, Section, key};
 use crate::block::stress_state::STRESS_STATES;
+use crate::mesh::shapes::SHAPES;
 use crate::quantity::Range::{Finite, NotNegative, Positive, UpTo};
 use crate::quantity::{Dimension, Parameter};
 use crate::{element, material, output};
@@ -77,7 +78,7 @@ static MATERIAL: Section = Section {
 
 static PART: Section = Section {
     name: "part",
-    doc: "A body of one material and one kind of element. Exactly one of `rectangle`, `ring`, `disk` and `mesh` says where its elements come from.",
+    doc: "A body of one material, and how it moves at the start. A shape, or a mesh file, says where its elements come from.",
     form: Form::Repeated,
     required: true,
     keys: &[
@@ -105,72 +106,51 @@ static PART: Section = Section {
             Default("false"),
             "Whether the part is rigid, free to move; or how it moves: `x` and `y` of its centre of mass, `rotation` about it. What is left out is free.",
         ),
-        key("rectangle", Table(&RECTANGLE), Optional("another shape"), "An axis-parallel rectangle."),
-        key("ring", Table(&RING), Optional("another shape"), "A ring or a sector of one."),
-        key("disk", Table(&DISK), Optional("another shape"), "A full disk."),
-        key("mesh", Table(&MESH), Optional("another shape"), "A group of a mesh file."),
+        key("mirror", Table(&MIRROR), Optional("not mirrored"), "A line that the shape is mirrored on, before it is turned."),
+        key("rotation", Table(&ROTATION), Optional("not turned"), "An angle by which the shape is turned, before it is moved."),
+        key("translation", Vector(Dimension::LENGTH, Finite), Default("[0, 0]"), "How far the shape is moved."),
+        key("copies", Table(&COPIES), Optional("one body"), "More bodies of the same shape, in a row or around a point."),
     ],
-    rules: &[Rule::OneOf(&["rectangle", "ring", "disk", "mesh"])],
-    ..Section::EMPTY
-};
-
-static RECTANGLE: Section = Section {
-    name: "rectangle",
-    doc: "An axis-parallel rectangle; its sides are `left`, `right`, `bottom` and `top`.",
-    form: Form::Inline,
-    required: false,
-    keys: &[
-        key("corner", Vector(Dimension::LENGTH, Finite), Required, "Lower left corner."),
-        key("size", Vector(Dimension::LENGTH, Positive), Required, "Width and height."),
-        key("elements", Integers(2, 1), Required, "Elements along x and along y."),
+    groups: &[&SHAPES],
+    rules: &[
+        Rule::NotBoth("mesh", "mirror"),
+        Rule::NotBoth("mesh", "rotation"),
+        Rule::NotBoth("mesh", "translation"),
+        Rule::NotBoth("mesh", "copies"),
     ],
     ..Section::EMPTY
 };
 
-static RING: Section = Section {
-    name: "ring",
-    doc: "A ring, or a sector of one, counter-clockwise from `from` to `to`; its sides are `inner` and `outer` and, for a sector, `start` and `end`.",
-    form: Form::Inline,
-    required: false,
+static MIRROR: Section = Section {
+    name: "mirror",
+    doc: "The shape is mirrored on a line.",
     keys: &[
-        key("centre", Vector(Dimension::LENGTH, Finite), Required, "Centre."),
-        key("inner", Quantity(Dimension::LENGTH, Positive), Required, "Inner radius."),
-        key("outer", Quantity(Dimension::LENGTH, Positive), Required, "Outer radius."),
-        key("from", Angle(Dimension::NONE, Finite), Default("0"), "Angle at which it begins, counter-clockwise from the x axis."),
-        key(
-            "to",
-            Angle(Dimension::NONE, Finite),
-            Default("\"360 deg\""),
-            "Angle at which it ends: more than `from`, by at most a full turn.",
-        ),
-        key("elements", Integers(2, 1), Required, "Elements through the wall and around."),
+        key("normal", Vector(Dimension::NONE, Finite), Required, "Normal of the line; any length but zero."),
+        key("point", Vector(Dimension::LENGTH, Finite), Default("[0, 0]"), "A point of the line."),
     ],
     ..Section::EMPTY
 };
 
-static DISK: Section = Section {
-    name: "disk",
-    doc: "A full disk; its side is `outer`.",
-    form: Form::Inline,
-    required: false,
+static ROTATION: Section = Section {
+    name: "rotation",
+    doc: "The shape is turned about a point.",
     keys: &[
-        key("centre", Vector(Dimension::LENGTH, Finite), Required, "Centre."),
-        key("radius", Quantity(Dimension::LENGTH, Positive), Required, "Radius."),
-        key("elements", Integer(1), Required, "Elements around a quarter of the circumference."),
+        key("angle", Angle(Dimension::NONE, Finite), Required, "Angle, counter-clockwise."),
+        key("point", Vector(Dimension::LENGTH, Finite), Default("[0, 0]"), "The point."),
     ],
     ..Section::EMPTY
 };
 
-static MESH: Section = Section {
-    name: "mesh",
-    doc: "A group of a mesh file (Gmsh `.msh` 2.2 or 4.1). Its other groups can be named in contacts, constraints and probes.",
-    form: Form::Inline,
-    required: false,
+static COPIES: Section = Section {
+    name: "copies",
+    doc: "The part consists of several bodies of one shape, each turned and moved from the one before. Sides are those of all of them.",
     keys: &[
-        key("file", Text, Required, "Path of the file, from the model file's folder."),
-        key("group", Text, Required, "Name of a two-dimensional physical group."),
-        key("scale", Quantity(Dimension::LENGTH, Positive), Default("\"1 m\""), "Length of one unit of the file."),
+        key("count", Integer(1), Required, "Number of bodies in all."),
+        key("translation", Vector(Dimension::LENGTH, Finite), Default("[0, 0]"), "How far each is moved."),
+        key("angle", Angle(Dimension::NONE, Finite), Default("0"), "Angle by which each is turned, counter-clockwise."),
+        key("point", Vector(Dimension::LENGTH, Finite), Default("[0, 0]"), "Point about which they are turned."),
     ],
+    rules: &[Rule::SomeOf(&["translation", "angle"])],
     ..Section::EMPTY
 };
 

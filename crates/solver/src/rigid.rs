@@ -227,8 +227,19 @@ fn turn(v: Vector, angle: f64) -> Vector {
     [cos * v[0] - sin * v[1], sin * v[0] + cos * v[1]]
 }
 
+/// Velocity (m/s) that leads the point `arm` (m) from a centre that rests along the chord of an arc, with `spin` (rad/s) over `time_step` (s); without a step that
+/// along the tangent.
+pub(crate) fn chord(arm: Vector, spin: f64, time_step: f64) -> Vector {
+    if time_step == 0.0 {
+        return [-spin * arm[1], spin * arm[0]];
+    }
+    let [[_, sin], [_, half]] = [time_step * spin, 0.5 * time_step * spin].map(cos_sin);
+    let (along, across) = (-2.0 * half * half / time_step, sin / time_step);
+    [along * arm[0] - across * arm[1], along * arm[1] + across * arm[0]]
+}
+
 /// Cosine and sine by Taylor polynomials on ±45 degrees (truncation below 1e-17): the same bits on every platform.
-fn cos_sin(angle: f64) -> [f64; 2] {
+pub(crate) fn cos_sin(angle: f64) -> [f64; 2] {
     let quarters = (angle / FRAC_PI_2).round();
     let r = angle - quarters * FRAC_PI_2;
     let r2 = r * r;

@@ -135,7 +135,8 @@ impl System {
     /// # Errors
     /// As [`System::step`].
     pub fn start(&mut self) -> Result<(), Error> {
-        self.constraints.drive(&self.curves, 0.0, 0.0);
+        self.constraints.begin(&self.velocities);
+        self.constraints.drive(&self.curves, [0.0, 0.0], &self.positions);
         for (node, velocity) in self.velocities.iter_mut().enumerate() {
             if let Some(held) = self.constraints.of(node) {
                 *velocity = held.apply(*velocity);
@@ -216,13 +217,14 @@ impl System {
     fn load(&mut self, time_step: f64) {
         let (from, to) = (self.time, self.time + time_step);
         let mean_step = 0.5 * (time_step + self.time_step_old);
-        self.constraints.drive(&self.curves, from, to);
+        self.constraints.drive(&self.curves, [from, to], &self.positions);
         if !self.damping.is_empty() && self.damping.prepare(from, mean_step, &self.mass) {
             self.bodies.damp(&self.damping, &self.mass);
         }
         let (assembly, corners) = (&self.assembly, &self.corners);
         let internal = |node: usize| assembly.force(node, corners);
         self.bodies.set_free(&Acting { mean_step, from, to, curves: &self.curves, positions: &self.positions, internal });
+        self.curves.pass(from, to);
     }
 
     /// Contact and obstacle forces at x^n for the coming update.

@@ -6,6 +6,7 @@ pub mod check;
 pub mod describe;
 pub mod reference;
 
+use crate::load::curve::sine::Sine;
 use crate::quantity::Dimension;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -124,15 +125,45 @@ impl From<f64> for Drive {
     }
 }
 
-/// `[curve.NAME]`: a function of time, linear between its points, constant before the first and after the last.
+/// `[curve.NAME]`: a function of time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Curve {
-    /// Times, s, strictly ascending.
-    pub times: Vec<f64>,
-    /// Values, SI.
-    pub values: Vec<f64>,
+    /// What it looks like.
+    pub shape: CurveShape,
     /// Dimension of the values as they were written; `None`: bare numbers, SI of whatever uses them.
     pub dimension: Option<Dimension>,
+}
+
+impl Curve {
+    /// Straight lines between points, of bare numbers.
+    #[must_use]
+    pub fn table(times: Vec<f64>, values: Vec<f64>) -> Self {
+        Self { shape: CurveShape::Table { times, values, smooth: false }, dimension: None }
+    }
+}
+
+/// The shape of a curve.
+#[derive(Clone, Debug, PartialEq)]
+pub enum CurveShape {
+    /// Through points; constant before the first and after the last.
+    Table {
+        /// Times, s, strictly ascending.
+        times: Vec<f64>,
+        /// Values, SI.
+        values: Vec<f64>,
+        /// Whether smooth steps lead from point to point; else straight lines.
+        smooth: bool,
+    },
+    /// A wave.
+    Sine(Sine),
+    /// A formula of the time `t`: see [`crate::load::curve::expression`].
+    Expression(String),
+}
+
+impl Default for CurveShape {
+    fn default() -> Self {
+        Self::Table { times: Vec::new(), values: Vec::new(), smooth: false }
+    }
 }
 
 /// Where the elements of a part come from. Angles in radians, lengths in metres.
@@ -490,13 +521,28 @@ pub struct Symmetry {
     pub normal: [f64; 2],
 }
 
-/// `[[constraint]]`: prescribed velocity of a set of nodes, by component; zero is fixed.
+/// `[[constraint]]`: prescribed motion of a set of nodes, by component, or around a point.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Constraint {
     /// A part, `part.side`, or a group of a mesh file.
     pub on: String,
-    /// Prescribed velocity per component, m/s; `None`: free.
+    /// Prescribed velocity per component, m/s, zero is fixed; `None`: free, or prescribed in another way.
     pub velocity: [Option<Drive>; 2],
+    /// Prescribed displacement from the initial position per component, m: curves that begin with zero.
+    pub displacement: [Option<Drive>; 2],
+    /// Prescribed acceleration per component, m/s²: the velocity begins with the initial one.
+    pub acceleration: [Option<Drive>; 2],
+    /// Prescribed rotation about a point: then nothing else.
+    pub rotation: Option<Rotation>,
+}
+
+/// Prescribed rotation of nodes about a fixed point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rotation {
+    /// The point, m.
+    pub centre: [f64; 2],
+    /// Angular velocity, rad/s, counter-clockwise.
+    pub speed: Drive,
 }
 
 /// `[[load]]`.

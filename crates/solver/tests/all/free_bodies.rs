@@ -58,7 +58,11 @@ fn bar_of_parts(law: &str, size: [f64; 2], elements: [usize; 2], end: f64, veloc
 }
 
 fn hold(model: &mut Model, on: &str, velocity: [Option<f64>; 2]) {
-    model.constraints.push(Constraint { on: on.into(), velocity: velocity.map(|velocity| velocity.map(Into::into)) });
+    model.constraints.push(Constraint {
+        on: on.into(),
+        velocity: velocity.map(|velocity| velocity.map(Into::into)),
+        ..Constraint::default()
+    });
 }
 
 fn gravity(model: &mut Model) {

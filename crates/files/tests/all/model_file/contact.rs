@@ -1,9 +1,10 @@
 //! Contacts, obstacles, and what moves: which models their keys make, and what is refused with which words.
 
 use super::{SOUND, changed, faults, read};
+use embate_solver::load::curve::sine::Sine;
 use embate_solver::model::{
-    Contact, ContactLaw, Curve, Drive, Formulation, Friction, InitialPenetration, Interface, Load, Model, Motion, Obstacle, ObstacleShape,
-    Partners, Penalty, PenaltySource,
+    Constraint, Contact, ContactLaw, Curve, CurveShape, Drive, Formulation, Friction, InitialPenetration, Interface, Load, Model, Motion,
+    Obstacle, ObstacleShape, Partners, Penalty, PenaltySource, Rotation,
 };
 use embate_solver::quantity::Dimension;
 
@@ -144,10 +145,60 @@ fn curves_drive_constraints_and_keep_their_dimension() {
     let model = sound(&changed("fixed = \"x\"", "fixed = \"x\"\nvelocity.y = \"ramp\""));
     assert_eq!(model.constraints[0].velocity, [Some(Drive::Constant(0.0)), Some(Drive::Curve("ramp".into()))]);
     let curve = |value: &str| sound(&changed("[0, \"5 m/s\"]", value)).curves["ramp"].clone();
-    let ramp = |values, dimension| Curve { times: vec![0.0, 0.001], values, dimension };
+    let ramp = |values, dimension| Curve { dimension, ..Curve::table(vec![0.0, 0.001], values) };
     assert_eq!(curve("[0, \"5 m/s\"]"), ramp(vec![0.0, 5.0], Some(Dimension::VELOCITY)));
     assert_eq!(curve("[1, 2.5]"), ramp(vec![1.0, 2.5], None));
     assert_eq!(curve("[\"90 deg/s\", 0]"), ramp(vec![std::f64::consts::FRAC_PI_2, 0.0], Some(Dimension::RATE)));
+}
+
+#[test]
+fn curves_have_shapes() {
+    let curve = |text: &str| sound(&and(&format!("[curve.c]\n{text}"))).curves["c"].clone();
+    let steps = curve("time = [0, \"1 ms\"]\nvalue = [0, \"3 mm\"]\nbetween = \"smooth_steps\"");
+    let shape = CurveShape::Table { times: vec![0.0, 0.001], values: vec![0.0, 0.003], smooth: true };
+    assert_eq!(steps, Curve { shape, dimension: Some(Dimension::LENGTH) });
+    let wave = curve("sine = { amplitude = \"2 mm\", frequency = \"1 kHz\", phase = \"90 deg\" }");
+    let sine = Sine { amplitude: 0.002, frequency: 1000.0, phase: std::f64::consts::FRAC_PI_2, offset: 0.0 };
+    assert_eq!(wave, Curve { shape: CurveShape::Sine(sine), dimension: Some(Dimension::LENGTH) });
+    assert_eq!(curve("expression = \"2*t\""), Curve { shape: CurveShape::Expression("2*t".into()), dimension: None });
+    each_has(&[
+        (and("[curve.c]\nbetween = \"lines\""), "curve.c", "needs one of `value`, `sine` and `expression`"),
+        (and("[curve.c]\ntime = [0]"), "curve.c", "needs one of `value`, `sine` and `expression`"),
+        (and("[curve.c]\nvalue = [0]"), "curve.c", "has `value` but no `time`"),
+        (and("[curve.c]\nexpression = \"t\"\nbetween = \"lines\""), "curve.c.between", "`between` and `expression`"),
+        (and("[curve.c]\nexpression = \"t\"\nsine = { amplitude = 1, frequency = 1 }"), "curve.c", "at once"),
+        (and("[curve.c]\nexpression = \"2*sin(3*t\""), "curve.c.expression", "at character 6 of `2*sin(3*t`: this `(` is never closed"),
+        (and("[curve.c]\nexpression = \"1/(t - 5e-4)\""), "curve.c.expression", "is inf at 0.0005 s"),
+        (
+            and("[curve.c]\nsine = { amplitude = \"2 mm\", frequency = 5, offset = \"1 s\" }"),
+            "curve.c.sine.offset",
+            "`offset` is in s, but `amplitude` is in m",
+        ),
+    ]);
+}
+
+#[test]
+fn constraints_move_nodes_in_every_way() {
+    let constraint = |text: &str| {
+        sound(&and(&format!("[[constraint]]\non = \"plate.right\"\n{text}\n[curve.c]\nexpression = \"t\""))).constraints.pop().unwrap()
+    };
+    let curve = || Some(Drive::Curve("c".into()));
+    let empty = || Constraint { on: "plate.right".into(), ..Constraint::default() };
+    assert_eq!(constraint("displacement.y = \"c\""), Constraint { displacement: [None, curve()], ..empty() });
+    let both = Constraint { velocity: [None, Some(Drive::Constant(0.0))], acceleration: [Some(Drive::Constant(3.0)), None], ..empty() };
+    assert_eq!(constraint("fixed = \"y\"\nacceleration = { x = \"3 m/s^2\" }"), both);
+    let rotation = |centre, speed| Constraint { rotation: Some(Rotation { centre, speed }), ..empty() };
+    assert_eq!(constraint("rotation = { speed = \"c\", centre = [1, \"2 mm\"] }"), rotation([1.0, 0.002], Drive::Curve("c".into())));
+    assert_eq!(constraint("rotation = { speed = \"60 rpm\" }"), rotation([0.0; 2], Drive::Constant(std::f64::consts::TAU)));
+    let on = |text: &str| and(&format!("[[constraint]]\non = \"plate.right\"\n{text}"));
+    each_has(&[
+        (on("fixed = \"x\"\nacceleration.x = 1"), "constraint[1].fixed", "component `x` is both fixed and given an acceleration"),
+        (on("rotation = { speed = 1 }\nfixed = \"x\""), "constraint[1]", "`rotation` and `fixed`"),
+        (on("rotation = { centre = [0, 0] }"), "constraint[1].rotation.speed", "has no `speed`"),
+        (on("displacement.x = \"3 mm\""), "constraint[1].displacement.x", "would move the nodes at once"),
+        (on("displacement.x = \"ramp\""), "constraint[1].displacement.x", "the values of curve `ramp` are in m/s, but `x` is in m"),
+        (on("velocity.x = 1\nacceleration.x = 1"), "constraint[1].acceleration.x", "prescribed by both `velocity` and `acceleration`"),
+    ]);
 }
 
 #[test]

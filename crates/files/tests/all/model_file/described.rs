@@ -4,7 +4,7 @@ use super::SOUND;
 use embate_files::model_file::load_text;
 use embate_solver::material;
 use embate_solver::model::describe::{Form, Key, Kind, Need, SECTIONS, Section};
-use embate_solver::quantity::Range;
+use embate_solver::quantity::{Dimension, Range};
 use std::path::Path;
 
 /// What a bad value must be answered with: the path's end and a part of the message.
@@ -50,14 +50,25 @@ fn whole(least: u64) -> Vec<Bad> {
     all
 }
 
-/// Bad values of a table of velocities.
-fn driven(axes: &[&'static str]) -> Vec<Bad> {
+/// Bad values of a quantity that may follow a curve.
+fn course(says: &'static str) -> Vec<Bad> {
+    let mut all = scalar(Range::Finite);
+    all.extend([
+        bad("\"no curve\"", "", says),
+        bad("\"rampp\"", "", "there is no curve `rampp`"),
+        bad("\"free\"", "", "can't be \"free\" here"),
+    ]);
+    all
+}
+
+/// Bad values of a table of velocities or the like.
+fn driven(axes: &[&'static str], says: &'static str) -> Vec<Bad> {
     let inside = |axis: &'static str| {
         scalar(Range::Finite).into_iter().map(move |it| Bad { value: format!("{{ {} = {} }}", &axis[1..], it.value), at: axis, ..it })
     };
     let mut all: Vec<Bad> = axes.iter().flat_map(|axis| inside(axis)).collect();
     all.extend([
-        bad("{ x = \"no curve\" }", ".x", "must be a velocity or the name of a curve"),
+        bad("{ x = \"no curve\" }", ".x", says),
         bad("{ x = \"rampp\" }", ".x", "there is no curve `rampp`"),
         bad("{ z = 1 }", ".z", "has no component"),
         bad("{}", "", "has no component"),
@@ -99,10 +110,18 @@ fn values(kind: Kind) -> Vec<Bad> {
             all.push(bad("[[0, 0], 1]", "[1]", "must be a list of 2 numbers"));
             all
         }
-        Kind::Velocities => driven(&[".x", ".y"]),
-        Kind::Motion => driven(&[".x", ".y", ".rotation"]),
-        Kind::Rigid => driven(&[".x", ".y", ".rotation"]),
-        Kind::Drive(_) => Vec::new(),
+        Kind::Components(Dimension::VELOCITY) => driven(&[".x", ".y"], "must be a velocity or the name of a curve"),
+        Kind::Components(Dimension::ACCELERATION) => driven(&[".x", ".y"], "must be an acceleration or the name of a curve"),
+        Kind::Components(_) => driven(&[".x", ".y"], "or the name of a curve"),
+        Kind::Motion | Kind::Rigid => driven(&[".x", ".y", ".rotation"], "must be a velocity or the name of a curve"),
+        Kind::Drive(_) => course("or the name of a curve"),
+        Kind::Value => vec![
+            bad("nan", "", "is not a number"),
+            bad("-inf", "", "is not finite"),
+            bad("\"1 parsec\"", "", "not a unit"),
+            bad("[1]", "", "must be"),
+            bad("true", "", "must be"),
+        ],
         Kind::Integer(least) => whole(least),
         Kind::Integers(_, least) => {
             let inside = |it: Bad| Bad { value: format!("[1, {}]", it.value), at: "[1]", ..it };
@@ -161,6 +180,12 @@ fn every_key_refuses_every_bad_value_at_its_place() {
             let path = section_path(section);
             count += try_all(key, &format!("{path}.{}", key.name), &[]);
             if let Kind::Table(inner) = key.kind {
+                if section.form == Form::Named {
+                    for key in inner.all_keys() {
+                        count += try_all(key, &format!("{path}.{}.{}", inner.name, key.name), &[]);
+                    }
+                    continue;
+                }
                 let own = ["ring", "rectangle", "disk", "mesh"].iter().position(|name| *name == inner.name).map(|index| index % 3);
                 let index = own.or(["plane", "circle", "polyline"].iter().position(|name| *name == inner.name)).unwrap_or(0);
                 for key in inner.all_keys() {

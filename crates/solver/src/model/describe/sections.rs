@@ -171,12 +171,43 @@ static CONSTRAINT: Section = Section {
         key("fixed", Kind::Choices(|| vec!["x", "y"]), Optional("none"), "Components that don't move."),
         key(
             "velocity",
-            Kind::Velocities,
+            Kind::Components(Dimension::VELOCITY),
             Optional("none"),
             "Prescribed velocity of components: a number or a curve, such as `{ x = \"1 m/s\", y = \"ramp\" }`.",
         ),
+        key(
+            "displacement",
+            Kind::Components(Dimension::LENGTH),
+            Optional("none"),
+            "Prescribed displacement of components from the initial position: curves that begin with 0.",
+        ),
+        key(
+            "acceleration",
+            Kind::Components(Dimension::ACCELERATION),
+            Optional("none"),
+            "Prescribed acceleration of components, from the initial velocity on.",
+        ),
+        key("rotation", Table(&ROTATION), Optional("none"), "Leads the nodes around a point."),
     ],
-    rules: &[Rule::SomeOf(&["fixed", "velocity"])],
+    rules: &[
+        Rule::SomeOf(&["fixed", "velocity", "displacement", "acceleration", "rotation"]),
+        Rule::NotBoth("rotation", "fixed"),
+        Rule::NotBoth("rotation", "velocity"),
+        Rule::NotBoth("rotation", "displacement"),
+        Rule::NotBoth("rotation", "acceleration"),
+    ],
+    ..Section::EMPTY
+};
+
+static ROTATION: Section = Section {
+    name: "rotation",
+    doc: "Rotation of nodes about a fixed point, on exact circles.",
+    form: Form::Inline,
+    required: false,
+    keys: &[
+        key("speed", Kind::Drive(Dimension::RATE), Required, "Angular velocity, counter-clockwise: a number or a curve."),
+        key("centre", Vector(Dimension::LENGTH, Finite), Default("[0, 0]"), "The point."),
+    ],
     ..Section::EMPTY
 };
 
@@ -208,12 +239,52 @@ static LOAD: Section = Section {
 
 static CURVE: Section = Section {
     name: "curve",
-    doc: "A function of time, named where a velocity is prescribed: linear between its points, constant before the first and after the last. The name begins with a letter.",
+    doc: "A function of time, named where something follows it: by points (`time` and `value`; constant before the first and after the last), a `sine`, or a formula (`expression`). The name begins with a letter.",
     form: Form::Named,
     required: false,
     keys: &[
-        key("time", Kind::Quantities(Dimension::TIME, Finite, 1), Required, "Times, ascending."),
-        key("value", Kind::Values, Required, "Values, as many: of one dimension, or bare numbers in the SI unit of what uses the curve."),
+        key("time", Kind::Quantities(Dimension::TIME, Finite, 1), Optional("`sine` or `expression`"), "Times, ascending."),
+        key(
+            "value",
+            Kind::Values,
+            Optional("`sine` or `expression`"),
+            "Values, as many: of one dimension, or bare numbers in the SI unit of what uses the curve.",
+        ),
+        key(
+            "between",
+            Choice(|| vec!["lines", "smooth_steps"]),
+            Default("\"lines\""),
+            "What leads from point to point: straight lines, or steps without velocity and acceleration at their ends.",
+        ),
+        key("sine", Table(&SINE), Optional("points or `expression`"), "A wave."),
+        key(
+            "expression",
+            Text,
+            Optional("points or `sine`"),
+            "A formula of the time `t` in s, such as `\"2*sin(3*t) + exp(-t)\"`, in the SI unit of what uses the curve: numbers, `+ - * / ^`, parentheses, `pi`, `sin`, `cos`, `exp`, `ln`, `sqrt`, `abs`, `min`, `max`, and `step(x)`, which is 0 for x < 0, else 1.",
+        ),
+    ],
+    rules: &[
+        Rule::OneOf(&["value", "sine", "expression"]),
+        Rule::Needs("value", "time"),
+        Rule::NotBoth("time", "sine"),
+        Rule::NotBoth("time", "expression"),
+        Rule::NotBoth("between", "sine"),
+        Rule::NotBoth("between", "expression"),
+    ],
+    ..Section::EMPTY
+};
+
+static SINE: Section = Section {
+    name: "sine",
+    doc: "offset + amplitude * sin(2 pi frequency t + phase).",
+    form: Form::Inline,
+    required: false,
+    keys: &[
+        key("amplitude", Kind::Value, Required, "Height of the wave: a quantity, or a bare number in the SI unit of what uses the curve."),
+        key("frequency", Quantity(Dimension::RATE, Positive), Required, "Waves per time."),
+        key("phase", Angle(Dimension::NONE, Finite), Default("0"), "Angle at time zero."),
+        key("offset", Kind::Value, Default("0"), "Mean value, of the same dimension."),
     ],
     ..Section::EMPTY
 };

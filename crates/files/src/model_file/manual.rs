@@ -32,7 +32,7 @@ pub fn reference_markdown() -> String {
         "Units: {}. Those with a star take prefixes, from `f` (1e-15) to `P` (1e15) where usual; micro is `u` or `µ`.\n",
         units::names()
     );
-    out.push_str("## Names\n\nParts, materials, contacts, obstacles and probes have names of letters, digits, `_` and `-`. A contact, a constraint or a probe may name a part\n");
+    out.push_str("## Names\n\nParts, materials, contacts, obstacles and probes have names of letters, digits, `_` and `-`. A contact, a constraint, a load, a join or a probe may name a part\n");
     out.push_str("(its whole outside, or all its nodes), a side of a built-in shape such as `plate.top`, or a group of a mesh file; a part comes before a group of the same name.\n\n");
     let _ = writeln!(out, "## Above all sections\n");
     table(&mut out, TOP.keys, TOP.rules);

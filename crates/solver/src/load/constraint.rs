@@ -2,6 +2,8 @@
 //! along each direction; the impulse that this takes is the reaction, and its work goes to the ledger.
 
 use super::curve::{Curves, Meaning, Speed};
+use super::join::{Joins, back};
+use super::non_reflecting::{Matrix, times};
 use crate::error::Fault;
 use crate::mesh::Mesh;
 use crate::model::{Constraint, Model, Symmetry};
@@ -70,6 +72,26 @@ impl<const D: usize> Held<D> {
         direction
     }
 
+    /// The same of something that gives way to impulses by a matrix (xx, xy, yy): the reactions act along the held directions.
+    #[must_use]
+    pub fn apply_in(&self, mut velocity: [f64; 2], mut mobility: Matrix) -> [f64; 2] {
+        for (direction, speed) in &self.directions {
+            let direction = [direction[0], direction[1]];
+            let change = speed - (velocity[0] * direction[0] + velocity[1] * direction[1]);
+            let response = times(mobility, direction);
+            let along = response[0] * direction[0] + response[1] * direction[1];
+            velocity = [velocity[0] + change / along * response[0], velocity[1] + change / along * response[1]];
+            mobility = without(mobility, direction);
+        }
+        velocity
+    }
+
+    /// What is left of a mobility (xx, xy, yy) along what is free.
+    #[must_use]
+    pub fn mobility(&self, mobility: Matrix) -> Matrix {
+        self.directions.iter().fold(mobility, |mobility, (direction, _)| without(mobility, [direction[0], direction[1]]))
+    }
+
     /// The velocity with the prescribed components.
     #[inline]
     #[must_use]
@@ -124,22 +146,26 @@ const TOLD: usize = 20;
 impl Constraints<2> {
     /// From the symmetries and constraints of a model.
     ///
+    /// `joins` tells which nodes move as one: what holds one of them holds its leader.
+    ///
     /// # Errors
     /// Names without nodes, symmetry lines that hold no node, motions that contradict each other on a node.
-    pub fn new(model: &Model, mesh: &Mesh<2>, curves: &Curves) -> Result<Self, Vec<Fault>> {
+    pub fn new(model: &Model, mesh: &Mesh<2>, curves: &Curves, joins: &Joins) -> Result<Self, Vec<Fault>> {
         let mut result = Self::default();
-        if model.symmetries.is_empty() && model.constraints.is_empty() {
+        if model.symmetries.is_empty() && model.constraints.is_empty() && joins.is_empty() {
             return Ok(result);
         }
         result.index = vec![u32::MAX; mesh.positions.len()];
         let mut faults = Vec::new();
+        let place = Place { mesh, joins };
         for (i, symmetry) in model.symmetries.iter().enumerate() {
-            result.mirror(i, symmetry, mesh, &mut faults);
+            result.mirror(i, symmetry, place, &mut faults);
         }
         result.mirrors.sort_by_key(|mirror| mirror.node);
         for (i, constraint) in model.constraints.iter().enumerate() {
-            result.constrain(i, constraint, mesh, curves, &mut faults);
+            result.constrain(i, constraint, place, curves, &mut faults);
         }
+        result.fix_tips(place, &mut faults);
         let changes = |held: &Held<2>| held.turn.is_some() || held.speeds.iter().any(|speed| speed.as_constant().is_none());
         for (node, &index) in (0..).zip(&result.index) {
             if result.held.get(index as usize).is_some_and(changes) {
@@ -151,11 +177,11 @@ impl Constraints<2> {
     }
 
     /// Holds the nodes on a symmetry line.
-    fn mirror(&mut self, i: usize, symmetry: &Symmetry, mesh: &Mesh<2>, faults: &mut Vec<Fault>) {
+    fn mirror(&mut self, i: usize, symmetry: &Symmetry, place: Place<'_>, faults: &mut Vec<Fault>) {
         let mut found = Telling::new(format!("symmetry[{i}]"));
         self.conditions.push(format!("symmetry[{i}]"));
         let Some(normal) = unit(symmetry.normal) else { return };
-        let nodes = on_line(symmetry, normal, mesh);
+        let nodes = on_line(symmetry, normal, place.mesh);
         if nodes.is_empty() {
             faults.push(Fault::new(
                 &found.path,
@@ -165,16 +191,16 @@ impl Constraints<2> {
         }
         for node in nodes {
             self.mirrors.push(Mirror { node, line: i, normal });
-            self.hold(node, normal, &Speed::constant(0.0), mesh, &mut found);
+            self.hold(node, normal, &Speed::constant(0.0), place, &mut found);
         }
         found.tell(faults);
     }
 
     /// Holds the nodes of a constraint.
-    fn constrain(&mut self, i: usize, constraint: &Constraint, mesh: &Mesh<2>, curves: &Curves, faults: &mut Vec<Fault>) {
+    fn constrain(&mut self, i: usize, constraint: &Constraint, place: Place<'_>, curves: &Curves, faults: &mut Vec<Fault>) {
         let mut found = Telling::new(format!("constraint[{i}]"));
         self.conditions.push(format!("constraint[{i}] on \"{}\"", constraint.on));
-        let Some(nodes) = mesh.nodes(&constraint.on) else {
+        let Some(nodes) = place.mesh.nodes(&constraint.on) else {
             faults.push(Fault::new(
                 format!("{}.on", found.path),
                 format!("there is nothing called \"{}\"", constraint.on),
@@ -186,7 +212,7 @@ impl Constraints<2> {
             let centre = constraint.rotation.as_ref().map_or([0.0; 2], |rotation| rotation.centre);
             self.turns.push(Turn { centre, speed });
             for &node in &nodes {
-                self.turn(node, mesh, &mut found);
+                self.turn(node, place, &mut found);
             }
         }
         for (meaning, drives) in [
@@ -199,11 +225,29 @@ impl Constraints<2> {
                 for (speed, direction) in speeds.iter().zip([[1.0, 0.0], [0.0, 1.0]]) {
                     let Some(speed) = speed else { continue };
                     if meaning == Meaning::Acceleration {
-                        self.hold(node, direction, &speed.clone().from_initial(direction), mesh, &mut found);
+                        self.hold(
+                            node,
+                            direction,
+                            &speed.clone().from_initial(back(place.joins.leader(node).1, direction)),
+                            place,
+                            &mut found,
+                        );
                     } else {
-                        self.hold(node, direction, speed, mesh, &mut found);
+                        self.hold(node, direction, speed, place, &mut found);
                     }
                 }
+            }
+        }
+        found.tell(faults);
+    }
+
+    /// Holds the nodes that a rotation leads to themselves.
+    fn fix_tips(&mut self, place: Place<'_>, faults: &mut Vec<Fault>) {
+        let mut found = Telling::new("join".to_string());
+        self.conditions.push("a join around it".to_string());
+        for group in place.joins.groups().iter().filter(|group| group.fixed) {
+            for direction in [[1.0, 0.0], [0.0, 1.0]] {
+                self.hold(group.members[0].node, direction, &Speed::constant(0.0), place, &mut found);
             }
         }
         found.tell(faults);
@@ -219,34 +263,48 @@ impl Constraints<2> {
     }
 
     /// Prescribes a velocity along a direction, by the last of the conditions.
-    fn hold(&mut self, node: u32, direction: [f64; 2], velocity: &Speed, mesh: &Mesh<2>, found: &mut Telling) {
+    fn hold(&mut self, node: u32, direction: [f64; 2], velocity: &Speed, place: Place<'_>, found: &mut Telling) {
         let giver = self.conditions.len() as u32 - 1;
-        let held = self.slot(node);
+        let (leader, turn) = place.joins.leader(node);
+        let direction = back(turn, direction);
+        let held = self.slot(leader);
         let told = |speed: &Speed| speed.as_constant().map_or("as a curve says".to_string(), |velocity| format!("at {velocity} m/s"));
         if held.turn.is_some() {
             let others = held.givers.clone();
             found.note(
-                mesh.positions[node as usize],
+                place.mesh.positions[node as usize],
                 &format!("shall move {}", told(velocity)),
                 &self.names(&others),
                 "leads it around a point",
             );
         } else if let Err(Contradiction { earlier, givers }) = held.add(direction, velocity, giver) {
             let does = format!("already moves it {} there", told(&earlier));
-            found.note(mesh.positions[node as usize], &format!("shall move {}", told(velocity)), &self.names(&givers), &does);
+            found.note(place.mesh.positions[node as usize], &format!("shall move {}", told(velocity)), &self.names(&givers), &does);
         }
     }
 
     /// Leads a node around by the last of the turns.
-    fn turn(&mut self, node: u32, mesh: &Mesh<2>, found: &mut Telling) {
+    fn turn(&mut self, node: u32, place: Place<'_>, found: &mut Telling) {
         let (giver, turn) = (self.conditions.len() as u32 - 1, self.turns.len() as u32 - 1);
-        let at_centre = self.turns.last().is_some_and(|turn| turn.centre == mesh.positions[node as usize]);
+        let at_centre = self.turns.last().is_some_and(|turn| turn.centre == place.mesh.positions[node as usize]);
         if at_centre {
             // The centre itself rests.
-            self.hold(node, [1.0, 0.0], &Speed::constant(0.0), mesh, found);
-            return self.hold(node, [0.0, 1.0], &Speed::constant(0.0), mesh, found);
+            self.hold(node, [1.0, 0.0], &Speed::constant(0.0), place, found);
+            return self.hold(node, [0.0, 1.0], &Speed::constant(0.0), place, found);
         }
-        let held = self.slot(node);
+        let (leader, _) = place.joins.leader(node);
+        if place.joins.is_periodic() && place.mesh.positions[leader as usize] != place.mesh.positions[node as usize] {
+            return found.note(
+                place.mesh.positions[node as usize],
+                "shall be led around a point",
+                "a join",
+                "lets it move like another place",
+            );
+        }
+        let held = self.slot(leader);
+        if held.turn == Some(turn) {
+            return; // through another node of the group
+        }
         if held.givers.is_empty() {
             held.directions = vec![([1.0, 0.0], 0.0), ([0.0, 1.0], 0.0)];
             held.speeds = vec![Speed::default(); 2];
@@ -254,7 +312,12 @@ impl Constraints<2> {
             held.turn = Some(turn);
         } else {
             let others = held.givers.clone();
-            found.note(mesh.positions[node as usize], "shall be led around a point", &self.names(&others), "already holds or moves it");
+            found.note(
+                place.mesh.positions[node as usize],
+                "shall be led around a point",
+                &self.names(&others),
+                "already holds or moves it",
+            );
         }
     }
 
@@ -290,6 +353,13 @@ impl Constraints<2> {
             }
         }
     }
+}
+
+/// Where nodes are, and which move as one.
+#[derive(Clone, Copy)]
+struct Place<'a> {
+    mesh: &'a Mesh<2>,
+    joins: &'a Joins,
 }
 
 /// Contradictions of one condition with earlier ones.
@@ -370,6 +440,13 @@ fn on_line(symmetry: &Symmetry, normal: [f64; 2], mesh: &Mesh<2>) -> Vec<u32> {
     nodes.sort_unstable();
     nodes.dedup();
     nodes
+}
+
+/// A mobility without what gives way along a direction.
+fn without(mobility: Matrix, direction: [f64; 2]) -> Matrix {
+    let [x, y] = times(mobility, direction);
+    let along = x * direction[0] + y * direction[1];
+    [mobility[0] - x * x / along, mobility[1] - x * y / along, mobility[2] - y * y / along]
 }
 
 /// Unit vector; `None` for a vector without direction.

@@ -38,6 +38,10 @@ pub struct Model {
     pub constraints: Vec<Constraint>,
     /// `[[load]]`.
     pub loads: Vec<Load>,
+    /// `[[non_reflecting]]`.
+    pub non_reflecting: Vec<NonReflecting>,
+    /// `[[join]]`.
+    pub joins: Vec<Join>,
     /// `[[probe]]`.
     pub probes: Vec<Probe>,
     /// `[output]`.
@@ -554,6 +558,37 @@ pub enum Load {
         parts: Vec<String>,
         /// Acceleration, m/s².
         acceleration: [f64; 2],
+        /// Key of [`Model::curves`]: a factor.
+        curve: Option<String>,
+    },
+    /// The centrifugal force of a frame that turns about a point: acceleration speed² (x − centre) of the mass of some parts.
+    Centrifugal {
+        /// Parts; empty: all.
+        parts: Vec<String>,
+        /// The point, m.
+        centre: [f64; 2],
+        /// Angular velocity of the frame, rad/s.
+        speed: f64,
+        /// Key of [`Model::curves`]: a factor of the angular velocity.
+        curve: Option<String>,
+    },
+    /// A force on a set of nodes, shared by tributary length on a surface, else equally.
+    Force {
+        /// A side as `part.side`, or a group of a mesh file.
+        on: String,
+        /// The whole force, N/m.
+        force: [f64; 2],
+        /// Key of [`Model::curves`]: a factor.
+        curve: Option<String>,
+    },
+    /// A pressure on a surface, against its current normal and on its current length.
+    Pressure {
+        /// A part (its whole outside), `part.side`, or a one-dimensional group of a mesh file.
+        on: String,
+        /// Pressure, Pa.
+        pressure: f64,
+        /// Key of [`Model::curves`]: a factor.
+        curve: Option<String>,
     },
     /// Force −rate · m · v on the mass of some parts: what is quasi-static comes to rest.
     Damping {
@@ -563,6 +598,41 @@ pub enum Load {
         rate: f64,
         /// Times between which it acts, s.
         active: [f64; 2],
+    },
+}
+
+/// `[[non_reflecting]]`: a surface that takes waves up as if the body went on.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct NonReflecting {
+    /// `part.side`, a part (its whole outside), or a one-dimensional group of a mesh file.
+    pub on: String,
+}
+
+/// `[[join]]`: nodes of two sets that move as one.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Join {
+    /// The sets: each a part, `part.side`, or a group of a mesh file.
+    pub between: [String; 2],
+    /// How the second set comes from the first.
+    pub image: Image,
+    /// Distance within which nodes are partners, m; `None`: 1e-6 of the model's size.
+    pub tolerance: Option<f64>,
+}
+
+/// How one set of nodes is the image of another.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Image {
+    /// They coincide.
+    #[default]
+    Same,
+    /// Moved by this, m.
+    Translated([f64; 2]),
+    /// Turned about a point.
+    Turned {
+        /// The point, m.
+        centre: [f64; 2],
+        /// By this angle, rad, counter-clockwise.
+        angle: f64,
     },
 }
 

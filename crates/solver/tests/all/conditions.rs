@@ -251,7 +251,8 @@ fn gravity_acts_on_the_parts_it_names_and_on_their_share_of_common_nodes() {
     let (left, right): (Vec<_>, Vec<_>) = cells.into_iter().enumerate().partition(|(i, _)| i % 4 < 2);
     mesh.groups = [("left", left), ("right", right)].map(|(name, cells)| group(name, 2, cells.into_iter().map(|(_, cell)| cell))).into();
     add_groups(&mut model, mesh, &["left", "right"], [0.0, 0.0]);
-    let gravity = |parts: &[&str], acceleration| Load::Gravity { parts: parts.iter().map(|p| (*p).to_string()).collect(), acceleration };
+    let gravity =
+        |parts: &[&str], acceleration| Load::Gravity { parts: parts.iter().map(|p| (*p).to_string()).collect(), acceleration, curve: None };
     model.loads = vec![gravity(&["apple", "left"], [0.0, -10.0]), gravity(&["apple"], [2.0, 0.0])];
     let steps = every_step(&model);
     let velocity = |name: &str| ["vx", "vy"].map(|v| *steps.column(&format!("{name}.{v}")).last().unwrap());

@@ -169,7 +169,7 @@ fn a_block_that_slides_is_braked_by_the_coefficient_times_what_presses() {
                 velocity: [Some(0.0.into()), Some(0.0.into())],
                 ..Constraint::default()
             });
-            model.loads.push(Load::Gravity { parts: vec!["block".into()], acceleration: [0.0, -1000.0] });
+            model.loads.push(Load::Gravity { parts: vec!["block".into()], acceleration: [0.0, -1000.0], curve: None });
             let interface =
                 Interface { law: law.clone(), friction: Some(FRICTION), damping: damping_of(&law, 0.3), ..Interface::default() };
             model.contacts.push(Contact { formulation, interface, ..Contact::between("slide", "slab.top", "block.bottom") });

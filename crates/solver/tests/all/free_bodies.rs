@@ -66,7 +66,7 @@ fn hold(model: &mut Model, on: &str, velocity: [Option<f64>; 2]) {
 }
 
 fn gravity(model: &mut Model) {
-    model.loads.push(Load::Gravity { parts: Vec::new(), acceleration: [0.0, -GRAVITY] });
+    model.loads.push(Load::Gravity { parts: Vec::new(), acceleration: [0.0, -GRAVITY], curve: None });
 }
 
 fn simulation(model: &Model) -> Simulation {

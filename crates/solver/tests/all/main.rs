@@ -16,6 +16,7 @@ mod formulations;
 mod friction;
 mod free_bodies;
 mod initial;
+mod loads;
 mod materials;
 mod plasticity;
 mod projectiles;

@@ -1,10 +1,10 @@
-//! What moves bodies from outside, from the records of a file: rigid parts and obstacles, constraints, loads, curves.
+//! What moves bodies from outside, from the records of a file: rigid parts and obstacles, constraints, curves.
 
 use crate::model_file::diagnostics::Faults;
 use crate::model_file::reader::Record;
 use crate::model_file::value::{Course, Datum};
 use embate_solver::load::curve::sine::Sine;
-use embate_solver::model::{Constraint, Curve, CurveShape, Drive, Load, Motion, Rotation};
+use embate_solver::model::{Constraint, Curve, CurveShape, Drive, Motion, Rotation};
 use embate_solver::quantity::Dimension;
 
 /// What a part's `rigid` says: `None` for a part that deforms.
@@ -40,10 +40,8 @@ pub(super) fn curve(record: &Record, faults: &mut Faults) -> Curve {
         }
         return Curve { shape: CurveShape::Expression(record.text("expression")), dimension: None };
     }
-    for [one, other] in [["time", "value"], ["value", "time"]] {
-        if record.datum(one).is_none() {
-            faults.cover(&record.key(other));
-        }
+    if record.datum("time").is_none() || record.datum("value").is_none() {
+        ["time", "value"].iter().for_each(|name| faults.cover(&record.key(name)));
     }
     let (values, dimension) = scalars(record, "value");
     let smooth = record.text("between") == "smooth_steps";
@@ -102,18 +100,6 @@ pub(super) fn constraint(record: &Record, faults: &mut Faults) -> Constraint {
         velocity = [Some(Drive::Constant(0.0)), None];
     }
     Constraint { on: record.text("on"), velocity, displacement, acceleration, rotation }
-}
-
-pub(super) fn load(record: &Record, faults: &mut Faults) -> Load {
-    let parts = record.texts("parts");
-    if record.written("damping").is_some() && record.written("gravity").is_none() {
-        let rate = record.number("damping").unwrap_or(f64::NAN);
-        return Load::Damping { parts, rate, active: window(record, ["from", "until"], faults) };
-    }
-    if record.written("gravity").is_none() {
-        faults.cover(&record.key("gravity"));
-    }
-    Load::Gravity { parts, acceleration: record.vector("gravity") }
 }
 
 /// Times of beginning and end; left out: from the start, for ever.

@@ -1,10 +1,10 @@
 //! Contacts, obstacles, and what moves: which models their keys make, and what is refused with which words.
 
-use super::{SOUND, changed, faults, read};
+use super::{MORE, SOUND, changed, faults, read};
 use embate_solver::load::curve::sine::Sine;
 use embate_solver::model::{
-    Constraint, Contact, ContactLaw, Curve, CurveShape, Drive, Formulation, Friction, InitialPenetration, Interface, Load, Model, Motion,
-    Obstacle, ObstacleShape, Partners, Penalty, PenaltySource, Rotation,
+    Constraint, Contact, ContactLaw, Curve, CurveShape, Drive, Formulation, Friction, Image, InitialPenetration, Interface, Join, Load,
+    Model, Motion, NonReflecting, Obstacle, ObstacleShape, Partners, Penalty, PenaltySource, Rotation,
 };
 use embate_solver::quantity::Dimension;
 
@@ -165,7 +165,7 @@ fn curves_have_shapes() {
         (and("[curve.c]\nbetween = \"lines\""), "curve.c", "needs one of `value`, `sine` and `expression`"),
         (and("[curve.c]\ntime = [0]"), "curve.c", "needs one of `value`, `sine` and `expression`"),
         (and("[curve.c]\nvalue = [0]"), "curve.c", "has `value` but no `time`"),
-        (and("[curve.c]\nexpression = \"t\"\nbetween = \"lines\""), "curve.c.between", "`between` and `expression`"),
+        (and("[curve.c]\nexpression = \"t\"\nbetween = \"lines\""), "curve.c", "has `between` and `expression` at once"),
         (and("[curve.c]\nexpression = \"t\"\nsine = { amplitude = 1, frequency = 1 }"), "curve.c", "at once"),
         (and("[curve.c]\nexpression = \"2*sin(3*t\""), "curve.c.expression", "at character 6 of `2*sin(3*t`: this `(` is never closed"),
         (and("[curve.c]\nexpression = \"1/(t - 5e-4)\""), "curve.c.expression", "is inf at 0.0005 s"),
@@ -207,6 +207,45 @@ fn a_load_can_damp() {
     assert_eq!(load("damping = 100"), Load::Damping { parts: vec![], rate: 100.0, active: [0.0, f64::INFINITY] });
     let part = load("damping = \"1 1/ms\"\nparts = \"ball\"\nfrom = \"1 ms\"\nuntil = \"2 ms\"");
     assert_eq!(part, Load::Damping { parts: vec!["ball".into()], rate: 1000.0, active: [0.001, 0.002] });
+}
+
+#[test]
+fn loads_boundaries_and_joins_are_read() {
+    let load = |lines: &str| sound(&and(&format!("[[load]]\n{lines}\n[curve.c]\nexpression = \"t\""))).loads.pop().unwrap();
+    let curve = || Some("c".to_string());
+    let gravity = Load::Gravity { parts: vec!["ball".into()], acceleration: [1.0, 2.0], curve: curve() };
+    assert_eq!(load("gravity = [1, 2]\nparts = \"ball\"\ncurve = \"c\""), gravity);
+    let spin = |centre, curve| Load::Centrifugal { parts: vec![], centre, speed: std::f64::consts::TAU, curve };
+    assert_eq!(load("centrifugal = \"60 rpm\""), spin([0.0; 2], None));
+    assert_eq!(load("centrifugal = \"60 rpm\"\ncentre = [1, 2]\ncurve = \"c\""), spin([1.0, 2.0], curve()));
+    let force = Load::Force { on: "plate.top".into(), force: [3.0, -2000.0], curve: None };
+    assert_eq!(load("force = [3, \"-2 kN/m\"]\non = \"plate.top\""), force);
+    assert_eq!(load("pressure = \"2 MPa\"\non = \"ball\""), Load::Pressure { on: "ball".into(), pressure: 2e6, curve: None });
+    let model = sound(&and(&format!(
+        "{MORE}[[join]]\nbetween = [\"plate.top\", \"plate.bottom\"]\ntranslation = [0, \"-3 mm\"]\ntolerance = \"1 um\""
+    )));
+    assert_eq!(model.non_reflecting, [NonReflecting { on: "ball.outer".into() }]);
+    let image = Image::Turned { centre: [0.0, 0.1], angle: std::f64::consts::PI };
+    let turned = Join { between: ["tube.start".into(), "tube.end".into()], image, tolerance: None };
+    let image = Image::Translated([0.0, -0.003]);
+    let moved = Join { between: ["plate.top".into(), "plate.bottom".into()], image, tolerance: Some(1e-6) };
+    assert_eq!(model.joins, [turned, moved]);
+    let of = |section: &str, lines: &str| and(&format!("{MORE}[[{section}]]\n{lines}"));
+    each_has(&[
+        (of("load", "pressure = 1"), "load[1]", "has `pressure` but no `on`"),
+        (of("load", "pressure = 1\non = \"plate.tpo\""), "load[1].on", "part `plate` has no side `tpo` | did you mean `top`?"),
+        (of("load", "force = [1, 1]\non = \"plate\""), "load[1].on", "`plate` is a part, but a force acts on a set of its nodes"),
+        (of("load", "gravity = [1, 1]\ncurve = \"ramp\""), "load[1].curve", "the values of curve `ramp` are in m/s, but `curve` is"),
+        (of("load", "gravity = [1, 1]\ncurve = \"rmap\""), "load[1].curve", "there is no curve `rmap` | did you mean `ramp`?"),
+        (of("load", "force = [1, 1]\npressure = 1\non = \"plate.top\""), "load[1]", "has `force` and `pressure` at once"),
+        (of("non_reflecting", "on = \"ball.outer\""), "non_reflecting[1].on", "reflects nothing by non_reflecting[0] already"),
+        (of("join", "between = [\"tube.start\", \"tube.start\"]"), "join[1].between", "is joined to itself"),
+        (
+            of("join", "between = [\"tube.start\", \"tube.end\"]\nrotation = 1\ntranslation = [1, 0]"),
+            "join[1]",
+            "`translation` and `rotation`",
+        ),
+    ]);
 }
 
 #[test]
@@ -342,6 +381,6 @@ fn obstacles_and_moving_parts_that_make_no_sense_are_refused() {
         (and("[curve.2b]\ntime = [0]\nvalue = [0]"), "curve.2b", "must begin with a letter"),
         (and("[[load]]\ngravity = [0, -9]\nfrom = 1"), "load[1]", "has `from` but no `damping`"),
         (and("[[load]]\ndamping = 1\nfrom = 2\nuntil = 1"), "load[1].until", "it ends at 1 s, not after its beginning at 2 s"),
-        (and("[[load]]\nparts = \"ball\""), "load[1]", "needs one of `gravity` and `damping`"),
+        (and("[[load]]\nparts = \"ball\""), "load[1]", "needs one of `gravity`, `centrifugal`, `force`, `pressure` and `damping`"),
     ]);
 }

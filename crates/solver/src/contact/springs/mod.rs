@@ -20,7 +20,7 @@
 pub mod friction;
 
 use super::law::Law;
-use crate::load::constraint::Constraints;
+use crate::load::join;
 use crate::rigid::Bodies;
 use friction::{Friction, Stick};
 
@@ -104,6 +104,8 @@ pub struct End {
     pub turn: Vector,
     /// Where the forces act on a rigid body without nodes, m.
     pub point: Vector,
+    /// Cosine and sine of the rotation from the motion of the node that moves in its stead; `None`: no rotation.
+    pub image: Option<Vector>,
 }
 
 impl End {
@@ -202,9 +204,13 @@ struct Movable {
 }
 
 impl Movable {
-    /// A row of force `row` at `point`, with its moment on a rigid body.
+    /// A row of force `row` at an end, with its moment on a rigid body; of the image of a node as its leader feels it.
     #[inline]
-    fn row(&self, row: Vector, point: Vector) -> [f64; 3] {
+    fn row(&self, mut row: Vector, end: &End) -> [f64; 3] {
+        let point = end.point;
+        if let Some(turn) = end.image {
+            row = join::back(turn, row);
+        }
         let moment = self.centre.map_or(0.0, |centre| (point[0] - centre[0]) * row[1] - (point[1] - centre[1]) * row[0]);
         [row[0], row[1], moment]
     }
@@ -229,21 +235,36 @@ struct Link {
 }
 
 /// What the solution needs of the model.
-pub struct Update<'a, F: Fn(usize) -> Vector> {
+pub struct Update<'a, M: Movers> {
     /// Steps before and after, s: v^{n+½} = v^{n−½} + ½ (dt^{n−1} + dt^n) F / m, x^{n+1} = x^n + dt^n v^{n+½}.
     pub time_steps: [f64; 2],
-    /// Nodal masses, kg/m.
-    pub mass: &'a [f64],
     /// x^n, m.
     pub positions: &'a [Vector],
-    /// v^{n−½}, m/s.
-    pub velocities_old: &'a [Vector],
-    /// Velocity v^{n+½} of a node without springs, prescribed motion included, m/s.
-    pub velocity_free: F,
-    /// Prescribed directions.
-    pub constraints: &'a Constraints<2>,
+    /// How nodes move and give way.
+    pub nodes: &'a M,
     /// Rigid bodies.
     pub bodies: &'a Bodies,
+}
+
+/// Nodes as springs see them.
+pub trait Movers {
+    /// How many nodes there are.
+    fn count(&self) -> usize;
+    /// The node that moves in the stead of `node`, and the rotation from its motion to that of `node`, if any.
+    fn leader(&self, node: u32) -> (u32, Option<Vector>);
+    /// Motion of a node that leads itself.
+    fn mover(&self, leader: usize) -> Mover;
+}
+
+/// A node without springs.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Mover {
+    /// v^{n−½}, m/s.
+    pub velocity_old: Vector,
+    /// v^{n+½} without springs, prescribed motion included, m/s.
+    pub velocity: Vector,
+    /// Change of v^{n+½} per force: xx, xy, yy.
+    pub mobility: [f64; 3],
 }
 
 /// A spring as laws of the normal force see it.
@@ -314,7 +335,7 @@ impl Springs {
     }
 
     /// Finds the force, work and energy of every spring. `terms` as the groups number them.
-    pub fn solve<F: Fn(usize) -> Vector>(&mut self, update: &Update<'_, F>, terms: &[Terms]) {
+    pub fn solve<M: Movers>(&mut self, update: &Update<'_, M>, terms: &[Terms]) {
         if self.list.is_empty() {
             return;
         }
@@ -354,7 +375,7 @@ impl Springs {
     }
 
     /// One sweep over the springs (`only` those, if given): largest change of a force, largest force.
-    fn relax<F: Fn(usize) -> Vector>(&mut self, update: &Update<'_, F>, terms: &[Terms], only: Option<&[u32]>) -> (f64, f64) {
+    fn relax<M: Movers>(&mut self, update: &Update<'_, M>, terms: &[Terms], only: Option<&[u32]>) -> (f64, f64) {
         let mut result = (0.0f64, 0.0f64);
         let mut begin = 0;
         let mut rest = only;
@@ -377,16 +398,18 @@ impl Springs {
     }
 
     /// Gathers the nodes and bodies of the springs and what a force does to them.
-    fn link<F: Fn(usize) -> Vector>(&mut self, update: &Update<'_, F>, terms: &[Terms]) {
+    fn link<M: Movers>(&mut self, update: &Update<'_, M>, terms: &[Terms]) {
         self.links.clear();
         self.places.clear();
         let [before, after] = update.time_steps;
-        let nodes = update.mass.len();
+        let nodes = update.nodes.count();
         for end in &mut self.ends {
             let mut at = end.at;
             if let Some(body) = update.bodies.of_node(at) {
                 end.point = update.positions[at as usize];
                 at = (nodes + body) as u32;
+            } else if (at as usize) < nodes {
+                (at, end.image) = update.nodes.leader(at);
             }
             let place = &mut self.place[at as usize];
             if *place == u32::MAX {
@@ -406,11 +429,11 @@ impl Springs {
             let mut link = Link::default();
             for k in spring.first as usize..(spring.first + spring.count) as usize {
                 let (end, movable) = (&self.ends[k], &self.movables[self.places[k] as usize]);
-                let row = movable.row(end.gap_row(spring.normal), end.point);
+                let row = movable.row(end.gap_row(spring.normal), end);
                 link.rate_old += dot(row, movable.velocity_old);
                 link.compliance += 0.5 * after * dot(row, movable.response(row));
                 if slips {
-                    let row = movable.row(end.slip_row(t), end.point);
+                    let row = movable.row(end.slip_row(t), end);
                     link.slip_rate_old += dot(row, movable.velocity_old);
                     link.slip_compliance += dot(row, movable.response(row));
                 }
@@ -421,7 +444,7 @@ impl Springs {
     }
 
     /// Energies and works of the solved springs.
-    fn book<F: Fn(usize) -> Vector>(&mut self, update: &Update<'_, F>, terms: &[Terms]) {
+    fn book<M: Movers>(&mut self, update: &Update<'_, M>, terms: &[Terms]) {
         let [before, after] = update.time_steps;
         let mean_step = 0.5 * (before + after);
         let mut begin = 0;
@@ -485,9 +508,9 @@ impl Springs {
         let mut rates = [0.0; 2];
         for k in spring.first as usize..(spring.first + spring.count) as usize {
             let (end, movable) = (&self.ends[k], &self.movables[self.places[k] as usize]);
-            rates[0] += dot(movable.row(end.gap_row(spring.normal), end.point), movable.velocity);
+            rates[0] += dot(movable.row(end.gap_row(spring.normal), end), movable.velocity);
             if slips {
-                let row = movable.row(end.slip_row(t), end.point);
+                let row = movable.row(end.slip_row(t), end);
                 rates[1] += dot(row, movable.velocity);
             }
         }
@@ -522,7 +545,7 @@ impl Springs {
 }
 
 /// A node or rigid body at the beginning of the solution.
-fn movable<F: Fn(usize) -> Vector>(at: u32, nodes: usize, update: &Update<'_, F>) -> Movable {
+fn movable<M: Movers>(at: u32, nodes: usize, update: &Update<'_, M>) -> Movable {
     let mean_step = 0.5 * (update.time_steps[0] + update.time_steps[1]);
     let node = at as usize;
     if node >= nodes {
@@ -531,17 +554,8 @@ fn movable<F: Fn(usize) -> Vector>(at: u32, nodes: usize, update: &Update<'_, F>
         let (velocity_old, velocity) = (body.velocity_old, body.velocity_free);
         return Movable { at, velocity_old, velocity, mobility: [x, 0.0, y, spin], centre: Some(body.centre) };
     }
-    let [vx, vy] = (update.velocity_free)(node);
-    let [ox, oy] = update.velocities_old[node];
-    let scale = mean_step / update.mass[node];
-    let mobility = match update.constraints.of(node) {
-        None => [scale, 0.0, scale, 0.0],
-        Some(held) => {
-            let (x, y) = (held.free_part([1.0, 0.0]), held.free_part([0.0, 1.0]));
-            [scale * x[0], scale * 0.5 * (x[1] + y[0]), scale * y[1], 0.0]
-        }
-    };
-    Movable { at, velocity_old: [ox, oy, 0.0], velocity: [vx, vy, 0.0], mobility, centre: None }
+    let Mover { velocity_old: [ox, oy], velocity: [vx, vy], mobility: [xx, xy, yy] } = update.nodes.mover(node);
+    Movable { at, velocity_old: [ox, oy, 0.0], velocity: [vx, vy, 0.0], mobility: [xx, xy, yy, 0.0], centre: None }
 }
 
 /// The sweep over the springs of one contact.
@@ -614,7 +628,7 @@ impl Relaxing<'_> {
             let (end, movable) = (&springs.ends[k], &mut springs.movables[springs.places[k] as usize]);
             let (gap_row, slip_row) = (end.gap_row(n), end.slip_row(t));
             let row = [0, 1].map(|d| gap_row[d] * force + slip_row[d] * friction);
-            let response = movable.response(movable.row(row, end.point));
+            let response = movable.response(movable.row(row, end));
             for d in 0..3 {
                 movable.velocity[d] += response[d];
             }

@@ -44,8 +44,11 @@ enum Operation {
     Two(usize),
 }
 
+type Unary = fn(f64) -> f64;
+type Binary = fn(f64, f64) -> f64;
+
 /// Functions of one number. `step` is 0 below zero, else 1.
-const ONE: &[(&str, fn(f64) -> f64)] = &[
+const ONE: &[(&str, Unary)] = &[
     ("sin", |x| cos_sin(x)[1]),
     ("cos", |x| cos_sin(x)[0]),
     ("exp", exp),
@@ -55,7 +58,7 @@ const ONE: &[(&str, fn(f64) -> f64)] = &[
     ("step", |x| if x < 0.0 { 0.0 } else { 1.0 }),
 ];
 /// Functions of two or more numbers, from the left.
-const TWO: &[(&str, fn(f64, f64) -> f64)] = &[("min", |a, b| if b < a { b } else { a }), ("max", |a, b| if b > a { b } else { a })];
+const TWO: &[(&str, Binary)] = &[("min", |a, b| if b < a { b } else { a }), ("max", |a, b| if b > a { b } else { a })];
 
 impl Expression {
     /// Reads a formula.

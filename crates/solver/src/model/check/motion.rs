@@ -1,4 +1,4 @@
-//! Faults of what moves or is held: obstacles, rigid parts, constraints, loads, and the curves that they follow.
+//! Faults of what moves or is held: obstacles, rigid parts, constraints, and the curves that they follow. Loads are in `load.rs`.
 
 use super::Check;
 use crate::load::curve::Curve;
@@ -6,7 +6,7 @@ use crate::load::curve::expression::Expression;
 use crate::load::curve::sine::Sine;
 use crate::model::describe::suggestion;
 use crate::model::reference::{Reference, excerpt};
-use crate::model::{Constraint, CurveShape, Drive, Load, Motion, Obstacle, ObstacleShape, Part};
+use crate::model::{Constraint, CurveShape, Drive, Motion, Obstacle, ObstacleShape, Part};
 use crate::quantity::{Dimension, Range};
 
 /// Intervals of a run at whose ends formulas are tried.
@@ -104,7 +104,7 @@ impl Check<'_> {
     }
 
     /// A prescribed velocity: a finite number, or a curve of the right dimension.
-    fn drive(&mut self, path: &str, drive: &Drive, dimension: Dimension) {
+    pub(super) fn drive(&mut self, path: &str, drive: &Drive, dimension: Dimension) {
         let model = self.model;
         let name = match drive {
             Drive::Constant(velocity) => return self.within(path, *velocity, dimension, Range::Finite),
@@ -311,23 +311,6 @@ impl Check<'_> {
                 if begin.is_finite() && begin.abs() > 1e-12 * later.abs() {
                     let message = format!("curve `{}` begins with {begin} m, so it would move the nodes at once", excerpt(name));
                     self.fault(path, message, "let it be 0 at time 0");
-                }
-            }
-        }
-    }
-
-    pub(super) fn loads(&mut self) {
-        for (index, load) in self.model.loads.iter().enumerate() {
-            let path = format!("load[{index}]");
-            match load {
-                Load::Gravity { parts, acceleration } => {
-                    self.part_list(&format!("{path}.parts"), parts);
-                    self.vector(&format!("{path}.gravity"), *acceleration);
-                }
-                Load::Damping { parts, rate, active } => {
-                    self.part_list(&format!("{path}.parts"), parts);
-                    self.number(&format!("{path}.damping"), *rate);
-                    self.window(&path, ["from", "until"], *active);
                 }
             }
         }

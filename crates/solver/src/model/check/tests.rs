@@ -3,8 +3,8 @@
 use super::*;
 use crate::load::curve::sine::Sine;
 use crate::model::{
-    Constraint, Contact, ContactLaw, Curve, CurveShape, Drive, Formulation, Friction, ImportedMesh, Load, Material, MeshGroup, Motion,
-    Obstacle, ObstacleShape, Partners, Penalty, Rotation, Symmetry,
+    Constraint, Contact, ContactLaw, Curve, CurveShape, Drive, Formulation, Friction, Image, ImportedMesh, Join, Load, Material, MeshGroup,
+    Motion, NonReflecting, Obstacle, ObstacleShape, Partners, Penalty, Rotation, Symmetry,
 };
 use std::sync::Arc;
 
@@ -37,7 +37,7 @@ fn sound() -> Model {
     model.curves.insert("ramp".into(), Curve::table(times.clone(), times));
     model.symmetries = vec![Symmetry { normal: [1.0, 0.0], ..Symmetry::default() }];
     model.constraints = vec![Constraint { on: "upper".into(), velocity: [Some(0.0.into()), None], ..Constraint::default() }];
-    model.loads = vec![Load::Gravity { parts: vec![], acceleration: [0.0, -9.81] }];
+    model.loads = vec![Load::Gravity { parts: vec![], acceleration: [0.0, -9.81], curve: None }];
     model.probes = vec![Probe { name: "A".into(), at: ProbeAt::Point { part: "ring".into(), point: [0.0; 2] } }];
     model
 }
@@ -100,7 +100,7 @@ fn a_number_that_is_not_finite_is_found_wherever_it_is() {
         }),
         ("load[0].gravity[0]", |m| match &mut m.loads[0] {
             Load::Gravity { acceleration, .. } => &mut acceleration[0],
-            Load::Damping { .. } => unreachable!("it is gravity"),
+            _ => unreachable!("it is gravity"),
         }),
         ("part[0].spin", |m| &mut m.parts[0].spin),
         ("contact[0].damping", |m| &mut m.contacts[0].interface.damping),
@@ -197,6 +197,30 @@ fn faults_that_only_code_can_make_are_found() {
         let expected: &[&str] = if sound { &[] } else { &["curve.c.expression"] };
         assert_eq!(shaped(CurveShape::Expression(text.into())), expected, "{text}");
     }
+}
+
+#[test]
+fn loads_and_joins_that_make_no_sense_are_found() {
+    let load = |load: Load| paths(|model| model.loads = vec![load]);
+    let curve = |name: &str| Some(name.to_string());
+    assert_eq!(load(Load::Force { on: "upper".into(), force: [1.0, f64::NAN], curve: curve("ramp") }), ["load[0].force[1]"]);
+    assert_eq!(load(Load::Force { on: "ring".into(), force: [1.0, 0.0], curve: None }), ["load[0].on"]);
+    assert_eq!(load(Load::Pressure { on: "body".into(), pressure: 1.0, curve: curve("rmap") }), ["load[0].on", "load[0].curve"]);
+    let spin = Load::Centrifugal { parts: vec![], centre: [f64::INFINITY, 0.0], speed: f64::NAN, curve: None };
+    assert_eq!(load(spin), ["load[0].centre[0]", "load[0].centrifugal"]);
+    let quiet = |names: &[&str]| paths(|model| model.non_reflecting = names.iter().map(|on| NonReflecting { on: (*on).into() }).collect());
+    assert_eq!(quiet(&["ring.outer", "upper"]), Vec::<String>::new());
+    assert_eq!(quiet(&["upper", "body", "upper"]), ["non_reflecting[1].on", "non_reflecting[2].on"]);
+    let join = |between: [&str; 2], image: Image, tolerance: Option<f64>| {
+        paths(|model| model.joins = vec![Join { between: between.map(Into::into), image, tolerance }])
+    };
+    assert_eq!(join(["ring.start", "upper"], Image::Same, None), Vec::<String>::new());
+    assert_eq!(
+        join(["ring.start", "ring.start"], Image::Translated([0.0; 2]), Some(0.0)),
+        ["join[0].translation", "join[0].tolerance", "join[0].between"]
+    );
+    let turned = Image::Turned { centre: [0.0; 2], angle: f64::NAN };
+    assert_eq!(join(["ring.start", "ring.ned"], turned, None), ["join[0].between[1]", "join[0].rotation"]);
 }
 
 #[test]

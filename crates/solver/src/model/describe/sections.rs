@@ -22,7 +22,8 @@ pub static TOP: Section = Section {
 };
 
 /// Every section, in the order of the documentation.
-pub static SECTIONS: &[&Section] = &[&RUN, &MATERIAL, &PART, &CONTACT, &OBSTACLE, &SYMMETRY, &CONSTRAINT, &LOAD, &CURVE, &PROBE, &OUTPUT];
+pub static SECTIONS: &[&Section] =
+    &[&RUN, &MATERIAL, &PART, &CONTACT, &OBSTACLE, &SYMMETRY, &CONSTRAINT, &JOIN, &LOAD, &NON_REFLECTING, &CURVE, &PROBE, &OUTPUT];
 
 /// Keys that people know from elsewhere or from before, and what stands for them now.
 pub static MOVED: &[(&str, &str)] = &[("wall", "walls are obstacles now: [[obstacle]] with plane = { point, normal }")];
@@ -213,27 +214,111 @@ static ROTATION: Section = Section {
 
 static LOAD: Section = Section {
     name: "load",
-    doc: "A load on some parts.",
+    doc: "What acts on parts, sets of nodes or surfaces from outside. With `curve` a load is multiplied by the curve's values, which must be pure numbers.",
     form: Form::Repeated,
     required: false,
     keys: &[
         key(
             "gravity",
             Vector(Dimension::ACCELERATION, Finite),
-            Optional("`damping`"),
-            "Uniform acceleration, such as `[0, \"-9.81 m/s^2\"]`.",
+            Optional("another load"),
+            "Uniform acceleration of parts, such as `[0, \"-9.81 m/s^2\"]`.",
+        ),
+        key(
+            "centrifugal",
+            Angle(Dimension::RATE, Finite),
+            Optional("another load"),
+            "Angular velocity of a frame in which the model is seen: its parts feel the acceleration centrifugal^2 * (x - centre), and no Coriolis force, so they should move slowly in it.",
+        ),
+        key("centre", Vector(Dimension::LENGTH, Finite), Optional("[0, 0]"), "The point about which the frame turns."),
+        key(
+            "force",
+            Vector(Dimension::FORCE_PER_LENGTH, Finite),
+            Optional("another load"),
+            "Force on a set in all, per metre of depth: shared by length over a side or a line group on the outside, equally over other groups.",
+        ),
+        key(
+            "pressure",
+            Quantity(Dimension::PRESSURE, Finite),
+            Optional("another load"),
+            "Pressure on a surface, always against its current normal and on its current length; negative pulls.",
         ),
         key(
             "damping",
             Quantity(Dimension::RATE, Positive),
-            Optional("`gravity`"),
-            "Rate of a force -rate * mass * velocity: what moves slowly comes to rest.",
+            Optional("another load"),
+            "Rate of a force -rate * mass * velocity on parts: what moves slowly comes to rest.",
+        ),
+        key(
+            "on",
+            Reference,
+            Optional("only with `force` and `pressure`"),
+            "Where it acts: a side such as `plate.top`, a group of a mesh file; of a pressure also a part, its whole outside.",
+        ),
+        key("parts", References(None), Optional("all parts"), "Parts that it acts on."),
+        key(
+            "curve",
+            Reference,
+            Optional("constant"),
+            "Name of a curve by whose value it is multiplied (the angular velocity of `centrifugal`).",
         ),
         key("from", Quantity(Dimension::TIME, NotNegative), Optional("the start"), "Time at which the damping begins."),
         key("until", Quantity(Dimension::TIME, Positive), Optional("the end"), "Time at which it ends."),
-        key("parts", References(None), Optional("all parts"), "Parts that it acts on."),
     ],
-    rules: &[Rule::OneOf(&["gravity", "damping"]), Rule::Needs("from", "damping"), Rule::Needs("until", "damping")],
+    rules: &[
+        Rule::OneOf(&["gravity", "centrifugal", "force", "pressure", "damping"]),
+        Rule::Needs("centre", "centrifugal"),
+        Rule::Needs("force", "on"),
+        Rule::Needs("pressure", "on"),
+        Rule::NotBoth("on", "gravity"),
+        Rule::NotBoth("on", "centrifugal"),
+        Rule::NotBoth("on", "damping"),
+        Rule::NotBoth("parts", "force"),
+        Rule::NotBoth("parts", "pressure"),
+        Rule::NotBoth("curve", "damping"),
+        Rule::Needs("from", "damping"),
+        Rule::Needs("until", "damping"),
+    ],
+    ..Section::EMPTY
+};
+
+static NON_REFLECTING: Section = Section {
+    name: "non_reflecting",
+    doc: "A surface that takes waves up as if the body went on behind it, by dashpots for plane waves across it: what meets it at an angle is reflected in part. It doesn't hold the body in place.",
+    form: Form::Repeated,
+    required: false,
+    keys: &[key("on", Reference, Required, "A side such as `soil.bottom`, a line group of a mesh file, or a part, its whole outside.")],
+    ..Section::EMPTY
+};
+
+static JOIN: Section = Section {
+    name: "join",
+    doc: "Nodes of two sets that move as one: tied where the sets coincide, periodic where the second set is the image of the first by `translation` or `rotation`. Each node of the first set has its partner in the second one, and of images also the other way round. A tied contact joins meshes that differ.",
+    form: Form::Repeated,
+    required: false,
+    keys: &[
+        key("between", References(Some(2)), Required, "The two sets: each a part, a side such as `plate.left`, or a group of a mesh file."),
+        key(
+            "translation",
+            Vector(Dimension::LENGTH, Finite),
+            Optional("none"),
+            "Leads from the first set to the second: both have the same velocity.",
+        ),
+        key(
+            "rotation",
+            Angle(Dimension::NONE, Finite),
+            Optional("none"),
+            "Leads from the first set to the second, counter-clockwise: the velocity of the second is that of the first, turned.",
+        ),
+        key("centre", Vector(Dimension::LENGTH, Finite), Optional("[0, 0]"), "Centre of the rotation."),
+        key(
+            "tolerance",
+            Quantity(Dimension::LENGTH, Positive),
+            Optional("1e-6 of the model's size"),
+            "Distance within which nodes are partners.",
+        ),
+    ],
+    rules: &[Rule::NotBoth("translation", "rotation"), Rule::Needs("centre", "rotation")],
     ..Section::EMPTY
 };
 

@@ -25,14 +25,13 @@ fn stack(elements: usize, speed: f64) -> Model {
     let along = (elements / (strips * THROUGH)).max(1);
     let mut model = Model { run: Run { end: 1.0, ..Run::default() }, ..Model::default() };
     let parameters = [("young", 1e9), ("poisson", 0.3), ("density", 1e3)].map(|(key, value)| (key.to_string(), value));
-    model.materials.insert("soft".into(), Material { law: "elastic".into(), parameters: parameters.into() });
+    model.materials.insert("soft".into(), Material { law: "elastic".into(), parameters: parameters.into(), ..Material::default() });
     for strip in 0..strips {
         let y = strip as f64 * (THROUGH as f64 * SIZE + GAP);
         let size = [along as f64 * SIZE, THROUGH as f64 * SIZE];
         let velocity = [0.0, if strip % 2 == 0 { speed } else { -speed }];
         let shape = Shape::Rectangle { corner: [0.3 * SIZE * (strip % 2) as f64, y], size, elements: [along, THROUGH] };
-        let (material, element) = ("soft".into(), "quad4".into());
-        model.parts.push(Part { name: format!("strip{strip}"), material, element, shape, velocity, spin: 0.0, rigid: None });
+        model.parts.push(Part { name: format!("strip{strip}"), material: "soft".into(), shape, velocity, ..Part::default() });
     }
     model.output.pictures = false;
     model

@@ -15,24 +15,27 @@ use crate::contact::springs::friction::Friction;
 use crate::contact::springs::{Springs, Tangential, Terms};
 use crate::contact::traces::Traces;
 use crate::contact::{self, Contact, ContactKind, search};
+use crate::element::ElementOptions;
 use crate::energy::{Ledger, Sums};
 use crate::error::Fault;
 use crate::load::body_force::BodyForces;
-use crate::load::constraint::Constraints;
+use crate::load::constraint::{Constraints, unit};
 use crate::load::curve::Curves;
 use crate::load::damping::Damping;
 use crate::load::force::Forces;
 use crate::load::join::Joins;
 use crate::load::non_reflecting::{Behind, NonReflecting};
 use crate::mesh::surface::{NONE, Surface};
-use crate::mesh::{Mesh, PartMesh};
-use crate::model::{self, ContactLaw, Interface, Model, Partners, Penalty, PenaltySource};
+use crate::mesh::{ElementGroup, Mesh};
+use crate::model::{self, ContactLaw, Interface, Model, Partners, Penalty, PenaltySource, Symmetry};
 use crate::rigid::Bodies;
 use crate::step::{CHUNK, Governor, Limits, System};
 use embate_lanes::{Batch, Level};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
+/// Nodes nearer to the axis than this fraction of the model's size are on it.
+const ON_AXIS: f64 = 1e-9;
 /// Below so many elements threads cost more than they bring.
 const SERIAL: usize = 4096;
 
@@ -46,6 +49,8 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         return Err(faults);
     }
     let mesh = Mesh::new(model)?;
+    let with_axis = with_axis(model, &mesh)?;
+    let model = with_axis.as_ref().unwrap_or(model);
     let curves = Curves::new(model);
     let joins = Joins::new(model, &mesh)?;
     let mut builder = Builder {
@@ -63,7 +68,6 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         time_step: 0.0,
         bodies: Bodies::default(),
         terms: Vec::new(),
-        ties: Vec::new(),
         outlines: Vec::new(),
         mesh,
     };
@@ -72,7 +76,7 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         return Err(builder.faults);
     }
     let mut blocks = builder.blocks();
-    if blocks.len() < model.parts.len() {
+    if blocks.len() < builder.mesh.groups.len() {
         return Err(builder.faults);
     }
     let part_mass = part_masses(&builder.mesh, &blocks);
@@ -91,11 +95,9 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         return Err(builder.faults);
     }
     builder.bodies.weigh(&body_forces, &builder.mass);
-    let Builder { mesh, constraints, joins, curves, positions, mass, body_parts, bodies, mut terms, ties, outlines, .. } = builder;
-    terms.resize_with(first_of_ties(model), || terms_of(&Interface::default()));
-    terms.extend(ties);
+    let Builder { mesh, constraints, joins, curves, positions, mass, body_parts, bodies, terms, outlines, .. } = builder;
     let inputs: Vec<(&dyn Block<2>, usize, &[u32])> =
-        blocks.iter().zip(&mesh.parts).map(|(block, part)| (block.as_ref(), part.nodes_per_element, &part.connectivity[..])).collect();
+        blocks.iter().zip(&mesh.groups).map(|(block, group)| (block.as_ref(), group.nodes_per_element, &group.connectivity[..])).collect();
     let nodes = positions.len();
     let assembly = Assembly::new(nodes, &inputs);
     velocities.resize(nodes, [0.0; 2]);
@@ -108,7 +110,7 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
     let elements: usize = blocks.iter().map(|block| block.elements()).sum();
     Ok(System {
         corners: vec![Batch::default(); assembly.corner_batches],
-        rigid: model.parts.iter().map(|part| part.rigid.is_some()).collect(),
+        rigid: mesh.groups.iter().map(|group| model.parts[group.part].rigid.is_some()).collect(),
         positions_old: positions.clone(),
         positions,
         velocities_old: velocities.clone(),
@@ -149,18 +151,41 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
     })
 }
 
+/// An axisymmetric model with its axis as a symmetry line, if it touches that.
+fn with_axis(model: &Model, mesh: &Mesh<2>) -> Result<Option<Model>, Vec<Fault>> {
+    if !model.is_axisymmetric() {
+        return Ok(None);
+    }
+    let size = mesh.positions.iter().flatten().fold(0.0f64, |size, x| size.max(x.abs()));
+    if let Some([x, y]) = mesh.positions.iter().find(|x| x[0] < -ON_AXIS * size) {
+        let message = format!("an axisymmetric part has a node at a negative radius, ({x:.6e}, {y:.6e}) m");
+        return Err(vec![Fault::new("part", message, "x is the radius: move the part to the right of the axis x = 0")]);
+    }
+    let touches = mesh.positions.iter().any(|x| x[0] <= ON_AXIS * size);
+    let axis = Symmetry { normal: [1.0, 0.0], ..Symmetry::default() };
+    let is_there = |symmetry: &Symmetry| symmetry.parts.is_empty() && symmetry.point[0] == 0.0 && symmetry.normal[1] == 0.0;
+    if !touches || model.symmetries.iter().any(is_there) {
+        return Ok(None);
+    }
+    let mut model = model.clone();
+    model.symmetries.push(axis);
+    Ok(Some(model))
+}
+
 /// Mass of each part on each of its nodes, kg/m, nodes ascending.
 pub(crate) fn part_masses(mesh: &Mesh<2>, blocks: &[Box<dyn Block<2>>]) -> Vec<Vec<(u32, f64)>> {
-    let of = |(part, block): (&PartMesh, &dyn Block<2>)| {
+    let of = |part: usize| {
         let mut sums = vec![0.0; mesh.positions.len()];
-        for (k, &node) in part.connectivity.iter().enumerate() {
-            sums[node as usize] += block.corner_mass(k / part.nodes_per_element, k % part.nodes_per_element);
+        for (group, block) in mesh.groups.iter().zip(blocks).filter(|(group, _)| group.part == part) {
+            for (k, &node) in group.connectivity.iter().enumerate() {
+                sums[node as usize] += block.corner_mass(k / group.nodes_per_element, k % group.nodes_per_element);
+            }
         }
-        let mut nodes = part.nodes.clone();
+        let mut nodes = mesh.parts[part].nodes.clone();
         nodes.sort_unstable();
         nodes.into_iter().map(|node| (node, sums[node as usize])).collect()
     };
-    mesh.parts.iter().zip(blocks.iter().map(AsRef::as_ref)).map(of).collect()
+    (0..mesh.parts.len()).map(of).collect()
 }
 
 struct Builder<'a> {
@@ -178,17 +203,15 @@ struct Builder<'a> {
     mass: Vec<f64>,
     /// The elements behind all edges, sorted by the nodes of the edge.
     under: Vec<Under>,
-    /// Wave modulus and bulk modulus of each part, Pa.
+    /// Wave modulus and bulk modulus of each group of elements, Pa.
     moduli: Vec<[f64; 2]>,
     /// First time step, s; only where a contact asks for it.
     time_step: f64,
     bodies: Bodies,
     /// Rigid parts and their bodies.
     body_parts: Vec<(usize, usize)>,
-    /// What acts in each contact, then in each obstacle.
+    /// What acts in contacts, ties and obstacles, as they are made.
     terms: Vec<Terms>,
-    /// What acts in ties.
-    ties: Vec<Terms>,
     outlines: Vec<OutlineShape>,
 }
 
@@ -198,14 +221,17 @@ struct Under {
     nodes: [u32; 2],
     /// L / A: one over the height of the element, 1/m.
     flatness: f64,
-    part: u32,
+    /// Index of the group of elements, and the element in it.
+    group: u32,
     element: u32,
 }
 
 impl Builder<'_> {
+    /// A block for each group of elements.
     fn blocks(&mut self) -> Vec<Box<dyn Block<2>>> {
         let mut blocks = Vec::new();
-        for (i, (part, mesh)) in self.model.parts.iter().zip(&self.mesh.parts).enumerate() {
+        for group in &self.mesh.groups {
+            let (i, part) = (group.part, &self.model.parts[group.part]);
             let Some(material) = self.model.materials.get(&part.material) else {
                 self.faults.push(Fault::new(
                     format!("part[{i}].material"),
@@ -214,7 +240,14 @@ impl Builder<'_> {
                 ));
                 continue;
             };
-            let input = BlockInput { element: &part.element, material, connectivity: &mesh.connectivity, positions: &self.mesh.positions };
+            let element = part.element_of(group.nodes_per_element).map_or("", |kind| kind.name);
+            let viscosity = self.model.run.bulk_viscosity;
+            let input = BlockInput {
+                options: ElementOptions { hourglass: part.hourglass },
+                stress_state: &part.stress_state,
+                viscosity: (viscosity != [0.0; 2]).then_some(viscosity),
+                ..BlockInput::new(element, material, &group.connectivity, &self.mesh.positions)
+            };
             match make(&input) {
                 Some(block) => blocks.push(block),
                 None => self.faults.push(Fault::new(format!("part[{i}]"), "its element or law is unknown", "see `embate list`")),
@@ -225,8 +258,8 @@ impl Builder<'_> {
 
     /// What the stiffness of contacts is made from: elements behind every edge, moduli and the first step.
     fn find_elements_under_surfaces(&mut self, blocks: &mut [Box<dyn Block<2>>], level: Level) {
-        for (part_index, part) in self.mesh.parts.iter().enumerate() {
-            for (element, cell) in part.connectivity.chunks_exact(part.nodes_per_element).enumerate() {
+        for (group_index, group) in self.mesh.groups.iter().enumerate() {
+            for (element, cell) in group.cells().enumerate() {
                 let x = |corner: usize| self.mesh.positions[cell[corner % cell.len()] as usize];
                 let area = 0.5 * (0..cell.len()).map(|c| x(c)[0] * x(c + 1)[1] - x(c)[1] * x(c + 1)[0]).sum::<f64>();
                 for c in 0..cell.len() {
@@ -234,7 +267,7 @@ impl Builder<'_> {
                     let length = ((b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2)).sqrt();
                     // Outside segments run against the element's own direction.
                     let nodes = [cell[(c + 1) % cell.len()], cell[c]];
-                    self.under.push(Under { nodes, flatness: length / area, part: part_index as u32, element: element as u32 });
+                    self.under.push(Under { nodes, flatness: length / area, group: group_index as u32, element: element as u32 });
                 }
             }
         }
@@ -244,15 +277,15 @@ impl Builder<'_> {
         if interfaces.into_iter().any(|interface| source_of(interface) == PenaltySource::TimeStep) {
             let velocities = vec![[0.0; 2]; self.mesh.positions.len()];
             let motion = Motion { positions: &self.mesh.positions, velocities: &velocities, time_step: 0.0 };
-            let stable = |(block, part): (&mut Box<dyn Block<2>>, &model::Part)| {
-                if part.rigid.is_some() {
+            let stable = |(block, group): (&mut Box<dyn Block<2>>, &ElementGroup)| {
+                if self.model.parts[group.part].rigid.is_some() {
                     return f64::INFINITY;
                 }
                 let mut corners = vec![Batch::default(); block.corner_batches()];
                 block.advance(&motion, level, &mut corners, false).time_step_squared
             };
             self.time_step =
-                self.model.run.safety * blocks.iter_mut().zip(&self.model.parts).map(stable).fold(f64::INFINITY, f64::min).sqrt();
+                self.model.run.safety * blocks.iter_mut().zip(&self.mesh.groups).map(stable).fold(f64::INFINITY, f64::min).sqrt();
         }
     }
 
@@ -261,8 +294,9 @@ impl Builder<'_> {
         let is_mirror = |segment| self.constraints.is_mirror(segment);
         let behind = |segment| {
             let under = self.under(segment)?;
-            let material = self.model.materials.get(&self.model.parts[under.part as usize].material)?;
-            Some(Behind { density: *material.parameters.get("density")?, moduli: self.moduli[under.part as usize] })
+            let part = &self.model.parts[self.mesh.groups[under.group as usize].part];
+            let density = *self.model.materials.get(&part.material)?.parameters.get("density")?;
+            Some(Behind { density, moduli: self.moduli[under.group as usize] })
         };
         let forces = Forces::new(self.model, &self.mesh, &self.curves, is_mirror);
         let boundary = NonReflecting::new(self.model, &self.mesh, is_mirror, behind);
@@ -279,7 +313,7 @@ impl Builder<'_> {
     /// What is behind a surface, with the stiffness that an interface asks for.
     fn side(&self, Outlined { target, lids }: Outlined, interface: &Interface) -> Side<'_> {
         let (surface, positions, source) = (&target.surface, &self.mesh.positions, source_of(interface));
-        let modulus = |under: &Under| self.moduli[under.part as usize][usize::from(source == PenaltySource::BulkModulus)] * under.flatness;
+        let modulus = |under: &Under| self.moduli[under.group as usize][usize::from(source == PenaltySource::BulkModulus)] * under.flatness;
         let mut segments: Vec<f64> = surface.segments.iter().map(|&segment| self.under(segment).map_or(0.0, modulus)).collect();
         let mut nodes = contact::node_stiffness(surface, &segments, positions);
         if source == PenaltySource::TimeStep {
@@ -290,13 +324,14 @@ impl Builder<'_> {
             segments = surface.segments.iter().map(|&[a, b]| 0.5 * (of(a) + of(b))).collect();
         }
         let cell = |&segment: &[u32; 2]| {
-            self.under(segment).map_or(&[][..], |under| {
-                let part = &self.mesh.parts[under.part as usize];
-                &part.connectivity[under.element as usize * part.nodes_per_element..][..part.nodes_per_element]
-            })
+            self.under(segment).map_or(&[][..], |under| self.mesh.groups[under.group as usize].cell(under.element as usize))
         };
         let cells = surface.segments.iter().map(cell).collect();
-        let parts = surface.segments.iter().map(|&segment| self.under(segment).map_or(0, |under| under.part)).collect();
+        let parts = surface
+            .segments
+            .iter()
+            .map(|&segment| self.under(segment).map_or(0, |under| self.mesh.groups[under.group as usize].part as u32))
+            .collect();
         Side { lids, segments, parts, nodes, cells, target }
     }
 
@@ -305,10 +340,8 @@ impl Builder<'_> {
         let mut tied = BTreeMap::new();
         for (i, contact) in self.model.contacts.iter().enumerate() {
             match self.contact(contact) {
-                Ok((made, terms)) => {
-                    self.terms.push(terms);
+                Ok(made) => {
                     if let Some(ties) = made.ties() {
-                        self.ties.push(terms_of_ties(&contact.interface));
                         self.tied_once(&format!("contact[{i}].tied"), &contact.name, &ties.nodes, &mut tied);
                     }
                     contacts.push(made);
@@ -336,8 +369,16 @@ impl Builder<'_> {
         tied.extend(nodes.iter().map(|&node| (node, contact)));
     }
 
-    /// A contact and what acts in its springs; faults have paths relative to the contact.
-    fn contact(&self, contact: &model::Contact) -> Result<(Contact, Terms), Vec<Fault>> {
+    /// Adds what acts in springs; returns its number.
+    fn add_terms(&mut self, terms: Terms) -> usize {
+        self.terms.push(terms);
+        self.terms.len() - 1
+    }
+
+    /// A contact; faults have paths relative to it.
+    fn contact(&mut self, contact: &model::Contact) -> Result<Contact, Vec<Fault>> {
+        let terms = self.add_terms(terms_of(&contact.interface));
+        let tie_terms = if contact.tied.is_some() { self.add_terms(terms_of_ties(&contact.interface)) } else { terms };
         let sides = self.outlines_of(contact)?.into_iter().map(|outline| self.side(outline, &contact.interface)).collect();
         let Some(search) = search_by_name(&contact.search) else {
             let message = format!("there is no search \"{}\"", contact.search);
@@ -353,11 +394,12 @@ impl Builder<'_> {
             bodies: &self.body_of_node,
             positions: &self.mesh.positions,
             law: &|| law_of(&contact.interface),
-            tie_terms: first_of_ties(self.model) + self.ties.len(),
+            passes: (kind.passes)(contact),
+            tie_terms,
             search: &|| (search.make)(),
         };
         let made = (kind.make)(setup).map_err(|fault| vec![fault])?;
-        Ok((Contact::new(contact.name.clone(), ContactKind::Contact, made, contact.interface.active), terms_of(&contact.interface)))
+        Ok(Contact::new(contact.name.clone(), ContactKind::Contact, made, terms, contact.interface.active))
     }
 
     /// The surfaces of a contact: two, or one that meets itself. Faults have paths relative to the contact.
@@ -417,6 +459,40 @@ fn told<T: Default>(wrong: Vec<Fault>, faults: &mut Vec<Fault>) -> T {
     T::default()
 }
 
+impl Builder<'_> {
+    /// Symmetry lines behind which there is nothing of the parts that they hold: number, a point, and the unit normal that points to the parts.
+    fn mirror_lines(&self) -> impl Iterator<Item = (usize, [f64; 2], [f64; 2])> {
+        let tolerance = contact::initial::TOLERANCE * contact::initial::size(&self.mesh.positions);
+        self.model.symmetries.iter().enumerate().filter_map(move |(number, symmetry)| {
+            let normal = unit(symmetry.normal)?;
+            let parts = self.mesh.parts.iter().filter(|part| symmetry.parts.is_empty() || symmetry.parts.contains(&part.name));
+            let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+            for &node in parts.flat_map(|part| &part.nodes) {
+                let distance = height(self.mesh.positions[node as usize], symmetry.point, normal);
+                (low, high) = (low.min(distance), high.max(distance));
+            }
+            if low >= -tolerance {
+                Some((number, symmetry.point, normal))
+            } else {
+                (high <= tolerance).then_some((number, symmetry.point, normal.map(|n| -n)))
+            }
+        })
+    }
+
+    /// Whether a point lies on a symmetry line of one of these parts (none: all) or beyond it, where the mirror images of the parts are.
+    fn is_beyond_mirrors(&self, x: [f64; 2], parts: &[String]) -> bool {
+        let tolerance = contact::initial::TOLERANCE * contact::initial::size(&self.mesh.positions);
+        let concerns = |held: &[String]| held.is_empty() || parts.is_empty() || held.iter().any(|part| parts.contains(part));
+        self.mirror_lines()
+            .any(|(number, point, normal)| concerns(&self.model.symmetries[number].parts) && height(x, point, normal) <= tolerance)
+    }
+}
+
+/// How far `x` is from the line through `point`, along its normal, m.
+fn height(x: [f64; 2], point: [f64; 2], normal: [f64; 2]) -> f64 {
+    (x[0] - point[0]) * normal[0] + (x[1] - point[1]) * normal[1]
+}
+
 /// A surface of a contact.
 pub(crate) struct Outlined {
     target: Target,
@@ -445,11 +521,6 @@ fn terms_of(interface: &Interface) -> Terms {
 fn terms_of_ties(interface: &Interface) -> Terms {
     let rigid = matches!(interface.law, ContactLaw::Multiplier);
     Terms { law: Box::new(law::tie::Tie { rigid }), tangential: Tangential::Tied, damping: 0.0 }
-}
-
-/// Terms of ties follow those of contacts and obstacles.
-fn first_of_ties(model: &Model) -> usize {
-    model.contacts.len() + model.obstacles.len()
 }
 
 /// Stiffness of a slave node; of laws without a penalty that of the automatic one, for what needs a scale.

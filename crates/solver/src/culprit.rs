@@ -13,20 +13,19 @@ impl System {
     }
 
     fn element_with_step(&self, squared: f64) -> String {
-        for (part, block) in self.mesh.parts.iter().zip(&self.blocks) {
+        for (group, block) in self.mesh.groups.iter().zip(&self.blocks) {
             // NaN equals nothing, so a block whose step is NaN is found by its own failure to compare.
             if let Some(element) = (0..block.elements()).find(|&element| block.time_step_squared(element).total_cmp(&squared).is_eq()) {
-                let [x, y] = self.centre(part, element);
-                let user = part.user_elements[element];
-                return format!("element {user} of part \"{}\" ({x:.6e}, {y:.6e})", part.name);
+                let [x, y] = self.centre(group.cell(element));
+                let user = group.user_elements[element];
+                return format!("element {user} of part \"{}\" ({x:.6e}, {y:.6e})", self.mesh.parts[group.part].name);
             }
         }
         "an element".into()
     }
 
-    fn centre(&self, part: &crate::mesh::PartMesh, element: usize) -> [f64; 2] {
-        let n = part.nodes_per_element;
-        let nodes = &part.connectivity[element * n..(element + 1) * n];
+    fn centre(&self, nodes: &[u32]) -> [f64; 2] {
+        let n = nodes.len();
         let sum = nodes.iter().fold([0.0; 2], |s: [f64; 2], &node| {
             let x = self.positions[node as usize];
             [s[0] + x[0], s[1] + x[1]]
@@ -37,22 +36,23 @@ impl System {
     /// The element that is most inside out. The Jacobian of a quadrilateral is smallest in a corner.
     pub(crate) fn inverted(&self) -> Error {
         let mut worst = (f64::INFINITY, 0, 0);
-        for (p, part) in self.mesh.parts.iter().enumerate() {
-            let n = part.nodes_per_element;
-            for (element, cell) in part.connectivity.chunks_exact(n).enumerate() {
+        for (g, group) in self.mesh.groups.iter().enumerate() {
+            let n = group.nodes_per_element;
+            for (element, cell) in group.cells().enumerate() {
                 let x = |corner: usize| self.positions[cell[corner % n] as usize];
                 for c in 0..n {
                     let (a, b, d) = (x(c), x(c + 1), x(c + n - 1));
                     let jacobian = (b[0] - a[0]) * (d[1] - a[1]) - (b[1] - a[1]) * (d[0] - a[0]);
                     if jacobian < worst.0 {
-                        worst = (jacobian, p, element);
+                        worst = (jacobian, g, element);
                     }
                 }
             }
         }
-        let part = &self.mesh.parts[worst.1];
-        let at = self.centre(part, worst.2).to_vec();
-        Error::Inverted { part: part.name.clone(), element: part.user_elements[worst.2] as usize, at, time: self.time, step: self.step }
+        let group = &self.mesh.groups[worst.1];
+        let at = self.centre(group.cell(worst.2)).to_vec();
+        let (part, element) = (self.mesh.parts[group.part].name.clone(), group.user_elements[worst.2] as usize);
+        Error::Inverted { part, element, at, time: self.time, step: self.step }
     }
 
     pub(crate) fn collapsed(&self, time_step: f64, governor: Governor) -> Error {

@@ -3,14 +3,29 @@
 use crate::block::ElementState;
 use crate::contact::ContactKind;
 use crate::contact::springs::Tangential;
+use crate::contact::traces::State;
 use crate::error::Fault;
+use crate::material::Variable;
 use crate::model::{Model, ProbeAt};
 use crate::output::{CellKind, Cells, FIELDS, Field, FieldKind, Frame, Needs};
 use crate::rigid::Body;
 use crate::step::{System, Vector};
+use std::cell::OnceCell;
 
 /// Columns of energies, after `energy.`.
-const ENERGIES: [&str; 9] = ["kinetic", "internal", "plastic", "contact", "friction", "contact_damping", "damping", "external", "total"];
+const ENERGIES: [&str; 11] = [
+    "kinetic",
+    "internal",
+    "plastic",
+    "hourglass",
+    "bulk_viscosity",
+    "contact",
+    "friction",
+    "contact_damping",
+    "damping",
+    "external",
+    "total",
+];
 /// Columns of a rigid body that moves: reference point, angle and their velocities.
 const MOTION: [&str; 6] = ["x", "y", "angle", "vx", "vy", "spin"];
 
@@ -30,7 +45,7 @@ struct Probe {
 
 impl Recorded {
     pub(crate) fn new(model: &Model, system: &System) -> Result<Self, Vec<Fault>> {
-        let has_plastic = system.blocks.iter().any(|block| block.is_plastic());
+        let has_plastic = system.blocks.iter().any(|block| block.has(Variable::PlasticStrain));
         let has_contact = !system.contacts.is_empty();
         let has_friction = system.terms.iter().any(|terms| matches!(terms.tangential, Tangential::Friction(_)));
         let wanted = |kind: &&FieldKind| {
@@ -88,12 +103,24 @@ impl Recorded {
     pub(crate) fn row(&self, system: &System) -> Vec<f64> {
         let (stores, external) = (system.ledger.stores, system.ledger.external);
         let mut row = vec![system.time, system.time_step, stores.kinetic, stores.elastic + stores.plastic, stores.plastic];
-        row.extend([stores.contact, stores.friction, stores.contact_damping, stores.damping, external, stores.total() - external]);
-        for ((part, block), report) in system.mesh.parts.iter().zip(&system.blocks).zip(&system.reports) {
-            let n = part.nodes_per_element;
+        row.extend([
+            stores.hourglass,
+            stores.bulk_viscosity,
+            stores.contact,
+            stores.friction,
+            stores.contact_damping,
+            stores.damping,
+            external,
+            stores.total() - external,
+        ]);
+        let mut of_parts = vec![[0.0; 3]; system.mesh.parts.len()];
+        for ((group, block), report) in system.mesh.groups.iter().zip(&system.blocks).zip(&system.reports) {
+            let n = group.nodes_per_element;
             let corner = |(k, &node): (usize, &u32)| block.corner_mass(k / n, k % n) * system.specific_kinetic(node as usize);
-            row.extend([part.connectivity.iter().enumerate().map(corner).sum(), report.stored + report.dissipated, report.dissipated]);
+            let energies = [group.connectivity.iter().enumerate().map(corner).sum(), report.stored + report.dissipated, report.dissipated];
+            of_parts[group.part].iter_mut().zip(energies).for_each(|(sum, energy): (&mut f64, f64)| *sum += energy);
         }
+        row.extend(of_parts.iter().flatten());
         for contact in &system.contacts {
             let totals = &contact.totals;
             row.extend([totals.resultant[0], totals.resultant[1], totals.energy + totals.slip_energy, contact.penetration]);
@@ -122,7 +149,8 @@ impl Recorded {
     }
 
     pub(crate) fn frame(&self, system: &System) -> Frame<2> {
-        let fields = self.fields.iter().map(|&kind| Field { kind, values: values(kind.name, system) }).collect();
+        let surface = OnSurface::default();
+        let fields = self.fields.iter().map(|&kind| Field { kind, values: values(kind.name, system, &surface) }).collect();
         let mut positions = vec![[0.0; 2]; system.mesh.user_nodes.len()];
         for (x, &user) in system.positions.iter().zip(&system.mesh.user_nodes) {
             positions[user as usize] = *x;
@@ -145,32 +173,34 @@ fn motion(system: &System, body: usize) -> [f64; 6] {
     [body.centre[0], body.centre[1], body.angle, u, v, spin]
 }
 
+/// What several fields of a frame are taken from, found when the first of them asks.
+#[derive(Default)]
+struct OnSurface {
+    /// Pressure and shear stress of every node, Pa.
+    tractions: OnceCell<Vec<[f64; 2]>>,
+    states: OnceCell<Vec<State>>,
+}
+
 /// Values of one of [`FIELDS`], in the user's order.
-fn values(name: &str, system: &System) -> Vec<f64> {
+fn values(name: &str, system: &System, surface: &OnSurface) -> Vec<f64> {
+    let traces = &system.traces;
+    let tractions = || surface.tractions.get_or_init(|| traces.tractions(&system.contact_forces, &system.positions));
+    let states = || surface.states.get_or_init(|| traces.states(&system.springs));
     let moved = |node: usize| [0, 1].map(|d| system.positions[node][d] - system.mesh.positions[node][d]);
     match name {
         "displacement" => by_node(system, moved),
         "velocity" => by_node(system, |node| velocity(system, node)),
         "contact_force" => by_node(system, |node| system.contact_forces[node]),
-        "contact_pressure" | "contact_shear" => {
-            let tractions = system.traces.tractions(&system.contact_forces, &system.positions);
-            let component = usize::from(name == "contact_shear");
-            by_node(system, |node| [tractions[node][component]])
-        }
-        "contact_gap" => {
-            let states = system.traces.states(&system.springs);
-            by_node(system, |node| [states[node].gap])
-        }
-        "contact_status" => {
-            let states = system.traces.states(&system.springs);
-            by_node(system, |node| [states[node].status])
-        }
-        "contact_slip" => by_node(system, |node| [system.traces.slip(node)]),
-        "friction_heat" => by_node(system, |node| [system.traces.heat(node)]),
+        "contact_pressure" => by_node(system, |node| [tractions()[node][0]]),
+        "contact_shear" => by_node(system, |node| [tractions()[node][1]]),
+        "contact_gap" => by_node(system, |node| [states()[node].gap]),
+        "contact_status" => by_node(system, |node| [states()[node].status]),
+        "contact_slip" => by_node(system, |node| [traces.slip(node)]),
+        "friction_heat" => by_node(system, |node| [traces.heat(node)]),
         "stress" => by_element(system, |state| [state.stress[0], state.stress[1], state.stress[2], state.stress[3]]),
         "von_mises" => by_element(system, |state| [von_mises(&state.stress)]),
         "pressure" => by_element(system, |state| [-(state.stress[0] + state.stress[1] + state.stress[2]) / 3.0]),
-        "plastic_strain" => by_element(system, |state| [state.plastic_strain]),
+        "plastic_strain" => by_element(system, |state| [state.variables[Variable::PlasticStrain as usize]]),
         "energy_density" => by_element(system, |state| [state.energy_density]),
         _ => Vec::new(),
     }
@@ -188,10 +218,14 @@ fn by_node<const N: usize>(system: &System, value: impl Fn(usize) -> [f64; N]) -
 /// Values of every element, part by part in the user's order.
 fn by_element<const N: usize>(system: &System, value: impl Fn(&ElementState) -> [f64; N]) -> Vec<f64> {
     let mut values = Vec::new();
-    for (part, block) in system.mesh.parts.iter().zip(&system.blocks) {
-        let first = values.len();
-        values.resize(first + N * block.elements(), 0.0);
-        for (element, &user) in part.user_elements.iter().enumerate() {
+    // Groups of a part follow each other and share its numbering.
+    let (mut first, mut last) = (0, None);
+    for (group, block) in system.mesh.groups.iter().zip(&system.blocks) {
+        if last != Some(group.part) {
+            (first, last) = (values.len(), Some(group.part));
+            values.resize(first + N * system.mesh.elements_of(group.part), 0.0);
+        }
+        for (element, &user) in group.user_elements.iter().enumerate() {
             values[first + N * user as usize..][..N].copy_from_slice(&value(&block.state(element)));
         }
     }
@@ -241,11 +275,10 @@ pub(crate) fn cells(system: &System) -> Cells {
     let mut cells = Cells { offsets: vec![0], ..Cells::default() };
     for (index, part) in system.mesh.parts.iter().enumerate() {
         cells.part_names.push(part.name.clone());
-        let n = part.nodes_per_element;
-        let mut order: Vec<usize> = (0..part.elements()).collect();
-        order.sort_unstable_by_key(|&element| part.user_elements[element]);
-        for element in order {
-            let cell = &part.connectivity[element * n..(element + 1) * n];
+        let mut order: Vec<(u32, &[u32])> =
+            system.mesh.groups_of(index).flat_map(|group| group.user_elements.iter().copied().zip(group.cells())).collect();
+        order.sort_unstable();
+        for (_, cell) in order {
             cells.nodes.extend(cell.iter().map(|&node| system.mesh.user_nodes[node as usize]));
             cells.offsets.push(cells.nodes.len() as u32);
             cells.kinds.push(if cell.len() == 3 { CellKind::Triangle } else { CellKind::Quadrilateral });

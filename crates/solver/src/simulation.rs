@@ -1,6 +1,5 @@
 //! The loop: steps, events, the end. Made from a model; speaks to an [`Observer`].
 
-use crate::block::Block;
 use crate::build;
 use crate::contact::initial::{self, Penetration};
 use crate::contact::tracker::{Certificate, SearchReport};
@@ -346,15 +345,19 @@ impl Simulation {
     #[must_use]
     pub fn overview(&self) -> Overview {
         let system = &self.system;
-        let part = |(part, block): (&PartMesh, &dyn Block<2>)| PartOverview {
-            name: part.name.clone(),
-            elements: block.elements(),
-            nodes: part.nodes.len(),
-            mass: (0..block.elements()).map(|element| block.mass(element)).sum(),
-            stable_time_step: (0..block.elements()).map(|element| block.time_step_squared(element)).fold(f64::INFINITY, f64::min).sqrt(),
+        let part = |(index, part): (usize, &PartMesh)| {
+            let of = || system.mesh.groups.iter().zip(&system.blocks).filter(|(group, _)| group.part == index).map(|(_, block)| block);
+            let elements = || of().flat_map(|block| (0..block.elements()).map(move |element| (block, element)));
+            PartOverview {
+                name: part.name.clone(),
+                elements: elements().count(),
+                nodes: part.nodes.len(),
+                mass: elements().map(|(block, element)| block.mass(element)).sum(),
+                stable_time_step: elements().map(|(block, element)| block.time_step_squared(element)).fold(f64::INFINITY, f64::min).sqrt(),
+            }
         };
         Overview {
-            parts: system.mesh.parts.iter().zip(system.blocks.iter().map(AsRef::as_ref)).map(part).collect(),
+            parts: system.mesh.parts.iter().enumerate().map(part).collect(),
             stable_time_step: system.time_step,
             governor: system.governor_name(system.governor),
             steps_expected: (system.limits.end / system.time_step).ceil() as u64,

@@ -3,7 +3,7 @@
 //! gravity:      f = m g c(t)
 //! centrifugal:  f = m ω² (x − p),  ω = ω₀ c(t),  with the current position x
 //!
-//! with a factor c(t) of a curve. The centrifugal force is that of a frame that turns with ω about p, in which a part at rest is seen; velocities are those seen in the
+//! with a factor c(t) of a curve. A body of revolution turns about its axis: m ω² x along x alone. The centrifugal force is that of a frame that turns with ω about p, in which a part at rest is seen; velocities are those seen in the
 //! frame, and are meant to be small: there is no Coriolis force, and none of ω̇. Each part gives its share of a node's mass. Works are external.
 
 use super::curve::Curves;
@@ -37,13 +37,21 @@ struct Acting {
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Field {
     Uniform(Vector),
-    Centrifugal { centre: Vector, speed: f64 },
+    Centrifugal {
+        centre: Vector,
+        speed: f64,
+    },
+    /// About the axis of a body of revolution.
+    Axial {
+        speed: f64,
+    },
 }
 
 impl Field {
     fn at(self, factor: f64, x: Vector) -> Vector {
         match self {
             Self::Uniform(acceleration) => acceleration.map(|component| factor * component),
+            Self::Axial { speed } => [(factor * speed).powi(2) * x[0], 0.0],
             Self::Centrifugal { centre, speed } => [0, 1].map(|d| (factor * speed).powi(2) * (x[d] - centre[d])),
         }
     }
@@ -56,6 +64,7 @@ impl BodyForces {
         let load = |load: &Load| {
             let (parts, curve, field) = match load {
                 Load::Gravity { parts, acceleration, curve } => (parts, curve, Field::Uniform(*acceleration)),
+                Load::Centrifugal { parts, speed, curve, .. } if model.is_axisymmetric() => (parts, curve, Field::Axial { speed: *speed }),
                 Load::Centrifugal { parts, centre, speed, curve } => (parts, curve, Field::Centrifugal { centre: *centre, speed: *speed }),
                 Load::Damping { .. } | Load::Force { .. } | Load::Pressure { .. } => return None,
             };
@@ -84,7 +93,7 @@ impl BodyForces {
     /// Whether they change with time or place.
     #[must_use]
     pub fn varies(&self) -> bool {
-        self.loads.iter().any(|load| load.curve.is_some() || matches!(load.field, Field::Centrifugal { .. }))
+        self.loads.iter().any(|load| load.curve.is_some() || !matches!(load.field, Field::Uniform(_)))
     }
 
     /// Takes their means between two times (s) at these positions (m).

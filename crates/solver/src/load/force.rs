@@ -6,7 +6,7 @@
 //! with a factor c(t) of a curve. Works are external. A closed surface under pressure feels no resultant.
 
 use super::curve::Curves;
-use super::tributary;
+use super::tributary::Depth;
 use crate::error::Fault;
 use crate::mesh::Mesh;
 use crate::model::{Load, Model};
@@ -19,6 +19,7 @@ pub struct Forces {
     loads: Vec<Acting>,
     /// Force on every node now, N/m; empty when the model has no such load.
     now: Vec<Vector>,
+    depth: Depth,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -41,10 +42,10 @@ impl Forces {
     /// # Errors
     /// Names of nothing, or of what is no surface.
     pub fn new(model: &Model, mesh: &Mesh<2>, curves: &Curves, is_mirror: impl Fn([u32; 2]) -> bool) -> Result<Self, Vec<Fault>> {
-        let (mut loads, mut faults) = (Vec::new(), Vec::new());
+        let (mut loads, mut faults, depth) = (Vec::new(), Vec::new(), Depth::of(model));
         for (i, load) in model.loads.iter().enumerate() {
             let (what, curve) = match load {
-                Load::Force { on, force, curve } => (given(mesh, on, *force, &is_mirror), curve),
+                Load::Force { on, force, curve } => (given(mesh, on, *force, depth, &is_mirror), curve),
                 Load::Pressure { on, pressure, curve } => {
                     (mesh.surface(on, &is_mirror).map(|surface| What::Pressure(surface.segments, *pressure)), curve)
                 }
@@ -55,7 +56,7 @@ impl Forces {
                 Err(fault) => faults.push(Fault { path: format!("load[{i}].on"), ..fault }),
             }
         }
-        if faults.is_empty() { Ok(Self { loads, now: Vec::new() }) } else { Err(faults) }
+        if faults.is_empty() { Ok(Self { loads, now: Vec::new(), depth }) } else { Err(faults) }
     }
 
     /// Whether the model has no such load.
@@ -86,7 +87,7 @@ impl Forces {
                         let length = (side[0] * side[0] + side[1] * side[1]).sqrt();
                         if length > 0.0 {
                             let inward = [side[1] / length, -side[0] / length];
-                            for (node, share) in [a, b].into_iter().zip(tributary::shares(ends)) {
+                            for (node, share) in [a, b].into_iter().zip(self.depth.shares(ends)) {
                                 add(node, inward, factor * pressure * share);
                             }
                         }
@@ -104,7 +105,7 @@ impl Forces {
 }
 
 /// Shares a force over a set.
-fn given(mesh: &Mesh<2>, on: &str, force: Vector, is_mirror: &impl Fn([u32; 2]) -> bool) -> Result<What, Fault> {
+fn given(mesh: &Mesh<2>, on: &str, force: Vector, depth: Depth, is_mirror: &impl Fn([u32; 2]) -> bool) -> Result<What, Fault> {
     let nodes = mesh.nodes(on).filter(|nodes| !nodes.is_empty());
     let Some(nodes) = nodes else {
         return Err(Fault::new("", format!("there is nothing called \"{on}\""), "name a side as part.side, or a group of a mesh file"));
@@ -114,7 +115,7 @@ fn given(mesh: &Mesh<2>, on: &str, force: Vector, is_mirror: &impl Fn([u32; 2]) 
     match mesh.surface(on, is_mirror) {
         Ok(surface) if !surface.segments.is_empty() => {
             for segment in surface.segments {
-                for (node, part) in segment.into_iter().zip(tributary::shares(segment.map(|node| mesh.positions[node as usize]))) {
+                for (node, part) in segment.into_iter().zip(depth.shares(segment.map(|node| mesh.positions[node as usize]))) {
                     if let Ok(at) = shares.binary_search_by_key(&node, |&(node, _)| node) {
                         shares[at].1 += part;
                     }

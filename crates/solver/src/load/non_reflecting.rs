@@ -7,7 +7,7 @@
 //! velocity of the update, v̄ = ½ (v^{n−½} + v^{n+½}): it only takes energy, whatever the step, and shortens none. A node gives way to an impulse J by
 //! (m + ½ Δt C)⁻¹ J with Δt = ½ (dt^{n−1} + dt^n).
 
-use super::tributary;
+use super::tributary::Depth;
 use crate::error::Fault;
 use crate::mesh::Mesh;
 use crate::mesh::surface::Surface;
@@ -43,18 +43,18 @@ impl NonReflecting {
         is_mirror: impl Fn([u32; 2]) -> bool,
         behind: impl Fn([u32; 2]) -> Option<Behind>,
     ) -> Result<Self, Vec<Fault>> {
-        let (mut result, mut faults) = (Self::default(), Vec::new());
+        let (mut result, mut faults, depth) = (Self::default(), Vec::new(), Depth::of(model));
         for (i, boundary) in model.non_reflecting.iter().enumerate() {
             result.dashpots.resize(mesh.positions.len(), [0.0; 3]);
             match mesh.surface(&boundary.on, &is_mirror) {
-                Ok(surface) => result.add(&surface, mesh, &behind),
+                Ok(surface) => result.add(&surface, mesh, depth, &behind),
                 Err(fault) => faults.push(Fault { path: format!("non_reflecting[{i}].on"), ..fault }),
             }
         }
         if faults.is_empty() { Ok(result) } else { Err(faults) }
     }
 
-    fn add(&mut self, surface: &Surface, mesh: &Mesh<2>, behind: &impl Fn([u32; 2]) -> Option<Behind>) {
+    fn add(&mut self, surface: &Surface, mesh: &Mesh<2>, depth: Depth, behind: &impl Fn([u32; 2]) -> Option<Behind>) {
         for &segment in &surface.segments {
             let Some(Behind { density, moduli: [wave, bulk] }) = behind(segment) else { continue };
             let [a, b] = segment.map(|node| mesh.positions[node as usize]);
@@ -62,7 +62,7 @@ impl NonReflecting {
             let [x, y] = [(b[0] - a[0]) / length, (b[1] - a[1]) / length];
             let (along, across) = ((density * 0.75 * (wave - bulk)).max(0.0).sqrt(), (density * wave).sqrt());
             let matrix = [across * y * y + along * x * x, (along - across) * x * y, across * x * x + along * y * y];
-            for (node, share) in segment.into_iter().zip(tributary::shares([a, b])) {
+            for (node, share) in segment.into_iter().zip(depth.shares([a, b])) {
                 let sum = &mut self.dashpots[node as usize];
                 *sum = std::array::from_fn(|k| sum[k] + share * matrix[k]);
             }

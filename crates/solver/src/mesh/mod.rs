@@ -12,30 +12,44 @@ use crate::model::{ImportedMesh, Model, Shape};
 use std::collections::BTreeMap;
 use surface::Surface;
 
-/// The elements of one part.
+/// A part: its nodes. Its elements are in one or more [`ElementGroup`]s.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PartMesh {
     /// Name of the part.
     pub name: String,
+    /// All nodes of the part in the order of its mesh.
+    pub nodes: Vec<u32>,
+}
+
+/// The elements of one part that have the same number of nodes: what a block is made of.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ElementGroup {
+    /// Index of the part.
+    pub part: usize,
     /// Nodes per element.
     pub nodes_per_element: usize,
     /// Node indices, `nodes_per_element` per element, counter-clockwise.
     pub connectivity: Vec<u32>,
-    /// All nodes of the part in the order of its mesh.
-    pub nodes: Vec<u32>,
-    /// The user's number of each element: its place in the part as it was made or read.
+    /// The user's number of each element: its place in the part as it was made or read, whatever its number of nodes.
     pub user_elements: Vec<u32>,
 }
 
-impl PartMesh {
+impl ElementGroup {
     /// Number of elements.
     #[must_use]
     pub fn elements(&self) -> usize {
-        self.connectivity.len() / self.nodes_per_element
+        self.user_elements.len()
     }
 
-    fn cells(&self) -> impl Iterator<Item = &[u32]> {
+    /// Nodes of each element.
+    pub fn cells(&self) -> impl Iterator<Item = &[u32]> {
         self.connectivity.chunks_exact(self.nodes_per_element)
+    }
+
+    /// Nodes of an element.
+    #[must_use]
+    pub fn cell(&self, element: usize) -> &[u32] {
+        &self.connectivity[element * self.nodes_per_element..][..self.nodes_per_element]
     }
 }
 
@@ -46,6 +60,8 @@ pub struct Mesh<const D: usize> {
     pub positions: Vec<[f64; D]>,
     /// Parts in model order.
     pub parts: Vec<PartMesh>,
+    /// Elements: part by part, of each part those with the most nodes first.
+    pub groups: Vec<ElementGroup>,
     /// The user's number of each node: its place in the parts as they were made or read.
     pub user_nodes: Vec<u32>,
     /// Named lines: `part.side` and one-dimensional groups, each with the body on the right.
@@ -56,6 +72,8 @@ pub struct Mesh<const D: usize> {
 
 /// At most so many faults of one kind are told one by one.
 const TOLD: usize = 20;
+/// What is wrong with an element whose corners all turn the other way.
+const CLOCKWISE: &str = "has negative area: its nodes run clockwise";
 
 impl Mesh<2> {
     /// The mesh of a model whose references have been checked.
@@ -69,7 +87,7 @@ impl Mesh<2> {
         for (index, part) in model.parts.iter().enumerate() {
             match &part.shape {
                 Shape::Group { mesh: file, group } => match model.meshes.get(*file) {
-                    Some(source) => mesh.add_group(source, group, &part.name, &mut imported[*file], index, &mut faults),
+                    Some(source) => mesh.add_group(source, group, &part.name, &mut imported[*file], &mut faults),
                     None => faults.push(Fault::new(format!("part[{index}]"), "its mesh was not read", "")),
                 },
                 shape => mesh.add_shape(shape, &part.name),
@@ -90,58 +108,75 @@ impl Mesh<2> {
         let Some(body) = shapes::body(shape) else { return };
         let first = self.positions.len() as u32;
         self.positions.extend(&body.positions);
-        self.parts.push(PartMesh {
-            name: name.to_string(),
-            nodes_per_element: 4,
-            connectivity: body.quads.iter().flatten().map(|node| node + first).collect(),
-            nodes: (first..first + body.positions.len() as u32).collect(),
-            user_elements: Vec::new(),
-        });
+        self.add_elements(body.quads.iter().map(|quad| quad.map(|node| node + first)));
+        self.parts.push(PartMesh { name: name.to_string(), nodes: (first..first + body.positions.len() as u32).collect() });
         for (side, segments) in body.sides {
             self.lines.insert(format!("{name}.{side}"), segments.iter().map(|segment| segment.map(|node| node + first)).collect());
         }
     }
 
-    /// Adds the quadrilaterals of a group; `numbers[file node]` becomes the mesh node (`u32::MAX`: not yet used).
-    fn add_group(&mut self, source: &ImportedMesh, group: &str, name: &str, numbers: &mut Vec<u32>, part: usize, faults: &mut Vec<Fault>) {
+    /// Adds the elements of the part that comes next, in the user's order.
+    fn add_elements<C: AsRef<[u32]>>(&mut self, cells: impl Iterator<Item = C>) {
+        let part = self.parts.len();
+        let mut groups: Vec<ElementGroup> = Vec::new();
+        for (user, cell) in (0..).zip(cells) {
+            let cell = cell.as_ref();
+            let at = groups.iter().position(|group| group.nodes_per_element == cell.len()).unwrap_or_else(|| {
+                groups.push(ElementGroup { part, nodes_per_element: cell.len(), ..ElementGroup::default() });
+                groups.len() - 1
+            });
+            groups[at].connectivity.extend(cell);
+            groups[at].user_elements.push(user);
+        }
+        groups.sort_by_key(|group| std::cmp::Reverse(group.nodes_per_element));
+        self.groups.extend(groups);
+    }
+
+    /// Adds the cells of a group; `numbers[file node]` becomes the mesh node (`u32::MAX`: not yet used).
+    fn add_group(&mut self, source: &ImportedMesh, group: &str, name: &str, numbers: &mut Vec<u32>, faults: &mut Vec<Fault>) {
         numbers.resize(source.positions.len(), u32::MAX);
-        let mut result = PartMesh { name: name.to_string(), nodes_per_element: 4, ..PartMesh::default() };
-        let path = format!("part[{part}]");
+        let path = format!("part[{}]", self.parts.len());
         let Some(group) = source.groups.iter().find(|g| g.name == group && g.dimension == 2) else {
             faults.push(Fault::new(
                 path,
                 format!("{} has no two-dimensional group \"{group}\"", source.source),
                 "name a group of the mesh file",
             ));
-            self.parts.push(result);
+            self.parts.push(PartMesh { name: name.to_string(), ..PartMesh::default() });
             return;
         };
-        let wrong = group.cells.iter().filter(|cell| cell.len() != 4).count();
-        if wrong > 0 {
-            faults.push(Fault::new(
-                path,
-                format!("group \"{}\" of {} has {wrong} triangle(s); the element takes quadrilaterals", group.name, source.source),
-                "recombine the surface into quadrilaterals in the mesh generator",
-            ));
-        }
-        for cell in group.cells.iter().filter(|cell| cell.len() == 4) {
-            for &node in cell {
-                let number = &mut numbers[node as usize];
-                if *number == u32::MAX {
-                    *number = self.positions.len() as u32;
-                    self.positions.push(source.positions[node as usize]);
-                }
-                result.connectivity.push(*number);
+        for &node in group.cells.iter().flatten() {
+            let number = &mut numbers[node as usize];
+            if *number == u32::MAX {
+                *number = self.positions.len() as u32;
+                self.positions.push(source.positions[node as usize]);
             }
         }
-        result.nodes.clone_from(&result.connectivity);
-        result.nodes.sort_unstable();
-        result.nodes.dedup();
-        self.parts.push(result);
+        let number = |node: &u32| numbers[*node as usize];
+        self.add_elements(group.cells.iter().map(|cell| cell.iter().map(number).collect::<Vec<u32>>()));
+        self.parts.push(PartMesh { name: name.to_string(), nodes: sorted(group.cells.iter().flatten().map(number)) });
+    }
+
+    /// Elements of a part.
+    pub fn groups_of(&self, part: usize) -> impl Iterator<Item = &ElementGroup> {
+        self.groups.iter().filter(move |group| group.part == part)
+    }
+
+    /// Number of elements of a part.
+    #[must_use]
+    pub fn elements_of(&self, part: usize) -> usize {
+        self.groups_of(part).map(ElementGroup::elements).sum()
+    }
+
+    /// Nodes of each element of the parts (all when `parts` is empty).
+    fn cells(&self, parts: &[String]) -> impl Iterator<Item = &[u32]> {
+        let is_of = |group: &&ElementGroup| parts.is_empty() || parts.contains(&self.parts[group.part].name);
+        self.groups.iter().filter(is_of).flat_map(ElementGroup::cells)
     }
 
     fn add_named_groups(&mut self, source: &ImportedMesh, numbers: &[u32], faults: &mut Vec<Fault>) {
-        let outside: Vec<[u32; 2]> = self.parts.iter().filter_map(|part| surface::exterior(part.cells()).ok()).flatten().collect();
+        let outside_of = |part| surface::exterior(self.groups_of(part).flat_map(ElementGroup::cells)).ok();
+        let outside: Vec<[u32; 2]> = (0..self.parts.len()).filter_map(outside_of).flatten().collect();
         for group in &source.groups {
             let nodes = || group.cells.iter().flatten().map(|&node| numbers.get(node as usize).copied().unwrap_or(u32::MAX));
             if nodes().any(|node| node == u32::MAX) {
@@ -163,38 +198,44 @@ impl Mesh<2> {
         }
     }
 
-    /// Every corner of every quadrilateral must turn counter-clockwise: then the Jacobian is positive in the whole element.
+    /// Every corner of every element must turn counter-clockwise: then the Jacobian is positive in the whole element, and so is a triangle's area.
     fn check_elements(&self, part: usize, faults: &mut Vec<Fault>) {
-        let Some(mesh) = self.parts.get(part) else { return };
-        let mut count = 0;
-        for (element, cell) in mesh.cells().enumerate() {
-            let x = |corner: usize| self.positions[cell[corner % cell.len()] as usize];
-            let bad = (0..cell.len()).any(|c| {
-                let (a, b, d) = (x(c), x(c + 1), x(c + cell.len() - 1));
-                // NaN counts as bad
-                !((b[0] - a[0]) * (d[1] - a[1]) - (b[1] - a[1]) * (d[0] - a[0]) > 0.0)
-            });
-            if bad {
-                count += 1;
-                if count <= TOLD {
-                    faults.push(Fault::new(
-                        format!("part[{part}]"),
-                        format!(
-                            "element {element} of part \"{}\" at ({:.6e}, {:.6e}) is degenerate or not convex",
-                            mesh.name,
-                            x(0)[0],
-                            x(0)[1]
-                        ),
-                        "mend the mesh there",
-                    ));
-                }
-            }
+        let Some(PartMesh { name, .. }) = self.parts.get(part) else { return };
+        let cells = self.groups_of(part).flat_map(|group| group.user_elements.iter().zip(group.cells()));
+        let mut bad: Vec<(u32, &[u32], &str)> =
+            cells.filter_map(|(&user, cell)| Some((user, cell, self.what_is_wrong_with(cell)?))).collect();
+        bad.sort_unstable();
+        for &(user, cell, wrong) in bad.iter().take(TOLD) {
+            let [x, y] = self.positions[cell[0] as usize];
+            let help = if wrong == CLOCKWISE { "number its nodes counter-clockwise" } else { "mend the mesh there" };
+            let message = format!("element {user} of part \"{name}\" at ({x:.6e}, {y:.6e}) {wrong}");
+            faults.push(Fault::new(format!("part[{part}]"), message, help));
         }
-        if count > TOLD {
-            faults.push(Fault::new(format!("part[{part}]"), format!("and {} more elements like these", count - TOLD), ""));
+        if bad.len() > TOLD {
+            faults.push(Fault::new(format!("part[{part}]"), format!("and {} more elements like these", bad.len() - TOLD), ""));
         }
-        if mesh.connectivity.is_empty() && faults.is_empty() {
-            faults.push(Fault::new(format!("part[{part}]"), format!("part \"{}\" has no elements", mesh.name), "give it some"));
+        if self.elements_of(part) == 0 && faults.is_empty() {
+            faults.push(Fault::new(format!("part[{part}]"), format!("part \"{name}\" has no elements"), "give it some"));
+        }
+    }
+
+    /// What is wrong with the form of an element, if anything.
+    fn what_is_wrong_with(&self, cell: &[u32]) -> Option<&'static str> {
+        let n = cell.len();
+        let x = |corner: usize| self.positions[cell[corner % n] as usize];
+        let turns = || {
+            (0..n).map(|c| {
+                let (a, b, d) = (x(c), x(c + 1), x(c + n - 1));
+                (b[0] - a[0]) * (d[1] - a[1]) - (b[1] - a[1]) * (d[0] - a[0])
+            })
+        };
+        if turns().all(|turn| turn > 0.0) {
+            None
+        } else if turns().all(|turn| turn < 0.0) {
+            Some(CLOCKWISE)
+        } else {
+            // NaN too.
+            Some("is degenerate or not convex")
         }
     }
 
@@ -229,7 +270,7 @@ impl Mesh<2> {
             }
             node
         }
-        for cell in self.parts.iter().flat_map(PartMesh::cells) {
+        for cell in self.cells(&[]) {
             for pair in cell.windows(2) {
                 let (a, b) = (top(&mut root, pair[0]), top(&mut root, pair[1]));
                 root[a.max(b) as usize] = a.min(b);
@@ -250,7 +291,7 @@ impl Mesh<2> {
     /// # Errors
     /// A fault without path when elements overlap.
     pub fn outside(&self, parts: &[String]) -> Result<Surface, Fault> {
-        Surface::outside(self.parts.iter().filter(|part| parts.is_empty() || parts.contains(&part.name)).flat_map(PartMesh::cells))
+        Surface::outside(self.cells(parts))
     }
 
     /// The same without the segments that `leave_out` names (those on a symmetry line, which are no outside of the whole body).
@@ -258,9 +299,8 @@ impl Mesh<2> {
     /// # Errors
     /// As [`Mesh::outside`].
     pub fn outside_without(&self, parts: &[String], leave_out: impl Fn([u32; 2]) -> bool) -> Result<Surface, Fault> {
-        let cells = || self.parts.iter().filter(|part| parts.is_empty() || parts.contains(&part.name)).flat_map(PartMesh::cells);
-        let segments = surface::exterior(cells())?;
-        Surface::new(segments.into_iter().filter(|&segment| !leave_out(segment)).collect(), cells())
+        let segments = surface::exterior(self.cells(parts))?;
+        Surface::new(segments.into_iter().filter(|&segment| !leave_out(segment)).collect(), self.cells(parts))
     }
 
     /// Surface of a part (its whole outside), a `part.side` or a one-dimensional group, without the segments that `leave_out` names (those on
@@ -269,21 +309,19 @@ impl Mesh<2> {
     /// # Errors
     /// A fault without path when there is no such surface.
     pub fn surface(&self, name: &str, leave_out: impl Fn([u32; 2]) -> bool) -> Result<Surface, Fault> {
-        let cells = || self.parts.iter().flat_map(PartMesh::cells);
-        let (segments, of) = if let Some(part) = self.parts.iter().find(|part| part.name == name) {
-            (surface::exterior(part.cells())?, Some(part))
+        let only = |name: &str| [name.to_string()];
+        let is_part = |name: &str| self.parts.iter().any(|part| part.name == name);
+        let (segments, of) = if is_part(name) {
+            (surface::exterior(self.cells(&only(name)))?, only(name).to_vec())
         } else if let Some(lines) = self.lines.get(name) {
-            let owner = name.split_once('.').and_then(|(part, _)| self.parts.iter().find(|p| p.name == part));
-            (lines.clone(), owner)
+            let owner = name.split_once('.').map(|(part, _)| part).filter(|part| is_part(part));
+            (lines.clone(), owner.map_or(Vec::new(), |part| only(part).to_vec()))
         } else {
             let help = "name a part, a side as part.side, or a one-dimensional group of a mesh file";
             return Err(Fault::new("", format!("there is no surface \"{name}\""), help));
         };
         let kept: Vec<[u32; 2]> = segments.into_iter().filter(|&segment| !leave_out(segment)).collect();
-        match of {
-            Some(part) => Surface::new(kept, part.cells()),
-            None => Surface::new(kept, cells()),
-        }
+        Surface::new(kept, self.cells(&of))
     }
 }
 

@@ -3,7 +3,7 @@
 //! Neighbours in space are neighbours in memory, and the order depends on the bodies alone, not on who numbered them: the same positions from
 //! a shape and from a mesh file give the same results to the last bit. Outputs and messages speak the user's numbering.
 
-use super::{Mesh, PartMesh};
+use super::{ElementGroup, Mesh};
 
 /// Bits per coordinate of the curve.
 const BITS: u32 = 31;
@@ -29,10 +29,12 @@ impl Mesh<2> {
             number[user as usize] = new;
         }
         self.positions = order.iter().map(|&user| self.positions[user as usize]).collect();
-        for part in &mut self.parts {
-            part.reorder(&number, &self.positions);
-        }
         let rename = |nodes: &mut [u32]| nodes.iter_mut().for_each(|node| *node = number[*node as usize]);
+        self.parts.iter_mut().for_each(|part| rename(&mut part.nodes));
+        for group in &mut self.groups {
+            rename(&mut group.connectivity);
+            group.reorder(&self.positions);
+        }
         self.lines.values_mut().flatten().for_each(|line| rename(line));
         for nodes in self.points.values_mut() {
             rename(nodes);
@@ -42,12 +44,10 @@ impl Mesh<2> {
     }
 }
 
-impl PartMesh {
-    fn reorder(&mut self, number: &[u32], positions: &[[f64; 2]]) {
+impl ElementGroup {
+    /// Puts the elements in the order of the curve, given the new positions.
+    fn reorder(&mut self, positions: &[[f64; 2]]) {
         let n = self.nodes_per_element;
-        for node in self.nodes.iter_mut().chain(&mut self.connectivity) {
-            *node = number[*node as usize];
-        }
         // Each element begins with its lowest node; the direction of turning stays.
         for cell in self.connectivity.chunks_exact_mut(n) {
             let lowest = (0..n).min_by_key(|&corner| cell[corner]).unwrap_or(0);
@@ -69,7 +69,7 @@ impl PartMesh {
         });
         self.connectivity =
             order.iter().flat_map(|&user| self.connectivity[user as usize * n..(user as usize + 1) * n].iter().copied()).collect();
-        self.user_elements = order;
+        self.user_elements = order.iter().map(|&user| self.user_elements[user as usize]).collect();
     }
 }
 

@@ -55,7 +55,7 @@ pub enum Load {
     Centrifugal {
         /// Parts; empty: all.
         parts: Vec<String>,
-        /// The point, m.
+        /// The point, m; an axisymmetric model turns about its axis.
         centre: [f64; 2],
         /// Angular velocity of the frame, rad/s.
         speed: f64,
@@ -66,7 +66,7 @@ pub enum Load {
     Force {
         /// A side as `part.side`, or a group of a mesh file.
         on: String,
-        /// The whole force, N/m.
+        /// The whole force, N/m; of an axisymmetric model N.
         force: [f64; 2],
         /// Key of [`Model::curves`]: a factor.
         curve: Option<String>,

@@ -9,6 +9,8 @@ pub mod reference;
 
 pub use load::{Constraint, Image, Join, Load, NonReflecting, Rotation, Symmetry};
 
+use crate::block::stress_state::STRESS_STATES;
+use crate::element::{ELEMENTS, ElementKind};
 use crate::load::curve::sine::Sine;
 use crate::quantity::Dimension;
 use std::collections::BTreeMap;
@@ -64,11 +66,21 @@ pub struct Run {
     pub step_limit: Option<f64>,
     /// Largest number of steps; `None`: no limit.
     pub max_steps: Option<u64>,
+    /// Linear and quadratic coefficient of the bulk viscosity; both zero: none.
+    pub bulk_viscosity: [f64; 2],
+}
+
+impl Model {
+    /// Whether the model is a body of revolution: its parts are all axisymmetric, or none is.
+    #[must_use]
+    pub fn is_axisymmetric(&self) -> bool {
+        self.parts.iter().any(Part::is_axisymmetric)
+    }
 }
 
 impl Default for Run {
     fn default() -> Self {
-        Self { end: 0.0, safety: 0.9, energy_limit: 0.05, step_limit: None, max_steps: None }
+        Self { end: 0.0, safety: 0.9, energy_limit: 0.05, step_limit: None, max_steps: None, bulk_viscosity: [0.0; 2] }
     }
 }
 
@@ -79,17 +91,25 @@ pub struct Material {
     pub law: String,
     /// Parameters by key, SI, `density` included.
     pub parameters: BTreeMap<String, f64>,
+    /// Parameters that are lists.
+    pub lists: BTreeMap<String, Vec<f64>>,
 }
 
-/// `[[part]]`: a body of one material and one element kind.
+/// `[[part]]`: a body of one material and one element kind for each number of nodes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Part {
     /// Unique name.
     pub name: String,
     /// Key of [`Model::materials`].
     pub material: String,
-    /// Name in the element registry.
+    /// Name in the element registry: what its quadrilaterals are.
     pub element: String,
+    /// The same for its triangles, if it has any.
+    pub element_triangles: String,
+    /// Coefficient of its hourglass control, where it has one; `None`: that of the control's source.
+    pub hourglass: Option<f64>,
+    /// Name in the registry of stress states; empty: plane strain.
+    pub stress_state: String,
     /// Where its elements come from.
     pub shape: Shape,
     /// Initial velocity of the centre of mass, m/s.
@@ -98,6 +118,38 @@ pub struct Part {
     pub spin: f64,
     /// `Some`: the part is a rigid body and moves so.
     pub rigid: Option<Motion>,
+}
+
+/// A still `quad4` and `tri3` part of nothing, to build on.
+impl Default for Part {
+    fn default() -> Self {
+        Self {
+            name: String::new(),
+            material: String::new(),
+            element: "quad4".into(),
+            element_triangles: "tri3".into(),
+            hourglass: None,
+            stress_state: String::new(),
+            shape: Shape::Group { mesh: usize::MAX, group: String::new() },
+            velocity: [0.0; 2],
+            spin: 0.0,
+            rigid: None,
+        }
+    }
+}
+
+impl Part {
+    /// Whether x is its radius.
+    #[must_use]
+    pub fn is_axisymmetric(&self) -> bool {
+        STRESS_STATES.iter().any(|kind| kind.name == self.stress_state && kind.axisymmetric)
+    }
+
+    /// The element that has so many nodes; `None` when the part names none.
+    #[must_use]
+    pub fn element_of(&self, nodes: usize) -> Option<&'static ElementKind> {
+        ELEMENTS.iter().find(|kind| kind.nodes == nodes && (kind.name == self.element || kind.name == self.element_triangles))
+    }
 }
 
 /// How a rigid body may move: per degree of freedom driven (zero is fixed), or free (`None`).

@@ -21,9 +21,7 @@ fn bar(element: &str, law: &str, size: [f64; 2], elements: [usize; 2], end: f64)
             material: "m".into(),
             element: element.into(),
             shape: Shape::Rectangle { corner: [0.0; 2], size, elements },
-            velocity: [0.0; 2],
-            spin: 0.0,
-            rigid: None,
+            ..Part::default()
         }],
         ..Model::default()
     }
@@ -46,11 +44,9 @@ fn bar_of_parts(law: &str, size: [f64; 2], elements: [usize; 2], end: f64, veloc
         model.parts.push(Part {
             name: format!("part{k}"),
             material: "m".into(),
-            element: "quad4".into(),
             shape: Shape::Group { mesh: 0, group: name },
             velocity,
-            spin: 0.0,
-            rigid: None,
+            ..Part::default()
         });
     }
     model.meshes.push(Arc::new(ImportedMesh { source: "bar".into(), positions, groups }));

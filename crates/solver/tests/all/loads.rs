@@ -154,6 +154,35 @@ fn a_rod_in_a_turning_frame_grows_as_the_closed_form_says() {
     books_are_closed(&simulation);
 }
 
+#[test]
+fn bodies_of_revolution_feel_pressure_and_spin_all_around() {
+    let axisymmetric = |model: &mut Model| model.parts.iter_mut().for_each(|part| part.stress_state = "axisymmetric".into());
+    // A disc on a cushion: p π R² t = ρ π R² h v.
+    let mut disc = slender(1e-4, 1e9, 1e3);
+    add(&mut disc, "disc", rectangle([0.0, 0.0], [0.05, 0.02], [5, 2]), [0.0; 2]);
+    axisymmetric(&mut disc);
+    let wave = curve(&mut disc, "c", "sin(pi*t/1e-4)^2");
+    disc.loads.push(Load::Pressure { on: "disc.bottom".into(), pressure: 1e4, curve: wave });
+    let (simulation, history) = run(&disc);
+    let exact = 1e4 * 0.5e-4 / (1e3 * 0.02);
+    assert!((history.last("disc.vy") / exact - 1.0).abs() < 1e-4, "{} {exact}", history.last("disc.vy"));
+    books_are_closed(&simulation);
+    // A thin ring that spins: u = ρ ω² R³ / E.
+    let mut ring = slender(3e-3, 1e9, 1e3);
+    add(&mut ring, "ring", rectangle([0.099, 0.0], [0.002, 0.002], [2, 2]), [0.0; 2]);
+    axisymmetric(&mut ring);
+    let shape = CurveShape::Table { times: vec![0.0, 1e-3], values: vec![0.0, 1.0], smooth: true };
+    ring.curves.insert("up".into(), Curve { shape, dimension: None });
+    ring.loads.push(Load::Centrifugal { parts: vec![], centre: [0.0; 2], speed: 500.0, curve: Some("up".into()) });
+    ring.loads.push(Load::Damping { parts: vec![], rate: 1e4, active: [0.0, f64::INFINITY] });
+    let (simulation, history) = run(&ring);
+    let (grown, exact) = (history.last("ring.x") - history.first("ring.x"), 1e3 * 500.0 * 500.0 * 1e-3 / 1e9);
+    assert!((grown / exact - 1.0).abs() < 0.01, "{grown} {exact}");
+    books_are_closed(&simulation);
+    ring.loads[0] = Load::Centrifugal { parts: vec![], centre: [0.0, 1.0], speed: 500.0, curve: None };
+    assert!(faults(&ring)[0].contains("turns about its axis"), "{:?}", faults(&ring));
+}
+
 /// A bar along `angle`, whose left end gets a pulse, and whose right end reflects nothing: energy that has come and that is left when the pulse has gone.
 fn bar(angle: f64, height: f64, poisson: f64, shear: bool) -> (Simulation, f64, f64) {
     let (s, c) = angle.sin_cos();

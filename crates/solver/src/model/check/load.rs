@@ -20,6 +20,10 @@ impl Check<'_> {
                     self.part_list(&format!("{path}.parts"), parts);
                     self.vector(&format!("{path}.centre"), *centre);
                     self.number(&format!("{path}.centrifugal"), *speed);
+                    if model.is_axisymmetric() && *centre != [0.0; 2] {
+                        let message = "an axisymmetric model turns about its axis, x = 0";
+                        self.fault(format!("{path}.centre"), message, "leave `centre` out");
+                    }
                     self.factor(&path, curve);
                 }
                 Load::Force { on, force, curve } => {

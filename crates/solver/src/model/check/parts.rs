@@ -1,10 +1,12 @@
 //! Faults of parts: their materials, kinds of elements and shapes.
 
 use super::Check;
+use crate::block::stress_state::STRESS_STATES;
 use crate::element;
 use crate::model::describe::{ELEMENTS_MAX, suggestion};
 use crate::model::reference::{dimension_word, excerpt};
 use crate::model::{Model, Part, Shape};
+use std::collections::BTreeSet;
 
 impl Check<'_> {
     pub(super) fn parts(&mut self) {
@@ -21,8 +23,9 @@ impl Check<'_> {
             let path = format!("part[{index}]");
             self.known(&format!("{path}.material"), "material", &part.material, &materials);
             self.known(&format!("{path}.element"), "element", &part.element, &elements);
+            self.stress_state(&path, part);
             self.part_motion(&path, part);
-            self.shape(&path, part, registry.iter().find(|kind| kind.name == part.element));
+            self.shape(&path, part);
             let count = element_count(model, &part.shape);
             if total <= ELEMENTS_MAX && total.saturating_add(count) > ELEMENTS_MAX {
                 self.fault(
@@ -35,7 +38,26 @@ impl Check<'_> {
         }
     }
 
-    fn shape(&mut self, path: &str, part: &Part, kind: Option<&element::ElementKind>) {
+    /// The circumference of an axisymmetric part and the depth of a plane one do not go together.
+    fn stress_state(&mut self, path: &str, part: &Part) {
+        let path = format!("{path}.stress_state");
+        let known: Vec<&str> = STRESS_STATES.iter().map(|kind| kind.name).collect();
+        if !part.stress_state.is_empty() {
+            self.known(&path, "stress state", &part.stress_state, &known);
+        }
+        let first = &self.model.parts[0];
+        if part.is_axisymmetric() != first.is_axisymmetric() {
+            let [state, other] = [part, first].map(|part| if part.is_axisymmetric() { "axisymmetric" } else { "plane" });
+            let message = format!("the part is {state}, but part `{}` is {other}", excerpt(&first.name));
+            self.fault(
+                path,
+                message,
+                "make all parts axisymmetric, or none: forces of the whole circumference and per metre of depth can't be added",
+            );
+        }
+    }
+
+    fn shape(&mut self, path: &str, part: &Part) {
         match &part.shape {
             Shape::Rectangle { corner, size, elements } => {
                 self.vector(&format!("{path}.rectangle.corner"), *corner);
@@ -63,7 +85,7 @@ impl Check<'_> {
                 self.number(&format!("{path}.disk.radius"), *radius);
                 self.counts(&format!("{path}.disk.elements"), &[*elements]);
             }
-            Shape::Group { mesh, group } => self.group(&format!("{path}.mesh"), *mesh, group, kind),
+            Shape::Group { mesh, group } => self.group(path, part, *mesh, group),
         }
     }
 
@@ -78,12 +100,12 @@ impl Check<'_> {
         }
     }
 
-    fn group(&mut self, path: &str, mesh: usize, group: &str, kind: Option<&element::ElementKind>) {
+    fn group(&mut self, part_path: &str, part: &Part, mesh: usize, group: &str) {
         let Some(imported) = self.model.meshes.get(mesh) else {
-            self.fault(path, format!("there is no mesh number {mesh}"), "add it to the model's meshes");
+            self.fault(format!("{part_path}.mesh"), format!("there is no mesh number {mesh}"), "add it to the model's meshes");
             return;
         };
-        let path = format!("{path}.group");
+        let path = format!("{part_path}.mesh.group");
         let known: Vec<&str> = imported.groups.iter().filter(|it| it.dimension == 2).map(|it| it.name.as_str()).collect();
         let Some(found) = imported.groups.iter().find(|it| it.name == group && it.dimension == 2) else {
             let name = excerpt(group);
@@ -113,14 +135,28 @@ impl Check<'_> {
                 "the mesh has to be made again",
             );
         }
-        if let Some(kind) = kind
-            && let Some(other) = found.cells.iter().map(Vec::len).find(|length| *length != kind.nodes)
-        {
-            let count = found.cells.iter().filter(|cell| cell.len() == other).count();
-            let message =
-                format!("element `{}` has {} nodes, but {count} cells of group `{}` have {other}", kind.name, kind.nodes, excerpt(group));
-            let help = if kind.nodes == 4 { "let the mesh generator make quadrilaterals only (Gmsh: Recombine Surface)" } else { "" };
-            self.fault(path, message, help);
+        let lengths: BTreeSet<usize> = found.cells.iter().map(Vec::len).collect();
+        for nodes in lengths {
+            let count = found.cells.iter().filter(|cell| cell.len() == nodes).count();
+            let what = if nodes == 3 { "triangles".to_string() } else { format!("cells of {nodes} nodes") };
+            self.takes(part_path, part, nodes, &path, &format!("group `{}` has {count} {what}", excerpt(group)));
+        }
+    }
+
+    /// Whether a part has an element for cells of so many nodes; `has` says at `path` that it has such cells.
+    fn takes(&mut self, part_path: &str, part: &Part, nodes: usize, path: &str, has: &str) {
+        if part.element_of(nodes).is_some() || (nodes != 3 && !element::registry().iter().any(|kind| kind.name == part.element)) {
+            return;
+        }
+        let known: Vec<&str> = element::registry().iter().filter(|kind| kind.nodes == nodes).map(|kind| kind.name).collect();
+        if known.is_empty() {
+            let help = "let the mesh generator make quadrilaterals only (Gmsh: Recombine Surface)";
+            self.fault(path, format!("{has}, but no element has {nodes} nodes"), help);
+        } else if nodes == 3 {
+            let message = format!("{has}, but `{}` is no element of three nodes", excerpt(&part.element_triangles));
+            self.fault(format!("{part_path}.element_triangles"), message, suggestion(&part.element_triangles, &known));
+        } else {
+            self.fault(path, format!("{has}, but element `{}` has not", part.element), suggestion(&part.element, &known));
         }
     }
 

@@ -11,15 +11,7 @@ use std::sync::Arc;
 /// A sound model made by code: a ring, a block of a mesh, everything that acts on them.
 fn sound() -> Model {
     let parameters = [("density", 7800.0), ("young", 2e11), ("poisson", 0.3)].map(|(key, value)| (key.to_string(), value));
-    let part = |name: &str, shape| Part {
-        name: name.into(),
-        material: "steel".into(),
-        element: "quad4".into(),
-        shape,
-        velocity: [0.0; 2],
-        spin: 0.0,
-        rigid: None,
-    };
+    let part = |name: &str, shape| Part { name: name.into(), material: "steel".into(), shape, ..Part::default() };
     let group = |name: &str, dimension, cells| MeshGroup { name: name.into(), dimension, cells };
     let mesh = ImportedMesh {
         source: "block.msh".into(),
@@ -29,7 +21,9 @@ fn sound() -> Model {
     let ring = Shape::Ring { centre: [0.0; 2], inner: 1.0, outer: 2.0, from: 0.0, to: std::f64::consts::PI, elements: [1, 8] };
     let mut model = Model { name: "test".into(), meshes: vec![Arc::new(mesh)], ..Model::default() };
     model.run.end = 1.0;
-    model.materials.insert("steel".into(), Material { law: "elastic".into(), parameters: parameters.into_iter().collect() });
+    model
+        .materials
+        .insert("steel".into(), Material { law: "elastic".into(), parameters: parameters.into_iter().collect(), ..Material::default() });
     model.parts = vec![part("ring", ring), part("block", Shape::Group { mesh: 0, group: "body".into() })];
     model.contacts = vec![Contact::between("hit", "ring.outer", "upper")];
     model.obstacles = vec![Obstacle::wall("wall", [0.0; 2], [1.0, 0.0])];
@@ -168,7 +162,7 @@ fn faults_that_only_code_can_make_are_found() {
     assert_eq!(paths(|model| model.parts[1].shape = Shape::Group { mesh: 3, group: "body".into() }), ["part[1].mesh"]);
     let mesh = |change: fn(&mut ImportedMesh)| paths(|model| change(Arc::make_mut(&mut model.meshes[0])));
     assert_eq!(mesh(|mesh| mesh.groups[0].cells[0] = vec![0, 1, 2, 9]), ["part[1].mesh.group"]);
-    assert_eq!(mesh(|mesh| mesh.groups[0].cells[0] = vec![0, 1, 2]), ["part[1].mesh.group"]);
+    assert_eq!(mesh(|mesh| mesh.groups[0].cells[0] = vec![0, 1]), ["part[1].mesh.group"]);
     assert_eq!(mesh(|mesh| mesh.groups[0].cells.clear()), ["part[1].mesh.group"]);
     assert_eq!(mesh(|mesh| mesh.positions[0][0] = f64::NAN), ["part[1].mesh.group"]);
     assert_eq!(Model::default().check().len(), 2);

@@ -320,7 +320,10 @@ impl Momentum {
     pub(crate) fn new(system: &System) -> Option<Self> {
         let isolated = system.bodies.iter().all(Body::is_free)
             && system.constraints.is_empty()
-            && system.gravity.is_empty()
+            && system.body_forces.is_empty()
+            && system.forces.is_empty()
+            && system.boundary.is_empty()
+            && !system.joins.is_periodic()
             && system.damping.is_empty();
         // Forces at time zero have acted half a step already; both momenta are kept by them as well.
         isolated.then(|| Self { start: Moments::of(system), drift: [0.0; 2] })

@@ -4,10 +4,14 @@
 
 pub mod check;
 pub mod describe;
+mod load;
 pub mod reference;
+
+pub use load::{Constraint, Image, Join, Load, NonReflecting, Rotation, Symmetry};
 
 use crate::block::stress_state::STRESS_STATES;
 use crate::element::{ELEMENTS, ElementKind};
+use crate::load::curve::sine::Sine;
 use crate::mesh::shapes::Count;
 pub use crate::mesh::shapes::{Disk, Edge, Path, Polygon, Quadrilateral, Rectangle, Ring, Shape, Trapezoid};
 use crate::quantity::Dimension;
@@ -41,6 +45,10 @@ pub struct Model {
     pub constraints: Vec<Constraint>,
     /// `[[load]]`.
     pub loads: Vec<Load>,
+    /// `[[non_reflecting]]`.
+    pub non_reflecting: Vec<NonReflecting>,
+    /// `[[join]]`.
+    pub joins: Vec<Join>,
     /// `[[probe]]`.
     pub probes: Vec<Probe>,
     /// `[output]`.
@@ -189,15 +197,45 @@ impl From<f64> for Drive {
     }
 }
 
-/// `[curve.NAME]`: a function of time, linear between its points, constant before the first and after the last.
+/// `[curve.NAME]`: a function of time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Curve {
-    /// Times, s, strictly ascending.
-    pub times: Vec<f64>,
-    /// Values, SI.
-    pub values: Vec<f64>,
+    /// What it looks like.
+    pub shape: CurveShape,
     /// Dimension of the values as they were written; `None`: bare numbers, SI of whatever uses them.
     pub dimension: Option<Dimension>,
+}
+
+impl Curve {
+    /// Straight lines between points, of bare numbers.
+    #[must_use]
+    pub fn table(times: Vec<f64>, values: Vec<f64>) -> Self {
+        Self { shape: CurveShape::Table { times, values, smooth: false }, dimension: None }
+    }
+}
+
+/// The shape of a curve.
+#[derive(Clone, Debug, PartialEq)]
+pub enum CurveShape {
+    /// Through points; constant before the first and after the last.
+    Table {
+        /// Times, s, strictly ascending.
+        times: Vec<f64>,
+        /// Values, SI.
+        values: Vec<f64>,
+        /// Whether smooth steps lead from point to point; else straight lines.
+        smooth: bool,
+    },
+    /// A wave.
+    Sine(Sine),
+    /// A formula of the time `t`: see [`crate::load::curve::expression`].
+    Expression(String),
+}
+
+impl Default for CurveShape {
+    fn default() -> Self {
+        Self::Table { times: Vec::new(), values: Vec::new(), smooth: false }
+    }
 }
 
 /// Where the body of a built-in shape goes: it is mirrored, then turned, then moved, then copied.
@@ -533,47 +571,6 @@ impl Obstacle {
             interface: Interface::default(),
         }
     }
-}
-
-/// `[[symmetry]]`: nodes that lie on a line at the start stay on it.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Symmetry {
-    /// Parts; empty: all.
-    pub parts: Vec<String>,
-    /// A point of the line, m.
-    pub point: [f64; 2],
-    /// Normal of the line; any length.
-    pub normal: [f64; 2],
-}
-
-/// `[[constraint]]`: prescribed velocity of a set of nodes, by component; zero is fixed.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Constraint {
-    /// A part, `part.side`, or a group of a mesh file.
-    pub on: String,
-    /// Prescribed velocity per component, m/s; `None`: free.
-    pub velocity: [Option<Drive>; 2],
-}
-
-/// `[[load]]`.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Load {
-    /// Uniform acceleration of the mass of some parts.
-    Gravity {
-        /// Parts; empty: all.
-        parts: Vec<String>,
-        /// Acceleration, m/s².
-        acceleration: [f64; 2],
-    },
-    /// Force −rate · m · v on the mass of some parts: what is quasi-static comes to rest.
-    Damping {
-        /// Parts; empty: all.
-        parts: Vec<String>,
-        /// Rate, 1/s.
-        rate: f64,
-        /// Times between which it acts, s.
-        active: [f64; 2],
-    },
 }
 
 /// `[[probe]]`: what is recorded in the history.

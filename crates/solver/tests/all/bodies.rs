@@ -116,7 +116,7 @@ pub(crate) fn rough(coefficient: f64) -> Interface {
 }
 
 pub(crate) fn gravity(model: &mut Model, acceleration: [f64; 2]) {
-    model.loads.push(Load::Gravity { parts: vec![], acceleration });
+    model.loads.push(Load::Gravity { parts: vec![], acceleration, curve: None });
 }
 
 /// Makes a part rigid; it may move as `motion` says.

@@ -89,7 +89,11 @@ fn on_a_corner(x: f64, velocity: [f64; 2]) -> Model {
     add(&mut model, "lower", rectangle([-0.05, 0.0], [0.06, 0.1], [6, 10]), [0.0, 0.0]);
     add(&mut model, "upper", rectangle([x, 0.1002], [0.15, 0.06], [15, 6]), velocity);
     touch(&mut model, "lower", "upper.bottom");
-    model.constraints.push(Constraint { on: "lower.bottom".into(), velocity: [Some(0.0.into()), Some(0.0.into())] });
+    model.constraints.push(Constraint {
+        on: "lower.bottom".into(),
+        velocity: [Some(0.0.into()), Some(0.0.into())],
+        ..Constraint::default()
+    });
     model
 }
 

@@ -54,11 +54,15 @@ fn bar_of_parts(law: &str, size: [f64; 2], elements: [usize; 2], end: f64, veloc
 }
 
 fn hold(model: &mut Model, on: &str, velocity: [Option<f64>; 2]) {
-    model.constraints.push(Constraint { on: on.into(), velocity: velocity.map(|velocity| velocity.map(Into::into)) });
+    model.constraints.push(Constraint {
+        on: on.into(),
+        velocity: velocity.map(|velocity| velocity.map(Into::into)),
+        ..Constraint::default()
+    });
 }
 
 fn gravity(model: &mut Model) {
-    model.loads.push(Load::Gravity { parts: Vec::new(), acceleration: [0.0, -GRAVITY] });
+    model.loads.push(Load::Gravity { parts: Vec::new(), acceleration: [0.0, -GRAVITY], curve: None });
 }
 
 fn simulation(model: &Model) -> Simulation {

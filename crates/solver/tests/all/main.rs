@@ -17,6 +17,7 @@ mod formulations;
 mod friction;
 mod free_bodies;
 mod initial;
+mod loads;
 mod materials;
 mod mixed;
 mod obstacles;

@@ -28,8 +28,12 @@ fn a_free_plane_that_is_hit_keeps_both_momenta_and_the_energy() {
 fn a_driven_plane_gives_a_block_the_energy_that_is_found_in_it() {
     let mut model = model(2e-3);
     add(&mut model, "block", rectangle([0.0, 0.0], [0.1, 0.05], [8, 4]), [0.0, 0.0]);
-    model.constraints.push(Constraint { on: "block.bottom".into(), velocity: [Some(0.0.into()), Some(0.0.into())] });
-    model.curves.insert("press".into(), Curve { times: vec![0.0, 1e-3], values: vec![0.0, -2.0], dimension: None });
+    model.constraints.push(Constraint {
+        on: "block.bottom".into(),
+        velocity: [Some(0.0.into()), Some(0.0.into())],
+        ..Constraint::default()
+    });
+    model.curves.insert("press".into(), Curve::table(vec![0.0, 1e-3], vec![0.0, -2.0]));
     let mut motion = Motion::fixed();
     motion.velocity[1] = Some(Drive::Curve("press".into()));
     model.obstacles.push(Obstacle { motion, ..Obstacle::wall("press", [0.02, 0.05], [0.0, -1.0]) });
@@ -56,7 +60,11 @@ fn a_circle_is_pressed_into_a_block_and_comes_out_again_with_nothing_lost() {
     for (radius, elements) in [(0.04, [24, 10]), (0.004, [9, 4])] {
         let mut model = model(2e-3);
         add(&mut model, "block", rectangle([-0.06, -0.05], [0.12, 0.05], elements), [0.0, 0.0]);
-        model.constraints.push(Constraint { on: "block.bottom".into(), velocity: [Some(0.0.into()), Some(0.0.into())] });
+        model.constraints.push(Constraint {
+            on: "block.bottom".into(),
+            velocity: [Some(0.0.into()), Some(0.0.into())],
+            ..Constraint::default()
+        });
         model.obstacles.push(Obstacle {
             motion: Motion { velocity: [Some(0.0.into()), None], spin: Some(0.0.into()) },
             mass: Some(10.0),

@@ -83,10 +83,10 @@ fn what_follows_a_curve_is_where_its_integral_says() {
     add(&mut model, "block", rectangle([0.0, 0.0], [0.05, 0.05], [3, 3]), [0.0, 0.0]);
     add(&mut model, "die", rectangle([1.0, 0.0], [0.05, 0.05], [3, 3]), [0.0, 0.0]);
     // Up to 3 m/s within 0.2 ms, down to −1 m/s at 0.7 ms: integrals 0.3e-3 + 0.5e-3 − 0.3e-3 m.
-    model.curves.insert("way".into(), Curve { times: vec![0.0, 2e-4, 7e-4], values: vec![0.0, 3.0, -1.0], dimension: None });
-    model.curves.insert("turn".into(), Curve { times: vec![0.0, 2e-4, 7e-4], values: vec![0.0, 300.0, -100.0], dimension: None });
+    model.curves.insert("way".into(), Curve::table(vec![0.0, 2e-4, 7e-4], vec![0.0, 3.0, -1.0]));
+    model.curves.insert("turn".into(), Curve::table(vec![0.0, 2e-4, 7e-4], vec![0.0, 300.0, -100.0]));
     let way = || Some(Drive::Curve("way".into()));
-    model.constraints.push(Constraint { on: "block.left".into(), velocity: [way(), Some(0.0.into())] });
+    model.constraints.push(Constraint { on: "block.left".into(), velocity: [way(), Some(0.0.into())], ..Constraint::default() });
     stiffen(&mut model, "die", Motion { velocity: [None, way()], spin: Some(Drive::Curve("turn".into())) });
     let motion = Motion { velocity: [Some(0.5.into()), way()], spin: Some(Drive::Curve("turn".into())) };
     model.obstacles.push(Obstacle { motion, reference: Some([3.0, 1.0]), ..Obstacle::wall("far", [5.0, 0.0], [-1.0, 0.0]) });
@@ -171,7 +171,7 @@ fn damping_begins_and_ends_and_goes_with_contact_and_constraints() {
     let mut model = model(3e-3);
     add(&mut model, "block", rectangle([0.0, 0.001], [0.05, 0.05], [4, 4]), [0.0, -5.0]);
     model.obstacles.push(Obstacle { interface: rough(0.3), ..Obstacle::wall("floor", [0.0, 0.0], [0.2, 1.0]) });
-    model.constraints.push(Constraint { on: "block.left".into(), velocity: [Some(0.0.into()), None] });
+    model.constraints.push(Constraint { on: "block.left".into(), velocity: [Some(0.0.into()), None], ..Constraint::default() });
     for (rate, active) in [(300.0, [1e-3, 2e-3]), (200.0, [1.5e-3, 2.5e-3])] {
         model.loads.push(Load::Damping { parts: vec![], rate, active });
     }

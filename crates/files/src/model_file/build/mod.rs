@@ -1,9 +1,10 @@
 //! Makes a [`Model`] from the records of a file: names that were left out, contradictions between keys, mesh files.
 //!
 //! Records come from `reader.rs`. Where a value is missing or faulty a placeholder stands in (NaN, empty, the largest count, a mesh that is not there): its fault is
-//! noted already, and faults that only follow from it are not shown. Contacts and obstacles are in `contact.rs`, what moves and is loaded in `motion.rs`.
+//! noted already, and faults that only follow from it are not shown. Contacts and obstacles are in `contact.rs`, what moves in `motion.rs`, loads in `load.rs`.
 
 mod contact;
+mod load;
 mod motion;
 
 use super::diagnostics::Faults;
@@ -34,7 +35,9 @@ pub(super) fn model(document: &Document, name: &str, folder: &Path, faults: &mut
     model.curves = document.section("curve").iter().map(|record| (record.name.clone(), motion::curve(record, faults))).collect();
     model.symmetries = document.section("symmetry").iter().map(symmetry).collect();
     model.constraints = document.section("constraint").iter().map(|record| motion::constraint(record, faults)).collect();
-    model.loads = document.section("load").iter().map(|record| motion::load(record, faults)).collect();
+    model.loads = document.section("load").iter().map(|record| load::load(record, faults)).collect();
+    model.non_reflecting = document.section("non_reflecting").iter().map(load::non_reflecting).collect();
+    model.joins = document.section("join").iter().map(|record| load::join(record, faults)).collect();
     model.probes = document.section("probe").iter().map(|record| probe(record, faults)).collect();
     model.output = output(&document.single("output"));
     name_the_nameless(&mut model);

@@ -1,11 +1,16 @@
 //! Every key that is described gets bad values: NaN, infinity, negative, zero, a wrong unit, a wrong type. New keys are tested without a line here.
 
-use super::SOUND;
+use super::{MORE, SOUND};
 use embate_files::model_file::load_text;
 use embate_solver::material;
 use embate_solver::model::describe::{Form, Key, Kind, Need, SECTIONS, Section};
-use embate_solver::quantity::Range;
+use embate_solver::quantity::{Dimension, Range};
 use std::path::Path;
+
+/// A sound model that uses every section.
+fn all_sections() -> String {
+    format!("{SOUND}{MORE}")
+}
 
 /// What a bad value must be answered with: the path's end and a part of the message.
 struct Bad {
@@ -50,14 +55,25 @@ fn whole(least: u64) -> Vec<Bad> {
     all
 }
 
-/// Bad values of a table of velocities.
-fn driven(axes: &[&'static str]) -> Vec<Bad> {
+/// Bad values of a quantity that may follow a curve.
+fn course(says: &'static str) -> Vec<Bad> {
+    let mut all = scalar(Range::Finite);
+    all.extend([
+        bad("\"no curve\"", "", says),
+        bad("\"rampp\"", "", "there is no curve `rampp`"),
+        bad("\"free\"", "", "can't be \"free\" here"),
+    ]);
+    all
+}
+
+/// Bad values of a table of velocities or the like.
+fn driven(axes: &[&'static str], says: &'static str) -> Vec<Bad> {
     let inside = |axis: &'static str| {
         scalar(Range::Finite).into_iter().map(move |it| Bad { value: format!("{{ {} = {} }}", &axis[1..], it.value), at: axis, ..it })
     };
     let mut all: Vec<Bad> = axes.iter().flat_map(|axis| inside(axis)).collect();
     all.extend([
-        bad("{ x = \"no curve\" }", ".x", "must be a velocity or the name of a curve"),
+        bad("{ x = \"no curve\" }", ".x", says),
         bad("{ x = \"rampp\" }", ".x", "there is no curve `rampp`"),
         bad("{ z = 1 }", ".z", "has no component"),
         bad("{}", "", "has no component"),
@@ -105,10 +121,18 @@ fn values(kind: Kind) -> Vec<Bad> {
             all.extend(["5", "[]", "\"1 m\"", "{}"].map(|value| bad(value, "", "must be a list of")));
             all
         }
-        Kind::Velocities => driven(&[".x", ".y"]),
-        Kind::Motion => driven(&[".x", ".y", ".rotation"]),
-        Kind::Rigid => driven(&[".x", ".y", ".rotation"]),
-        Kind::Drive(_) => Vec::new(),
+        Kind::Components(Dimension::VELOCITY) => driven(&[".x", ".y"], "must be a velocity or the name of a curve"),
+        Kind::Components(Dimension::ACCELERATION) => driven(&[".x", ".y"], "must be an acceleration or the name of a curve"),
+        Kind::Components(_) => driven(&[".x", ".y"], "or the name of a curve"),
+        Kind::Motion | Kind::Rigid => driven(&[".x", ".y", ".rotation"], "must be a velocity or the name of a curve"),
+        Kind::Drive(_) => course("or the name of a curve"),
+        Kind::Value => vec![
+            bad("nan", "", "is not a number"),
+            bad("-inf", "", "is not finite"),
+            bad("\"1 parsec\"", "", "not a unit"),
+            bad("[1]", "", "must be"),
+            bad("true", "", "must be"),
+        ],
         Kind::Integer(least) => whole(least),
         Kind::Integers(_, least) => {
             let inside = |it: Bad| Bad { value: format!("[1, {}]", it.value), at: "[1]", ..it };
@@ -140,7 +164,7 @@ fn try_all(key: &Key, path: &str, before: &[String]) -> usize {
     for it in &all {
         let mut set = before.to_vec();
         set.push(format!("{path}={}", it.value));
-        let faults = load_text("m", SOUND, Path::new("."), &set).expect_err(&format!("{set:?}")).entries;
+        let faults = load_text("m", &all_sections(), Path::new("."), &set).expect_err(&format!("{set:?}")).entries;
         let expected = format!("{shown}{}", it.at);
         let found = faults.iter().find(|fault| fault.path == expected && fault.message.contains(it.says));
         let found = found.unwrap_or_else(|| panic!("{set:?} gave no fault at {expected} that says {:?}: {faults:#?}", it.says));
@@ -167,6 +191,12 @@ fn every_key_refuses_every_bad_value_at_its_place() {
             let path = section_path(section);
             count += try_all(key, &format!("{path}.{}", key.name), &[]);
             if let Kind::Table(inner) = key.kind {
+                if section.form == Form::Named {
+                    for key in inner.all_keys() {
+                        count += try_all(key, &format!("{path}.{}.{}", inner.name, key.name), &[]);
+                    }
+                    continue;
+                }
                 // Shapes are in the parts of the sound model in this order; those that are not take the place of the first.
                 let own = ["ring", "rectangle", "disk", "trapezoid", "quadrilateral", "path"];
                 let own = own.iter().position(|name| *name == inner.name);
@@ -199,7 +229,7 @@ fn every_required_key_is_missed() {
             let header = section.name;
             let text: String = {
                 let mut within = false;
-                SOUND
+                all_sections()
                     .lines()
                     .filter(|line| {
                         if line.starts_with('[') {
@@ -210,7 +240,7 @@ fn every_required_key_is_missed() {
                     .map(|line| format!("{line}\n"))
                     .collect()
             };
-            assert_ne!(text, SOUND, "{}.{} is not in the sound model", section.name, key.name);
+            assert_ne!(text, all_sections(), "{}.{} is not in the sound model", section.name, key.name);
             let faults = super::faults(&text);
             let found = faults.iter().find(|fault| fault.message.contains(&format!("has no `{}`", key.name)));
             let found = found.unwrap_or_else(|| panic!("{}.{}: {faults:#?}", section.name, key.name));
@@ -225,7 +255,7 @@ fn every_default_is_sound() {
         for key in section.all_keys() {
             if let Need::Default(text) = key.need {
                 let set = format!("{}.{}={text}", section_path(section), key.name);
-                if let Err(diagnostics) = load_text("m", SOUND, Path::new("."), std::slice::from_ref(&set)) {
+                if let Err(diagnostics) = load_text("m", &all_sections(), Path::new("."), std::slice::from_ref(&set)) {
                     panic!("{set}: {diagnostics}");
                 }
             }

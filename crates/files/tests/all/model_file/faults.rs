@@ -161,7 +161,11 @@ const CASES: &[Case] = &[
     ),
     ("normal = [1, 0]", "normal = [0.0, 0]", &["26:20 the normal is zero, so it has no direction | give a vector such as [1, 0]"]),
     ("fixed = \"x\"", "fixed = [\"x\", \"z\"]", &["31:15 `fixed[1]` can't be \"z\" | did you mean `x`?"]),
-    ("fixed = \"x\"", "", &["29:1 [[constraint]] needs `fixed` or `velocity` | add one of them"]),
+    (
+        "fixed = \"x\"",
+        "",
+        &["29:1 [[constraint]] needs `fixed`, `velocity`, `displacement`, `acceleration` or `rotation` | add one of them"],
+    ),
     (
         "fixed = \"x\"",
         "fixed = \"x\"\nvelocity = { x = 0 }",

@@ -69,7 +69,7 @@ fn what_is_left_out_has_the_default_of_the_solver() {
     assert_eq!(model.contacts[0].interface, Interface::default());
     assert_eq!((model.contacts[0].name.as_str(), model.obstacles[0].name.as_str()), ("tube-plate", "obstacle"));
     assert_eq!(model.constraints[0].velocity, [Some(0.0.into()), None]);
-    assert_eq!(model.loads, [Load::Gravity { parts: vec![], acceleration: [0.0, -9.81] }]);
+    assert_eq!(model.loads, [Load::Gravity { parts: vec![], acceleration: [0.0, -9.81], curve: None }]);
     let full = sound(&changed("from = \"-90 deg\", to = \"90 deg\", ", ""));
     assert!(matches!(full.parts[0].shape, Shape::Ring(Ring { from: 0.0, to: TAU, .. })), "{:?}", full.parts[0].shape);
 }

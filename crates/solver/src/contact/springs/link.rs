@@ -3,7 +3,8 @@
 //! Springs and the state of the step come from [`super::Springs`]; links and arms, island by island, go to [`super::relax`]. Velocities are counted from those that there are
 //! without springs: what a force changes is then exact to its own last digits, however fast the bodies move.
 
-use super::{Spring, Tangential, Update, Vector, tangent};
+use super::{End, Mover, Movers, Spring, Tangential, Update, Vector, tangent};
+use crate::load::join;
 use std::ops::Range;
 
 /// A node or rigid body that springs act on.
@@ -38,7 +39,7 @@ impl Movable {
     }
 
     /// The node or (from `nodes` on) rigid body `at` at the beginning of the solution.
-    pub(super) fn new<F: Fn(usize) -> Vector>(at: u32, nodes: usize, update: &Update<'_, F>) -> Self {
+    pub(super) fn new<M: Movers>(at: u32, nodes: usize, update: &Update<'_, M>) -> Self {
         let mean_step = 0.5 * (update.time_steps[0] + update.time_steps[1]);
         let node = at as usize;
         if node >= nodes {
@@ -47,17 +48,8 @@ impl Movable {
             let (velocity_old, velocity_free) = (body.velocity_old, body.velocity_free);
             return Self { at, velocity_old, velocity_free, mobility: Mobility([x, 0.0, y, spin]), centre: Some(body.centre) };
         }
-        let [vx, vy] = (update.velocity_free)(node);
-        let [ox, oy] = update.velocities_old[node];
-        let scale = mean_step / update.mass[node];
-        let mobility = match update.constraints.of(node) {
-            None => [scale, 0.0, scale, 0.0],
-            Some(held) => {
-                let (x, y) = (held.free_part([1.0, 0.0]), held.free_part([0.0, 1.0]));
-                [scale * x[0], scale * 0.5 * (x[1] + y[0]), scale * y[1], 0.0]
-            }
-        };
-        Self { at, velocity_old: [ox, oy, 0.0], velocity_free: [vx, vy, 0.0], mobility: Mobility(mobility), centre: None }
+        let Mover { velocity_old: [ox, oy], velocity: [vx, vy], mobility: [xx, xy, yy] } = update.nodes.mover(node);
+        Self { at, velocity_old: [ox, oy, 0.0], velocity_free: [vx, vy, 0.0], mobility: Mobility([xx, xy, yy, 0.0]), centre: None }
     }
 
     /// Whether forces move it at all.
@@ -66,9 +58,13 @@ impl Movable {
         self.mobility != Mobility::default()
     }
 
-    /// A row of force `row` at `point`, with its moment on a rigid body.
+    /// A row of force `row` at an end, with its moment on a rigid body; of the image of a node as its leader feels it.
     #[inline]
-    fn row(&self, row: Vector, point: Vector) -> [f64; 3] {
+    fn row(&self, mut row: Vector, end: &End) -> [f64; 3] {
+        let point = end.point;
+        if let Some(turn) = end.image {
+            row = join::back(turn, row);
+        }
         let moment = self.centre.map_or(0.0, |centre| (point[0] - centre[0]) * row[1] - (point[1] - centre[1]) * row[0]);
         [row[0], row[1], moment]
     }
@@ -132,7 +128,7 @@ impl Link {
 #[derive(Clone, Copy)]
 pub(super) struct Joints<'a> {
     pub(super) list: &'a [Spring],
-    pub(super) ends: &'a [super::End],
+    pub(super) ends: &'a [End],
     /// Movable of each end.
     pub(super) places: &'a [u32],
     pub(super) movables: &'a [Movable],
@@ -160,8 +156,8 @@ impl Joints<'_> {
         for k in spring.ends() {
             let (end, place) = (&self.ends[k], self.places[k] as usize);
             let movable = &self.movables[place];
-            let row = movable.row(end.gap_row(spring.normal), end.point);
-            let slip_row = if has_slip { movable.row(end.slip_row(t), end.point) } else { [0.0; 3] };
+            let row = movable.row(end.gap_row(spring.normal), end);
+            let slip_row = if has_slip { movable.row(end.slip_row(t), end) } else { [0.0; 3] };
             link.rate_old += dot(row, movable.velocity_old);
             link.rate_free += dot(row, movable.velocity_free);
             link.slip_rate_old += dot(slip_row, movable.velocity_old);

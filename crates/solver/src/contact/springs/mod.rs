@@ -28,7 +28,6 @@ mod skyline;
 mod solve;
 
 use super::law::Law;
-use crate::load::constraint::Constraints;
 use crate::rigid::Bodies;
 use friction::Friction;
 use std::ops::Range;
@@ -121,6 +120,8 @@ pub struct End {
     pub turn: Vector,
     /// Where the forces act on a rigid body without nodes, m.
     pub point: Vector,
+    /// Cosine and sine of the rotation from the motion of the node that moves in its stead; `None`: no rotation.
+    pub image: Option<Vector>,
 }
 
 impl End {
@@ -193,21 +194,36 @@ pub struct Springs {
 }
 
 /// What the solution needs of the model.
-pub struct Update<'a, F: Fn(usize) -> Vector> {
+pub struct Update<'a, M: Movers> {
     /// Steps before and after, s: v^{n+½} = v^{n−½} + ½ (dt^{n−1} + dt^n) F / m, x^{n+1} = x^n + dt^n v^{n+½}.
     pub time_steps: [f64; 2],
-    /// Nodal masses, kg/m.
-    pub mass: &'a [f64],
     /// x^n, m.
     pub positions: &'a [Vector],
-    /// v^{n−½}, m/s.
-    pub velocities_old: &'a [Vector],
-    /// Velocity v^{n+½} of a node without springs, prescribed motion included, m/s.
-    pub velocity_free: F,
-    /// Prescribed directions.
-    pub constraints: &'a Constraints<2>,
+    /// How nodes move and give way.
+    pub nodes: &'a M,
     /// Rigid bodies.
     pub bodies: &'a Bodies,
+}
+
+/// Nodes as springs see them.
+pub trait Movers {
+    /// How many nodes there are.
+    fn count(&self) -> usize;
+    /// The node that moves in the stead of `node`, and the rotation from its motion to that of `node`, if any.
+    fn leader(&self, node: u32) -> (u32, Option<Vector>);
+    /// Motion of a node that leads itself.
+    fn mover(&self, leader: usize) -> Mover;
+}
+
+/// A node without springs.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Mover {
+    /// v^{n−½}, m/s.
+    pub velocity_old: Vector,
+    /// v^{n+½} without springs, prescribed motion included, m/s.
+    pub velocity: Vector,
+    /// Change of v^{n+½} per force: xx, xy, yy.
+    pub mobility: [f64; 3],
 }
 
 /// A spring as laws of the normal force see it.

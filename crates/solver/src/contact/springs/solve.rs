@@ -7,7 +7,7 @@ use super::islands::{Islands, NONE};
 use super::link::{Arm, Joints, Link, Movable, Slot};
 use super::newton::Newton;
 use super::relax::{Effort, Island};
-use super::{Springs, Terms, Update, Vector};
+use super::{Movers, Springs, Terms, Update};
 use rayon::prelude::*;
 
 /// Springs (at least) of the islands that one task solves.
@@ -62,7 +62,7 @@ impl Workspace {
 
 impl Springs {
     /// Finds the force, work and energy of every spring. `terms` as the groups number them.
-    pub fn solve<F: Fn(usize) -> Vector + Sync>(&mut self, update: &Update<'_, F>, terms: &[Terms]) {
+    pub fn solve<M: Movers + Sync>(&mut self, update: &Update<'_, M>, terms: &[Terms]) {
         if self.list.is_empty() {
             return;
         }
@@ -80,8 +80,8 @@ impl Springs {
     }
 
     /// The nodes and bodies at the springs.
-    fn gather<F: Fn(usize) -> Vector + Sync>(&mut self, update: &Update<'_, F>, parallel: bool) {
-        let nodes = update.mass.len();
+    fn gather<M: Movers + Sync>(&mut self, update: &Update<'_, M>, parallel: bool) {
+        let nodes = update.nodes.count();
         let Workspace { place, movables, places, .. } = &mut self.work;
         movables.clear();
         places.clear();
@@ -90,6 +90,8 @@ impl Springs {
             if let Some(body) = update.bodies.of_node(at) {
                 end.point = update.positions[at as usize];
                 at = (nodes + body) as u32;
+            } else if (at as usize) < nodes {
+                (at, end.image) = update.nodes.leader(at);
             }
             let place = &mut place[at as usize];
             if *place == NONE {

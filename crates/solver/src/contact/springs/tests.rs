@@ -4,12 +4,24 @@ use crate::contact::law::penalty::Penalty;
 use crate::contact::law::tie::Tie;
 use proptest::prelude::*;
 
+/// One node of mass one.
+impl Movers for Mover {
+    fn count(&self) -> usize {
+        1
+    }
+    fn leader(&self, node: u32) -> (u32, Option<Vector>) {
+        (node, None)
+    }
+    fn mover(&self, _: usize) -> Mover {
+        *self
+    }
+}
+
 /// A mass between two springs' walls: the energy must come back however stiff the walls and however long the step.
 #[test]
 fn a_bouncing_mass_keeps_its_energy_for_every_stiffness() {
     for k in [0.1, 1.0, 30.0, 1e4] {
-        let (mass, dt) = ([1.0], 1.0);
-        let constraints = Constraints::default();
+        let dt = 1.0;
         let (mut x, mut v) = (10.3f64, [-0.37, 0.0]);
         let mut springs = Springs::new(1, 0);
         let (bodies, terms) = (Bodies::default(), [Terms { law: Box::new(Penalty), tangential: Tangential::Free, damping: 0.0 }]);
@@ -23,11 +35,8 @@ fn a_bouncing_mass_keeps_its_energy_for_every_stiffness() {
             let positions = [[x, 0.0]];
             let update = Update {
                 time_steps: [dt; 2],
-                mass: &mass,
                 positions: &positions,
-                velocities_old: &old,
-                velocity_free: |_| free,
-                constraints: &constraints,
+                nodes: &Mover { velocity_old: old[0], velocity: free, mobility: [dt, 0.0, dt] },
                 bodies: &bodies,
             };
             springs.solve(&update, &terms);
@@ -76,6 +85,19 @@ fn rows(counts: [usize; 2], stiffness: f64) -> Rows {
     rows
 }
 
+impl Movers for Rows {
+    fn count(&self) -> usize {
+        self.mass.len()
+    }
+    fn leader(&self, node: u32) -> (u32, Option<Vector>) {
+        (node, None)
+    }
+    fn mover(&self, node: usize) -> Mover {
+        let (velocity, give) = (self.velocities[node], 0.01 / self.mass[node]);
+        Mover { velocity_old: velocity, velocity, mobility: [give, 0.0, give] }
+    }
+}
+
 impl Rows {
     fn solve(&self, terms: &[Terms]) -> Springs {
         let mut springs = Springs::new(self.mass.len(), 0);
@@ -83,16 +105,7 @@ impl Rows {
             springs.push(*spring, ends);
         }
         springs.close_group(0);
-        let (constraints, bodies) = (Constraints::default(), Bodies::default());
-        let update = Update {
-            time_steps: [0.01; 2],
-            mass: &self.mass,
-            positions: &self.positions,
-            velocities_old: &self.velocities,
-            velocity_free: |node| self.velocities[node],
-            constraints: &constraints,
-            bodies: &bodies,
-        };
+        let update = Update { time_steps: [0.01; 2], positions: &self.positions, nodes: self, bodies: &Bodies::default() };
         springs.solve(&update, terms);
         springs
     }

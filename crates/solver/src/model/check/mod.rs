@@ -1,9 +1,10 @@
 //! Everything that can be told about a model before it is meshed: numbers, names, references, contradictions.
 //!
 //! Data comes from [`Model`], whoever made it; ranges come from [`describe`] and the registries, so that they stand in one place. All faults
-//! are returned at once, each with the path of its key. Parts are in `parts.rs`, contacts in `contact.rs`, what moves in `motion.rs`.
+//! are returned at once, each with the path of its key. Parts are in `parts.rs`, contacts in `contact.rs`, what moves in `motion.rs`, loads and joins in `load.rs`.
 
 mod contact;
+mod load;
 mod motion;
 mod parts;
 
@@ -36,7 +37,9 @@ impl Model {
         check.obstacles();
         check.symmetries();
         check.constraints();
+        check.joins();
         check.loads();
+        check.non_reflecting();
         check.probes();
         check.output();
         check.faults

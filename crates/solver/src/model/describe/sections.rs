@@ -24,7 +24,8 @@ pub static TOP: Section = Section {
 };
 
 /// Every section, in the order of the documentation.
-pub static SECTIONS: &[&Section] = &[&RUN, &MATERIAL, &PART, &CONTACT, &OBSTACLE, &SYMMETRY, &CONSTRAINT, &LOAD, &CURVE, &PROBE, &OUTPUT];
+pub static SECTIONS: &[&Section] =
+    &[&RUN, &MATERIAL, &PART, &CONTACT, &OBSTACLE, &SYMMETRY, &CONSTRAINT, &JOIN, &LOAD, &NON_REFLECTING, &CURVE, &PROBE, &OUTPUT];
 
 /// Keys that people know from elsewhere or from before, and what stands for them now.
 pub static MOVED: &[(&str, &str)] = &[("wall", "walls are obstacles now: [[obstacle]] with plane = { point, normal }")];
@@ -177,49 +178,209 @@ static CONSTRAINT: Section = Section {
         key("fixed", Kind::Choices(|| vec!["x", "y"]), Optional("none"), "Components that don't move."),
         key(
             "velocity",
-            Kind::Velocities,
+            Kind::Components(Dimension::VELOCITY),
             Optional("none"),
             "Prescribed velocity of components: a number or a curve, such as `{ x = \"1 m/s\", y = \"ramp\" }`.",
         ),
+        key(
+            "displacement",
+            Kind::Components(Dimension::LENGTH),
+            Optional("none"),
+            "Prescribed displacement of components from the initial position: curves that begin with 0.",
+        ),
+        key(
+            "acceleration",
+            Kind::Components(Dimension::ACCELERATION),
+            Optional("none"),
+            "Prescribed acceleration of components, from the initial velocity on.",
+        ),
+        key("rotation", Table(&TURN_OF_NODES), Optional("none"), "Leads the nodes around a point."),
     ],
-    rules: &[Rule::SomeOf(&["fixed", "velocity"])],
+    rules: &[
+        Rule::SomeOf(&["fixed", "velocity", "displacement", "acceleration", "rotation"]),
+        Rule::NotBoth("rotation", "fixed"),
+        Rule::NotBoth("rotation", "velocity"),
+        Rule::NotBoth("rotation", "displacement"),
+        Rule::NotBoth("rotation", "acceleration"),
+    ],
+    ..Section::EMPTY
+};
+
+static TURN_OF_NODES: Section = Section {
+    name: "rotation",
+    doc: "Rotation of nodes about a fixed point, on exact circles.",
+    form: Form::Inline,
+    required: false,
+    keys: &[
+        key("speed", Kind::Drive(Dimension::RATE), Required, "Angular velocity, counter-clockwise: a number or a curve."),
+        key("centre", Vector(Dimension::LENGTH, Finite), Default("[0, 0]"), "The point."),
+    ],
     ..Section::EMPTY
 };
 
 static LOAD: Section = Section {
     name: "load",
-    doc: "A load on some parts.",
+    doc: "What acts on parts, sets of nodes or surfaces from outside. With `curve` a load is multiplied by the curve's values, which must be pure numbers.",
     form: Form::Repeated,
     required: false,
     keys: &[
         key(
             "gravity",
             Vector(Dimension::ACCELERATION, Finite),
-            Optional("`damping`"),
-            "Uniform acceleration, such as `[0, \"-9.81 m/s^2\"]`.",
+            Optional("another load"),
+            "Uniform acceleration of parts, such as `[0, \"-9.81 m/s^2\"]`.",
+        ),
+        key(
+            "centrifugal",
+            Angle(Dimension::RATE, Finite),
+            Optional("another load"),
+            "Angular velocity of a frame in which the model is seen: its parts feel the acceleration centrifugal^2 * (x - centre), and no Coriolis force, so they should move slowly in it.",
+        ),
+        key(
+            "centre",
+            Vector(Dimension::LENGTH, Finite),
+            Optional("[0, 0]"),
+            "The point about which the frame turns; an axisymmetric model turns about its axis.",
+        ),
+        key(
+            "force",
+            Vector(Dimension::FORCE_PER_LENGTH, Finite),
+            Optional("another load"),
+            "Force on a set in all, per metre of depth (of an axisymmetric model in N over the whole circumference): shared by length over a side or a line group on the outside, equally over other groups.",
+        ),
+        key(
+            "pressure",
+            Quantity(Dimension::PRESSURE, Finite),
+            Optional("another load"),
+            "Pressure on a surface, always against its current normal and on its current length; negative pulls.",
         ),
         key(
             "damping",
             Quantity(Dimension::RATE, Positive),
-            Optional("`gravity`"),
-            "Rate of a force -rate * mass * velocity: what moves slowly comes to rest.",
+            Optional("another load"),
+            "Rate of a force -rate * mass * velocity on parts: what moves slowly comes to rest.",
+        ),
+        key(
+            "on",
+            Reference,
+            Optional("only with `force` and `pressure`"),
+            "Where it acts: a side such as `plate.top`, a group of a mesh file; of a pressure also a part, its whole outside.",
+        ),
+        key("parts", References(None), Optional("all parts"), "Parts that it acts on."),
+        key(
+            "curve",
+            Reference,
+            Optional("constant"),
+            "Name of a curve by whose value it is multiplied (the angular velocity of `centrifugal`).",
         ),
         key("from", Quantity(Dimension::TIME, NotNegative), Optional("the start"), "Time at which the damping begins."),
         key("until", Quantity(Dimension::TIME, Positive), Optional("the end"), "Time at which it ends."),
-        key("parts", References(None), Optional("all parts"), "Parts that it acts on."),
     ],
-    rules: &[Rule::OneOf(&["gravity", "damping"]), Rule::Needs("from", "damping"), Rule::Needs("until", "damping")],
+    rules: &[
+        Rule::OneOf(&["gravity", "centrifugal", "force", "pressure", "damping"]),
+        Rule::Needs("centre", "centrifugal"),
+        Rule::Needs("force", "on"),
+        Rule::Needs("pressure", "on"),
+        Rule::NotBoth("on", "gravity"),
+        Rule::NotBoth("on", "centrifugal"),
+        Rule::NotBoth("on", "damping"),
+        Rule::NotBoth("parts", "force"),
+        Rule::NotBoth("parts", "pressure"),
+        Rule::NotBoth("curve", "damping"),
+        Rule::Needs("from", "damping"),
+        Rule::Needs("until", "damping"),
+    ],
+    ..Section::EMPTY
+};
+
+static NON_REFLECTING: Section = Section {
+    name: "non_reflecting",
+    doc: "A surface that takes waves up as if the body went on behind it, by dashpots for plane waves across it: what meets it at an angle is reflected in part. It doesn't hold the body in place.",
+    form: Form::Repeated,
+    required: false,
+    keys: &[key("on", Reference, Required, "A side such as `soil.bottom`, a line group of a mesh file, or a part, its whole outside.")],
+    ..Section::EMPTY
+};
+
+static JOIN: Section = Section {
+    name: "join",
+    doc: "Nodes of two sets that move as one: tied where the sets coincide, periodic where the second set is the image of the first by `translation` or `rotation`. Each node of the first set has its partner in the second one, and of images also the other way round. A tied contact joins meshes that differ.",
+    form: Form::Repeated,
+    required: false,
+    keys: &[
+        key("between", References(Some(2)), Required, "The two sets: each a part, a side such as `plate.left`, or a group of a mesh file."),
+        key(
+            "translation",
+            Vector(Dimension::LENGTH, Finite),
+            Optional("none"),
+            "Leads from the first set to the second: both have the same velocity.",
+        ),
+        key(
+            "rotation",
+            Angle(Dimension::NONE, Finite),
+            Optional("none"),
+            "Leads from the first set to the second, counter-clockwise: the velocity of the second is that of the first, turned.",
+        ),
+        key("centre", Vector(Dimension::LENGTH, Finite), Optional("[0, 0]"), "Centre of the rotation."),
+        key(
+            "tolerance",
+            Quantity(Dimension::LENGTH, Positive),
+            Optional("1e-6 of the model's size"),
+            "Distance within which nodes are partners.",
+        ),
+    ],
+    rules: &[Rule::NotBoth("translation", "rotation"), Rule::Needs("centre", "rotation")],
     ..Section::EMPTY
 };
 
 static CURVE: Section = Section {
     name: "curve",
-    doc: "A function of time, named where a velocity is prescribed: linear between its points, constant before the first and after the last. The name begins with a letter.",
+    doc: "A function of time, named where something follows it: by points (`time` and `value`; constant before the first and after the last), a `sine`, or a formula (`expression`). The name begins with a letter.",
     form: Form::Named,
     required: false,
     keys: &[
-        key("time", Kind::Quantities(Dimension::TIME, Finite, 1), Required, "Times, ascending."),
-        key("value", Kind::Values, Required, "Values, as many: of one dimension, or bare numbers in the SI unit of what uses the curve."),
+        key("time", Kind::Quantities(Dimension::TIME, Finite, 1), Optional("`sine` or `expression`"), "Times, ascending."),
+        key(
+            "value",
+            Kind::Values,
+            Optional("`sine` or `expression`"),
+            "Values, as many: of one dimension, or bare numbers in the SI unit of what uses the curve.",
+        ),
+        key(
+            "between",
+            Choice(|| vec!["lines", "smooth_steps"]),
+            Default("\"lines\""),
+            "What leads from point to point: straight lines, or steps without velocity and acceleration at their ends.",
+        ),
+        key("sine", Table(&SINE), Optional("points or `expression`"), "A wave."),
+        key(
+            "expression",
+            Text,
+            Optional("points or `sine`"),
+            "A formula of the time `t` in s, such as `\"2*sin(3*t) + exp(-t)\"`, in the SI unit of what uses the curve: numbers, `+ - * / ^`, parentheses, `pi`, `sin`, `cos`, `exp`, `ln`, `sqrt`, `abs`, `min`, `max`, and `step(x)`, which is 0 for x < 0, else 1.",
+        ),
+    ],
+    rules: &[
+        Rule::OneOf(&["value", "sine", "expression"]),
+        Rule::Needs("value", "time"),
+        Rule::NotBoth("time", "sine"),
+        Rule::NotBoth("time", "expression"),
+        Rule::NotBoth("between", "sine"),
+        Rule::NotBoth("between", "expression"),
+    ],
+    ..Section::EMPTY
+};
+
+static SINE: Section = Section {
+    name: "sine",
+    doc: "offset + amplitude * sin(2 pi frequency t + phase).",
+    form: Form::Inline,
+    required: false,
+    keys: &[
+        key("amplitude", Kind::Value, Required, "Height of the wave: a quantity, or a bare number in the SI unit of what uses the curve."),
+        key("frequency", Quantity(Dimension::RATE, Positive), Required, "Waves per time."),
+        key("phase", Angle(Dimension::NONE, Finite), Default("0"), "Angle at time zero."),
+        key("offset", Kind::Value, Default("0"), "Mean value, of the same dimension."),
     ],
     ..Section::EMPTY
 };

@@ -155,7 +155,8 @@ impl NodeSegment {
 
 impl NodeSegment {
     /// Which of the segments at a slave stand for it in a touch. At a sharp edge that is the one that faces the target, so that the corner of a block presses with half of the segment
-    /// under it and not with the side wall; else, and where none faces the target, both. A closed spring keeps what it had.
+    /// under it and not with the side wall; else, and where none faces the target, both. It stays so for as long as they are near: a spring that is closed may not change its
+    /// stiffness.
     fn faces(&self, touch: &Touch, positions: &[Vector]) -> u8 {
         if touch.memory.faces != 0 {
             return touch.memory.faces;
@@ -164,7 +165,8 @@ impl NodeSegment {
         if before == NONE || after == NONE || !slaves.is_edge(before, after, positions) {
             return BOTH;
         }
-        let along = self.tracker.target(touch.pass).along(touch.projection.segment, positions);
+        // Of a corner of the target the direction to it counts.
+        let along = tangent(touch.projection.normal);
         let faces = [before, after].map(|own| u8::from(is_facing(slaves.along(own, positions), along)));
         match faces[0] + 2 * faces[1] {
             0 => BOTH,
@@ -205,9 +207,7 @@ impl Formulation for NodeSegment {
 
     fn remember(&mut self, solved: &[Spring]) {
         for (touch, spring) in self.touches.iter().zip(solved) {
-            // An open spring may change its stiffness: it has no energy.
-            let faces = if spring.force == 0.0 && spring.gap >= self.reach { 0 } else { touch.memory.faces };
-            self.tracker.remember(touch, Memory { slip: spring.slip_new, faces, ..touch.memory });
+            self.tracker.remember(touch, Memory { slip: spring.slip_new, ..touch.memory });
         }
     }
 

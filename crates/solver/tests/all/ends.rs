@@ -44,7 +44,14 @@ fn blocks_that_end_flush_stay_in_contact_at_their_corners() {
                     let moved = column("middle").iter().fold(0.0_f64, |most, y| most.max((y - start).abs()));
                     let off = column("end").iter().zip(column("middle")).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
                     // Springs of equal areas: the corner with its half of the mass moves as the others do, though it has a side wall too.
-                    let bound = if wider.abs() < 1e-6 { 1e-5 } else { 0.1 };
+                    let bound = if wider.abs() > 1e-6 {
+                        0.1
+                    } else if formulation == Formulation::Segment {
+                        // Of whole outsides the side walls take a little part as soon as they are not quite upright.
+                        0.01
+                    } else {
+                        1e-5
+                    };
                     assert!(moved > 1e-4 && off < bound * summary.penetration_max, "{what}: {name} {off} of {}", summary.penetration_max);
                 }
             }

@@ -86,12 +86,6 @@ impl Seen {
     pub fn beyond(&self) -> f64 {
         (-self.place).max(self.place - 1.0) * self.length
     }
-
-    /// Whether it is over an end, as far as round-off lets one tell.
-    #[must_use]
-    pub fn is_at_end(&self) -> bool {
-        (-self.place).max(self.place - 1.0).abs() <= END_TOLERANCE
-    }
 }
 
 impl Target {

@@ -6,7 +6,7 @@
 
 use super::super::Sweep;
 use super::super::length;
-use super::super::projection::node_segment::{BAND, Projection, Target, Vector, fall_off};
+use super::super::projection::node_segment::{BAND, Projection, Seen, Target, Vector, fall_off};
 use crate::mesh::surface::{NONE, Surface};
 
 /// Two segments face each other if the cosine of the angle between the one and the turned other is at least this.
@@ -74,6 +74,11 @@ impl Ends {
     /// How far a face goes on for a slave beyond a free end of `segment`, m; 0: not at all.
     pub(super) fn band(&self, slave: u32, segment: u32) -> f64 {
         self.lengths.get(segment as usize).map_or(0.0, |&length| BAND * length.min(self.sizes[slave as usize]))
+    }
+
+    /// Whether a node is over the end of a segment, or beyond it where the face still goes straight on.
+    pub(super) fn is_over_end(&self, slave: u32, segment: u32, seen: &Seen) -> bool {
+        (-AT_END * seen.length..=(0.5 * self.band(slave, segment)).max(AT_END * seen.length)).contains(&seen.beyond())
     }
 
     /// Slope with which a face falls off at a projection for a slave: 0 on the face and near its end.

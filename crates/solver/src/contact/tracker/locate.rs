@@ -118,7 +118,8 @@ impl<'a> View<'a> {
             None => self.target.first_ahead(x, candidates, self.rounding, self.sweep.new)?,
         };
         let beside = if self.ends.is_near(nearest) && !group.own { self.beside(x, group, nearest) } else { None };
-        let ahead = beside.or_else(|| ahead.filter(|ahead| !self.ends.is_near(ahead.segment) || !self.slides_by(x, group, ahead)))?;
+        let at_end = |ahead: Projection| if self.ends.is_near(ahead.segment) { self.at_end(x, group, ahead) } else { Some(ahead) };
+        let ahead = beside.or_else(|| ahead.and_then(at_end))?;
         if ahead.gap > self.hold {
             return (ahead.gap <= self.near + LOOK_AHEAD * self.motion(group.node, ahead.segment)).then_some(ahead);
         }
@@ -134,10 +135,29 @@ impl<'a> View<'a> {
         group.own || self.ends.admit(&self.slaves.surface, self.target, group.slave, projection, self.sweep.new)
     }
 
-    /// Whether a node is exactly over the end of a face, as far as round-off lets one tell, and none of the face's business.
-    fn slides_by(&self, x: Vector, group: &Group, ahead: &Projection) -> bool {
-        let seen = self.target.seen(x, ahead.segment, self.sweep.new);
-        seen.is_some_and(|seen| seen.is_at_end()) && !self.may_hold(group, ahead)
+    /// What a node is ahead of where faces end: `ahead`, or the face around the edge, if it is that which the node's own surface goes back over; nothing for a node that only passes by,
+    /// over the end of a face or hardly beyond it.
+    fn at_end(&self, x: Vector, group: &Group, ahead: Projection) -> Option<Projection> {
+        if self.may_hold(group, &ahead) {
+            return Some(ahead);
+        }
+        let (surface, nearest) = (&self.target.surface, ahead.segment);
+        let around = [surface.previous[nearest as usize], surface.next[nearest as usize], nearest];
+        let mut is_passed = false;
+        for segment in around.into_iter().filter(|&segment| segment != NONE) {
+            let Some(seen) = self.target.seen(x, segment, self.sweep.new) else { continue };
+            // Below the end of the face around the edge that face is no matter any more.
+            if self.ends.is_over_end(group.slave, segment, &seen) && (segment == nearest || seen.gap >= -self.hold) {
+                if segment != nearest
+                    && let Some(other) = self.target.project(x, segment, self.sweep.new)
+                    && self.may_hold(group, &other)
+                {
+                    return Some(other);
+                }
+                is_passed = true;
+            }
+        }
+        (!is_passed).then_some(ahead)
     }
 
     /// The projection on a face, or on that around the edge where the node may not be in contact through the first.

@@ -119,6 +119,17 @@ def disagreements(first, second):
                 yield f"readers disagree about {name}"
 
 
+def frames(folder, sets):
+    """Name, time and grids (one of each reader) of the files of a collection, and what is wrong with one that can't be read."""
+    for entry in sets:
+        name, time, grids, fault = entry.get("file"), float(entry.get("timestep")), [], None
+        try:
+            grids = [read(folder / name) for read in readers().values()]
+        except Exception as error:  # a reader's exceptions are many and undocumented
+            fault = f"{name} can't be read: {error!r}"
+        yield name, time, grids, fault
+
+
 def obstacle_faults(folder, field_times):
     """Faults of obstacles.pvd and its files."""
     sets = xml.etree.ElementTree.parse(folder / "obstacles.pvd").getroot().findall("Collection/DataSet")
@@ -126,12 +137,9 @@ def obstacle_faults(folder, field_times):
     if times != field_times:
         yield "obstacles.pvd and fields.pvd have different times"
     first = None
-    for entry, time in zip(sets, times):
-        name = entry.get("file")
-        try:
-            grids = [read(folder / name) for read in readers().values()]
-        except Exception as error:  # a reader's exceptions are many and undocumented
-            yield f"{name} can't be read: {error!r}"
+    for name, time, grids, fault in frames(folder, sets):
+        if fault:
+            yield fault
             continue
         grid = grids[0]
         if grid.time is not None and float(numpy.ravel(grid.time)[0]) != time:
@@ -190,12 +198,9 @@ def faults(folder):
     if (folder / "obstacles.pvd").exists():
         yield from obstacle_faults(folder, times)
     initial = None
-    for entry, time in zip(sets, times):
-        name = entry.get("file")
-        try:
-            grids = [read(folder / name) for read in readers().values()]
-        except Exception as error:  # a reader's exceptions are many and undocumented
-            yield f"{name} can't be read: {error!r}"
+    for name, time, grids, fault in frames(folder, sets):
+        if fault:
+            yield fault
             continue
         grid = grids[0]
         if (len(grid.points), len(grid.cells)) != (summary["nodes"], summary["elements"]):

@@ -3,6 +3,7 @@
 use crate::numbers::table;
 use crate::{Failure, terminal};
 use clap::{Args, ValueEnum};
+use embate_solver::block::stress_state::STRESS_STATES;
 use embate_solver::quantity::Parameter;
 use embate_solver::{contact, element, material, output};
 use std::fmt::Write;
@@ -18,6 +19,8 @@ pub(crate) struct Arguments {
 enum What {
     /// Element formulations
     Elements,
+    /// Stress states
+    StressStates,
     /// Material laws
     Materials,
     /// Global contact searches
@@ -40,6 +43,7 @@ impl What {
     fn list(self) -> String {
         match self {
             Self::Elements => elements(),
+            Self::StressStates => stress_states(),
             Self::Materials => materials(),
             Self::Searches => searches(),
             Self::Formulations => formulations(),
@@ -53,6 +57,14 @@ fn elements() -> String {
     let mut text = String::from("Elements (part.element)\n");
     for kind in element::registry() {
         entry(&mut text, kind.name, &format!("{} ({} nodes)", kind.doc, kind.nodes), kind.source);
+    }
+    text
+}
+
+fn stress_states() -> String {
+    let mut text = String::from("Stress states (part.stress_state)\n");
+    for kind in STRESS_STATES {
+        entry(&mut text, kind.name, kind.doc, kind.source);
     }
     text
 }

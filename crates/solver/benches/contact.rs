@@ -25,7 +25,7 @@ fn stack(elements: usize, speed: f64) -> Model {
     let along = (elements / (strips * THROUGH)).max(1);
     let mut model = Model { run: Run { end: 1.0, ..Run::default() }, ..Model::default() };
     let parameters = [("young", 1e9), ("poisson", 0.3), ("density", 1e3)].map(|(key, value)| (key.to_string(), value));
-    model.materials.insert("soft".into(), Material { law: "elastic".into(), parameters: parameters.into() });
+    model.materials.insert("soft".into(), Material { law: "elastic".into(), parameters: parameters.into(), ..Material::default() });
     for strip in 0..strips {
         let y = strip as f64 * (THROUGH as f64 * SIZE + GAP);
         let size = [along as f64 * SIZE, THROUGH as f64 * SIZE];

@@ -42,8 +42,9 @@ fn main() {
         for element in ["quad4", "quad4_full"] {
             for law in ["elastic", "j2", "neo_hookean"] {
                 let parameters = [("density", 7800.0), ("young", 2e11), ("poisson", 0.3), ("yield", 1e8), ("hardening", 5e10)];
-                let material = Material { law: law.into(), parameters: parameters.iter().map(|(k, v)| ((*k).to_string(), *v)).collect() };
-                let input = BlockInput { element, material: &material, connectivity: &connectivity, positions: &positions };
+                let parameters = parameters.iter().map(|(k, v)| ((*k).to_string(), *v)).collect();
+                let material = Material { law: law.into(), parameters, ..Material::default() };
+                let input = BlockInput::new(element, &material, &connectivity, &positions);
                 let mut line = format!("  {element:<11} {law:<12}");
                 let mut scalar = 0.0;
                 for level in Level::available() {

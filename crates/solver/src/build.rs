@@ -15,21 +15,24 @@ use crate::contact::springs::friction::Friction;
 use crate::contact::springs::{Springs, Tangential, Terms};
 use crate::contact::traces::Traces;
 use crate::contact::{self, Contact, ContactKind, search};
+use crate::element::ElementOptions;
 use crate::energy::{Ledger, Sums};
 use crate::error::Fault;
-use crate::load::constraint::Constraints;
+use crate::load::constraint::{Constraints, unit};
 use crate::load::curve::Curves;
 use crate::load::damping::Damping;
 use crate::load::gravity;
 use crate::mesh::surface::{NONE, Surface};
 use crate::mesh::{ElementGroup, Mesh};
-use crate::model::{self, ContactLaw, Interface, Model, Partners, Penalty, PenaltySource};
+use crate::model::{self, ContactLaw, Interface, Model, Partners, Penalty, PenaltySource, Symmetry};
 use crate::rigid::Bodies;
 use crate::step::{CHUNK, Governor, Limits, System};
 use embate_lanes::{Batch, Level};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
+/// Nodes nearer to the axis than this fraction of the model's size are on it.
+const ON_AXIS: f64 = 1e-9;
 /// Below so many elements threads cost more than they bring.
 const SERIAL: usize = 4096;
 
@@ -43,6 +46,8 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         return Err(faults);
     }
     let mesh = Mesh::new(model)?;
+    let with_axis = with_axis(model, &mesh)?;
+    let model = with_axis.as_ref().unwrap_or(model);
     let curves = Curves::new(model);
     let mut builder = Builder {
         model,
@@ -58,7 +63,6 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         time_step: 0.0,
         bodies: Bodies::default(),
         terms: Vec::new(),
-        ties: Vec::new(),
         outlines: Vec::new(),
         mesh,
     };
@@ -84,9 +88,7 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
     if !builder.faults.is_empty() {
         return Err(builder.faults);
     }
-    let Builder { mesh, constraints, curves, positions, mass, body_parts, bodies, mut terms, ties, outlines, .. } = builder;
-    terms.resize_with(first_of_ties(model), || terms_of(&Interface::default()));
-    terms.extend(ties);
+    let Builder { mesh, constraints, curves, positions, mass, body_parts, bodies, terms, outlines, .. } = builder;
     let inputs: Vec<(&dyn Block<2>, usize, &[u32])> =
         blocks.iter().zip(&mesh.groups).map(|(block, group)| (block.as_ref(), group.nodes_per_element, &group.connectivity[..])).collect();
     let nodes = positions.len();
@@ -139,6 +141,27 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
     })
 }
 
+/// An axisymmetric model with its axis as a symmetry line, if it touches that.
+fn with_axis(model: &Model, mesh: &Mesh<2>) -> Result<Option<Model>, Vec<Fault>> {
+    if !model.is_axisymmetric() {
+        return Ok(None);
+    }
+    let size = mesh.positions.iter().flatten().fold(0.0f64, |size, x| size.max(x.abs()));
+    if let Some([x, y]) = mesh.positions.iter().find(|x| x[0] < -ON_AXIS * size) {
+        let message = format!("an axisymmetric part has a node at a negative radius, ({x:.6e}, {y:.6e}) m");
+        return Err(vec![Fault::new("part", message, "x is the radius: move the part to the right of the axis x = 0")]);
+    }
+    let touches = mesh.positions.iter().any(|x| x[0] <= ON_AXIS * size);
+    let axis = Symmetry { normal: [1.0, 0.0], ..Symmetry::default() };
+    let is_there = |symmetry: &Symmetry| symmetry.parts.is_empty() && symmetry.point[0] == 0.0 && symmetry.normal[1] == 0.0;
+    if !touches || model.symmetries.iter().any(is_there) {
+        return Ok(None);
+    }
+    let mut model = model.clone();
+    model.symmetries.push(axis);
+    Ok(Some(model))
+}
+
 /// Mass of each part on each of its nodes, kg/m, nodes ascending.
 pub(crate) fn part_masses(mesh: &Mesh<2>, blocks: &[Box<dyn Block<2>>]) -> Vec<Vec<(u32, f64)>> {
     let of = |part: usize| {
@@ -176,10 +199,8 @@ struct Builder<'a> {
     bodies: Bodies,
     /// Rigid parts and their bodies.
     body_parts: Vec<(usize, usize)>,
-    /// What acts in each contact, then in each obstacle.
+    /// What acts in contacts, ties and obstacles, as they are made.
     terms: Vec<Terms>,
-    /// What acts in ties.
-    ties: Vec<Terms>,
     outlines: Vec<OutlineShape>,
 }
 
@@ -209,7 +230,13 @@ impl Builder<'_> {
                 continue;
             };
             let element = part.element_of(group.nodes_per_element).map_or("", |kind| kind.name);
-            let input = BlockInput { element, material, connectivity: &group.connectivity, positions: &self.mesh.positions };
+            let viscosity = self.model.run.bulk_viscosity;
+            let input = BlockInput {
+                options: ElementOptions { hourglass: part.hourglass },
+                stress_state: &part.stress_state,
+                viscosity: (viscosity != [0.0; 2]).then_some(viscosity),
+                ..BlockInput::new(element, material, &group.connectivity, &self.mesh.positions)
+            };
             match make(&input) {
                 Some(block) => blocks.push(block),
                 None => self.faults.push(Fault::new(format!("part[{i}]"), "its element or law is unknown", "see `embate list`")),
@@ -285,10 +312,8 @@ impl Builder<'_> {
         let mut tied = BTreeMap::new();
         for (i, contact) in self.model.contacts.iter().enumerate() {
             match self.contact(contact) {
-                Ok((made, terms)) => {
-                    self.terms.push(terms);
+                Ok(made) => {
                     if let Some(ties) = made.ties() {
-                        self.ties.push(terms_of_ties(&contact.interface));
                         self.tied_once(&format!("contact[{i}].tied"), &contact.name, &ties.nodes, &mut tied);
                     }
                     contacts.push(made);
@@ -316,8 +341,16 @@ impl Builder<'_> {
         tied.extend(nodes.iter().map(|&node| (node, contact)));
     }
 
-    /// A contact and what acts in its springs; faults have paths relative to the contact.
-    fn contact(&self, contact: &model::Contact) -> Result<(Contact, Terms), Vec<Fault>> {
+    /// Adds what acts in springs; returns its number.
+    fn add_terms(&mut self, terms: Terms) -> usize {
+        self.terms.push(terms);
+        self.terms.len() - 1
+    }
+
+    /// A contact; faults have paths relative to it.
+    fn contact(&mut self, contact: &model::Contact) -> Result<Contact, Vec<Fault>> {
+        let terms = self.add_terms(terms_of(&contact.interface));
+        let tie_terms = if contact.tied.is_some() { self.add_terms(terms_of_ties(&contact.interface)) } else { terms };
         let sides = self.outlines_of(contact)?.into_iter().map(|outline| self.side(outline, &contact.interface)).collect();
         let Some(search) = search_by_name(&contact.search) else {
             let message = format!("there is no search \"{}\"", contact.search);
@@ -333,11 +366,12 @@ impl Builder<'_> {
             bodies: &self.body_of_node,
             positions: &self.mesh.positions,
             law: &|| law_of(&contact.interface),
-            tie_terms: first_of_ties(self.model) + self.ties.len(),
+            passes: (kind.passes)(contact),
+            tie_terms,
             search: &|| (search.make)(),
         };
         let made = (kind.make)(setup).map_err(|fault| vec![fault])?;
-        Ok((Contact::new(contact.name.clone(), ContactKind::Contact, made, contact.interface.active), terms_of(&contact.interface)))
+        Ok(Contact::new(contact.name.clone(), ContactKind::Contact, made, terms, contact.interface.active))
     }
 
     /// The surfaces of a contact: two, or one that meets itself. Faults have paths relative to the contact.
@@ -391,6 +425,40 @@ impl Builder<'_> {
     }
 }
 
+impl Builder<'_> {
+    /// Symmetry lines behind which there is nothing of the parts that they hold: number, a point, and the unit normal that points to the parts.
+    fn mirror_lines(&self) -> impl Iterator<Item = (usize, [f64; 2], [f64; 2])> {
+        let tolerance = contact::initial::TOLERANCE * contact::initial::size(&self.mesh.positions);
+        self.model.symmetries.iter().enumerate().filter_map(move |(number, symmetry)| {
+            let normal = unit(symmetry.normal)?;
+            let parts = self.mesh.parts.iter().filter(|part| symmetry.parts.is_empty() || symmetry.parts.contains(&part.name));
+            let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+            for &node in parts.flat_map(|part| &part.nodes) {
+                let distance = height(self.mesh.positions[node as usize], symmetry.point, normal);
+                (low, high) = (low.min(distance), high.max(distance));
+            }
+            if low >= -tolerance {
+                Some((number, symmetry.point, normal))
+            } else {
+                (high <= tolerance).then_some((number, symmetry.point, normal.map(|n| -n)))
+            }
+        })
+    }
+
+    /// Whether a point lies on a symmetry line of one of these parts (none: all) or beyond it, where the mirror images of the parts are.
+    fn is_beyond_mirrors(&self, x: [f64; 2], parts: &[String]) -> bool {
+        let tolerance = contact::initial::TOLERANCE * contact::initial::size(&self.mesh.positions);
+        let concerns = |held: &[String]| held.is_empty() || parts.is_empty() || held.iter().any(|part| parts.contains(part));
+        self.mirror_lines()
+            .any(|(number, point, normal)| concerns(&self.model.symmetries[number].parts) && height(x, point, normal) <= tolerance)
+    }
+}
+
+/// How far `x` is from the line through `point`, along its normal, m.
+fn height(x: [f64; 2], point: [f64; 2], normal: [f64; 2]) -> f64 {
+    (x[0] - point[0]) * normal[0] + (x[1] - point[1]) * normal[1]
+}
+
 /// A surface of a contact.
 pub(crate) struct Outlined {
     target: Target,
@@ -419,11 +487,6 @@ fn terms_of(interface: &Interface) -> Terms {
 fn terms_of_ties(interface: &Interface) -> Terms {
     let rigid = matches!(interface.law, ContactLaw::Multiplier);
     Terms { law: Box::new(law::tie::Tie { rigid }), tangential: Tangential::Tied, damping: 0.0 }
-}
-
-/// Terms of ties follow those of contacts and obstacles.
-fn first_of_ties(model: &Model) -> usize {
-    model.contacts.len() + model.obstacles.len()
 }
 
 /// Stiffness of a slave node; of laws without a penalty that of the automatic one, for what needs a scale.

@@ -92,6 +92,10 @@ pub struct Stores {
     pub elastic: f64,
     /// Dissipated by the material.
     pub plastic: f64,
+    /// Stored and taken by hourglass control.
+    pub hourglass: f64,
+    /// Taken by the bulk viscosity.
+    pub bulk_viscosity: f64,
     /// Springs of contacts and obstacles, elastic slip included.
     pub contact: f64,
     /// Lost by friction so far.
@@ -106,7 +110,15 @@ impl Stores {
     /// Sum of all stores.
     #[must_use]
     pub fn total(&self) -> f64 {
-        self.kinetic + self.elastic + self.plastic + self.contact + self.friction + self.contact_damping + self.damping
+        self.kinetic
+            + self.elastic
+            + self.plastic
+            + self.hourglass
+            + self.bulk_viscosity
+            + self.contact
+            + self.friction
+            + self.contact_damping
+            + self.damping
     }
 }
 

@@ -130,6 +130,28 @@ pub struct Parameter {
     pub range: Range,
     /// Value when the key is left out; `None`: the key is required.
     pub default: Option<f64>,
+    /// Most values of a list; 0: a single number. A list without a default may not be left out, one with a default may be empty.
+    pub list: usize,
     /// One line: what it is.
     pub doc: &'static str,
+}
+
+impl Parameter {
+    /// A number that must be given.
+    #[must_use]
+    pub const fn new(name: &'static str, symbol: &'static str, dimension: Dimension, range: Range, doc: &'static str) -> Self {
+        Self { name, symbol, dimension, range, default: None, list: 0, doc }
+    }
+
+    /// The same with a value for when it is left out.
+    #[must_use]
+    pub const fn or(self, default: f64) -> Self {
+        Self { default: Some(default), ..self }
+    }
+
+    /// The same as a list of at most so many numbers, each in the range.
+    #[must_use]
+    pub const fn list(self, most: usize) -> Self {
+        Self { list: most, ..self }
+    }
 }

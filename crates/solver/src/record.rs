@@ -3,14 +3,29 @@
 use crate::block::ElementState;
 use crate::contact::ContactKind;
 use crate::contact::springs::Tangential;
+use crate::contact::traces::State;
 use crate::error::Fault;
+use crate::material::Variable;
 use crate::model::{Model, ProbeAt};
 use crate::output::{CellKind, Cells, FIELDS, Field, FieldKind, Frame, Needs};
 use crate::rigid::Body;
 use crate::step::{System, Vector};
+use std::cell::OnceCell;
 
 /// Columns of energies, after `energy.`.
-const ENERGIES: [&str; 9] = ["kinetic", "internal", "plastic", "contact", "friction", "contact_damping", "damping", "external", "total"];
+const ENERGIES: [&str; 11] = [
+    "kinetic",
+    "internal",
+    "plastic",
+    "hourglass",
+    "bulk_viscosity",
+    "contact",
+    "friction",
+    "contact_damping",
+    "damping",
+    "external",
+    "total",
+];
 /// Columns of a rigid body that moves: reference point, angle and their velocities.
 const MOTION: [&str; 6] = ["x", "y", "angle", "vx", "vy", "spin"];
 
@@ -30,7 +45,7 @@ struct Probe {
 
 impl Recorded {
     pub(crate) fn new(model: &Model, system: &System) -> Result<Self, Vec<Fault>> {
-        let has_plastic = system.blocks.iter().any(|block| block.is_plastic());
+        let has_plastic = system.blocks.iter().any(|block| block.has(Variable::PlasticStrain));
         let has_contact = !system.contacts.is_empty();
         let has_friction = system.terms.iter().any(|terms| matches!(terms.tangential, Tangential::Friction(_)));
         let wanted = |kind: &&FieldKind| {
@@ -88,7 +103,16 @@ impl Recorded {
     pub(crate) fn row(&self, system: &System) -> Vec<f64> {
         let (stores, external) = (system.ledger.stores, system.ledger.external);
         let mut row = vec![system.time, system.time_step, stores.kinetic, stores.elastic + stores.plastic, stores.plastic];
-        row.extend([stores.contact, stores.friction, stores.contact_damping, stores.damping, external, stores.total() - external]);
+        row.extend([
+            stores.hourglass,
+            stores.bulk_viscosity,
+            stores.contact,
+            stores.friction,
+            stores.contact_damping,
+            stores.damping,
+            external,
+            stores.total() - external,
+        ]);
         let mut of_parts = vec![[0.0; 3]; system.mesh.parts.len()];
         for ((group, block), report) in system.mesh.groups.iter().zip(&system.blocks).zip(&system.reports) {
             let n = group.nodes_per_element;
@@ -125,7 +149,8 @@ impl Recorded {
     }
 
     pub(crate) fn frame(&self, system: &System) -> Frame<2> {
-        let fields = self.fields.iter().map(|&kind| Field { kind, values: values(kind.name, system) }).collect();
+        let surface = OnSurface::default();
+        let fields = self.fields.iter().map(|&kind| Field { kind, values: values(kind.name, system, &surface) }).collect();
         let mut positions = vec![[0.0; 2]; system.mesh.user_nodes.len()];
         for (x, &user) in system.positions.iter().zip(&system.mesh.user_nodes) {
             positions[user as usize] = *x;
@@ -148,32 +173,34 @@ fn motion(system: &System, body: usize) -> [f64; 6] {
     [body.centre[0], body.centre[1], body.angle, u, v, spin]
 }
 
+/// What several fields of a frame are taken from, found when the first of them asks.
+#[derive(Default)]
+struct OnSurface {
+    /// Pressure and shear stress of every node, Pa.
+    tractions: OnceCell<Vec<[f64; 2]>>,
+    states: OnceCell<Vec<State>>,
+}
+
 /// Values of one of [`FIELDS`], in the user's order.
-fn values(name: &str, system: &System) -> Vec<f64> {
+fn values(name: &str, system: &System, surface: &OnSurface) -> Vec<f64> {
+    let traces = &system.traces;
+    let tractions = || surface.tractions.get_or_init(|| traces.tractions(&system.contact_forces, &system.positions));
+    let states = || surface.states.get_or_init(|| traces.states(&system.springs));
     let moved = |node: usize| [0, 1].map(|d| system.positions[node][d] - system.mesh.positions[node][d]);
     match name {
         "displacement" => by_node(system, moved),
         "velocity" => by_node(system, |node| velocity(system, node)),
         "contact_force" => by_node(system, |node| system.contact_forces[node]),
-        "contact_pressure" | "contact_shear" => {
-            let tractions = system.traces.tractions(&system.contact_forces, &system.positions);
-            let component = usize::from(name == "contact_shear");
-            by_node(system, |node| [tractions[node][component]])
-        }
-        "contact_gap" => {
-            let states = system.traces.states(&system.springs);
-            by_node(system, |node| [states[node].gap])
-        }
-        "contact_status" => {
-            let states = system.traces.states(&system.springs);
-            by_node(system, |node| [states[node].status])
-        }
-        "contact_slip" => by_node(system, |node| [system.traces.slip(node)]),
-        "friction_heat" => by_node(system, |node| [system.traces.heat(node)]),
+        "contact_pressure" => by_node(system, |node| [tractions()[node][0]]),
+        "contact_shear" => by_node(system, |node| [tractions()[node][1]]),
+        "contact_gap" => by_node(system, |node| [states()[node].gap]),
+        "contact_status" => by_node(system, |node| [states()[node].status]),
+        "contact_slip" => by_node(system, |node| [traces.slip(node)]),
+        "friction_heat" => by_node(system, |node| [traces.heat(node)]),
         "stress" => by_element(system, |state| [state.stress[0], state.stress[1], state.stress[2], state.stress[3]]),
         "von_mises" => by_element(system, |state| [von_mises(&state.stress)]),
         "pressure" => by_element(system, |state| [-(state.stress[0] + state.stress[1] + state.stress[2]) / 3.0]),
-        "plastic_strain" => by_element(system, |state| [state.plastic_strain]),
+        "plastic_strain" => by_element(system, |state| [state.variables[Variable::PlasticStrain as usize]]),
         "energy_density" => by_element(system, |state| [state.energy_density]),
         _ => Vec::new(),
     }

@@ -63,7 +63,7 @@ pub struct System {
     pub(crate) mass: Vec<f64>,
     /// Contacts, then obstacles.
     pub(crate) contacts: Vec<Contact>,
-    /// What acts in the springs of each.
+    /// What acts in springs, by the numbers that contacts and ties have of it.
     pub(crate) terms: Vec<Terms>,
     pub(crate) bodies: Bodies,
     /// Rigid parts: the part and its body.
@@ -233,8 +233,8 @@ impl System {
         self.springs.clear();
         let sweep = Sweep { old: &self.positions_old, new: &self.positions };
         let scene = Scene { sweep, bodies: &self.bodies, time: self.time };
-        for (index, contact) in self.contacts.iter_mut().enumerate() {
-            contact.detect(index, &scene, &mut self.springs);
+        for contact in &mut self.contacts {
+            contact.detect(&scene, &mut self.springs);
             self.penetration_max = self.penetration_max.max(contact.penetration);
         }
         let dt = 0.5 * (time_step + self.time_step_old);
@@ -306,8 +306,15 @@ impl System {
         for totals in totals() {
             lost += totals.lost;
         }
-        let stores =
-            Stores { kinetic: sum.kinetic, elastic: elements.stored, plastic: elements.dissipated, contact: springs, ..Stores::default() };
+        let stores = Stores {
+            kinetic: sum.kinetic,
+            elastic: elements.stored,
+            plastic: elements.dissipated,
+            hourglass: elements.hourglass,
+            bulk_viscosity: elements.viscous,
+            contact: springs,
+            ..Stores::default()
+        };
         if !(sum.kinetic_half.is_finite() && stores.total().is_finite()) {
             return Err(self.not_finite());
         }

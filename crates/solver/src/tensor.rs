@@ -11,7 +11,7 @@ pub trait SymmetricTensor<L: Lane>: Copy {
     /// Number of stored components.
     const COMPONENTS: usize;
     /// A rotation that can be applied to it.
-    type Rotation: Copy;
+    type Rotation: Turn<L>;
 
     /// Components from the batches `from[0..COMPONENTS]`, lanes from `at` on.
     fn load(from: &[Batch], at: usize) -> Self;
@@ -29,6 +29,11 @@ pub trait SymmetricTensor<L: Lane>: Copy {
     fn trace(self) -> L;
     /// Double contraction A:B = Σ_ij A_ij B_ij.
     fn contract(self, other: Self) -> L;
+    /// Component zz: out of the plane, or along the third axis of space.
+    fn zz(self) -> L;
+    /// The same tensor with `value` added to component zz.
+    #[must_use]
+    fn plus_zz(self, value: L) -> Self;
     /// Determinant.
     fn determinant(self) -> L;
     /// Q T Qᵀ.
@@ -43,7 +48,19 @@ pub trait SymmetricTensor<L: Lane>: Copy {
     }
 }
 
-/// Symmetric tensor in plane strain: xx yy zz xy.
+/// A rotation as a symmetric tensor feels it, for storage between the parts of a kernel.
+pub trait Turn<L: Lane>: Copy {
+    /// Number of stored components.
+    const COMPONENTS: usize;
+    /// No rotation.
+    fn none() -> Self;
+    /// Components from the batches `from[0..COMPONENTS]`, lanes from `at` on.
+    fn load(from: &[Batch], at: usize) -> Self;
+    /// Writes the components to the batches `to[0..COMPONENTS]`, lanes from `at` on.
+    fn store(self, to: &mut [Batch], at: usize);
+}
+
+/// Symmetric tensor of the plane, with what is normal to it: xx yy zz xy.
 #[derive(Clone, Copy, Debug)]
 pub struct Plane<L>(pub [L; 4]);
 
@@ -93,6 +110,15 @@ macro_rules! componentwise {
         fn trace(self) -> L {
             self.0[0] + self.0[1] + self.0[2]
         }
+        #[inline(always)]
+        fn zz(self) -> L {
+            self.0[2]
+        }
+        #[inline(always)]
+        fn plus_zz(mut self, value: L) -> Self {
+            self.0[2] += value;
+            self
+        }
         // In the plane the loop over the remaining shear components is empty.
         #[allow(clippy::reversed_empty_ranges)]
         #[inline(always)]
@@ -117,6 +143,51 @@ impl<L: Lane> PlaneRotation<L> {
     pub fn new(cos: L, sin: L) -> Self {
         let twice = sin + sin;
         Self([L::splat(1.0) - sin * twice, cos * twice])
+    }
+}
+
+impl<L: Lane> Turn<L> for PlaneRotation<L> {
+    const COMPONENTS: usize = 2;
+
+    #[inline(always)]
+    fn none() -> Self {
+        Self([L::splat(1.0), L::splat(0.0)])
+    }
+    #[inline(always)]
+    fn load(from: &[Batch], at: usize) -> Self {
+        Self([L::load(&from[0], at), L::load(&from[1], at)])
+    }
+    #[inline(always)]
+    fn store(self, to: &mut [Batch], at: usize) {
+        self.0[0].store(&mut to[0], at);
+        self.0[1].store(&mut to[1], at);
+    }
+}
+
+impl<L: Lane> Turn<L> for Matrix<L, 3> {
+    const COMPONENTS: usize = 9;
+
+    #[inline(always)]
+    fn none() -> Self {
+        let mut q = [[L::splat(0.0); 3]; 3];
+        for i in 0..3 {
+            q[i][i] = L::splat(1.0);
+        }
+        q
+    }
+    #[inline(always)]
+    fn load(from: &[Batch], at: usize) -> Self {
+        let mut q = [[L::splat(0.0); 3]; 3];
+        for k in 0..9 {
+            q[k / 3][k % 3] = L::load(&from[k], at);
+        }
+        q
+    }
+    #[inline(always)]
+    fn store(self, to: &mut [Batch], at: usize) {
+        for k in 0..9 {
+            self[k / 3][k % 3].store(&mut to[k], at);
+        }
     }
 }
 

@@ -89,6 +89,7 @@ fn one_list_can_be_chosen() {
     for (what, title) in [
         ("elements", "Elements"),
         ("materials", "Materials"),
+        ("stress-states", "Stress states"),
         ("searches", "Searches"),
         ("formulations", "Contact formulations"),
         ("fields", "Fields"),

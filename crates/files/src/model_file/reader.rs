@@ -102,6 +102,12 @@ impl Record {
         self.values.iter().filter_map(number).collect()
     }
 
+    pub(super) fn lists(&self) -> BTreeMap<String, Vec<f64>> {
+        let list =
+            |(key, datum): (&String, &Datum)| if let Datum::Numbers(values) = datum { Some((key.clone(), values.clone())) } else { None };
+        self.values.iter().filter_map(list).collect()
+    }
+
     pub(crate) fn number(&self, name: &str) -> Option<f64> {
         if let Some(Datum::Number(value)) = self.datum(name) { Some(*value) } else { None }
     }

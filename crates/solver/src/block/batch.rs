@@ -15,6 +15,16 @@ pub(crate) struct ElementBatch {
     pub(crate) dissipated: Batch,
     /// Square of each element's stable step, s².
     pub(crate) time_step_squared: Batch,
+    /// Energy that hourglass control has stored and taken, J/m.
+    pub(crate) hourglass: Batch,
+    /// Work that the bulk viscosity has taken, J/m.
+    pub(crate) viscous: Batch,
+    /// The part of it in the last step, J/m.
+    pub(crate) viscous_step: Batch,
+    /// Pressure of the bulk viscosity, Pa.
+    pub(crate) viscous_pressure: Batch,
+    /// Volume in the last step, m² (m³); kept only with bulk viscosity.
+    pub(crate) volume: Batch,
 }
 
 /// Splits `items` elements into batches, the last filled up with copies of the last element.

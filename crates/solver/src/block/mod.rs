@@ -1,14 +1,21 @@
 //! A block is one element kind times one material: it gathers node motion, updates strain and stress, and leaves corner forces.
 //!
-//! Element and material are compiled together (`kernel.rs`) and erased once, as `Box<dyn Block>`: one virtual call per block
-//! and step. State lives in batches of eight (`batch.rs`). Corner forces go to the assembly, which sums them in fixed order.
+//! A step goes strip by strip (`strip.rs`): the element and its stress state strain the points (`strain.rs`), the law answers (`crate::material::points`), and
+//! the element makes forces of it (`forces.rs`). Element and stress state are compiled together, the law for itself, so kernels are as many as elements plus laws, not
+//! their product. All is erased once, as `Box<dyn Block>`: one virtual call per block and step, and one per strip of 64 elements.
+//! State lives in batches of eight (`batch.rs`). Corner forces go to the assembly, which sums them in fixed order.
 
 mod batch;
-mod kernel;
+mod elements;
+mod forces;
 mod make;
+mod strain;
+pub mod stress_state;
+mod strip;
 
 pub use make::{BlockInput, make};
 
+use crate::material::Variable;
 use embate_lanes::{Batch, Level};
 
 /// Node motion that a block gathers from: end of step positions and the velocities that led there.
@@ -33,11 +40,16 @@ pub struct Report {
     pub stored: f64,
     /// Energy dissipated so far, J/m.
     pub dissipated: f64,
+    /// Energy that hourglass control has stored and taken so far, J/m.
+    pub hourglass: f64,
+    /// Work that the bulk viscosity has taken so far, J/m.
+    pub viscous: f64,
 }
 
 impl Report {
     /// The neutral element of [`Report::join`].
-    pub const NOTHING: Self = Self { time_step_squared: f64::INFINITY, determinant: f64::INFINITY, stored: 0.0, dissipated: 0.0 };
+    pub const NOTHING: Self =
+        Self { time_step_squared: f64::INFINITY, determinant: f64::INFINITY, stored: 0.0, dissipated: 0.0, hourglass: 0.0, viscous: 0.0 };
 
     /// Both together; energies are summed in call order.
     #[must_use]
@@ -47,6 +59,8 @@ impl Report {
             determinant: self.determinant.min(other.determinant),
             stored: self.stored + other.stored,
             dissipated: self.dissipated + other.dissipated,
+            hourglass: self.hourglass + other.hourglass,
+            viscous: self.viscous + other.viscous,
         }
     }
 }
@@ -56,8 +70,8 @@ impl Report {
 pub struct ElementState {
     /// Cauchy stress xx yy zz xy (yz zx), mean over the points, Pa.
     pub stress: [f64; 6],
-    /// Equivalent plastic strain, mean over the points.
-    pub plastic_strain: f64,
+    /// What the law remembers and shows, mean over the points; zero where it has none. By [`Variable`].
+    pub variables: [f64; Variable::COUNT],
     /// Stored elastic energy per initial volume, J/m³.
     pub energy_density: f64,
 }
@@ -83,8 +97,8 @@ pub trait Block<const D: usize>: Send + Sync {
     fn wave_modulus(&self) -> f64;
     /// Bulk modulus K at rest, Pa.
     fn bulk_modulus(&self) -> f64;
-    /// Whether the law has a plastic strain.
-    fn is_plastic(&self) -> bool;
+    /// Whether the law shows this.
+    fn has(&self, variable: Variable) -> bool;
 }
 
 /// Where a corner force lies: batch index of its first component; the components of a corner follow each other.

@@ -1,6 +1,6 @@
 //! Obstacles: their rigid bodies, their shapes, and the nodes that meet them.
 
-use super::{Builder, search_by_name, stiffness_of, terms_of};
+use super::{Builder, Outlined, search_by_name, stiffness_of, terms_of};
 use crate::contact::formulation::Side;
 use crate::contact::node_segment::{NodeSegment, Slave};
 use crate::contact::obstacle::circle::{Circle, RoundSegments};
@@ -8,7 +8,7 @@ use crate::contact::obstacle::plane::Plane;
 use crate::contact::obstacle::{Both, NodeObstacle, OutlineShape, Shape};
 use crate::contact::projection::node_segment::Target;
 use crate::contact::tracker::{SKIN, Tracker};
-use crate::contact::{self, Contact, ContactKind, Formulation, initial, law, length};
+use crate::contact::{self, Contact, ContactKind, Formulation, Vector, initial, law, length};
 use crate::error::Fault;
 use crate::load::constraint::unit;
 use crate::mesh::surface::{NONE, Surface};
@@ -18,9 +18,7 @@ use std::f64::consts::TAU;
 
 /// The outside of the bodies that an obstacle stops.
 struct Met {
-    target: Target,
-    /// Segments on symmetry lines, which are left out of it.
-    lids: Vec<[u32; 2]>,
+    outline: Outlined,
     /// Tributary length (m) and pressure stiffness (Pa/m) of each of its nodes.
     own: Vec<(f64, f64)>,
     /// Mean of both over the nodes.
@@ -29,6 +27,15 @@ struct Met {
     longest: f64,
     /// Reach of the law, m.
     reach: f64,
+}
+
+impl Met {
+    /// A point of the obstacle as a slave: it has as much as a node of the parts.
+    fn point(&self, obstacle: &Obstacle) -> Slave {
+        let (area, own) = self.mean;
+        let here = law::Node { tributary: area, own, other: own, share: 1.0 };
+        Slave { stiffness: stiffness_of(&obstacle.interface, here, 1), area, slip: 0.0 }
+    }
 }
 
 /// Points of the outline of a circle.
@@ -42,9 +49,8 @@ impl Builder<'_> {
             let made = self.met(obstacle, terms.law.reach()).and_then(|met| self.obstacle(obstacle, met));
             match made {
                 Ok((body, formulation)) => {
-                    self.terms.push(terms);
-                    let kind = ContactKind::Obstacle(body);
-                    contacts.push(Contact::new(obstacle.name.clone(), kind, formulation, obstacle.interface.active));
+                    let (kind, terms) = (ContactKind::Obstacle(body), self.add_terms(terms));
+                    contacts.push(Contact::new(obstacle.name.clone(), kind, formulation, terms, obstacle.interface.active));
                 }
                 Err(fault) => self.faults.push(Fault { path: format!("obstacle[{i}]{}", fault.path), ..fault }),
             }
@@ -52,24 +58,24 @@ impl Builder<'_> {
         contacts
     }
 
-    fn met(&self, obstacle: &Obstacle, reach: f64) -> Result<Met, Fault> {
+    /// The outside of the parts that an obstacle stops.
+    pub(super) fn outline_met(&self, obstacle: &Obstacle) -> Result<Outlined, Fault> {
         let outline = self.outlined(|leave_out| self.mesh.outside_without(&obstacle.parts, leave_out), "the outside of these parts");
-        let outline = outline.map_err(|fault| Fault { path: ".parts".into(), ..fault })?;
-        let Side { target, lids, nodes: own, .. } = self.side(outline, &obstacle.interface);
+        outline.map_err(|fault| Fault { path: ".parts".into(), ..fault })
+    }
+
+    fn met(&self, obstacle: &Obstacle, reach: f64) -> Result<Met, Fault> {
+        let Side { target, lids, nodes: own, .. } = self.side(self.outline_met(obstacle)?, &obstacle.interface);
         let count = own.len().max(1) as f64;
         let sum = own.iter().fold((0.0, 0.0), |sum, it| (sum.0 + it.0, sum.1 + it.1));
         let longest = target.surface.segments.iter().map(|&segment| length(segment, &self.mesh.positions)).fold(0.0, f64::max);
-        Ok(Met { target, lids, own, mean: (sum.0 / count, sum.1 / count), longest, reach })
+        Ok(Met { outline: Outlined { target, lids }, own, mean: (sum.0 / count, sum.1 / count), longest, reach })
     }
 
     /// The body of an obstacle, and what makes springs at it.
     fn obstacle(&mut self, obstacle: &Obstacle, met: Met) -> Result<(usize, Box<dyn Formulation>), Fault> {
         match &obstacle.shape {
-            ObstacleShape::Plane { point, normal, length } => {
-                let normal =
-                    unit(*normal).ok_or_else(|| Fault::new(".plane.normal", "it has no direction", "give a vector such as [1, 0]"))?;
-                Ok(self.plane(obstacle, &met, *point, normal, *length))
-            }
+            ObstacleShape::Plane { point, normal, length } => self.plane(obstacle, met, *point, *normal, *length),
             ObstacleShape::Circle { centre, radius, hollow } => self.circle(obstacle, met, *centre, *radius, *hollow),
             ObstacleShape::Polyline { points } => Ok(self.polyline(obstacle, met, points)),
         }
@@ -78,23 +84,37 @@ impl Builder<'_> {
     fn plane(
         &mut self,
         obstacle: &Obstacle,
-        met: &Met,
+        met: Met,
         point: [f64; 2],
         normal: [f64; 2],
         length: Option<f64>,
-    ) -> (usize, Box<dyn Formulation>) {
+    ) -> Result<(usize, Box<dyn Formulation>), Fault> {
         let reference = obstacle.reference.unwrap_or(point);
-        let half = length.map_or(f64::INFINITY, |length| 0.5 * length);
-        let middle = [point[0] - reference[0], point[1] - reference[1]];
-        let shape = Plane { middle, normal, half, thickness: obstacle.interface.thickness, shallow: SKIN * met.mean.0 };
+        let shape = plane(seen(point, reference), normal, length, obstacle.interface.thickness, met.mean.0)?;
         // Beyond every picture of the model.
-        let far = half.min(20.0 * self.mesh.positions.iter().flatten().fold(0.0f64, |size, x| size.max(x.abs())));
-        let points = [1.0, -1.0].map(|side| [middle[0] - side * far * normal[1], middle[1] + side * far * normal[0]]);
-        let body = self.bodies.add(self.obstacle_body(obstacle, reference));
-        self.outlines.push(OutlineShape { name: obstacle.name.clone(), body, points: points.into() });
-        // Nodes that a symmetry line keeps on this plane need no spring.
-        let held = |node: u32| self.constraints.mirror_normals(node).any(|m| (m[0] * normal[1] - m[1] * normal[0]).abs() < 1e-12);
-        (body, Box::new(self.node_obstacle(obstacle, met, Box::new(shape), body, held)))
+        let far = shape.half.min(20.0 * initial::size(&self.mesh.positions));
+        let points = shape.at([-far, far]).into();
+        let mut rigid = self.obstacle_body(obstacle, reference);
+        let arms = shape.ends().into_iter().flatten();
+        let ends: Vec<(Vector, Vector)> = arms.map(|arm| (arm, [reference[0] + arm[0], reference[1] + arm[1]])).collect();
+        let ends = ends.into_iter().filter(|&(_, x)| !self.is_beyond_mirrors(x, &obstacle.parts)).collect::<Vec<_>>();
+        rigid.members = ends.into_iter().map(|(arm, x)| Member { node: self.add_node(x), arm }).collect();
+        let own: Vec<u32> = rigid.members.iter().map(|member| member.node).collect();
+        let body = self.bodies.add_with_nodes(rigid, self.positions.len());
+        self.outlines.push(OutlineShape { name: obstacle.name.clone(), body, points });
+        let held = |node: u32| self.is_held_along(node, shape.normal);
+        let nodes = self.node_obstacle(obstacle, &met, Box::new(shape), body, held);
+        if own.is_empty() {
+            return Ok((body, Box::new(nodes)));
+        }
+        let slaves = vec![vec![met.point(obstacle); own.len()]];
+        let tracker = self.tracker(met.outline, points_only(own), &[(1, 0)], &self.positions);
+        Ok((body, Box::new(Both::new([Box::new(nodes), Box::new(NodeSegment::new(tracker, slaves, &obstacle.interface, met.reach))]))))
+    }
+
+    /// Whether a symmetry line keeps a node at its distance from a plane: then it needs no spring.
+    pub(super) fn is_held_along(&self, node: u32, normal: Vector) -> bool {
+        self.constraints.mirror_normals(node).any(|m| (m[0] * normal[1] - m[1] * normal[0]).abs() < 1e-12)
     }
 
     fn circle(
@@ -106,13 +126,8 @@ impl Builder<'_> {
         hollow: bool,
     ) -> Result<(usize, Box<dyn Formulation>), Fault> {
         let reference = obstacle.reference.unwrap_or(centre);
-        let middle = [centre[0] - reference[0], centre[1] - reference[1]];
-        let thickness = obstacle.interface.thickness;
-        let pushed = if hollow { radius - thickness } else { radius + thickness };
-        if !(pushed > 0.0) {
-            let message = format!("the thickness of {thickness} m leaves nothing of the hollow circle with a radius of {radius} m");
-            return Err(Fault::new(".circle.radius", message, "take a smaller thickness or a larger circle"));
-        }
+        let shape = circle(seen(centre, reference), radius, hollow, obstacle.interface.thickness)?;
+        let Circle { middle, radius: pushed, .. } = shape;
         // The solid is on the right: outside of a hollow circle, inside of another.
         let turn = if hollow { TAU } else { -TAU };
         let place = |k: usize| {
@@ -120,7 +135,7 @@ impl Builder<'_> {
             [middle[0] + radius * cos, middle[1] + radius * sin]
         };
         let points = (0..=ROUND).map(place).collect();
-        let shape = Box::new(Circle { middle, radius: pushed, hollow });
+        let shape = Box::new(shape);
         let mut rigid = self.obstacle_body(obstacle, reference);
         if hollow || pushed >= met.longest {
             let body = self.bodies.add(rigid);
@@ -133,11 +148,8 @@ impl Builder<'_> {
         let body = self.bodies.add_with_nodes(rigid, self.positions.len());
         self.outlines.push(OutlineShape { name: obstacle.name.clone(), body, points });
         let nodes = self.node_obstacle(obstacle, &met, shape, body, |_| false);
-        let (area, own) = met.mean;
-        let stiffness = stiffness_of(&obstacle.interface, law::Node { tributary: area, own, other: own, share: 1.0 }, 1);
-        let slave = Slave { stiffness, area, slip: 0.0 };
-        let centre = Target { surface: Surface { nodes: vec![node], ..Surface::default() }, mirrors: Vec::new() };
-        let tracker = self.tracker(met.target, met.lids, centre, &[(1, 0)]);
+        let slave = met.point(obstacle);
+        let tracker = self.tracker(met.outline, points_only(vec![node]), &[(1, 0)], &self.positions);
         let segments = RoundSegments::new(tracker, slave, [pushed, met.reach], body, initial::is_ignored(&obstacle.interface));
         Ok((body, Box::new(Both::new([Box::new(nodes), Box::new(segments)]))))
     }
@@ -162,20 +174,26 @@ impl Builder<'_> {
             let here = law::Node { tributary, own, other: own, share };
             Slave { stiffness: stiffness_of(&obstacle.interface, here, passes), area: tributary / passes as f64, slip: 0.0 }
         };
-        let of_parts =
-            met.target.surface.nodes.iter().zip(&met.own).map(|(&node, &(length, own))| slave(length, own, self.constraints.share(node)));
+        let of_parts = met
+            .outline
+            .target
+            .surface
+            .nodes
+            .iter()
+            .zip(&met.own)
+            .map(|(&node, &(length, own))| slave(length, own, self.constraints.share(node)));
         let of_corners = contact::node_stiffness(&surface, &vec![met.mean.1; lines.len()], &self.positions);
         let of_corners = of_corners.iter().map(|&(length, own)| slave(length.min(met.mean.0), own, 1.0));
         let slaves = vec![of_parts.collect(), of_corners.collect()];
         let own = Target { surface, mirrors: Vec::new() };
-        let tracker = self.tracker(met.target, met.lids, own, &[(0, 1), (1, 0)]);
+        let tracker = self.tracker(met.outline, own, &[(0, 1), (1, 0)], &self.positions);
         (body, Box::new(NodeSegment::new(tracker, slaves, &obstacle.interface, met.reach)))
     }
 
     /// Follows the outside of the parts and a surface of the obstacle.
-    fn tracker(&self, parts: Target, lids: Vec<[u32; 2]>, obstacle: Target, passes: &[(usize, usize)]) -> Tracker {
+    pub(super) fn tracker(&self, parts: Outlined, obstacle: Target, passes: &[(usize, usize)], positions: &[Vector]) -> Tracker {
         let search = (search_by_name("").expect("the registry of searches is not empty").make)();
-        Tracker::new(vec![parts, obstacle], passes, search, &self.positions).with_bodies(&self.body_of_node, &[lids, Vec::new()])
+        Tracker::new(vec![parts.target, obstacle], passes, search, positions).with_bodies(&self.body_of_node, &[parts.lids, Vec::new()])
     }
 
     /// A node that belongs to no element.
@@ -197,7 +215,7 @@ impl Builder<'_> {
             let here = law::Node { tributary: length, own, other: own, share: self.constraints.share(node) };
             (!left_out(node)).then(|| (node, Slave { stiffness: stiffness_of(&obstacle.interface, here, 1), area: length, slip: 0.0 }))
         };
-        let nodes = met.target.surface.nodes.iter().zip(&met.own).filter_map(slave).collect();
+        let nodes = met.outline.target.surface.nodes.iter().zip(&met.own).filter_map(slave).collect();
         NodeObstacle::new(shape, body, nodes, SKIN * met.mean.0 + met.reach, initial::is_ignored(&obstacle.interface))
     }
 
@@ -227,6 +245,32 @@ impl Builder<'_> {
             ..Body::default()
         }
     }
+}
+
+/// A point as seen from another one.
+fn seen(point: Vector, from: Vector) -> Vector {
+    [point[0] - from[0], point[1] - from[1]]
+}
+
+/// A plane around `middle` or, without a length, through it; `spacing` of the nodes that meet it, m.
+pub(super) fn plane(middle: Vector, normal: Vector, length: Option<f64>, thickness: f64, spacing: f64) -> Result<Plane, Fault> {
+    let normal = unit(normal).ok_or_else(|| Fault::new(".plane.normal", "it has no direction", "give a vector such as [1, 0]"))?;
+    Ok(Plane { middle, normal, half: length.map_or(f64::INFINITY, |length| 0.5 * length), thickness, shallow: SKIN * spacing })
+}
+
+/// A circle around `middle` that nodes meet at its thickness.
+pub(super) fn circle(middle: Vector, radius: f64, hollow: bool, thickness: f64) -> Result<Circle, Fault> {
+    let pushed = if hollow { radius - thickness } else { radius + thickness };
+    if !(pushed > 0.0) {
+        let message = format!("the thickness of {thickness} m leaves nothing of the hollow circle with a radius of {radius} m");
+        return Err(Fault::new(".circle.radius", message, "take a smaller thickness or a larger circle"));
+    }
+    Ok(Circle { middle, radius: pushed, hollow })
+}
+
+/// Nodes without segments, which are slaves only.
+pub(super) fn points_only(nodes: Vec<u32>) -> Target {
+    Target { surface: Surface { nodes, ..Surface::default() }, mirrors: Vec::new() }
 }
 
 /// The points of a polyline, each once, and whether it is closed: then it ends at its first point.

@@ -1,16 +1,18 @@
 //! Penetrations at the start, found before anything is strained: refused, ignored, or pushed out.
 
-use super::obstacles::{chain, distinct};
+use super::obstacles::{chain, circle, distinct, plane, points_only};
 use super::{Builder, Outlined, search_by_name};
+use crate::contact::formulation::{self, Passes};
 use crate::contact::initial::{self, Movable, Penetration};
+use crate::contact::obstacle::{Memory, Shape, Way};
 use crate::contact::projection::node_segment::Target;
 use crate::contact::search::Search;
-use crate::contact::tracker::{SKIN, Tracker};
+use crate::contact::tracker::Tracker;
 use crate::contact::{Vector, length};
 use crate::error::Fault;
 use crate::load::constraint::unit;
 use crate::mesh::surface::Surface;
-use crate::model::{self, Formulation, InitialPenetration, Interface, Obstacle, ObstacleShape, Partners};
+use crate::model::{InitialPenetration, Interface, Obstacle, ObstacleShape};
 
 /// Rounds over all contacts and obstacles: what is pushed out of one may come into another.
 const ROUNDS: usize = 20;
@@ -38,8 +40,12 @@ impl Builder<'_> {
             if contact.tied.is_some() || active[0] > 0.0 {
                 continue;
             }
-            let (Ok(outlines), Some(search)) = (self.outlines_of(contact), search_by_name(&contact.search)) else { continue };
-            let mut tracker = self.tracker_at_start(outlines, passes_of(contact), (search.make)());
+            let (Ok(outlines), Some(search), Some(kind)) =
+                (self.outlines_of(contact), search_by_name(&contact.search), formulation::kind_of(contact))
+            else {
+                continue;
+            };
+            let mut tracker = self.tracker_at_start(outlines, (kind.passes)(contact), (search.make)());
             let found = initial::penetrations(&mut tracker, thickness, &self.mesh.positions, tolerance);
             match initial_penetration {
                 InitialPenetration::Error => self.faults.extend(initial::faults(&format!("contact[{i}]"), &contact.name, &found)),
@@ -58,12 +64,14 @@ impl Builder<'_> {
                 InitialPenetration::Ignore => IGNORED,
                 InitialPenetration::PushOut => PUSHED,
             };
-            let Ok(surface) = self.mesh.outside_without(&obstacle.parts, |segment| self.constraints.is_mirror(segment)) else { continue };
-            let behind = behind(obstacle, &surface, &self.mesh.positions);
-            lines.extend(initial::lines(&obstacle.name, &penetrations(&surface.nodes, &self.mesh.positions, &behind, tolerance), what));
+            // Wrong parts and shapes are told when obstacles are made.
+            let Ok(outline) = self.outline_met(obstacle) else { continue };
+            let Some(behind) = behind(obstacle, &outline.target.surface, &self.mesh.positions) else { continue };
+            let nodes = self.nodes_met(obstacle, &outline.target.surface);
+            lines.extend(initial::lines(&obstacle.name, &penetrations(&nodes, &self.mesh.positions, &behind, tolerance), what));
             if what == PUSHED {
-                pushed.extend(self.meeting(obstacle, surface.clone()));
-                pushing.push((surface.nodes, behind));
+                pushed.extend(self.meeting(obstacle, outline));
+                pushing.push((nodes, behind));
             }
         }
         if !pushed.is_empty() || !pushing.is_empty() {
@@ -73,7 +81,7 @@ impl Builder<'_> {
         lines
     }
 
-    fn tracker_at_start(&self, outlines: Vec<Outlined>, passes: &[(usize, usize)], search: Box<dyn Search<2>>) -> Tracker {
+    fn tracker_at_start(&self, outlines: Vec<Outlined>, passes: Passes, search: Box<dyn Search<2>>) -> Tracker {
         let (targets, lids): (Vec<_>, Vec<_>) = outlines.into_iter().map(|Outlined { target, lids }| (target, lids)).unzip();
         Tracker::new(targets, passes, search, &self.mesh.positions).with_bodies(&self.body_of_node, &lids)
     }
@@ -113,25 +121,35 @@ impl Builder<'_> {
         }
     }
 
+    /// Nodes of a surface that an obstacle may have springs for.
+    fn nodes_met(&self, obstacle: &Obstacle, surface: &Surface) -> Vec<u32> {
+        let along = if let ObstacleShape::Plane { normal, .. } = obstacle.shape { unit(normal) } else { None };
+        let is_met = |node: &u32| along.is_none_or(|normal| !self.is_held_along(*node, normal));
+        surface.nodes.iter().copied().filter(is_met).collect()
+    }
+
     /// An obstacle that may come in between nodes of the parts.
-    fn meeting(&self, obstacle: &Obstacle, surface: Surface) -> Option<Meeting> {
+    fn meeting(&self, obstacle: &Obstacle, outline: Outlined) -> Option<Meeting> {
         let thickness = obstacle.interface.thickness;
         let (points, closed, radius) = match &obstacle.shape {
-            ObstacleShape::Circle { centre, radius, hollow: false } => (vec![*centre], true, *radius),
+            ObstacleShape::Circle { centre, radius, hollow: false } => (vec![*centre], None, *radius),
             ObstacleShape::Polyline { points } => {
                 let (own, closed) = distinct(points);
-                (own.to_vec(), closed, 0.0)
+                (own.to_vec(), Some(closed), 0.0)
             }
-            _ => return None,
+            ObstacleShape::Plane { point, normal, length } => {
+                let ends = plane(*point, *normal, *length, thickness, 0.0).ok()?.ends()?.into_iter();
+                (ends.filter(|&x| !self.is_beyond_mirrors(x, &obstacle.parts)).collect(), None, 0.0)
+            }
+            ObstacleShape::Circle { hollow: true, .. } => return None,
         };
         let first = self.mesh.positions.len() as u32;
         let nodes: Vec<u32> = (first..first + points.len() as u32).collect();
-        let own = if points.len() > 1 { chain(nodes, closed) } else { Surface { nodes, ..Surface::default() } };
-        let targets = vec![self.with_mirrors(surface), Target { surface: own, mirrors: Vec::new() }];
-        let passes: &[(usize, usize)] = if points.len() > 1 { &[(0, 1), (1, 0)] } else { &[(1, 0)] };
+        let passes: &[(usize, usize)] = if closed.is_some() { &[(0, 1), (1, 0)] } else { &[(1, 0)] };
+        let own = closed
+            .map_or_else(|| points_only(nodes.clone()), |closed| Target { surface: chain(nodes.clone(), closed), mirrors: Vec::new() });
         let positions: Vec<Vector> = self.mesh.positions.iter().chain(&points).copied().collect();
-        let search = (search_by_name("")?.make)();
-        let tracker = Tracker::new(targets, passes, search, &positions).with_bodies(&self.body_of_node, &[]);
+        let tracker = self.tracker(outline, own, passes, &positions);
         Some(Meeting { contact: None, tracker, thickness: thickness + radius, points })
     }
 }
@@ -143,37 +161,24 @@ const PUSHED: &str = "it was pushed out";
 /// Gap (m) and normal of a point at an obstacle; `None` where the obstacle is not.
 type Behind = Box<dyn Fn(Vector) -> Option<(f64, Vector)>>;
 
-/// What says whether nodes are behind an obstacle; of a polyline nodes and segments say it.
-fn behind(obstacle: &Obstacle, surface: &Surface, positions: &[Vector]) -> Behind {
+/// What says whether nodes are behind an obstacle, as it will see them; of a polyline nodes and segments say it.
+fn behind(obstacle: &Obstacle, surface: &Surface, positions: &[Vector]) -> Option<Behind> {
     let thickness = obstacle.interface.thickness;
-    match obstacle.shape.clone() {
+    let shape: Box<dyn Shape> = match &obstacle.shape {
         ObstacleShape::Plane { point, normal, length: wide } => {
-            let normal = unit(normal).unwrap_or_default();
-            let half = wide.map_or(f64::INFINITY, |wide| 0.5 * wide);
             let lengths: f64 = surface.segments.iter().map(|&segment| length(segment, positions)).sum();
-            // A plate has another side.
-            let deepest = if wide.is_some() { SKIN * lengths / surface.nodes.len().max(1) as f64 } else { f64::INFINITY };
-            Box::new(move |x| {
-                let arm = [x[0] - point[0], x[1] - point[1]];
-                let gap = arm[0] * normal[0] + arm[1] * normal[1] - thickness;
-                let along = arm[0] * normal[1] - arm[1] * normal[0];
-                (along.abs() <= half && gap >= -deepest).then_some((gap, normal))
-            })
+            Box::new(plane(*point, *normal, *wide, thickness, lengths / surface.nodes.len().max(1) as f64).ok()?)
         }
-        ObstacleShape::Circle { centre, radius, hollow } => Box::new(move |x| {
-            let arm = [x[0] - centre[0], x[1] - centre[1]];
-            let distance = arm[0].hypot(arm[1]);
-            let out = if distance > 0.0 { [arm[0] / distance, arm[1] / distance] } else { [1.0, 0.0] };
-            Some(if hollow { (radius - thickness - distance, [-out[0], -out[1]]) } else { (distance - radius - thickness, out) })
-        }),
+        ObstacleShape::Circle { centre, radius, hollow } => Box::new(circle(*centre, *radius, *hollow, thickness).ok()?),
         ObstacleShape::Polyline { points } => {
-            let (own, closed) = distinct(&points);
+            let (own, closed) = distinct(points);
             let surface = chain((0..own.len() as u32).collect(), closed);
             let all: Vec<u32> = (0..surface.segments.len() as u32).collect();
-            let target = Target { surface, mirrors: Vec::new() };
-            Box::new(move |x| target.nearest(x, &all, &points).map(|nearest| (nearest.gap - thickness, nearest.normal)))
+            let (target, points) = (Target { surface, mirrors: Vec::new() }, points.clone());
+            return Some(Box::new(move |x| target.nearest(x, &all, &points).map(|nearest| (nearest.gap - thickness, nearest.normal))));
         }
-    }
+    };
+    Some(Box::new(move |x| shape.meet(Way { from: x, to: x }, &mut Memory::default())))
 }
 
 fn penetrations(nodes: &[u32], positions: &[Vector], behind: &Behind, tolerance: f64) -> Vec<Penetration> {
@@ -183,14 +188,4 @@ fn penetrations(nodes: &[u32], positions: &[Vector], behind: &Behind, tolerance:
         (gap < -tolerance).then_some(Penetration { node, place, depth: -gap })
     };
     nodes.iter().filter_map(of).collect()
-}
-
-/// Which nodes meet which surface: (slave, target).
-fn passes_of(contact: &model::Contact) -> &'static [(usize, usize)] {
-    match (&contact.partners, contact.formulation) {
-        (Partners::Bodies(_), _) => &[(0, 0)],
-        (_, Formulation::SinglePass { slave: 0 }) => &[(0, 1)],
-        (_, Formulation::SinglePass { .. }) => &[(1, 0)],
-        _ => &[(0, 1), (1, 0)],
-    }
 }

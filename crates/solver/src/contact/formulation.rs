@@ -11,7 +11,7 @@ use super::search::Search;
 use super::tracker::Tracker;
 use super::{Formulation, Vector, law, node_segment, pinball, segment, tied};
 use crate::error::Fault;
-use crate::model::{self, ContactLaw, Penalty};
+use crate::model::{self, ContactLaw, Partners, Penalty};
 
 /// A formulation as the registry describes it.
 #[derive(Clone, Copy)]
@@ -22,6 +22,8 @@ pub struct FormulationKind {
     pub doc: &'static str,
     /// Where it comes from.
     pub source: &'static str,
+    /// Which nodes meet which surface.
+    pub passes: fn(&model::Contact) -> Passes,
     /// Makes one. Faults have paths relative to the contact.
     pub make: fn(Setup<'_>) -> Result<Box<dyn Formulation>, Fault>,
 }
@@ -37,6 +39,21 @@ pub fn kind_of(contact: &model::Contact) -> Option<&'static FormulationKind> {
     }
     let name = contact.formulation.name();
     FORMULATIONS.iter().find(|kind| kind.name == name)
+}
+
+/// Passes of a contact: (slave, target).
+pub type Passes = &'static [(usize, usize)];
+
+/// Nodes of each surface against the other, or of one against itself.
+#[must_use]
+pub fn both_passes(contact: &model::Contact) -> Passes {
+    if matches!(contact.partners, Partners::Bodies(_)) { &[(0, 0)] } else { &[(0, 1), (1, 0)] }
+}
+
+/// Nodes of the slave surface against the other; where none is named the first one is slave.
+#[must_use]
+pub fn one_pass(contact: &model::Contact) -> Passes {
+    if matches!(contact.formulation, model::Formulation::SinglePass { slave } if slave > 0) { &[(1, 0)] } else { &[(0, 1)] }
 }
 
 /// A surface, and what contact needs of the elements behind it.
@@ -74,25 +91,21 @@ pub struct Setup<'a> {
     pub contact: &'a model::Contact,
     /// Two surfaces, or one that meets itself.
     pub sides: Vec<Side<'a>>,
+    /// Which nodes meet which of them.
+    pub passes: Passes,
     /// Body of each node of the model.
     pub bodies: &'a [u32],
     /// Initial positions, m.
     pub positions: &'a [Vector],
     /// Makes the law of the normal force.
     pub law: &'a dyn Fn() -> Box<dyn Law>,
-    /// Number of the terms that its ties follow, where it is tied.
+    /// Number of the terms that its ties follow; of a contact that is not tied those of all its springs.
     pub tie_terms: usize,
     /// Makes a search of the kind that the contact names.
     pub search: &'a dyn Fn() -> Box<dyn Search<2>>,
 }
 
 impl Setup<'_> {
-    /// Passes (slave, target) of nodes of every surface against the other.
-    #[must_use]
-    pub fn both_passes(&self) -> &'static [(usize, usize)] {
-        if self.sides.len() == 1 { &[(0, 0)] } else { &[(0, 1), (1, 0)] }
-    }
-
     /// Stiffness of the contact; of laws without one the automatic one, for what needs a scale.
     #[must_use]
     pub fn penalty(&self) -> Penalty {
@@ -105,11 +118,11 @@ impl Setup<'_> {
         is_ignored(&self.contact.interface)
     }
 
-    /// Follows the nodes of these passes.
+    /// Follows the nodes of the passes.
     #[must_use]
-    pub fn tracker(self, passes: &[(usize, usize)]) -> Tracker {
+    pub fn tracker(self) -> Tracker {
         let (targets, lids): (Vec<_>, Vec<_>) = self.sides.into_iter().map(|side| (side.target, side.lids)).unzip();
-        Tracker::new(targets, passes, (self.search)(), self.positions).with_bodies(self.bodies, &lids)
+        Tracker::new(targets, self.passes, (self.search)(), self.positions).with_bodies(self.bodies, &lids)
     }
 
     /// The nodes of a side as slaves in one of `passes` passes.

@@ -1,7 +1,7 @@
 //! Contact: search -> project -> springs -> forces, everything on the same configuration.
 //!
 //! Sees surfaces, positions and stiffnesses; knows nothing of elements and materials. A [`Contact`] is a [`Formulation`] (what it makes springs of) and what the springs
-//! sum up to; laws and friction are in the [`springs::Terms`] of the same number. [`Contact::detect`] finds the springs of the step, [`springs::Springs::solve`] the forces
+//! sum up to; laws and friction are in the [`springs::Terms`] whose number it has. [`Contact::detect`] finds the springs of the step, [`springs::Springs::solve`] the forces
 //! of all contacts and obstacles together, [`Contact::collect`] what they sum up to.
 
 pub mod search;
@@ -114,6 +114,8 @@ pub struct Contact {
     /// What friction took until the last half step, J/m.
     pub friction_work: f64,
     formulation: Box<dyn Formulation>,
+    /// Number of the terms that its springs follow.
+    terms: usize,
     /// Times between which it acts, s.
     active: [f64; 2],
     /// Where its springs of this step lie in the list of all.
@@ -121,9 +123,9 @@ pub struct Contact {
 }
 
 impl Contact {
-    /// A contact that has not acted yet.
+    /// A contact that has not acted yet. Its springs follow the terms number `terms`; it acts between the times `active`, s.
     #[must_use]
-    pub fn new(name: String, kind: ContactKind, formulation: Box<dyn Formulation>, active: [f64; 2]) -> Self {
+    pub fn new(name: String, kind: ContactKind, formulation: Box<dyn Formulation>, terms: usize, active: [f64; 2]) -> Self {
         Self {
             name,
             kind,
@@ -132,19 +134,20 @@ impl Contact {
             has_pressed: false,
             friction_work: 0.0,
             formulation,
+            terms,
             active,
             found: 0..0,
         }
     }
 
-    /// Adds the springs of the step to `springs`; they follow the terms number `index`.
-    pub fn detect(&mut self, index: usize, scene: &Scene<'_>, springs: &mut Springs) {
+    /// Adds the springs of the step to `springs`.
+    pub fn detect(&mut self, scene: &Scene<'_>, springs: &mut Springs) {
         let first = springs.list.len();
         if (self.active[0]..self.active[1]).contains(&scene.time) {
             self.formulation.detect(scene, springs);
         }
         self.found = first..springs.list.len();
-        springs.close_group(index);
+        springs.close_group(self.terms);
         self.penetration = springs.list[self.found.clone()].iter().fold(0.0, |deepest, spring| f64::max(deepest, -spring.gap));
     }
 

@@ -2,7 +2,7 @@
 //!
 //! Where the nodes lie comes from the [`Tracker`]; friction and thickness are those of the slave node, the stiffness that of the softer side where they meet.
 
-use super::formulation::{FormulationKind, Setup};
+use super::formulation::{FormulationKind, Setup, both_passes, one_pass};
 use super::initial::{is_ignored, kept};
 use super::projection::node_segment::{Projection, Target};
 use super::springs::{End, Spring, Springs};
@@ -15,10 +15,8 @@ pub const DOUBLE_PASS: FormulationKind = FormulationKind {
     name: "double_pass",
     doc: "nodes against segments; each surface is slave once and target once in every force evaluation",
     source: "Bittencourt and Creus (1995)",
-    make: |setup| {
-        let passes = setup.both_passes();
-        Ok(Box::new(NodeSegment::of(setup, passes)))
-    },
+    passes: both_passes,
+    make: |setup| Ok(Box::new(NodeSegment::of(setup))),
 };
 
 /// Registry entry.
@@ -26,10 +24,8 @@ pub const SINGLE_PASS: FormulationKind = FormulationKind {
     name: "single_pass",
     doc: "nodes against segments; only the nodes of the slave surface are checked against the other one",
     source: "Bittencourt and Creus (1995)",
-    make: |setup| {
-        let slave = if let model::Formulation::SinglePass { slave } = setup.contact.formulation { slave } else { 0 };
-        Ok(Box::new(NodeSegment::of(setup, [&[(0, 1)], &[(1, 0)]][slave.min(1)])))
-    },
+    passes: one_pass,
+    make: |setup| Ok(Box::new(NodeSegment::of(setup))),
 };
 
 /// The formulation.
@@ -80,9 +76,10 @@ pub struct Slave {
 }
 
 impl NodeSegment {
-    /// For a contact with these passes (slave, target). Where it ignores initial penetrations, gaps that are negative when it begins to act count as zero until the surfaces part.
+    /// For the passes of a contact. Where it ignores initial penetrations, gaps that are negative when it begins to act count as zero until the surfaces part.
     #[must_use]
-    pub fn of(setup: Setup<'_>, passes: &[(usize, usize)]) -> Self {
+    pub fn of(setup: Setup<'_>) -> Self {
+        let passes = setup.passes;
         // A surface that meets itself is met from both sides.
         let sides = if setup.sides.len() == 1 { 2 } else { passes.len() };
         let pass = |&(slave, target): &(usize, usize)| PassInput {
@@ -94,7 +91,7 @@ impl NodeSegment {
         let (thickness, reach) = (setup.contact.interface.thickness, (setup.law)().reach());
         let initial = if thickness + reach > 0.0 { setup.positions.to_vec() } else { Vec::new() };
         let ignores_start = setup.ignores_start();
-        let tracker = setup.tracker(passes);
+        let tracker = setup.tracker();
         Self { tracker, passes: inputs, thickness, reach, ignores_start, initial, has_begun: false, touches: Vec::new() }
     }
 
@@ -174,18 +171,23 @@ impl Formulation for NodeSegment {
 /// rotations of both together, and its transpose, the friction, keeps the angular momentum.
 #[must_use]
 pub fn ends(node: u32, projection: &Projection, target: &Target, positions: &[Vector]) -> [End; 3] {
-    let [a, b] = target.surface.segments[projection.segment as usize];
+    let segment = target.surface.segments[projection.segment as usize];
     let [wa, wb] = projection.weights;
-    let (x, xa, xb) = (positions[node as usize], positions[a as usize], positions[b as usize]);
-    let along = [xb[0] - xa[0], xb[1] - xa[1]];
-    let square = along[0] * along[0] + along[1] * along[1];
+    let [xa, xb] = segment.map(|node| positions[node as usize]);
+    let x = positions[node as usize];
     let foot = [wa * xa[0] + wb * xb[0], wa * xa[1] + wb * xb[1]];
     let arm = (x[0] - foot[0]) * projection.normal[0] + (x[1] - foot[1]) * projection.normal[1];
+    let [a, b] = segment_ends(segment, projection.weights, arm, positions);
+    [End::node(node, 1.0), a, b]
+}
+
+/// The nodes of a segment as ends of a spring to what is seen from its foot at the distance `arm` (m), and slides there.
+#[must_use]
+pub fn segment_ends([a, b]: [u32; 2], [wa, wb]: [f64; 2], arm: f64, positions: &[Vector]) -> [End; 2] {
+    let (xa, xb) = (positions[a as usize], positions[b as usize]);
+    let along = [xb[0] - xa[0], xb[1] - xa[1]];
+    let square = along[0] * along[0] + along[1] * along[1];
     // arm / L times the segment's normal
     let turn = if square > 0.0 { [-along[1] * arm / square, along[0] * arm / square] } else { [0.0; 2] };
-    [
-        End::node(node, 1.0),
-        End { at: a, share: -wa, turn: [-turn[0], -turn[1]], ..End::default() },
-        End { at: b, share: -wb, turn, ..End::default() },
-    ]
+    [End { at: a, share: -wa, turn: [-turn[0], -turn[1]], ..End::default() }, End { at: b, share: -wb, turn, ..End::default() }]
 }

@@ -10,7 +10,7 @@
 //! Which pairs there are comes from the [`Tracker`], nodes of each surface against the other: the two segments at a node that touches, with the segment it touches and its neighbours.
 //! So nothing is paired with the back side of a thin body.
 
-use super::formulation::{FormulationKind, Setup};
+use super::formulation::{FormulationKind, Setup, both_passes};
 use super::initial::kept;
 use super::law::{Law, penalty};
 use super::springs::{End, Spring, Springs};
@@ -24,6 +24,7 @@ pub const KIND: FormulationKind = FormulationKind {
     name: "segment",
     doc: "segments against segments, integrated over their common part: passes the contact patch test on any meshes",
     source: "Papadopoulos and Taylor (1992); common plane as in Puso and Laursen (2004)",
+    passes: both_passes,
     make: |setup| Ok(Box::new(Segment::of(setup))),
 };
 
@@ -145,7 +146,6 @@ impl Chain {
 
 impl Segment {
     fn of(setup: Setup<'_>) -> Self {
-        let passes = setup.both_passes();
         // With springs that don't give way two points a pair were more conditions than the nodes can meet.
         let rule = if matches!(setup.contact.interface.law, ContactLaw::Multiplier) { ONE } else { TWO };
         let law = (setup.law)();
@@ -159,7 +159,7 @@ impl Segment {
             bodies: if at_a_distance { setup.bodies.to_vec() } else { Vec::new() },
             has_begun: false,
         };
-        let tracker = setup.tracker(passes);
+        let tracker = setup.tracker();
         Self {
             tracker,
             chains,

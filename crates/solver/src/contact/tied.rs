@@ -7,7 +7,7 @@
 //! Where √(⟨−F⟩² + T²) / area exceeds the strength the tie is gone for good; pressing does not break it. What was stored in pulling and in slip is lost, and told to the ledger.
 //! Nodes that are free, and those whose ties are gone, are in ordinary contact with the same surface.
 
-use super::formulation::{FormulationKind, Setup};
+use super::formulation::{FormulationKind, Setup, one_pass};
 use super::node_segment::{NodeSegment, PassInput, ends};
 use super::projection::node_segment::{Projection, Target};
 use super::search::{Query, Search};
@@ -15,13 +15,13 @@ use super::springs::{Spring, Springs};
 use super::tracker::{Certificate, SearchReport};
 use super::{Formulation, Scene, Vector, length};
 use crate::error::Fault;
-use crate::model;
 
 /// What makes contacts with `tied`; it stands in for the formulation.
 pub const KIND: FormulationKind = FormulationKind {
     name: "tied",
     doc: "nodes bound to segments until the traction exceeds a strength, then ordinary contact",
     source: "two-way springs or multipliers on gap and slip",
+    passes: one_pass,
     make: |setup| Ok(Box::new(Tied::of(setup)?)),
 };
 
@@ -71,18 +71,18 @@ struct Tie {
 
 impl Tied {
     fn of(setup: Setup<'_>) -> Result<Self, Fault> {
-        let slave = if let model::Formulation::SinglePass { slave } = setup.contact.formulation { slave.min(1) } else { 0 };
-        let target = setup.sides[1 - slave].target.clone();
+        let (slave, master) = setup.passes[0];
+        let target = setup.sides[master].target.clone();
         let nodes = setup.sides[slave].target.surface.nodes.clone();
         // The element that a node is bound to counts, not the softest of its part.
-        let moduli = setup.sides[1 - slave].segments.clone();
+        let moduli = setup.sides[master].segments.clone();
         let input = PassInput { slaves: setup.slaves(slave, 1), per_modulus: setup.per_modulus(slave, 1), moduli };
         let interface = &setup.contact.interface;
         let birth = interface.active[0];
         let unborn = Unborn { search: (setup.search)(), nodes, input, thickness: interface.thickness };
         let (strength, terms, side) = (setup.contact.tied.unwrap_or(f64::INFINITY), setup.tie_terms, [1.0, -1.0][slave]);
         let (positions, bound) = (setup.positions, vec![false; unborn.nodes.len()]);
-        let loose = NodeSegment::of(setup, [&[(0, 1)], &[(1, 0)]][slave]);
+        let loose = NodeSegment::of(setup);
         let mut tied = Self { target, ties: Vec::new(), unborn: Some(unborn), strength, terms, side, loose, bound, broken: 0, freed: 0.0 };
         if birth <= 0.0 {
             tied.bind(positions);

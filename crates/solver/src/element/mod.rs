@@ -7,7 +7,7 @@ mod quad4;
 pub use quad4::{Quad4, Quad4Full};
 
 use crate::tensor::{Dim, Matrix, Space};
-use embate_lanes::Lane;
+use embate_lanes::{Batch, Lane};
 
 /// An element as the registry describes it.
 #[derive(Clone, Copy, Debug)]
@@ -37,6 +37,11 @@ where
     const NODES: [[f64; D]; N];
     /// Whether the dilatation is averaged over the element (B-bar), which keeps plastic flow and rubber from locking.
     const MEAN_DILATATION: bool;
+    /// Batches that hourglass control keeps per element, at least 1 where there is such control; 0: none is needed.
+    const HOURGLASS: usize = 0;
+
+    /// The element with its options.
+    fn new(options: &ElementOptions) -> Self;
 
     /// Shape functions at natural coordinates.
     fn shape(natural: [f64; D]) -> [f64; N];
@@ -47,6 +52,51 @@ where
     /// Square of the element's thickness h, m²: dt = h / c is stable for waves of speed c when every corner has the mass share 1/N.
     /// `determinants` are those of the Jacobian at the points, `volume` their weighted sum.
     fn thickness_squared<L: Lane>(nodal: &[[L; D]; N], determinants: &[L; P], volume: L) -> L;
+    /// Forces against the shapes that the points do not feel; `kept` are [`Element::HOURGLASS`] batches, lanes from `at` on. Called only where there are some.
+    #[inline(always)]
+    fn hold_shape<L: Lane>(&self, _corners: &Corners<L, D, N>, _kept: &mut [Batch], _at: usize) -> Held<L, D, N> {
+        let zero = L::splat(0.0);
+        Held { forces: [[zero; D]; N], work: zero, time_step_squared: L::splat(f64::INFINITY) }
+    }
+}
+
+/// What a user may choose of an element.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ElementOptions {
+    /// Coefficient of hourglass control; `None`: that of the control's source.
+    pub hourglass: Option<f64>,
+}
+
+/// What hourglass control reads.
+#[derive(Clone, Copy, Debug)]
+pub struct Corners<L, const D: usize, const N: usize> {
+    /// Positions, m.
+    pub x: [[L; D]; N],
+    /// Velocities of the step that led there, m/s.
+    pub v: [[L; D]; N],
+    /// Area, m².
+    pub area: L,
+    /// Volume: area times depth, m² (m³).
+    pub volume: L,
+    /// K + 4µ/3, Pa.
+    pub modulus: L,
+    /// µ, Pa.
+    pub shear: L,
+    /// Mass in the stable step, kg/m (kg).
+    pub mass: L,
+    /// The step, s.
+    pub time_step: L,
+}
+
+/// What hourglass control answers.
+#[derive(Clone, Copy, Debug)]
+pub struct Held<L, const D: usize, const N: usize> {
+    /// Forces against which the nodes move, as those of the stresses: f_a = ∂W/∂x_a, N/m.
+    pub forces: [[L; D]; N],
+    /// Work taken from the nodes in the step by the trapezoidal rule, J/m.
+    pub work: L,
+    /// Square of the stable step, s².
+    pub time_step_squared: L,
 }
 
 /// Someone who does something with every element's type.

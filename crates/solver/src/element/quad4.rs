@@ -11,7 +11,7 @@
 //! a = ¼ Σ ξ_a u_a, b = ¼ Σ η_a u_a, h = ¼ Σ ξ_a η_a u_a. At 2 × 2 points only two values of each occur, which saves most of the work.
 //! Source: Hughes, The Finite Element Method (1987), 3.2 and 4.5 (mean dilatation).
 
-use super::{Element, ElementKind};
+use super::{Element, ElementKind, ElementOptions};
 use crate::tensor::Matrix;
 use embate_lanes::Lane;
 
@@ -98,6 +98,9 @@ macro_rules! quadrilateral {
             const NODES: [[f64; 2]; 4] = NODES;
             const MEAN_DILATATION: bool = $mean;
 
+            fn new(_options: &ElementOptions) -> Self {
+                Self
+            }
             fn shape(natural: [f64; 2]) -> [f64; 4] {
                 shape(natural)
             }

@@ -5,7 +5,7 @@
 //! H is the plastic modulus dσ_y/dε_p, not the tangent modulus E_t = E H / (E + H).
 //! Source: Wilkins, Methods in Computational Physics 3 (1964); Simo and Hughes, Computational Inelasticity (1998), box 3.2.
 
-use super::{DENSITY, Family, Kinematics, Law, LawKind, POISSON, Parameters, Response, YOUNG, bulk_and_shear};
+use super::{DENSITY, Family, Kinematics, Law, LawKind, POISSON, Parameters, Response, Variable, YOUNG, bulk_and_shear};
 use crate::quantity::{Dimension, Parameter, Range};
 use crate::tensor::SymmetricTensor;
 use embate_lanes::Lane;
@@ -28,28 +28,21 @@ impl Law for J2 {
             DENSITY,
             YOUNG,
             POISSON,
-            Parameter {
-                name: "yield",
-                symbol: "σ_y",
-                dimension: Dimension::PRESSURE,
-                range: Range::Positive,
-                default: None,
-                doc: "initial yield stress",
-            },
-            Parameter {
-                name: "hardening",
-                symbol: "H",
-                dimension: Dimension::PRESSURE,
-                range: Range::NotNegative,
-                default: Some(0.0),
-                doc: "plastic modulus dσ_y/dε_p (not the tangent modulus)",
-            },
+            Parameter::new("yield", "σ_y", Dimension::PRESSURE, Range::Positive, "initial yield stress"),
+            Parameter::new(
+                "hardening",
+                "H",
+                Dimension::PRESSURE,
+                Range::NotNegative,
+                "plastic modulus dσ_y/dε_p (not the tangent modulus)",
+            )
+            .or(0.0),
         ],
     };
     const FAMILY: Family = Family::Rate;
     /// Equivalent plastic strain.
-    type State<L: Lane> = [L; 1];
-    const PLASTIC_STRAIN: Option<usize> = Some(0);
+    type State<L: Lane, T: SymmetricTensor<L>> = [L; 1];
+    const VARIABLES: &'static [(Variable, usize)] = &[(Variable::PlasticStrain, 0)];
 
     fn new(parameters: &Parameters<'_>) -> Self {
         let [bulk, shear] = bulk_and_shear(parameters);

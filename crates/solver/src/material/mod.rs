@@ -1,20 +1,26 @@
 //! Material laws: the contract that each fulfils, and the registry that everything else iterates over.
 //!
-//! A law is written once, for any dimension, against [`SymmetricTensor`]. Its input is one [`Kinematics`] value from the block;
+//! A law is written once, for any dimension and stress state, against [`SymmetricTensor`]. Its input is one [`Kinematics`] value from the block;
 //! it returns the Cauchy stress and what the ledger and the stable step need. To add a law: one file, one line in `laws!`.
+//! Blocks see laws erased, as [`points::PointLaw`]: the kernel of a law is compiled once, not once per element.
 
 mod elastic;
 mod j2;
 mod neo_hookean;
+mod parameters;
+mod plane_stress;
+pub mod points;
+mod state;
 
 pub use elastic::Elastic;
 pub use j2::J2;
 pub use neo_hookean::NeoHookean;
+pub use parameters::{DENSITY, POISSON, ParameterFault, Parameters, YOUNG, bulk_and_shear};
+pub use state::{State, Tensors, Variable};
 
-use crate::quantity::{Dimension, Parameter, Range};
+use crate::quantity::Parameter;
 use crate::tensor::SymmetricTensor;
-use embate_lanes::{Batch, Lane};
-use std::collections::BTreeMap;
+use embate_lanes::Lane;
 
 /// A law as the registry describes it.
 #[derive(Clone, Copy, Debug)]
@@ -39,19 +45,23 @@ pub enum Family {
     Hyperelastic,
 }
 
-/// What the block tells a law about one point; only the measures of its family are set, the others are zero.
+/// What the block tells a law about one point; only the measures of its family, and those that it asks for, are set.
 #[derive(Clone, Copy, Debug)]
 pub struct Kinematics<L: Lane, T: SymmetricTensor<L>> {
+    /// Step that led here, s; zero in the first evaluation.
+    pub time_step: L,
     /// Rate: Δε, symmetric part of the displacement increment's gradient in the mid-step configuration, rotated to the end of the step.
     pub strain_increment: T,
-    /// Rate: rotation over the step, for tensors in the law's own state (the stress is rotated already).
+    /// Rate: rotation over the step, for tensors in the law's own state (the stress is rotated already); set with [`Law::NEEDS_ROTATION`].
     pub rotation: T::Rotation,
     /// Rate: old Cauchy stress, rotated to the end of the step, Pa.
     pub stress_rotated: T,
     /// Hyperelastic: b = F Fᵀ.
     pub left_cauchy_green: T,
-    /// Hyperelastic: J = det F.
+    /// Hyperelastic: J = det F. Rate: current volume of the element over its initial volume; set with [`Law::NEEDS_VOLUME`].
     pub volume_ratio: L,
+    /// Work that the bulk viscosity took from the element in the step before, J per m³ of initial volume; set with [`Law::NEEDS_VOLUME`].
+    pub viscous_heat: L,
 }
 
 /// What a law answers.
@@ -69,103 +79,39 @@ pub struct Response<L: Lane, T: SymmetricTensor<L>> {
     pub shear: L,
 }
 
-/// History values of a point.
-pub trait State<L: Lane>: Copy {
-    /// How many.
-    const COUNT: usize;
-    /// Reads it from the batches `from[0..COUNT]`, lanes from `at` on.
-    fn load(from: &[Batch], at: usize) -> Self;
-    /// Writes it to the batches `to[0..COUNT]`, lanes from `at` on.
-    fn store(self, to: &mut [Batch], at: usize);
-}
-
-impl<L: Lane, const S: usize> State<L> for [L; S] {
-    const COUNT: usize = S;
-    #[inline(always)]
-    fn load(from: &[Batch], at: usize) -> Self {
-        let mut state = [L::splat(0.0); S];
-        for index in 0..S {
-            state[index] = L::load(&from[index], at);
-        }
-        state
-    }
-    #[inline(always)]
-    fn store(self, to: &mut [Batch], at: usize) {
-        for index in 0..S {
-            self[index].store(&mut to[index], at);
-        }
-    }
-}
-
 /// A material law. `update` must be `#[inline(always)]`: it becomes part of the block's kernel.
 pub trait Law: Copy + Send + Sync + 'static {
     /// Name, parameters and source.
     const KIND: LawKind;
     /// Which measures it works on.
     const FAMILY: Family;
-    /// History values of a point, zero at the start.
-    type State<L: Lane>: State<L>;
-    /// Which history value is the equivalent plastic strain, if any.
-    const PLASTIC_STRAIN: Option<usize>;
+    /// History values of a point: `[L; N]`, [`Tensors`], or a pair of such.
+    type State<L: Lane, T: SymmetricTensor<L>>: State<L>;
+    /// History values that are shown to the user, with their places in the state.
+    const VARIABLES: &'static [(Variable, usize)] = &[];
+    /// Whether it has tensors in its state that turn with the material.
+    const NEEDS_ROTATION: bool = false;
+    /// Whether a rate law needs the volume ratio and the heat of the bulk viscosity.
+    const NEEDS_VOLUME: bool = false;
 
     /// Reads its parameters, which have been checked against [`Law::KIND`].
     fn new(parameters: &Parameters<'_>) -> Self;
 
+    /// What is wrong with its parameters beyond the range of each: lists of unequal lengths, tables out of order.
+    fn faults(_parameters: &Parameters<'_>) -> Vec<ParameterFault> {
+        Vec::new()
+    }
+
+    /// History at the start, zero unless the law says otherwise.
+    fn start<L: Lane, T: SymmetricTensor<L>>(&self) -> Self::State<L, T> {
+        State::zero()
+    }
+
     /// Stress at the end of the step.
-    fn update<L: Lane, T: SymmetricTensor<L>>(&self, kinematics: &Kinematics<L, T>, state: &mut Self::State<L>) -> Response<L, T>;
+    fn update<L: Lane, T: SymmetricTensor<L>>(&self, kinematics: &Kinematics<L, T>, state: &mut Self::State<L, T>) -> Response<L, T>;
 
     /// Bulk and shear stiffness at rest, Pa.
     fn stiffness(&self) -> [f64; 2];
-}
-
-/// Parameter values by name, defaults filled in.
-#[derive(Clone, Copy, Debug)]
-pub struct Parameters<'a> {
-    kind: &'static [Parameter],
-    values: &'a BTreeMap<String, f64>,
-}
-
-impl<'a> Parameters<'a> {
-    /// Values for the parameters of a law.
-    #[must_use]
-    pub fn new(kind: &'static [Parameter], values: &'a BTreeMap<String, f64>) -> Self {
-        Self { kind, values }
-    }
-    /// Value of `name`, its default if it was left out, NaN if there is neither (which the model's check refuses).
-    #[must_use]
-    pub fn value(&self, name: &str) -> f64 {
-        let default = || self.kind.iter().find(|parameter| parameter.name == name).and_then(|parameter| parameter.default);
-        self.values.get(name).copied().or_else(default).unwrap_or(f64::NAN)
-    }
-}
-
-/// Density: the first parameter of every law.
-pub const DENSITY: Parameter = Parameter {
-    name: "density",
-    symbol: "ρ",
-    dimension: Dimension::DENSITY,
-    range: Range::Positive,
-    default: None,
-    doc: "mass per initial volume",
-};
-/// Young's modulus.
-pub const YOUNG: Parameter =
-    Parameter { name: "young", symbol: "E", dimension: Dimension::PRESSURE, range: Range::Positive, default: None, doc: "Young's modulus" };
-/// Poisson's ratio.
-pub const POISSON: Parameter = Parameter {
-    name: "poisson",
-    symbol: "ν",
-    dimension: Dimension::NONE,
-    range: Range::Between(-1.0, 0.5),
-    default: None,
-    doc: "Poisson's ratio",
-};
-
-/// Bulk modulus K = E / (3(1 − 2ν)) and shear modulus µ = E / (2(1 + ν)).
-#[must_use]
-pub fn bulk_and_shear(parameters: &Parameters<'_>) -> [f64; 2] {
-    let (young, poisson) = (parameters.value("young"), parameters.value("poisson"));
-    [young / (3.0 * (1.0 - 2.0 * poisson)), young / (2.0 * (1.0 + poisson))]
 }
 
 /// Someone who does something with every law's type: makes a block of it, lists it, tests it.
@@ -193,6 +139,19 @@ macro_rules! laws {
 }
 
 laws!(Elastic, J2, NeoHookean);
+
+/// What the law called `name` finds wrong with parameters whose ranges are right.
+#[must_use]
+pub fn faults(name: &str, parameters: &Parameters<'_>) -> Vec<ParameterFault> {
+    struct Check<'a>(&'a Parameters<'a>);
+    impl LawVisitor for Check<'_> {
+        type Output = Vec<ParameterFault>;
+        fn visit<M: Law>(self) -> Self::Output {
+            M::faults(self.0)
+        }
+    }
+    with_law(name, Check(parameters)).unwrap_or_default()
+}
 
 /// Every law.
 #[must_use]

@@ -30,8 +30,7 @@ impl Law for NeoHookean {
         parameters: &[DENSITY, YOUNG, POISSON],
     };
     const FAMILY: Family = Family::Hyperelastic;
-    type State<L: Lane> = [L; 0];
-    const PLASTIC_STRAIN: Option<usize> = None;
+    type State<L: Lane, T: SymmetricTensor<L>> = [L; 0];
 
     fn new(parameters: &Parameters<'_>) -> Self {
         let [bulk, shear] = bulk_and_shear(parameters);

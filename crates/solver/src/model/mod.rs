@@ -6,7 +6,9 @@ pub mod check;
 pub mod describe;
 pub mod reference;
 
+use crate::block::stress_state::STRESS_STATES;
 use crate::element::{ELEMENTS, ElementKind};
+pub use crate::mesh::placement::{Copies, Mirror, Placement};
 use crate::mesh::shapes::Count;
 pub use crate::mesh::shapes::{Disk, Edge, Path, Polygon, Quadrilateral, Rectangle, Ring, Shape, Trapezoid};
 use crate::quantity::Dimension;
@@ -59,11 +61,21 @@ pub struct Run {
     pub step_limit: Option<f64>,
     /// Largest number of steps; `None`: no limit.
     pub max_steps: Option<u64>,
+    /// Linear and quadratic coefficient of the bulk viscosity; both zero: none.
+    pub bulk_viscosity: [f64; 2],
+}
+
+impl Model {
+    /// Whether the model is a body of revolution: its parts are all axisymmetric, or none is.
+    #[must_use]
+    pub fn is_axisymmetric(&self) -> bool {
+        self.parts.iter().any(Part::is_axisymmetric)
+    }
 }
 
 impl Default for Run {
     fn default() -> Self {
-        Self { end: 0.0, safety: 0.9, energy_limit: 0.05, step_limit: None, max_steps: None }
+        Self { end: 0.0, safety: 0.9, energy_limit: 0.05, step_limit: None, max_steps: None, bulk_viscosity: [0.0; 2] }
     }
 }
 
@@ -74,6 +86,8 @@ pub struct Material {
     pub law: String,
     /// Parameters by key, SI, `density` included.
     pub parameters: BTreeMap<String, f64>,
+    /// Parameters that are lists.
+    pub lists: BTreeMap<String, Vec<f64>>,
 }
 
 /// `[[part]]`: a body of one material and one element kind for each number of nodes.
@@ -87,6 +101,10 @@ pub struct Part {
     pub element: String,
     /// The same for its triangles, if it has any.
     pub element_triangles: String,
+    /// Coefficient of its hourglass control, where it has one; `None`: that of the control's source.
+    pub hourglass: Option<f64>,
+    /// Name in the registry of stress states; empty: plane strain.
+    pub stress_state: String,
     /// Where its elements come from.
     pub shape: Shape,
     /// Where the body of a built-in shape goes.
@@ -107,6 +125,8 @@ impl Default for Part {
             material: String::new(),
             element: "quad4".into(),
             element_triangles: "tri3".into(),
+            hourglass: None,
+            stress_state: String::new(),
             shape: Shape::Group { mesh: usize::MAX, group: String::new() },
             placement: Placement::default(),
             velocity: [0.0; 2],
@@ -121,6 +141,12 @@ impl Part {
     #[must_use]
     pub fn count(&self) -> Option<Count> {
         Some(self.shape.count()?.times(self.placement.copies.map_or(1, |copies| copies.count)))
+    }
+
+    /// Whether x is its radius.
+    #[must_use]
+    pub fn is_axisymmetric(&self) -> bool {
+        STRESS_STATES.iter().any(|kind| kind.name == self.stress_state && kind.axisymmetric)
     }
 
     /// The element that has so many nodes; `None` when the part names none.
@@ -171,43 +197,6 @@ pub struct Curve {
     pub values: Vec<f64>,
     /// Dimension of the values as they were written; `None`: bare numbers, SI of whatever uses them.
     pub dimension: Option<Dimension>,
-}
-
-/// Where the body of a built-in shape goes: it is mirrored, then turned, then moved, then copied.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Placement {
-    /// A line that it is mirrored on.
-    pub mirror: Option<Mirror>,
-    /// Angle by which it is turned, rad, counter-clockwise.
-    pub rotation: f64,
-    /// Point about which it is turned, m.
-    pub rotation_point: [f64; 2],
-    /// How far it is moved, m.
-    pub translation: [f64; 2],
-    /// How often it is there.
-    pub copies: Option<Copies>,
-}
-
-/// A line to mirror on.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Mirror {
-    /// A point of it, m.
-    pub point: [f64; 2],
-    /// Its normal, of any length but zero.
-    pub normal: [f64; 2],
-}
-
-/// Bodies of one part that follow each other: each is turned and then moved as often as there are others before it.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Copies {
-    /// How many bodies there are in all.
-    pub count: usize,
-    /// How far each is moved from the one before, m.
-    pub translation: [f64; 2],
-    /// Angle by which each is turned from the one before, rad, counter-clockwise.
-    pub angle: f64,
-    /// Point about which they are turned, m.
-    pub point: [f64; 2],
 }
 
 /// A mesh that came from a file: plane nodes and named groups of cells. Parts that use the same mesh share its nodes.

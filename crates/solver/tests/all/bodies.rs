@@ -2,7 +2,10 @@
 #![allow(clippy::unwrap_used)] // what tests call may stop a test like the tests themselves
 
 use embate_solver::error::{Error, Fault};
-use embate_solver::model::{Contact, ImportedMesh, Material, MeshGroup, Model, Part, Probe, ProbeAt, Rectangle, Run, Shape};
+use embate_solver::model::{
+    Contact, Drive, Friction, ImportedMesh, Interface, Load, Material, MeshGroup, Model, Motion, Part, Probe, ProbeAt, Rectangle, Run,
+    Shape,
+};
 use embate_solver::output::Frame;
 use embate_solver::simulation::{Control, Observer, ObserverError, Options, Progress, Simulation};
 use std::sync::Arc;
@@ -10,7 +13,7 @@ use std::sync::Arc;
 /// Elastic with Poisson's ratio 0.3.
 pub(crate) fn elastic(young: f64, density: f64) -> Material {
     let parameters = [("young", young), ("poisson", 0.3), ("density", density)];
-    Material { law: "elastic".into(), parameters: parameters.map(|(key, value)| (key.to_string(), value)).into() }
+    Material { law: "elastic".into(), parameters: parameters.map(|(key, value)| (key.to_string(), value)).into(), ..Material::default() }
 }
 
 /// What is wrong with a model; nothing if a simulation can be made of it.
@@ -104,6 +107,39 @@ pub(crate) fn add_groups(model: &mut Model, mesh: ImportedMesh, names: &[&str], 
         let shape = Shape::Group { mesh: model.meshes.len() - 1, group: (*name).into() };
         add(model, name, shape, velocity);
     }
+}
+
+/// The default law with friction.
+pub(crate) fn rough(coefficient: f64) -> Interface {
+    let friction = Friction { coefficient, dynamic: None, decay: 0.0, viscosity: 0.0, limit: f64::INFINITY };
+    Interface { friction: Some(friction), ..Interface::default() }
+}
+
+pub(crate) fn gravity(model: &mut Model, acceleration: [f64; 2]) {
+    model.loads.push(Load::Gravity { parts: vec![], acceleration });
+}
+
+/// Makes a part rigid; it may move as `motion` says.
+pub(crate) fn stiffen(model: &mut Model, part: &str, motion: Motion) {
+    model.parts.iter_mut().find(|it| it.name == part).unwrap().rigid = Some(motion);
+}
+
+/// Motion as told; free where nothing is.
+pub(crate) fn driven(velocity: [Option<f64>; 2], spin: Option<f64>) -> Motion {
+    Motion { velocity: velocity.map(|v| v.map(Drive::from)), spin: spin.map(Drive::from) }
+}
+
+/// A value of the history now.
+pub(crate) fn value(simulation: &Simulation, column: &str) -> f64 {
+    let index = simulation.history_columns().iter().position(|it| it == column).unwrap_or_else(|| panic!("no column {column}"));
+    simulation.history_row()[index]
+}
+
+/// One that has run to its end.
+pub(crate) fn to_end(model: &Model) -> Simulation {
+    let mut simulation = simulation(model);
+    simulation.advance(f64::INFINITY, u64::MAX).unwrap();
+    simulation
 }
 
 /// Rows of a history by column name.

@@ -41,18 +41,29 @@ fn value(parameter: &Parameter, poisson: f64) -> f64 {
 }
 
 pub(crate) fn parameters(kind: &LawKind, poisson: f64) -> BTreeMap<String, f64> {
-    kind.parameters.iter().map(|parameter| (parameter.name.to_string(), value(parameter, poisson))).collect()
+    let numbers = kind.parameters.iter().filter(|parameter| parameter.list == 0);
+    numbers.map(|parameter| (parameter.name.to_string(), value(parameter, poisson))).collect()
+}
+
+/// Lists of two ascending values for parameters that are lists.
+pub(crate) fn lists(kind: &LawKind) -> BTreeMap<String, Vec<f64>> {
+    let lists = kind.parameters.iter().filter(|parameter| parameter.list > 0);
+    lists.map(|parameter| (parameter.name.to_string(), [0.4, 0.5].map(|factor| factor * value(parameter, 0.3)).to_vec())).collect()
 }
 
 pub(crate) fn material(law: &str, poisson: f64) -> Material {
     let kind = LAWS.iter().find(|kind| kind.name == law).unwrap();
-    Material { law: law.into(), parameters: parameters(kind, poisson) }
+    Material { law: law.into(), parameters: parameters(kind, poisson), lists: lists(kind) }
 }
 
-/// Calls `check(element, law)` for every pair of the registries.
+/// One law of each family.
+const ONE_OF_EACH_FAMILY: [&str; 2] = ["elastic", "neo_hookean"];
+
+/// Calls `check(element, law)` for every element with a law of each family, and for every law in the first element: elements and laws meet only in what
+/// the contract between them says, so no other pair can fail.
 pub(crate) fn every_pair(mut check: impl FnMut(&'static str, &'static str)) {
-    for element in ELEMENTS {
-        for law in LAWS {
+    for (number, element) in ELEMENTS.iter().enumerate() {
+        for law in LAWS.iter().filter(|law| number == 0 || ONE_OF_EACH_FAMILY.contains(&law.name)) {
             check(element.name, law.name);
         }
     }
@@ -159,7 +170,13 @@ pub(crate) struct Body {
 
 impl Body {
     pub(crate) fn new(element: &str, material: &Material, positions: &[[f64; 2]], connectivity: &[u32]) -> Self {
-        let block = make(&BlockInput { element, material, connectivity, positions }).unwrap();
+        Self::made(&BlockInput::new(element, material, connectivity, positions))
+    }
+
+    /// Whatever block was asked for.
+    pub(crate) fn made(input: &BlockInput<'_>) -> Self {
+        let BlockInput { element, connectivity, positions, .. } = *input;
+        let block = make(input).unwrap();
         let corners = vec![Batch::default(); block.corner_batches()];
         let mut body = Self {
             block,

@@ -26,7 +26,7 @@ pub(super) fn model(document: &Document, name: &str, folder: &Path, faults: &mut
     let mut model = Model { name: name.to_string(), meshes: meshes.loaded, ..Model::default() };
     model.title = document.top.text("title");
     model.run = run(&document.single("run"));
-    let material = |record: &Record| Material { law: record.text("law"), parameters: record.numbers() };
+    let material = |record: &Record| Material { law: record.text("law"), parameters: record.numbers(), lists: record.lists() };
     model.materials = document.section("material").iter().map(|record| (record.name.clone(), material(record))).collect();
     model.parts = parts;
     model.contacts = document.section("contact").iter().map(|record| contact::contact(record, faults)).collect();
@@ -49,6 +49,7 @@ fn run(record: &Record) -> Run {
         energy_limit: number("energy_limit"),
         step_limit: record.number("step_limit"),
         max_steps: record.integer("max_steps"),
+        bulk_viscosity: record.vector("bulk_viscosity"),
     }
 }
 
@@ -57,6 +58,8 @@ fn part(record: &Record, meshes: &mut Meshes<'_>, faults: &mut Faults) -> Part {
         name: record.text("name"),
         material: record.text("material"),
         element: record.text("element"),
+        hourglass: record.number("hourglass"),
+        stress_state: record.text("stress_state"),
         element_triangles: Some(record.text("element_triangles"))
             .filter(|name| !name.is_empty())
             .unwrap_or(Part::default().element_triangles),

@@ -19,22 +19,14 @@ pub const KIND: ContactLawKind = ContactLawKind {
     doc: "force proportional to the penetration; without `penalty` about as stiff as the elements under the surface",
     source: "Bittencourt and Creus (1995), eqs. (11)-(14) with the reactions corrected to F_1 = -(1-ε)F/2, F_2 = -(1+ε)F/2",
     parameters: &[
-        Parameter {
-            name: "penalty",
-            symbol: "k_n",
-            dimension: Dimension::PRESSURE,
-            range: Range::Positive,
-            default: None,
-            doc: "stiffness per slave node and metre of depth (N/m/m), or pressure per penetration (Pa/m); left out: automatic",
-        },
-        Parameter {
-            name: "penalty_scale",
-            symbol: "s",
-            dimension: Dimension::NONE,
-            range: Range::Positive,
-            default: Some(1.0),
-            doc: "factor on the automatic stiffness",
-        },
+        Parameter::new(
+            "penalty",
+            "k_n",
+            Dimension::PRESSURE,
+            Range::Positive,
+            "stiffness per slave node and metre of depth (N/m/m), or pressure per penetration (Pa/m); left out: automatic",
+        ),
+        Parameter::new("penalty_scale", "s", Dimension::NONE, Range::Positive, "factor on the automatic stiffness").or(1.0),
     ],
 };
 

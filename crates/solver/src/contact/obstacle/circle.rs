@@ -10,7 +10,7 @@
 use super::{Memory, Shape, State, Way};
 use crate::contact::Vector;
 use crate::contact::initial::kept;
-use crate::contact::node_segment::Slave;
+use crate::contact::node_segment::{Slave, segment_ends};
 use crate::contact::springs::{End, Spring, Springs};
 use crate::contact::tracker::{self, Certificate, SearchReport, Touch, Tracker};
 use crate::contact::{Formulation, Scene};
@@ -77,7 +77,8 @@ impl Circle {
         };
         if let Some(normal) = held {
             let is_in = dot(normal, to) < self.radius || memory.presses;
-            if is_in && !(inside(to) && dot(normal, radius) > NEAR) {
+            // A normal of its own is for what came far: else the radius, so that the force goes through the centre and turns nothing.
+            if is_in && !((inside(to) || self.is_short(moved)) && dot(normal, radius) > NEAR) {
                 (memory.state, memory.normal) = (State::Held, normal);
                 return normal;
             }
@@ -135,20 +136,11 @@ impl RoundSegments {
         let (normal, centre) = (projection.normal, positions[touch.node as usize]);
         // Where the circle touches.
         let point = [centre[0] - self.radius * normal[0], centre[1] - self.radius * normal[1]];
-        let [a, b] = self.tracker.target(touch.pass).surface.segments[projection.segment as usize];
-        let (xa, xb) = (positions[a as usize], positions[b as usize]);
-        let along = [xb[0] - xa[0], xb[1] - xa[1]];
-        let square = dot(along, along);
-        // The slip does not see rotation of both together: see `node_segment::ends`.
+        let segment = self.tracker.target(touch.pass).surface.segments[projection.segment as usize];
         let gap = projection.gap - self.radius;
-        let turn = if square > 0.0 { [-along[1] * gap / square, along[0] * gap / square] } else { [0.0; 2] };
-        let [wa, wb] = projection.weights;
         // A node comes first: it stands for the place in messages.
-        let ends = [
-            End { at: a, share: -wa, turn: [-turn[0], -turn[1]], ..End::default() },
-            End { at: b, share: -wb, turn, ..End::default() },
-            End { at: (positions.len() + self.body) as u32, share: 1.0, point, ..End::default() },
-        ];
+        let [a, b] = segment_ends(segment, projection.weights, gap, positions);
+        let ends = [a, b, End { at: (positions.len() + self.body) as u32, share: 1.0, point, ..End::default() }];
         let (Slave { stiffness, area, .. }, slip) = (self.slave, touch.memory.slip);
         let gap = gap - touch.memory.offset;
         (Spring { normal, gap, stiffness, area, side: -1.0, slip, ..Spring::default() }, ends)

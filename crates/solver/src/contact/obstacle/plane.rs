@@ -2,7 +2,7 @@
 //!
 //! A line without end has its solid behind it: no depth is too deep. One with a length is a thin plate that stops what comes through its front: where the
 //! straight way of a node, as seen from the plate, goes through its plane, within its length or beside it, decides whether the node is held or
-//! has passed beside the plate; and so it stays until the node is in front again.
+//! has passed beside the plate; and so it stays until the node is in front again. Nodes do not see its ends; its ends see segments, as slave nodes.
 
 use super::{Memory, Shape, State, Way};
 use crate::contact::Vector;
@@ -23,6 +23,18 @@ pub struct Plane {
 }
 
 impl Plane {
+    /// Its ends in the frame of the body, m, the solid on the right of the way from the first to the second; `None` of a line without end.
+    #[must_use]
+    pub fn ends(&self) -> Option<[Vector; 2]> {
+        (self.half < f64::INFINITY).then(|| self.at([-self.half, self.half]))
+    }
+
+    /// Points of the line at these places along it, m.
+    #[must_use]
+    pub fn at(&self, places: [f64; 2]) -> [Vector; 2] {
+        places.map(|place| [self.middle[0] + place * self.normal[1], self.middle[1] - place * self.normal[0]])
+    }
+
     /// Gap, and the place along the line from its middle, m.
     fn place(&self, x: Vector) -> (f64, f64) {
         let (n, x) = (self.normal, [x[0] - self.middle[0], x[1] - self.middle[1]]);

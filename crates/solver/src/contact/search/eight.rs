@@ -23,12 +23,6 @@ impl<const D: usize> Eight<D> {
         }
     }
 
-    /// Reads one.
-    #[inline(always)]
-    pub(super) fn at(&self, at: usize) -> Extent<D> {
-        Extent { low: std::array::from_fn(|d| self.low[d].0[at % BATCH]), high: std::array::from_fn(|d| self.high[d].0[at % BATCH]) }
-    }
-
     /// Which of them share a point with `other`: bit i for the i-th. No coordinate may be NaN. The same as [`Extent::meets`].
     #[inline(always)]
     pub(super) fn meet<L: Lane>(&self, other: &Extent<D>) -> u32 {
@@ -72,7 +66,6 @@ mod tests {
             let mut eight = Eight::NONE;
             for (at, extent) in some.iter().enumerate() {
                 eight.set(at, extent);
-                assert_eq!(eight.at(at), *extent);
             }
             for other in &boxes {
                 let expected = some.iter().enumerate().fold(0, |bits, (at, extent)| bits | u32::from(extent.meets(other)) << at);

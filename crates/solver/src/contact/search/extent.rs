@@ -1,6 +1,7 @@
-//! Boxes around what nodes and facets sweep in one step: the filter that `boxes` and `grid` share.
+//! Boxes along the axes around what nodes and facets sweep in one step.
 
 use super::Query;
+use embate_lanes::Lane;
 
 /// An axis-parallel box, closed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -94,13 +95,18 @@ impl Margin {
     /// Margin at coordinate `x`, m: a sum with it rounds by at most ε/2 · (|x| + reach), less than what is added here.
     #[inline]
     pub(super) fn at(self, x: f64) -> f64 {
-        self.0 + x.abs() * (4.0 * f64::EPSILON)
+        self.around(x)
+    }
+    /// The same in every lane.
+    #[inline(always)]
+    pub(super) fn around<L: Lane>(self, x: L) -> L {
+        L::splat(self.0) + x.abs() * L::splat(4.0 * f64::EPSILON)
     }
 }
 
 // One instruction each, where `f64::min` and `max` need three for their care of NaN; callers sort NaN out themselves.
 #[inline]
-fn smaller(a: f64, b: f64) -> f64 {
+pub(super) fn smaller(a: f64, b: f64) -> f64 {
     if a < b { a } else { b }
 }
 #[inline]

@@ -1,10 +1,11 @@
 //! A uniform grid per size class, rolled up so that it takes memory for the facets, not for the space: the default search.
 //!
-//! Facets that follow each other in the list mostly follow each other in space. So they are taken together in small groups with one box each
-//! (a facet's box holds its old and new nodes plus the reach); a list in bad order just makes small groups. Each group lies in the one cell
-//! that holds its lower corner. Slave nodes go in groups too: a group looks at the cells from which a box can reach it, keeps the facet groups that
-//! meet its own box, and each of its nodes is compared with these and with the boxes in them. The result is that of `boxes`, at a
-//! cost that grows with the number of facets and slaves alone:
+//! Facets that follow each other in the list mostly follow each other in space. So they are taken together in small groups (a facet's box holds its
+//! old and new nodes plus the reach); a list in bad order just makes small groups. A group has two boxes: one along the axes, for the cells, and one
+//! along its facets, which tells layers apart. It lies in the one cell that holds its lower corner. Slave nodes go in groups too: a group
+//! looks at the cells from which a box can reach it, keeps the facet groups that meet its own box along the axes, and each of its nodes is compared with
+//! the other boxes of these and with the boxes of the facets in them. The result is that of `boxes`, at a cost that grows with the
+//! number of facets and slaves alone:
 //!
 //! - *Size classes.* Groups of very uneven size go to grids of their own cell size; see `size_class`.
 //! - *Rolled up.* Cell (x, y) is bucket (x + s y) mod m, m a power of two of about the number of groups. When the whole grid has at most m
@@ -18,13 +19,16 @@
 //!   spans is measured, so no pair is lost at cell boundaries.
 
 mod compare;
+mod gather;
 mod worker;
 
 use super::eight::Eight;
-use super::extent::{Extent, Margin};
-use super::size_class::Sizes;
+use super::extent::{Extent, larger};
+use super::hull::{Hull, Hulls};
+use super::size_class::{BINS, Class, Sizes};
 use super::{Pair, Query, Search, SearchKind};
 use embate_lanes::{BATCH as GROUP, Level as Instructions};
+use gather::Gather;
 use rayon::prelude::*;
 use worker::Worker;
 
@@ -37,8 +41,10 @@ pub(super) fn kind<const D: usize>() -> SearchKind<D> {
     }
 }
 
-/// Edge of a cell over the largest group of its level.
+/// Edges of a cell over those of the largest boxes of its level.
 const CELL: f64 = 1.0;
+/// Least edge of a cell over the largest.
+const FLATTEST: f64 = 0.125;
 /// Buckets per group, rounded up to a power of two.
 const BUCKETS: usize = 1;
 
@@ -61,8 +67,8 @@ struct Grid<const D: usize> {
 struct Cells<const D: usize> {
     /// Instruction set of this machine; all give the same pairs.
     instructions: Instructions,
-    /// Boxes of the facets, eight and eight; [`Extent::NONE`] where a node is not finite.
-    facets: Vec<Eight<D>>,
+    /// Hulls of the facets, eight and eight; nowhere where a node is not finite.
+    facets: Vec<Hulls<D>>,
     /// Groups of facets in order.
     groups: Vec<Group<D>>,
     /// Their boxes bucket by bucket, eight and eight.
@@ -73,12 +79,14 @@ struct Cells<const D: usize> {
     begin: Vec<u32>,
     /// Groups whose box is too large for numbers: in no bucket, compared with every slave node.
     unbounded: Vec<u32>,
-    /// Bucket of each group in `groups`; before that is known, the binary exponent of its size. [`NOWHERE`] for an unbounded one.
+    /// Bucket of each group in `groups`; before that is known, the bin of its size. [`NOWHERE`] for an unbounded one.
     place: Vec<u32>,
     /// Size classes.
     levels: Vec<Level<D>>,
     /// Sizes of the groups.
     sizes: Sizes,
+    /// The largest of them, m.
+    largest: f64,
     /// Box of all groups that are not unbounded.
     bounds: Extent<D>,
 }
@@ -87,19 +95,18 @@ struct Cells<const D: usize> {
 #[derive(Clone, Copy)]
 struct Group<const D: usize> {
     extent: Extent<D>,
+    hull: Hull<f64, D>,
     begin: u32,
     end: u32,
-}
-
-impl<const D: usize> Group<D> {
-    const NONE: Self = Self { extent: Extent::NONE, begin: 0, end: 0 };
 }
 
 /// The grid of one size class.
 #[derive(Clone, Copy)]
 struct Level<const D: usize> {
-    /// 1 / cell size, 1/m.
-    inverse: f64,
+    /// Size of the largest group, m.
+    size: f64,
+    /// 1 / edge of a cell in each direction, 1/m.
+    inverse: [f64; D],
     /// Lower corner of cell 0, m.
     origin: [f64; D],
     /// Largest number of a cell in use.
@@ -117,12 +124,14 @@ struct Level<const D: usize> {
 }
 
 impl<const D: usize> Level<D> {
-    /// A level for `count` groups up to `size`, in `bounds`.
-    fn new(count: usize, size: f64, bounds: &Extent<D>, base: usize) -> Self {
+    /// A level for a class of groups with boxes up to `edges`, in `bounds`.
+    fn new(class: Class, edges: &[f64; D], bounds: &Extent<D>, base: usize) -> Self {
+        let (count, size) = (class.count as usize, class.largest);
         // Cell numbers must fit into 62 bits; groups that are smaller than that (or points) share cells.
-        let cell = (CELL * size).max(bounds.size() * 2.0_f64.powi(-60)).clamp(1e-300, 1e300);
+        let least = (size * FLATTEST).max(bounds.size() * 2.0_f64.powi(-60));
+        let inverse = edges.map(|edge| 1.0 / (CELL * edge).max(least).clamp(1e-300, 1e300));
         let mask = (count * BUCKETS).next_power_of_two().max(8) as u64 - 1;
-        let mut level = Self { inverse: 1.0 / cell, origin: bounds.low, last: [0; D], span: 0, stride: [1; D], mask, base, count };
+        let mut level = Self { size, inverse, origin: bounds.low, last: [0; D], span: 0, stride: [1; D], mask, base, count };
         level.last = std::array::from_fn(|d| level.cell(d, bounds.high[d]));
         let mut cells = 1.0;
         for d in 0..D {
@@ -141,7 +150,7 @@ impl<const D: usize> Level<D> {
     /// Number of the cell that holds a coordinate; never falls when the coordinate grows.
     #[inline]
     fn cell(&self, d: usize, x: f64) -> i64 {
-        ((x - self.origin[d]) * self.inverse) as i64
+        ((x - self.origin[d]) * self.inverse[d]) as i64
     }
     /// Bucket of a cell, counted from the level's first.
     #[inline]
@@ -163,6 +172,7 @@ impl<const D: usize> Default for Cells<D> {
             place: Vec::new(),
             levels: Vec::new(),
             sizes: Sizes::default(),
+            largest: 0.0,
             bounds: Extent::NONE,
         }
     }
@@ -203,65 +213,54 @@ impl<const D: usize> Cells<D> {
         self.sort_into_buckets();
     }
 
-    /// Boxes of all facets, taken together in groups.
+    /// Hulls of all facets, taken together in groups.
     fn group_facets(&mut self, query: &Query<'_, D>) {
-        let margin = Margin::new(query.reach);
-        self.facets.clear();
         self.groups.clear();
         self.place.clear();
         self.unbounded.clear();
-        self.sizes.clear();
         self.bounds = Extent::NONE;
-        let mut group = Group::NONE;
-        // A chain of facets is no longer than they are together; facets in random places are farther apart.
-        let mut together = 0.0;
-        for (nodes, facet) in query.facets.iter().zip(0_u32..) {
-            let extent = Extent::of_facet(query, nodes, margin).unwrap_or(Extent::NONE);
-            if (facet as usize).is_multiple_of(GROUP) {
-                self.facets.push(Eight::NONE);
-            }
-            if extent.is_none() {
-                continue;
-            }
-            if let Some(eight) = self.facets.last_mut() {
-                eight.set(facet as usize, &extent);
-            }
-            let both = group.extent.with(&extent);
-            together += extent.size();
-            if facet / GROUP as u32 == group.begin / GROUP as u32 && both.size() <= together {
-                group.extent = both;
+        let Self { instructions, facets, groups, .. } = self;
+        instructions.run(Gather { query, facets, groups });
+        self.largest = 0.0;
+        for (group, number) in self.groups.iter().zip(0..) {
+            let size = group.extent.size();
+            if size.is_finite() {
+                self.largest = larger(self.largest, size);
+                self.bounds = self.bounds.with(&group.extent);
             } else {
-                self.add(group);
-                group = Group { extent, begin: facet, end: facet };
-                together = extent.size();
+                self.unbounded.push(number);
             }
-            group.end = facet + 1;
         }
-        self.add(group);
-    }
-
-    /// Takes in a group when it is complete; an empty one is dropped.
-    fn add(&mut self, group: Group<D>) {
-        let size = group.extent.size();
-        if group.extent.is_none() {
-            return;
-        }
-        if size.is_finite() {
-            self.bounds = self.bounds.with(&group.extent);
-            self.place.push(self.sizes.add(size));
-        } else {
-            self.unbounded.push(self.groups.len() as u32);
-            self.place.push(NOWHERE);
-        }
-        self.groups.push(group);
     }
 
     /// One level per size class of the groups.
     fn choose_levels(&mut self) {
+        self.sizes.clear(self.largest);
+        // Longest edges of boxes, by size and then by class.
+        let mut edges = [[0.0; D]; BINS];
+        for Group { extent, .. } in &self.groups {
+            let size = extent.size();
+            if !size.is_finite() {
+                self.place.push(NOWHERE);
+                continue;
+            }
+            let bin = self.sizes.add(size);
+            for d in 0..D {
+                edges[bin][d] = larger(edges[bin][d], extent.high[d] - extent.low[d]);
+            }
+            self.place.push(bin as u32);
+        }
         self.levels.clear();
         let mut base = 0;
-        for class in self.sizes.classes(D) {
-            let level = Level::new(class.count as usize, class.largest, &self.bounds, base);
+        let count = self.sizes.classes(D).len();
+        for number in 0..count {
+            let mut longest = [0.0; D];
+            for (_, edges) in edges.iter().enumerate().filter(|(bin, _)| self.sizes.class_of(*bin) == number) {
+                for d in 0..D {
+                    longest[d] = larger(longest[d], edges[d]);
+                }
+            }
+            let level = Level::new(self.sizes.class(number), &longest, &self.bounds, base);
             base += level.mask as usize + 1;
             self.levels.push(level);
         }
@@ -272,7 +271,7 @@ impl<const D: usize> Cells<D> {
     /// Counting sort of the groups by bucket, stable.
     fn sort_into_buckets(&mut self) {
         for (group, place) in self.groups.iter().zip(&mut self.place).filter(|(_, place)| **place != NOWHERE) {
-            let level = &mut self.levels[self.sizes.class_of(*place)];
+            let level = &mut self.levels[self.sizes.class_of(*place as usize)];
             let cell = std::array::from_fn(|d| level.cell(d, group.extent.low[d]));
             for d in 0..D {
                 level.span = level.span.max(level.cell(d, group.extent.high[d]) - cell[d]);

@@ -10,6 +10,7 @@ mod brute_force;
 mod eight;
 mod extent;
 mod grid;
+mod hull;
 mod nearest_node;
 mod size_class;
 mod spheres;

@@ -7,8 +7,8 @@
 const LOOK: f64 = 8.0;
 /// Exponents below the largest that are told apart; what is smaller than 2^-60 of the largest is one bin.
 const OCTAVES: usize = 60;
-/// Binary exponents of `f64`, biased.
-const EXPONENTS: usize = 2048;
+/// Number of bins.
+pub(super) const BINS: usize = OCTAVES + 1;
 
 /// A class of facets.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -21,57 +21,63 @@ pub(super) struct Class {
 
 /// Histogram of sizes and the classes made from it.
 pub(super) struct Sizes {
-    /// By exponent.
-    bins: Vec<Class>,
-    /// Class of each exponent.
-    class_of: Vec<u8>,
+    /// Exponent of the largest.
+    top: usize,
+    /// Small ones first; the last is that of the largest.
+    bins: [Class; BINS],
+    /// Class of each bin.
+    class_of: [u8; BINS],
     classes: Vec<Class>,
 }
 
 impl Default for Sizes {
     fn default() -> Self {
-        Self { bins: vec![Class::default(); EXPONENTS], class_of: vec![0; EXPONENTS], classes: Vec::new() }
+        Self { top: 0, bins: [Class::default(); BINS], class_of: [0; BINS], classes: Vec::new() }
     }
 }
 
+/// Binary exponent of a size, biased.
+#[inline]
+fn exponent(size: f64) -> usize {
+    (size.abs().to_bits() >> 52) as usize
+}
+
 impl Sizes {
-    pub(super) fn clear(&mut self) {
-        self.bins.fill(Class::default());
+    /// Forgets all; sizes up to `largest` may come.
+    pub(super) fn clear(&mut self, largest: f64) {
+        self.top = exponent(largest);
+        self.bins = [Class::default(); BINS];
     }
 
-    /// Counts a size (finite, not negative) and returns its exponent.
+    /// Counts a size (finite, not negative) and returns its bin.
     #[inline]
-    pub(super) fn add(&mut self, size: f64) -> u32 {
-        let exponent = (size.to_bits() >> 52) as usize % EXPONENTS;
-        let bin = &mut self.bins[exponent];
+    pub(super) fn add(&mut self, size: f64) -> usize {
+        let number = OCTAVES - self.top.saturating_sub(exponent(size)).min(OCTAVES);
+        let bin = &mut self.bins[number];
         bin.count += 1;
         bin.largest = if size > bin.largest { size } else { bin.largest };
-        exponent as u32
+        number
     }
 
-    /// Class of an exponent, after [`Sizes::classes`].
+    /// Class of a bin, after [`Sizes::classes`].
     #[inline]
-    pub(super) fn class_of(&self, exponent: u32) -> usize {
-        usize::from(self.class_of[exponent as usize])
+    pub(super) fn class_of(&self, bin: usize) -> usize {
+        usize::from(self.class_of[bin])
     }
 
-    /// Classes for all sizes counted, small ones first; in space of `dimension`, where a surface fills cells like a length to the power dimension − 1.
+    /// A class by number, after [`Sizes::classes`].
+    pub(super) fn class(&self, number: usize) -> Class {
+        self.classes[number]
+    }
+
+    /// Classes for all sizes counted, large ones first; in space of `dimension`, where a surface fills cells like a length to the power dimension − 1.
     pub(super) fn classes(&mut self, dimension: usize) -> &[Class] {
         self.classes.clear();
-        let Some(top) = self.bins.iter().rposition(|b| b.count > 0) else { return &self.classes };
-        // Bins in use, small ones first: exponents `bottom..=top`, the first with all below it.
-        let bottom = top.saturating_sub(OCTAVES);
-        let mut bins = [Class::default(); OCTAVES + 1];
-        for (exponent, bin) in self.bins[..=top].iter().enumerate().filter(|(_, b)| b.count > 0) {
-            let merged = &mut bins[exponent.saturating_sub(bottom)];
-            merged.count += bin.count;
-            merged.largest = merged.largest.max(bin.largest);
-        }
-        let n = top - bottom + 1;
-        let all: f64 = bins[..n].iter().map(|b| f64::from(b.count)).sum();
+        let (n, bins) = (BINS, &self.bins);
+        let all: f64 = bins.iter().map(|b| f64::from(b.count)).sum();
         // least[j]: cost of the first j bins in the best classes; start[j]: where the last of these begins.
-        let mut least = [f64::INFINITY; OCTAVES + 2];
-        let mut start = [0; OCTAVES + 2];
+        let mut least = [f64::INFINITY; BINS + 1];
+        let mut start = [0; BINS + 1];
         least[0] = 0.0;
         for j in 1..=n {
             if bins[j - 1].count == 0 {
@@ -100,8 +106,7 @@ impl Sizes {
             if class.count > 0 {
                 self.classes.push(class);
                 let number = self.classes.len() as u8 - 1;
-                let from = if start[end] == 0 { 0 } else { bottom + start[end] };
-                self.class_of[from..bottom + end].fill(number);
+                self.class_of[start[end]..end].fill(number);
             }
             end = start[end];
         }
@@ -115,10 +120,11 @@ mod tests {
 
     fn classes(sizes: &[f64]) -> Vec<(u32, f64)> {
         let mut all = Sizes::default();
-        let exponents: Vec<_> = sizes.iter().map(|&s| all.add(s)).collect();
+        all.clear(sizes.iter().copied().fold(0.0, f64::max));
+        let bins: Vec<_> = sizes.iter().map(|&s| all.add(s)).collect();
         let classes: Vec<_> = all.classes(2).to_vec();
-        for (size, exponent) in sizes.iter().zip(exponents) {
-            assert!(*size <= classes[all.class_of(exponent)].largest);
+        for (size, bin) in sizes.iter().zip(bins) {
+            assert!(*size <= classes[all.class_of(bin)].largest);
         }
         classes.iter().map(|c| (c.count, c.largest)).collect()
     }

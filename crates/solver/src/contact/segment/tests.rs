@@ -47,7 +47,16 @@ fn springs_of(model: &Facing2, penalty: Penalty) -> Springs {
     let law = || -> Box<dyn Law> { Box::new(law::penalty::Penalty) };
     let bodies: Vec<u32> = (0..model.positions.len()).map(|node| u32::from(node >= model.surfaces[0].nodes.len())).collect();
     let sides = model.surfaces.iter().map(side).collect();
-    let setup = Setup { contact: &contact, sides, positions: &model.positions, law: &law, tie_terms: 0, search: &search, bodies: &bodies };
+    let setup = Setup {
+        contact: &contact,
+        sides,
+        positions: &model.positions,
+        law: &law,
+        tie_terms: 0,
+        search: &search,
+        bodies: &bodies,
+        passes: both_passes(&contact),
+    };
     let mut formulation = (KIND.make)(setup).unwrap();
     let mut springs = Springs::new(model.positions.len(), 0);
     let sweep = Sweep { old: &model.positions, new: &model.positions };
@@ -117,6 +126,17 @@ fn inclined() -> [[Vector; 4]; 3] {
     ]
 }
 
+/// Difference quotient of a value in one coordinate of a node.
+fn quotient(positions: &[Vector; 4], [node, d]: [usize; 2], value: impl Fn(&[Vector; 4]) -> f64) -> f64 {
+    let h = 1e-6;
+    let [above, below] = [h, -h].map(|h| {
+        let mut positions = *positions;
+        positions[node][d] += h;
+        value(&positions)
+    });
+    (above - below) / (2.0 * h)
+}
+
 #[test]
 fn rates_are_those_of_the_motion_and_blind_to_rotations() {
     let nodes = [[0, 1], [2, 3]];
@@ -141,13 +161,7 @@ fn rates_are_those_of_the_motion_and_blind_to_rotations() {
             assert!((rates(&|node| if node < 2 { t } else { [0.0; 2] })[1] - 1.0).abs() < 1e-14);
             for node in 0..4 {
                 for d in 0..2 {
-                    let h = 1e-6;
-                    let moved = [h, -h].map(|h| {
-                        let mut positions = positions;
-                        positions[node][d] += h;
-                        Common::new(nodes, &positions).unwrap().point(place).0
-                    });
-                    let quotient = (moved[0] - moved[1]) / (2.0 * h);
+                    let quotient = quotient(&positions, [node, d], |x| Common::new(nodes, x).unwrap().point(place).0);
                     let rate = rates(&|other| if other == node { [0, 1].map(|e| f64::from(e == d)) } else { [0.0; 2] })[0];
                     assert!((rate - quotient).abs() < 1e-8, "{gap} at {place} by node {node} {d}: {rate} {quotient}");
                 }
@@ -166,13 +180,7 @@ fn the_area_varies_as_difference_quotients_say() {
         common.vary_area(&mut ends, 3.0);
         for node in 0..4 {
             for d in 0..2 {
-                let h = 1e-6;
-                let moved = [h, -h].map(|h| {
-                    let mut positions = positions;
-                    positions[node][d] += h;
-                    area(&positions)
-                });
-                let quotient = 3.0 * (moved[0] - moved[1]) / (2.0 * h) / area(&positions);
+                let quotient = 3.0 * quotient(&positions, [node, d], area) / area(&positions);
                 assert!((ends[node].lean[d] - quotient).abs() < 1e-8, "{node} {d}: {} {quotient}", ends[node].lean[d]);
             }
         }

@@ -11,10 +11,11 @@ pub(crate) use parts::CheckOf;
 
 use super::describe::{self, out_of_range, suggestion};
 use super::reference::{Reference, excerpt};
-use super::{Cadence, Model, Part, Probe, ProbeAt, Shape};
+use super::{Cadence, Material, Model, Part, Probe, ProbeAt, Shape};
 use crate::error::Fault;
-use crate::quantity::{Dimension, Range};
-use crate::{material, output};
+use crate::material::{self, Parameters};
+use crate::output;
+use crate::quantity::{Dimension, Parameter, Range};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Most field files of a run.
@@ -135,19 +136,48 @@ impl Check<'_> {
             let known: Vec<&str> = kind.parameters.iter().map(|parameter| parameter.name).collect();
             for parameter in kind.parameters {
                 let path = format!("{path}.{}", parameter.name);
+                if parameter.list > 0 {
+                    self.list(&path, it, parameter);
+                    continue;
+                }
                 match it.parameters.get(parameter.name) {
                     Some(value) => self.within(&path, *value, parameter.dimension, parameter.range),
                     None if parameter.default.is_some() => {}
                     None => self.fault(path, format!("law `{}` needs `{}`", it.law, parameter.name), parameter.doc),
                 }
             }
-            for key in it.parameters.keys().filter(|key| !known.contains(&key.as_str())) {
+            let before = self.faults.len();
+            for key in it.parameters.keys().chain(it.lists.keys()).filter(|key| !known.contains(&key.as_str())) {
                 self.fault(
                     format!("{path}.{key}"),
                     format!("law `{}` has no parameter `{}`", it.law, excerpt(key)),
                     suggestion(key, &known),
                 );
             }
+            if self.faults.len() == before {
+                let faults = material::faults(&it.law, &Parameters::new(kind.parameters, &it.parameters, &it.lists));
+                faults.into_iter().for_each(|fault| self.fault(format!("{path}.{}", fault.name), fault.message, fault.help));
+            }
+        }
+    }
+
+    /// A parameter that is a list.
+    fn list(&mut self, path: &str, it: &Material, parameter: &Parameter) {
+        match it.lists.get(parameter.name) {
+            Some(values) if values.len() > parameter.list => {
+                let message = format!("`{}` takes at most {} values, here are {}", parameter.name, parameter.list, values.len());
+                self.fault(path, message, "leave the others out");
+            }
+            Some(values) if values.is_empty() && parameter.default.is_none() => {
+                self.fault(path, format!("`{}` is empty", parameter.name), parameter.doc);
+            }
+            Some(values) => {
+                for (index, value) in values.iter().enumerate() {
+                    self.within(&format!("{path}[{index}]"), *value, parameter.dimension, parameter.range);
+                }
+            }
+            None if parameter.default.is_some() => {}
+            None => self.fault(path, format!("law `{}` needs `{}`", it.law, parameter.name), parameter.doc),
         }
     }
 

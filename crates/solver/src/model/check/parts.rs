@@ -1,6 +1,7 @@
 //! Faults of parts: their materials, kinds of elements and shapes.
 
 use super::Check;
+use crate::block::stress_state::STRESS_STATES;
 use crate::element;
 use crate::model::describe::{ELEMENTS_MAX, suggestion};
 use crate::model::reference::{dimension_word, excerpt};
@@ -22,6 +23,7 @@ impl Check<'_> {
             let path = format!("part[{index}]");
             self.known(&format!("{path}.material"), "material", &part.material, &materials);
             self.known(&format!("{path}.element"), "element", &part.element, &elements);
+            self.stress_state(&path, part);
             self.part_motion(&path, part);
             self.shape(&path, part);
             let count = element_count(model, part);
@@ -33,6 +35,25 @@ impl Check<'_> {
                 );
             }
             total = total.saturating_add(count);
+        }
+    }
+
+    /// The circumference of an axisymmetric part and the depth of a plane one do not go together.
+    fn stress_state(&mut self, path: &str, part: &Part) {
+        let path = format!("{path}.stress_state");
+        let known: Vec<&str> = STRESS_STATES.iter().map(|kind| kind.name).collect();
+        if !part.stress_state.is_empty() {
+            self.known(&path, "stress state", &part.stress_state, &known);
+        }
+        let first = &self.model.parts[0];
+        if part.is_axisymmetric() != first.is_axisymmetric() {
+            let [state, other] = [part, first].map(|part| if part.is_axisymmetric() { "axisymmetric" } else { "plane" });
+            let message = format!("the part is {state}, but part `{}` is {other}", excerpt(&first.name));
+            self.fault(
+                path,
+                message,
+                "make all parts axisymmetric, or none: forces of the whole circumference and per metre of depth can't be added",
+            );
         }
     }
 

@@ -28,7 +28,9 @@ fn sound() -> Model {
     });
     let mut model = Model { name: "test".into(), meshes: vec![Arc::new(mesh)], ..Model::default() };
     model.run.end = 1.0;
-    model.materials.insert("steel".into(), Material { law: "elastic".into(), parameters: parameters.into_iter().collect() });
+    model
+        .materials
+        .insert("steel".into(), Material { law: "elastic".into(), parameters: parameters.into_iter().collect(), ..Material::default() });
     model.parts = vec![part("ring", ring), part("block", Shape::Group { mesh: 0, group: "body".into() })];
     model.contacts = vec![Contact::between("hit", "ring.outer", "upper")];
     model.obstacles = vec![Obstacle::wall("wall", [0.0; 2], [1.0, 0.0])];

@@ -1,12 +1,13 @@
 //! The sections of the model file but those of contacts and obstacles: their keys, and where the names come from that a key chooses from.
 
-use super::Kind::{Angle, Choice, Flag, Integer, Name, Quantity, Reference, References, Table, Text, Vector};
+use super::Kind::{Angle, Choice, Flag, Integer, Name, Quantities, Quantity, Reference, References, Table, Text, Vector};
 use super::Need::{self, Default, Optional, Required};
 use super::contact::{CONTACT, OBSTACLE};
 use super::{Form, Key, Kind, More, Rule, Section, key};
+use crate::block::stress_state::STRESS_STATES;
 use crate::mesh::shapes::SHAPES;
-use crate::quantity::Dimension;
 use crate::quantity::Range::{Finite, NotNegative, Positive, UpTo};
+use crate::quantity::{Dimension, Parameter};
 use crate::{element, material, output};
 
 /// Largest number of elements of a model.
@@ -49,6 +50,12 @@ static RUN: Section = Section {
             "Time step below which the run stops.",
         ),
         key("max_steps", Integer(1), Optional("no limit"), "Largest number of steps."),
+        key(
+            "bulk_viscosity",
+            Vector(Dimension::NONE, NotNegative),
+            Default("[0, 0]"),
+            "Linear and quadratic coefficient of the pressure that resists compression: `[0.06, 1.2]` spreads shocks over a few elements and keeps them from ringing.",
+        ),
     ],
     ..Section::EMPTY
 };
@@ -73,6 +80,18 @@ static PART: Section = Section {
         key("material", Reference, Required, "Name of a `[material.NAME]` section."),
         key("element", Choice(elements), Default("\"quad4\""), "Kind of element: what quadrilaterals are."),
         key("element_triangles", Choice(triangles), Optional("`tri3`"), "What triangles are, where the part has some."),
+        key(
+            "hourglass",
+            Quantity(Dimension::NONE, NotNegative),
+            Optional("that of the control's source"),
+            "Coefficient of the hourglass control of elements that have one.",
+        ),
+        key(
+            "stress_state",
+            Choice(stress_states),
+            Default("\"plane_strain\""),
+            "What the plane stands for. In an axisymmetric part x is the radius and y the axis; forces, masses and energies are those of the whole circumference.",
+        ),
         key("velocity", Vector(Dimension::VELOCITY, Finite), Default("[0, 0]"), "Initial velocity."),
         key("spin", Angle(Dimension::RATE, Finite), Default("0"), "Initial angular velocity about the centre of mass, counter-clockwise."),
         key(
@@ -257,6 +276,10 @@ fn elements_of(nodes: usize) -> Vec<&'static str> {
     element::registry().iter().filter(|kind| kind.nodes == nodes).map(|kind| kind.name).collect()
 }
 
+fn stress_states() -> Vec<&'static str> {
+    STRESS_STATES.iter().map(|kind| kind.name).collect()
+}
+
 fn fields() -> Vec<&'static str> {
     output::FIELDS.iter().map(|kind| kind.name).collect()
 }
@@ -265,5 +288,7 @@ fn fields() -> Vec<&'static str> {
 fn law_keys(law: &str) -> Option<Vec<Key>> {
     let kind = material::registry().into_iter().find(|kind| kind.name == law)?;
     let need = |default: Option<f64>| default.map_or(Required, Need::Value);
-    Some(kind.parameters.iter().map(|p| key(p.name, Quantity(p.dimension, p.range), need(p.default), p.doc)).collect())
+    let kind_of = |p: &Parameter| if p.list > 0 { Quantities(p.dimension, p.range, 1) } else { Quantity(p.dimension, p.range) };
+    let need_of = |p: &Parameter| if p.list > 0 && p.default.is_some() { Optional("none") } else { need(p.default) };
+    Some(kind.parameters.iter().map(|p| key(p.name, kind_of(p), need_of(p), p.doc)).collect())
 }

@@ -6,6 +6,7 @@
 use super::worker::SlaveGroup;
 use super::{GROUP, Group};
 use crate::contact::search::eight::Eight;
+use crate::contact::search::hull::Hulls;
 use embate_lanes::{Kernel, Lane};
 
 /// A slave node and some of eight facets that lie side by side.
@@ -26,8 +27,10 @@ pub(super) struct Meeting {
 pub(super) struct Scratch {
     /// Eights of facet groups of which some meet a slave group, and which.
     eights: Vec<(u32, u32)>,
-    /// For a facet group that a slave group found: which slaves meet its box, and its facets.
-    near: Vec<(u32, Meeting)>,
+    /// Number of a facet group that a slave group found, and in the lowest bits which slaves meet it.
+    near: Vec<u64>,
+    /// The same in order, each once: which slaves, and the facets of the group.
+    met: Vec<(u32, Meeting)>,
     /// Slave nodes with the facets of groups whose boxes they meet.
     with_groups: Vec<Meeting>,
 }
@@ -67,7 +70,6 @@ impl<const D: usize> Kernel for Look<'_, D> {
                 }
             }
             piece = slaves.pieces;
-            let first = self.found.len();
             for &(eight, mut bits) in &eights[..count] {
                 while bits != 0 {
                     self.found.push(self.order[eight as usize * GROUP + bits.trailing_zeros() as usize]);
@@ -77,18 +79,7 @@ impl<const D: usize> Kernel for Look<'_, D> {
             if !slaves.extent.is_none() {
                 self.found.extend_from_slice(self.unbounded);
             }
-            let own = &mut self.found[first..];
-            own.sort_unstable();
-            // On a rolled up grid two rows of cells may share buckets.
-            let mut kept = 0;
-            for i in 0..own.len() {
-                if kept == 0 || own[kept - 1] != own[i] {
-                    own[kept] = own[i];
-                    kept += 1;
-                }
-            }
-            self.found.truncate(first + kept);
-            slaves.found = first + kept;
+            slaves.found = self.found.len();
         }
     }
 }
@@ -98,7 +89,7 @@ pub(super) struct Compare<'a, const D: usize> {
     pub(super) slaves: &'a [SlaveGroup<D>],
     pub(super) groups: &'a [Group<D>],
     pub(super) found: &'a [u32],
-    pub(super) facets: &'a [Eight<D>],
+    pub(super) facets: &'a [Hulls<D>],
     pub(super) scratch: &'a mut Scratch,
     pub(super) meetings: &'a mut Vec<Meeting>,
 }
@@ -107,26 +98,40 @@ impl<const D: usize> Kernel for Compare<'_, D> {
     type Output = ();
     #[inline(always)]
     fn run<L: Lane>(self) {
-        let Scratch { near, with_groups, .. } = self.scratch;
+        let Scratch { near, met, with_groups, .. } = self.scratch;
         let (mut first, mut end) = (0, 0);
         for (slaves, number) in self.slaves.iter().zip(0_u32..) {
             let found = &self.found[first..slaves.found];
             first = slaves.found;
             near.clear();
+            near.resize(found.len(), 0);
+            let mut count = 0;
+            let all = 0xff >> (GROUP - slaves.count);
             for &group in found {
-                let group = &self.groups[group as usize];
-                let eight = group.begin / GROUP as u32;
-                let bits = (0xff >> (GROUP as u32 - (group.end - group.begin))) << (group.begin % GROUP as u32);
-                let meeting = Meeting { slave: slaves.begin as u32, place: number * GROUP as u32, eight, bits };
-                near.push((slaves.paths.meet::<L>(&group.extent), meeting));
+                let met = all & slaves.paths.may_meet::<L>(&self.groups[group as usize].hull);
+                near[count] = u64::from(group) << GROUP | u64::from(met);
+                count += usize::from(met != 0);
             }
-            if with_groups.len() < end + GROUP * found.len() {
-                with_groups.resize(end + GROUP * found.len(), Meeting::default());
+            let near = &mut near[..count];
+            near.sort_unstable();
+            let places = number * GROUP as u32;
+            met.clear();
+            let mut last = u64::MAX;
+            for &entry in &*near {
+                let group = &self.groups[(entry >> GROUP) as usize];
+                let bits = (0xff >> (GROUP as u32 - (group.end - group.begin))) << (group.begin % GROUP as u32);
+                // On a rolled up grid two rows of cells may share buckets: a group may be found twice.
+                let slaves_met = if entry == last { 0 } else { entry as u32 };
+                met.push((slaves_met, Meeting { slave: slaves.begin as u32, place: places, eight: group.begin / GROUP as u32, bits }));
+                last = entry;
+            }
+            if with_groups.len() < end + GROUP * count {
+                with_groups.resize(end + GROUP * count, Meeting::default());
             }
             for k in 0..slaves.count as u32 {
-                for (met, group) in &*near {
-                    with_groups[end] = Meeting { slave: group.slave + k, place: group.place + k, ..*group };
-                    end += (met >> k & 1) as usize;
+                for &(slaves_met, group) in &*met {
+                    with_groups[end] = Meeting { slave: group.slave + k, place: group.place + k, ..group };
+                    end += (slaves_met >> k & 1) as usize;
                 }
             }
         }

@@ -3,9 +3,10 @@
 //! Several workers may look at the same cells at once, each with a share of the slave nodes; what they find together does not depend on the shares.
 
 use super::compare::{Compare, Look, Meeting, Scratch};
+use super::gather::Slaves;
 use super::{Cells, GROUP};
-use crate::contact::search::eight::Eight;
 use crate::contact::search::extent::Extent;
+use crate::contact::search::hull::Paths;
 use crate::contact::search::{Pair, Query};
 use std::ops::Range;
 
@@ -36,8 +37,8 @@ pub(super) struct SlaveGroup<const D: usize> {
     pub(super) begin: usize,
     /// How many.
     pub(super) count: usize,
-    /// Path of each; [`Extent::NONE`] where it is not finite.
-    pub(super) paths: Eight<D>,
+    /// Path of each; nowhere where it is not finite.
+    pub(super) paths: Paths<D>,
     /// Box of all.
     pub(super) extent: Extent<D>,
     /// Where its entries in `pieces` end; they begin where those of the group before end.
@@ -50,7 +51,7 @@ impl<const D: usize> Default for Worker<D> {
     fn default() -> Self {
         Self {
             pairs: Vec::new(),
-            slaves: [SlaveGroup { begin: 0, count: 0, paths: Eight::NONE, extent: Extent::NONE, pieces: 0, found: 0 }; BATCH],
+            slaves: [SlaveGroup { begin: 0, count: 0, paths: Paths::NONE, extent: Extent::NONE, pieces: 0, found: 0 }; BATCH],
             used: 0,
             pieces: Vec::new(),
             found: Vec::new(),
@@ -64,37 +65,15 @@ impl<const D: usize> Worker<D> {
     /// Writes the pairs of a share of the slave nodes into `pairs`.
     pub(super) fn search(&mut self, cells: &Cells<D>, query: &Query<'_, D>, share: Range<usize>, pairs: &mut Vec<Pair>) {
         // Slave groups are as large as the most common facet groups.
-        let limit = cells.levels.iter().max_by_key(|l| l.count).map_or(0.0, |l| 1.0 / l.inverse);
+        let limit = cells.levels.iter().max_by_key(|l| l.count).map_or(0.0, |l| l.size);
         let mut slave = share.start;
         let mut written = 0;
         while slave < share.end {
-            slave = self.group_slaves(query, slave, share.end, limit);
+            (self.used, slave) = cells.instructions.run(Slaves { query, begin: slave, end: share.end, limit, groups: &mut self.slaves });
             self.look_around(cells);
             written = self.compare(cells, query, pairs, written);
         }
         pairs.truncate(written);
-    }
-
-    /// The next few groups of slave nodes of `begin..end`; returns where they end.
-    fn group_slaves(&mut self, query: &Query<'_, D>, mut begin: usize, end: usize, limit: f64) -> usize {
-        self.used = 0;
-        while self.used < BATCH && begin < end {
-            let group = &mut self.slaves[self.used];
-            (group.begin, group.count, group.extent) = (begin, 0, Extent::NONE);
-            for (k, &node) in query.slaves[begin..end].iter().take(GROUP).enumerate() {
-                let path = Extent::of_path(query, node).unwrap_or(Extent::NONE);
-                let both = group.extent.with(&path);
-                if group.count > 0 && both.size() > limit {
-                    break;
-                }
-                group.paths.set(k, &path);
-                group.extent = both;
-                group.count += 1;
-            }
-            begin += group.count;
-            self.used += 1;
-        }
-        begin
     }
 
     /// For each group of slave nodes the groups of facets that meet its box, ascending, into `found`.

@@ -1,0 +1,363 @@
+//! The elements of a block with their state; erased as [`Block`].
+//!
+//! A step goes strip by strip: strain, law, forces, so that what passes from one to the next stays in the first-level cache. Strips belong to chunks, which
+//! are shared by threads and do not depend on their number.
+
+use super::batch::{ElementBatch, element_of};
+use super::forces::{Forces, Sums, radius_initial};
+use super::make::BlockInput;
+use super::strain::{Measures, Strain, Tensor, initial_width};
+use super::stress_state::StressState;
+use super::strip::{STRIP, Shape, Strip};
+use super::{Block, ElementState, Motion, Report};
+use crate::element::Element;
+use crate::material::points::{PointLaw, Points, RESPONSE};
+use crate::material::{Family, Variable};
+use crate::tensor::{Dim, Space, SymmetricTensor, Turn};
+use embate_lanes::{BATCH, Batch, Indices, Level};
+use rayon::prelude::*;
+use std::f64::consts::TAU;
+use std::marker::PhantomData;
+use std::sync::{Mutex, PoisonError};
+
+/// Batches that one task advances: small enough to share, large enough to be worth it; fixed, so that sums do not depend on threads.
+const CHUNK: usize = 64;
+
+/// The elements of a block with their state.
+pub(super) struct Elements<E, S, const D: usize, const N: usize, const P: usize> {
+    element: E,
+    law: Box<dyn PointLaw>,
+    viscosity: Option<[f64; 2]>,
+    count: usize,
+    nodes: Indices,
+    /// Cauchy stress of the points, Pa.
+    stress: Vec<Batch>,
+    /// What the law remembers of the points.
+    history: Vec<Batch>,
+    /// Hyperelastic laws: initial geometry of the points.
+    initial: Vec<Batch>,
+    elements: Vec<ElementBatch>,
+    /// What hourglass control remembers.
+    hourglass: Vec<Batch>,
+    /// Share of each corner in the element's mass: `N` batches per batch of elements.
+    corner_mass: Vec<Batch>,
+    /// Initial volume of each element, one batch per batch of elements.
+    volume_initial: Vec<Batch>,
+    reports: Vec<Report>,
+    /// Room for each thread.
+    strips: Vec<Mutex<Strip>>,
+    state: PhantomData<S>,
+}
+
+/// What one task advances.
+struct Chunk<'a> {
+    first: usize,
+    stress: &'a mut [Batch],
+    history: &'a mut [Batch],
+    initial: &'a [Batch],
+    volume_initial: &'a [Batch],
+    elements: &'a mut [ElementBatch],
+    hourglass: &'a mut [Batch],
+    corners: &'a mut [Batch],
+}
+
+/// What is the same for all tasks.
+struct Common<'a, E, const D: usize> {
+    element: &'a E,
+    law: &'a dyn PointLaw,
+    measures: Measures,
+    history_width: usize,
+    thickness: usize,
+    viscosity: Option<[f64; 2]>,
+    nodes: &'a Indices,
+    motion: &'a Motion<'a, D>,
+    level: Level,
+}
+
+impl<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize> Elements<E, S, D, N, P>
+where
+    Dim<D>: Space<D>,
+{
+    const COMPONENTS: usize = <Tensor<D, f64> as SymmetricTensor<f64>>::COMPONENTS;
+
+    fn strip(law: &dyn PointLaw) -> Mutex<Strip> {
+        let turn = <<Tensor<D, f64> as SymmetricTensor<f64>>::Rotation as Turn<f64>>::COMPONENTS;
+        let shape = Shape { nodes: N, dimensions: D, points: P, components: Self::COMPONENTS, turn, velocities: E::HOURGLASS > 0 };
+        Mutex::new(Strip::new(&shape, law))
+    }
+
+    /// Widths of a batch in stress, history, initial geometry and hourglass memory.
+    fn widths(&self) -> [usize; 4] {
+        let initial = if self.law.family() == Family::Hyperelastic { P * initial_width::<S, D>() } else { 0 };
+        [P * Self::COMPONENTS, P * self.law.state_width(), initial, E::HOURGLASS]
+    }
+
+    /// Initial geometry and masses of one lane.
+    fn set_up(&mut self, batch: usize, lane: usize, density: f64, connectivity: &[u32], positions: &[[f64; D]]) {
+        let element = element_of(batch, lane, self.count);
+        let x: [[f64; D]; N] = std::array::from_fn(|a| positions[connectivity[element * N + a] as usize]);
+        let jacobians = E::gradients(&x);
+        let width = initial_width::<S, D>();
+        let mut volume = 0.0;
+        for p in 0..P {
+            let determinant = Dim::<D>::determinant(&jacobians[p]);
+            let shape = E::shape(E::POINTS[p]);
+            let radius = radius_initial(&x, &shape);
+            let area = determinant * E::WEIGHTS[p];
+            let point_volume = if S::AXISYMMETRIC { area * (radius * TAU) } else { area };
+            volume += point_volume;
+            for a in 0..N {
+                self.corner_mass[batch * N + a].0[lane] += density * point_volume * shape[a];
+            }
+            if self.law.family() == Family::Hyperelastic {
+                let adjugate = Dim::<D>::adjugate(&jacobians[p]);
+                let initial = &mut self.initial[(batch * P + p) * width..][..width];
+                for i in 0..D {
+                    for j in 0..D {
+                        initial[i * D + j].0[lane] = adjugate[i][j] / determinant;
+                    }
+                }
+                initial[D * D].0[lane] = point_volume;
+                if S::AXISYMMETRIC {
+                    initial[D * D + 1].0[lane] = radius;
+                }
+            }
+        }
+        let least = (0..N).map(|a| self.corner_mass[batch * N + a].0[lane]).fold(f64::INFINITY, f64::min);
+        let values = &mut self.elements[batch];
+        values.mass_least.0[lane] = N as f64 * least;
+        values.live.0[lane] = if batch * BATCH + lane < self.count { 1.0 } else { 0.0 };
+        values.volume.0[lane] = volume;
+        self.volume_initial[batch].0[lane] = volume;
+    }
+
+    /// Advances a chunk, strip by strip.
+    fn advance_chunk(common: &Common<'_, E, D>, chunk: Chunk<'_>, strip: &mut Strip) -> Report {
+        let Common { measures, history_width, level, .. } = *common;
+        let (stress_width, history_of_batch) = (P * Self::COMPONENTS, P * history_width);
+        let initial_of_batch = if measures.family == Family::Hyperelastic { P * initial_width::<S, D>() } else { 0 };
+        let mut sums = Sums::new();
+        let count = chunk.elements.len();
+        for from in (0..count).step_by(STRIP) {
+            let to = (from + STRIP).min(count);
+            let points = (to - from) * P;
+            let stress = &mut chunk.stress[from * stress_width..to * stress_width];
+            let history = &mut chunk.history[from * history_of_batch..to * history_of_batch];
+            let elements = &mut chunk.elements[from..to];
+            level.run(Strain::<E, S, D, N, P> {
+                motion: *common.motion,
+                measures,
+                first: chunk.first + from,
+                nodes: common.nodes,
+                elements,
+                volume_initial: &chunk.volume_initial[from..to],
+                initial: &chunk.initial[from * initial_of_batch..to * initial_of_batch],
+                stress,
+                strip,
+                kind: PhantomData,
+            });
+            common.law.respond(
+                level,
+                Points {
+                    time_step: common.motion.time_step,
+                    strain: &strip.strain[..points * Self::COMPONENTS],
+                    rotation: &strip.rotation,
+                    volume_ratio: &strip.volume_ratio[..points],
+                    viscous_heat: &strip.viscous_heat[..points],
+                    stress,
+                    state: history,
+                    response: &mut strip.response[..points * RESPONSE],
+                    room: &mut strip.law,
+                },
+            );
+            level.run(Forces::<E, S, D, N, P> {
+                element: common.element,
+                family: measures.family,
+                time_step: common.motion.time_step,
+                viscosity: common.viscosity,
+                stress,
+                history,
+                history_width,
+                thickness: common.thickness,
+                hourglass: &mut chunk.hourglass[from * E::HOURGLASS..to * E::HOURGLASS],
+                strip,
+                elements,
+                corners: &mut chunk.corners[from * N * D..to * N * D],
+                sums: &mut sums,
+                kind: PhantomData,
+            });
+        }
+        sums.report()
+    }
+}
+
+/// Length of a list with `width` batches per batch of elements: one per chunk where the width is zero, so that it can be cut into chunks all the same.
+fn length(batches: usize, width: usize) -> usize {
+    if width == 0 { batches.div_ceil(CHUNK) } else { batches * width }
+}
+
+/// Length of a chunk of such a list.
+fn chunk(width: usize) -> usize {
+    if width == 0 { 1 } else { CHUNK * width }
+}
+
+impl<E: Element<D, N, P>, S: StressState, const N: usize, const P: usize, const D: usize> Elements<E, S, D, N, P>
+where
+    Dim<D>: Space<D>,
+{
+    fn empty(law: Box<dyn PointLaw>, element: E, viscosity: Option<[f64; 2]>, connectivity: &[u32]) -> Self {
+        let count = connectivity.len() / N;
+        let batches = count.div_ceil(BATCH);
+        let rows = (0..batches * N).map(|row| std::array::from_fn(|lane| connectivity[element_of(row / N, lane, count) * N + row % N]));
+        let room = |width: usize| vec![Batch::default(); length(batches, width)];
+        let strips = vec![Self::strip(law.as_ref())];
+        let mut block = Self {
+            element,
+            viscosity,
+            count,
+            nodes: Indices::new(rows.collect()),
+            stress: room(P * Self::COMPONENTS),
+            history: room(P * law.state_width()),
+            initial: Vec::new(),
+            elements: vec![ElementBatch::default(); batches],
+            hourglass: room(E::HOURGLASS),
+            corner_mass: vec![Batch::default(); batches * N],
+            volume_initial: vec![Batch::default(); batches],
+            reports: vec![Report::NOTHING; batches.div_ceil(CHUNK)],
+            strips,
+            law,
+            state: PhantomData,
+        };
+        block.initial = vec![Batch::default(); batches * block.widths()[2]];
+        for point in block.history.chunks_exact_mut(block.law.state_width().max(1)).take(batches * P) {
+            if block.law.state_width() > 0 {
+                block.law.start(point);
+            }
+        }
+        block
+    }
+}
+
+impl<E: Element<2, N, P>, S: StressState, const N: usize, const P: usize> Elements<E, S, 2, N, P> {
+    /// From what [`super::make`] was given.
+    pub(super) fn new(law: Box<dyn PointLaw>, density: f64, input: &BlockInput<'_>) -> Self {
+        let mut block = Self::empty(law, E::new(&input.options), input.viscosity, input.connectivity);
+        for batch in 0..block.elements.len() {
+            for lane in 0..BATCH {
+                block.set_up(batch, lane, density, input.connectivity, input.positions);
+            }
+        }
+        block
+    }
+}
+
+/// What a task is handed by the iterators: stress, history, elements, hourglass memory, corners, report.
+type Parts<'a> = (((((&'a mut [Batch], &'a mut [Batch]), &'a mut [ElementBatch]), &'a mut [Batch]), &'a mut [Batch]), &'a mut Report);
+
+impl<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize> Block<D> for Elements<E, S, D, N, P>
+where
+    Dim<D>: Space<D>,
+{
+    fn elements(&self) -> usize {
+        self.count
+    }
+
+    fn corner_batches(&self) -> usize {
+        self.elements.len() * N * D
+    }
+
+    fn advance(&mut self, motion: &Motion<'_, D>, level: Level, corners: &mut [Batch], parallel: bool) -> Report {
+        let threads = if parallel { rayon::current_num_threads() } else { 1 };
+        while self.strips.len() < threads {
+            self.strips.push(Self::strip(self.law.as_ref()));
+        }
+        let widths = self.widths();
+        let law = self.law.as_ref();
+        let common = Common {
+            element: &self.element,
+            law,
+            measures: Measures { family: law.family(), rotation: law.needs_rotation(), volume: law.needs_volume() },
+            history_width: law.state_width(),
+            thickness: law.thickness().unwrap_or(0),
+            viscosity: self.viscosity,
+            nodes: &self.nodes,
+            motion,
+            level,
+        };
+        let (initial, volume_initial, strips) = (&self.initial[..], &self.volume_initial[..], &self.strips[..]);
+        let advance = |(index, (((((stress, history), elements), hourglass), corners), report)): (usize, Parts<'_>)| {
+            let first = index * CHUNK;
+            let last = first + elements.len();
+            let thread = if parallel { rayon::current_thread_index().unwrap_or(0) } else { 0 };
+            let mut strip = strips[thread].lock().unwrap_or_else(PoisonError::into_inner);
+            let (initial, volume_initial) = (&initial[first * widths[2]..last * widths[2]], &volume_initial[first..last]);
+            let chunk = Chunk { first, stress, history, initial, volume_initial, elements, hourglass, corners };
+            *report = Self::advance_chunk(&common, chunk, &mut strip);
+        };
+        let [stress, history, _, hourglass] = widths.map(chunk);
+        if parallel {
+            self.stress
+                .par_chunks_mut(stress)
+                .zip(self.history.par_chunks_mut(history))
+                .zip(self.elements.par_chunks_mut(CHUNK))
+                .zip(self.hourglass.par_chunks_mut(hourglass))
+                .zip(corners.par_chunks_mut(CHUNK * N * D))
+                .zip(self.reports.par_iter_mut())
+                .enumerate()
+                .for_each(advance);
+        } else {
+            self.stress
+                .chunks_mut(stress)
+                .zip(self.history.chunks_mut(history))
+                .zip(self.elements.chunks_mut(CHUNK))
+                .zip(self.hourglass.chunks_mut(hourglass))
+                .zip(corners.chunks_mut(CHUNK * N * D))
+                .zip(self.reports.iter_mut())
+                .enumerate()
+                .for_each(advance);
+        }
+        self.reports.iter().fold(Report::NOTHING, |sum, &report| sum.join(report))
+    }
+
+    fn mass(&self, element: usize) -> f64 {
+        (0..N).map(|corner| self.corner_mass(element, corner)).sum()
+    }
+
+    fn corner_mass(&self, element: usize, corner: usize) -> f64 {
+        self.corner_mass[element / BATCH * N + corner].0[element % BATCH]
+    }
+
+    fn time_step_squared(&self, element: usize) -> f64 {
+        self.elements[element / BATCH].time_step_squared.0[element % BATCH]
+    }
+
+    fn state(&self, element: usize) -> ElementState {
+        let (batch, lane) = (element / BATCH, element % BATCH);
+        let width = self.law.state_width();
+        let mean = |values: &[Batch], width: usize, value: usize| {
+            (0..P).map(|p| values[(batch * P + p) * width + value].0[lane]).sum::<f64>() / P as f64
+        };
+        let mut state = ElementState::default();
+        for c in 0..Self::COMPONENTS {
+            state.stress[c] = mean(&self.stress, Self::COMPONENTS, c);
+        }
+        for &(variable, index) in self.law.variables() {
+            state.variables[variable as usize] = mean(&self.history, width, index);
+        }
+        state.energy_density = self.elements[batch].stored.0[lane] / self.volume_initial[batch].0[lane];
+        state
+    }
+
+    fn wave_modulus(&self) -> f64 {
+        let [bulk, shear] = self.law.stiffness();
+        bulk + 4.0 / 3.0 * shear
+    }
+
+    fn bulk_modulus(&self) -> f64 {
+        self.law.stiffness()[0]
+    }
+
+    fn has(&self, variable: Variable) -> bool {
+        self.law.variables().iter().any(|&(own, _)| own == variable)
+    }
+}

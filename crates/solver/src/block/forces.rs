@@ -1,0 +1,346 @@
+//! Last part of the element kernel: corner forces from the stresses, energies, the stable step. One text for every element, stress state, dimension
+//! and instruction set.
+//!
+//! With mean dilatation (B-bar) the volumetric part of the force is averaged as that of the strain is:
+//! f_a = Σ_p w_p (dev σ_p) adj(J_p) ∇_ξ N_a + p̄ Σ_p adj(J_p) ∇_ξ N_a, the exact transpose of the averaged strain. In axisymmetric bodies every term carries
+//! 2πx_p, and the hoop stress adds Σ_p 2π w_p σ_zz det J_p N_a to the radial force.
+//!
+//! Bulk viscosity: a pressure q = ρ l (Q² l ε̇² + L c |ε̇|) where the volume shrinks (ε̇ < 0), with l² the element's area, c² = (K + 4µ/3)/ρ; the stable step
+//! shrinks by √(1 + ζ²) − ζ, ζ = L + Q² l |ε̇| / c. Source: von Neumann and Richtmyer, J. Appl. Phys. 21 (1950) 232-237; Landshoff, LA-1930 (1955).
+
+use super::Report;
+use super::batch::ElementBatch;
+use super::strain::{Tensor, averages, circumference, radius};
+use super::stress_state::StressState;
+use super::strip::Strip;
+use crate::element::{Corners, Element};
+use crate::material::Family;
+use crate::material::points::RESPONSE;
+use crate::tensor::{Dim, Matrix, Space, SymmetricTensor};
+use embate_lanes::{BATCH, Batch, Kernel, Lane};
+use std::f64::consts::TAU;
+use std::marker::PhantomData;
+
+/// Elements of a strip after their law has answered.
+pub(super) struct Forces<'a, E, S, const D: usize, const N: usize, const P: usize> {
+    pub(super) element: &'a E,
+    pub(super) family: Family,
+    pub(super) time_step: f64,
+    /// Coefficients L and Q of the bulk viscosity; none: no work is done for it.
+    pub(super) viscosity: Option<[f64; 2]>,
+    /// Stresses of the points.
+    pub(super) stress: &'a [Batch],
+    /// History of the points, batches per point in it, and the place of the thickness ratio.
+    pub(super) history: &'a [Batch],
+    pub(super) history_width: usize,
+    pub(super) thickness: usize,
+    /// What the element keeps: [`Element::HOURGLASS`] per element.
+    pub(super) hourglass: &'a mut [Batch],
+    pub(super) strip: &'a Strip,
+    pub(super) elements: &'a mut [ElementBatch],
+    pub(super) corners: &'a mut [Batch],
+    pub(super) sums: &'a mut Sums,
+    pub(super) kind: PhantomData<S>,
+}
+
+/// Running minima and sums of a task, one per lane position so that the result does not depend on the lane width.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sums {
+    stored: Batch,
+    dissipated: Batch,
+    hourglass: Batch,
+    viscous: Batch,
+    time_step_squared: Batch,
+    determinant: Batch,
+}
+
+impl Sums {
+    pub(super) fn new() -> Self {
+        let (zero, infinite) = (Batch::default(), Batch::splat(f64::INFINITY));
+        Self { stored: zero, dissipated: zero, hourglass: zero, viscous: zero, time_step_squared: infinite, determinant: infinite }
+    }
+
+    pub(super) fn report(&self) -> Report {
+        let sum = |batch: &Batch| batch.0.iter().sum();
+        Report {
+            time_step_squared: least(&self.time_step_squared),
+            determinant: least(&self.determinant),
+            stored: sum(&self.stored),
+            dissipated: sum(&self.dissipated),
+            hourglass: sum(&self.hourglass),
+            viscous: sum(&self.viscous),
+        }
+    }
+}
+
+/// Smallest of the eight values.
+fn least(batch: &Batch) -> f64 {
+    batch.0.iter().fold(f64::INFINITY, |least, &value| if value < least { value } else { least })
+}
+
+/// Geometry of the elements in a lane.
+struct Geometry<L, const D: usize, const N: usize, const P: usize> {
+    x: [[L; D]; N],
+    jacobians: [Matrix<L, D>; P],
+    determinants: [L; P],
+    /// Volume per area of each point: circumference, thickness, or one.
+    depth: [L; P],
+    area: L,
+    volume: L,
+}
+
+impl<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize> Kernel for Forces<'_, E, S, D, N, P>
+where
+    Dim<D>: Space<D>,
+{
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lane>(mut self) {
+        for batch in 0..self.elements.len() {
+            for at in (0..BATCH).step_by(L::WIDTH) {
+                self.part::<L>(batch, at);
+            }
+        }
+    }
+}
+
+impl<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize> Forces<'_, E, S, D, N, P>
+where
+    Dim<D>: Space<D>,
+{
+    /// The elements of `batch` in lanes `at..at + WIDTH`.
+    #[inline(always)]
+    fn part<L: Lane>(&mut self, batch: usize, at: usize) {
+        let zero = L::splat(0.0);
+        let geometry = self.geometry::<L>(batch, at);
+        let (mut stored, mut dissipated, mut modulus, mut shear) = (zero, zero, zero, zero);
+        for p in 0..P {
+            let point = batch * P + p;
+            let response = &self.strip.response[point * RESPONSE..(point + 1) * RESPONSE];
+            let volume = L::load(&self.strip.volume[point], at);
+            stored += L::load(&response[0], at) * volume;
+            let current = match self.family {
+                Family::Rate => volume,
+                Family::Hyperelastic => {
+                    let own = geometry.determinants[p] * L::splat(E::WEIGHTS[p]);
+                    if S::AXISYMMETRIC { own * geometry.depth[p] } else { own }
+                }
+            };
+            dissipated += L::load(&response[1], at) * current;
+            let own = L::load(&response[3], at);
+            modulus = modulus.max(L::load(&response[2], at) + own * L::splat(4.0 / 3.0));
+            shear = shear.max(own);
+        }
+        if matches!(self.family, Family::Rate) {
+            stored = stored * L::splat(0.5);
+        }
+        let live = L::load(&self.elements[batch].live, at);
+        let thickness_squared = E::thickness_squared(&geometry.x, &geometry.determinants, geometry.area);
+        // dt² = h² ρ / (K + 4µ/3) with ρ = m / V, as if all corners were as heavy as the lightest
+        let mass = L::load(&self.elements[batch].mass_least, at);
+        let mut time_step_squared = thickness_squared * mass / (geometry.volume * modulus);
+        let mut pressure = zero;
+        if let Some(coefficients) = self.viscosity {
+            let (q, shrink) = self.viscous(batch, at, coefficients, &geometry, modulus, mass);
+            pressure = q;
+            time_step_squared = time_step_squared * shrink;
+        }
+        let mut nodal = self.nodal(batch, at, &geometry, pressure);
+        if E::HOURGLASS > 0 {
+            let step = self.hold_shape(batch, at, &geometry, [modulus, shear, mass], &mut nodal);
+            time_step_squared = time_step_squared.min(step);
+        }
+        let corners = &mut self.corners[batch * N * D..(batch + 1) * N * D];
+        for a in 0..N {
+            for i in 0..D {
+                (-nodal[a][i]).store(&mut corners[a * D + i], at);
+            }
+        }
+        let element = &mut self.elements[batch];
+        time_step_squared.store(&mut element.time_step_squared, at);
+        let stored = match self.family {
+            Family::Rate => L::load(&element.stored, at) + (stored - dissipated),
+            Family::Hyperelastic => stored,
+        };
+        let dissipated = L::load(&element.dissipated, at) + dissipated;
+        stored.store(&mut element.stored, at);
+        dissipated.store(&mut element.dissipated, at);
+
+        let sums = &mut *self.sums;
+        (L::load(&sums.stored, at) + stored * live).store(&mut sums.stored, at);
+        (L::load(&sums.dissipated, at) + dissipated * live).store(&mut sums.dissipated, at);
+        if E::HOURGLASS > 0 {
+            (L::load(&sums.hourglass, at) + L::load(&element.hourglass, at) * live).store(&mut sums.hourglass, at);
+        }
+        if self.viscosity.is_some() {
+            (L::load(&sums.viscous, at) + L::load(&element.viscous, at) * live).store(&mut sums.viscous, at);
+        }
+        time_step_squared.min(L::load(&sums.time_step_squared, at)).store(&mut sums.time_step_squared, at);
+        let mut worst = L::load(&sums.determinant, at);
+        for p in 0..P {
+            worst = geometry.determinants[p].min(worst);
+        }
+        worst.store(&mut sums.determinant, at);
+    }
+
+    #[inline(always)]
+    fn geometry<L: Lane>(&self, batch: usize, at: usize) -> Geometry<L, D, N, P> {
+        let (zero, one) = (L::splat(0.0), L::splat(1.0));
+        let mut x = [[zero; D]; N];
+        for a in 0..N {
+            for i in 0..D {
+                x[a][i] = L::load(&self.strip.nodes[(batch * N + a) * D + i], at);
+            }
+        }
+        let jacobians = E::gradients(&x);
+        let mut geometry = Geometry { x, jacobians, determinants: [zero; P], depth: [one; P], area: zero, volume: zero };
+        for p in 0..P {
+            geometry.determinants[p] = Dim::<D>::determinant(&jacobians[p]);
+            let own = geometry.determinants[p] * L::splat(E::WEIGHTS[p]);
+            geometry.area += own;
+            if S::PLANE_STRESS {
+                geometry.depth[p] = L::load(&self.history[(batch * P + p) * self.history_width + self.thickness], at);
+            } else if S::AXISYMMETRIC {
+                geometry.depth[p] = circumference::<S, L, D, N>(one, &x, &E::shape(E::POINTS[p]));
+            }
+            geometry.volume += if S::PLANE_STRESS || S::AXISYMMETRIC { own * geometry.depth[p] } else { own };
+        }
+        geometry
+    }
+
+    /// Forces of the stresses, and of an additional `pressure`, on the nodes.
+    #[inline(always)]
+    fn nodal<L: Lane>(&self, batch: usize, at: usize, geometry: &Geometry<L, D, N, P>, pressure: L) -> [[L; D]; N] {
+        let (zero, third) = (L::splat(0.0), L::splat(1.0 / 3.0));
+        let components = <Tensor<D, L> as SymmetricTensor<L>>::COMPONENTS;
+        let Geometry { jacobians, determinants, depth, .. } = geometry;
+        let mut stress = [Tensor::<D, L>::isotropic(zero); P];
+        let mut weight = [zero; P];
+        for p in 0..P {
+            let point = batch * P + p;
+            stress[p] = Tensor::<D, L>::load(&self.stress[point * components..(point + 1) * components], at);
+            weight[p] = match self.family {
+                Family::Rate => L::splat(E::WEIGHTS[p]),
+                Family::Hyperelastic => L::load(&self.strip.weight[point], at),
+            };
+            if S::PLANE_STRESS || S::AXISYMMETRIC {
+                weight[p] = weight[p] * depth[p];
+            }
+        }
+        let mut mean = zero;
+        if averages::<E, S, D, N, P>() {
+            for p in 0..P {
+                mean += stress[p].trace() * third * (determinants[p] * weight[p]);
+            }
+            mean = mean / geometry.volume;
+        }
+        let mut flux = [[[zero; D]; D]; P];
+        let mut hoop = [zero; P];
+        for p in 0..P {
+            let mut weighted = stress[p].times(weight[p]);
+            let share = L::splat(E::WEIGHTS[p]);
+            let share = if S::PLANE_STRESS || S::AXISYMMETRIC { share * depth[p] } else { share };
+            if averages::<E, S, D, N, P>() {
+                let own = stress[p].trace() * third * weight[p];
+                weighted = weighted.plus(Tensor::<D, L>::isotropic(mean * share - own));
+            }
+            if self.viscosity.is_some() {
+                weighted = weighted.plus(Tensor::<D, L>::isotropic(-(pressure * share)));
+            }
+            flux[p] = Dim::<D>::flux(&weighted, &Dim::<D>::adjugate(&jacobians[p]));
+            if S::AXISYMMETRIC {
+                // The weight has 2πx already; the hoop strain is u/x.
+                hoop[p] = weighted.zz() * determinants[p] * (L::splat(TAU) / depth[p]);
+            }
+        }
+        let mut nodal = E::divergence(&flux);
+        if S::AXISYMMETRIC {
+            for p in 0..P {
+                let shape = E::shape(E::POINTS[p]);
+                for a in 0..N {
+                    nodal[a][0] += hoop[p] * L::splat(shape[a]);
+                }
+            }
+        }
+        nodal
+    }
+
+    /// Pressure of the bulk viscosity and the factor on the square of the stable step; books its work.
+    #[inline(always)]
+    fn viscous<L: Lane>(
+        &mut self,
+        batch: usize,
+        at: usize,
+        [linear, quadratic]: [f64; 2],
+        geometry: &Geometry<L, D, N, P>,
+        modulus: L,
+        mass: L,
+    ) -> (L, L) {
+        let (zero, one) = (L::splat(0.0), L::splat(1.0));
+        let element = &mut self.elements[batch];
+        let (old, live) = (L::load(&element.volume, at), L::load(&element.live, at));
+        let change = geometry.volume - old;
+        let shrinks = change.less(zero);
+        // The lightest corner times the corners is not the mass, but near enough for a length and a density.
+        let density = mass / geometry.volume;
+        let length = geometry.area.sqrt();
+        let speed = (modulus / density).sqrt();
+        let dt = L::splat(if self.time_step > 0.0 { self.time_step } else { f64::INFINITY });
+        let rate = (change / ((geometry.volume + old) * L::splat(0.5) * dt)).abs();
+        let ratio = L::splat(linear) + L::splat(quadratic * quadratic) * length * rate / speed;
+        let pressure = L::select(shrinks, density * length * speed * rate * ratio, zero);
+        let damping = L::select(shrinks, ratio, zero);
+        let shrink = (one + damping * damping).sqrt() - damping;
+        // Trapezoidal rule, as the nodal works of the ledger.
+        let work = -(change * (pressure + L::load(&element.viscous_pressure, at)) * L::splat(0.5)) * live;
+        pressure.store(&mut element.viscous_pressure, at);
+        geometry.volume.store(&mut element.volume, at);
+        work.store(&mut element.viscous_step, at);
+        (L::load(&element.viscous, at) + work).store(&mut element.viscous, at);
+        (pressure, shrink * shrink)
+    }
+
+    /// Adds the forces of hourglass control and books their work; the square of the stable step that they allow.
+    #[inline(always)]
+    fn hold_shape<L: Lane>(
+        &mut self,
+        batch: usize,
+        at: usize,
+        geometry: &Geometry<L, D, N, P>,
+        [modulus, shear, mass]: [L; 3],
+        nodal: &mut [[L; D]; N],
+    ) -> L {
+        let mut v = [[L::splat(0.0); D]; N];
+        for a in 0..N {
+            for i in 0..D {
+                v[a][i] = L::load(&self.strip.velocities[(batch * N + a) * D + i], at);
+            }
+        }
+        let kept = &mut self.hourglass[batch * E::HOURGLASS..(batch + 1) * E::HOURGLASS];
+        let corners = Corners {
+            x: geometry.x,
+            v,
+            area: geometry.area,
+            volume: geometry.volume,
+            modulus,
+            shear,
+            mass,
+            time_step: L::splat(self.time_step),
+        };
+        let held = self.element.hold_shape(&corners, kept, at);
+        for a in 0..N {
+            for i in 0..D {
+                nodal[a][i] += held.forces[a][i];
+            }
+        }
+        let element = &mut self.elements[batch];
+        (L::load(&element.hourglass, at) + held.work).store(&mut element.hourglass, at);
+        held.time_step_squared
+    }
+}
+
+/// Radius of a point, for whoever makes the initial geometry.
+pub(super) fn radius_initial<const D: usize, const N: usize>(x: &[[f64; D]; N], shape: &[f64; N]) -> f64 {
+    radius::<f64, D, N>(x, shape)
+}

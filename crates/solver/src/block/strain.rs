@@ -1,0 +1,264 @@
+//! First part of the element kernel: gather the motion, find what the law wants to know of it. One text for every element, stress state, dimension
+//! and instruction set.
+//!
+//! Rate laws: the displacement increment's gradient is taken in the mid-step configuration (zero strain for a rigid rotation) and turned
+//! to the end of the step by half the step's rotation (second order); the old stress is turned by all of it. Hyperelastic laws: F from the stored inverse of
+//! the initial Jacobian. With mean dilatation (B-bar) the volumetric part of the strain is averaged over the element.
+
+use super::Motion;
+use super::batch::ElementBatch;
+use super::stress_state::StressState;
+use super::strip::Strip;
+use crate::element::Element;
+use crate::material::Family;
+use crate::tensor::{Dim, Matrix, Space, SymmetricTensor, Turn, product, scaled};
+use embate_lanes::{BATCH, Batch, Indices, Kernel, Lane};
+use std::marker::PhantomData;
+
+pub(super) type Tensor<const D: usize, L> = <Dim<D> as Space<D>>::Tensor<L>;
+type Rotation<const D: usize, L> = <Tensor<D, L> as SymmetricTensor<L>>::Rotation;
+
+/// What a law wants to know.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Measures {
+    pub(super) family: Family,
+    pub(super) rotation: bool,
+    pub(super) volume: bool,
+}
+
+/// Whether dilatations are averaged.
+pub(super) const fn averages<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize>() -> bool
+where
+    Dim<D>: Space<D>,
+{
+    E::MEAN_DILATATION && !S::PLANE_STRESS
+}
+
+/// Batches of initial geometry per point of a hyperelastic block: inverse Jacobian row by row, volume, and the radius of an axisymmetric body.
+pub(super) const fn initial_width<S: StressState, const D: usize>() -> usize {
+    D * D + 1 + S::AXISYMMETRIC as usize
+}
+
+/// Radius x of a point from the nodes.
+#[inline(always)]
+pub(super) fn radius<L: Lane, const D: usize, const N: usize>(x: &[[L; D]; N], shape: &[f64; N]) -> L {
+    let mut sum = x[0][0] * L::splat(shape[0]);
+    for a in 1..N {
+        sum += x[a][0] * L::splat(shape[a]);
+    }
+    sum
+}
+
+/// Volume per area: the circumference of an axisymmetric body, else one.
+#[inline(always)]
+pub(super) fn circumference<S: StressState, L: Lane, const D: usize, const N: usize>(volume: L, x: &[[L; D]; N], shape: &[f64; N]) -> L {
+    if S::AXISYMMETRIC { volume * (radius(x, shape) * L::splat(std::f64::consts::TAU)) } else { volume }
+}
+
+/// Elements `first..first + elements.len()` (in batches) of a block, ready to be strained.
+pub(super) struct Strain<'a, E, S, const D: usize, const N: usize, const P: usize> {
+    pub(super) motion: Motion<'a, D>,
+    pub(super) measures: Measures,
+    pub(super) first: usize,
+    /// `N` rows of node indices per batch.
+    pub(super) nodes: &'a Indices,
+    pub(super) elements: &'a [ElementBatch],
+    /// Initial volume of each element.
+    pub(super) volume_initial: &'a [Batch],
+    /// Hyperelastic laws: [`initial_width`] per point.
+    pub(super) initial: &'a [Batch],
+    /// Rate laws: stresses of the points, turned in place.
+    pub(super) stress: &'a mut [Batch],
+    pub(super) strip: &'a mut Strip,
+    pub(super) kind: PhantomData<(E, S)>,
+}
+
+impl<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize> Kernel for Strain<'_, E, S, D, N, P>
+where
+    Dim<D>: Space<D>,
+{
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lane>(mut self) {
+        for batch in 0..self.elements.len() {
+            for at in (0..BATCH).step_by(L::WIDTH) {
+                self.part::<L>(batch, at);
+            }
+        }
+    }
+}
+
+impl<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize> Strain<'_, E, S, D, N, P>
+where
+    Dim<D>: Space<D>,
+{
+    /// The elements of `batch` in lanes `at..at + WIDTH`.
+    #[inline(always)]
+    fn part<L: Lane>(&mut self, batch: usize, at: usize) {
+        let row = (self.first + batch) * N;
+        let mut x = [[L::splat(0.0); D]; N];
+        for a in 0..N {
+            x[a] = L::gather(self.motion.positions, self.nodes, row + a, at);
+            for i in 0..D {
+                x[a][i].store(&mut self.strip.nodes[(batch * N + a) * D + i], at);
+            }
+        }
+        let jacobians = E::gradients(&x);
+        match self.measures.family {
+            Family::Rate => self.rate(batch, row, at, &x, &jacobians),
+            Family::Hyperelastic => self.hyperelastic(batch, at, &x, &jacobians),
+        }
+    }
+
+    /// Strain increment and rotation from the mid-step configuration; turns the stresses.
+    #[inline(always)]
+    fn rate<L: Lane>(&mut self, batch: usize, row: usize, at: usize, x: &[[L; D]; N], jacobians: &[Matrix<L, D>; P]) {
+        let (zero, half, third) = (L::splat(0.0), L::splat(0.5), L::splat(1.0 / 3.0));
+        let dt = L::splat(self.motion.time_step);
+        let mut step = [[zero; D]; N];
+        let mut x_middle = *x;
+        for a in 0..N {
+            step[a] = L::gather(self.motion.velocities, self.nodes, row + a, at);
+            for i in 0..D {
+                if E::HOURGLASS > 0 {
+                    step[a][i].store(&mut self.strip.velocities[(batch * N + a) * D + i], at);
+                }
+                step[a][i] = step[a][i] * dt;
+                x_middle[a][i] = x[a][i] - step[a][i] * half;
+            }
+        }
+        let increments = E::gradients(&step);
+        // Positions at mid-step are x − ½ step, so the same holds for their gradients.
+        let mut middle = *jacobians;
+        for p in 0..P {
+            for i in 0..D {
+                for k in 0..D {
+                    middle[p][i][k] = middle[p][i][k] - increments[p][i][k] * half;
+                }
+            }
+        }
+        let mut gradients = increments;
+        let (mut dilatation, mut volume) = (zero, zero);
+        let mut unturned = [Tensor::<D, L>::isotropic(zero); P];
+        for p in 0..P {
+            let determinant = Dim::<D>::determinant(&middle[p]);
+            let shape = E::shape(E::POINTS[p]);
+            let own = circumference::<S, L, D, N>(determinant * L::splat(E::WEIGHTS[p]), &x_middle, &shape);
+            own.store(&mut self.strip.volume[batch * P + p], at);
+            let inverse = scaled(Dim::<D>::adjugate(&middle[p]), L::splat(1.0) / determinant);
+            gradients[p] = product(&increments[p], &inverse);
+            unturned[p] = Dim::<D>::symmetric(&gradients[p]);
+            if S::AXISYMMETRIC {
+                unturned[p] = unturned[p].plus_zz(radius(&step, &shape) / radius(&x_middle, &shape));
+            }
+            if averages::<E, S, D, N, P>() {
+                dilatation += unturned[p].trace() * own;
+                volume += own;
+            }
+        }
+        if averages::<E, S, D, N, P>() {
+            dilatation = dilatation / volume;
+        }
+        if self.measures.volume {
+            self.volume_ratio(batch, at, x, jacobians);
+        }
+        let components = <Tensor<D, L> as SymmetricTensor<L>>::COMPONENTS;
+        let turn = <Rotation<D, L> as Turn<L>>::COMPONENTS;
+        for p in 0..P {
+            let point = batch * P + p;
+            let [half_way, rotation] = Dim::<D>::rotations(&gradients[p]);
+            // Strain increment and old stress meet at the end of the step; without its half rotation the update is of first order only.
+            let mut strain = unturned[p].rotated(&half_way);
+            if averages::<E, S, D, N, P>() {
+                strain = strain.plus(Tensor::<D, L>::isotropic((dilatation - unturned[p].trace()) * third));
+            }
+            strain.store(&mut self.strip.strain[point * components..(point + 1) * components], at);
+            let stress = &mut self.stress[point * components..(point + 1) * components];
+            Tensor::<D, L>::load(stress, at).rotated(&rotation).store(stress, at);
+            if self.measures.rotation {
+                rotation.store(&mut self.strip.rotation[point * turn..(point + 1) * turn], at);
+            }
+        }
+    }
+
+    /// Volume of the element over its initial volume, and the heat of the bulk viscosity, for laws with an equation of state.
+    #[inline(always)]
+    fn volume_ratio<L: Lane>(&mut self, batch: usize, at: usize, x: &[[L; D]; N], jacobians: &[Matrix<L, D>; P]) {
+        let mut volume = L::splat(0.0);
+        for p in 0..P {
+            let own = Dim::<D>::determinant(&jacobians[p]) * L::splat(E::WEIGHTS[p]);
+            volume += circumference::<S, L, D, N>(own, x, &E::shape(E::POINTS[p]));
+        }
+        let initial = L::load(&self.volume_initial[batch], at);
+        let ratio = volume / initial;
+        let heat = L::load(&self.elements[batch].viscous_step, at) / initial;
+        for p in 0..P {
+            ratio.store(&mut self.strip.volume_ratio[batch * P + p], at);
+            heat.store(&mut self.strip.viscous_heat[batch * P + p], at);
+        }
+    }
+
+    /// b and J from the deformation gradient, the volume ratio averaged over the element with mean dilatation.
+    #[inline(always)]
+    fn hyperelastic<L: Lane>(&mut self, batch: usize, at: usize, x: &[[L; D]; N], jacobians: &[Matrix<L, D>; P]) {
+        let (zero, one) = (L::splat(0.0), L::splat(1.0));
+        let width = initial_width::<S, D>();
+        let components = <Tensor<D, L> as SymmetricTensor<L>>::COMPONENTS;
+        let (mut volume, mut volume_initial) = (zero, zero);
+        for p in 0..P {
+            let own = Dim::<D>::determinant(&jacobians[p]) * L::splat(E::WEIGHTS[p]);
+            volume += circumference::<S, L, D, N>(own, x, &E::shape(E::POINTS[p]));
+            let own_initial = L::load(&self.initial[(batch * P + p) * width + D * D], at);
+            own_initial.store(&mut self.strip.volume[batch * P + p], at);
+            volume_initial += own_initial;
+        }
+        let ratio_mean = volume / volume_initial;
+        if E::HOURGLASS > 0 {
+            self.velocities::<L>(batch, at);
+        }
+        for p in 0..P {
+            let point = batch * P + p;
+            let initial = &self.initial[point * width..(point + 1) * width];
+            let mut inverse = [[zero; D]; D];
+            for i in 0..D {
+                for j in 0..D {
+                    inverse[i][j] = L::load(&initial[i * D + j], at);
+                }
+            }
+            let f = product(&jacobians[p], &inverse);
+            let mut stretch = one; // across the plane
+            if S::AXISYMMETRIC {
+                stretch = radius(x, &E::shape(E::POINTS[p])) / L::load(&initial[D * D + 1], at);
+            }
+            let ratio_point = Dim::<D>::determinant(&f);
+            let ratio_point = if S::AXISYMMETRIC { ratio_point * stretch } else { ratio_point };
+            let (mut ratio, mut scale, mut weight) = (ratio_point, one, L::splat(E::WEIGHTS[p]));
+            if averages::<E, S, D, N, P>() {
+                // F̄ = (J̄/J)^{1/3} F; the deviatoric Kirchhoff stress τ̄ V₀ then weighs J̄ V₀ = (J̄/J) w det J.
+                let change = ratio_mean / ratio_point;
+                let root = embate_lanes::math::cbrt(change);
+                weight = weight * change;
+                (ratio, scale) = (ratio_mean, root * root);
+            }
+            let mut b = Dim::<D>::left_cauchy_green(&f, scale);
+            if S::AXISYMMETRIC {
+                b = b.plus_zz(scale * (stretch * stretch - one));
+            }
+            b.store(&mut self.strip.strain[point * components..(point + 1) * components], at);
+            ratio.store(&mut self.strip.volume_ratio[point], at);
+            weight.store(&mut self.strip.weight[point], at);
+        }
+    }
+
+    /// Velocities of the nodes, for hourglass control.
+    #[inline(always)]
+    fn velocities<L: Lane>(&mut self, batch: usize, at: usize) {
+        for a in 0..N {
+            let v = L::gather(self.motion.velocities, self.nodes, (self.first + batch) * N + a, at);
+            for i in 0..D {
+                v[i].store(&mut self.strip.velocities[(batch * N + a) * D + i], at);
+            }
+        }
+    }
+}

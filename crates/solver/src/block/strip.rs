@@ -1,0 +1,64 @@
+//! What goes from one part of the kernel to the next: a few batches of elements at a time, so that it stays in the first-level cache.
+//!
+//! The motion is gathered and strained ([`super::strain`]), the law answers ([`crate::material::points`]), the forces follow ([`super::forces`]).
+
+use crate::material::points::{PointLaw, RESPONSE};
+use embate_lanes::Batch;
+
+/// Batches of elements in a strip.
+pub(super) const STRIP: usize = 8;
+
+/// The room of one task. All lists are in the order of batches, then points.
+#[derive(Debug, Default)]
+pub(super) struct Strip {
+    /// Positions of the nodes of each element: nodes × dimensions.
+    pub(super) nodes: Vec<Batch>,
+    /// Velocities of the nodes, for elements with hourglass control.
+    pub(super) velocities: Vec<Batch>,
+    /// Strain increment, or b.
+    pub(super) strain: Vec<Batch>,
+    /// Rotation over the step, for laws that want it.
+    pub(super) rotation: Vec<Batch>,
+    /// Volume ratio.
+    pub(super) volume_ratio: Vec<Batch>,
+    /// Heat of the bulk viscosity per initial volume.
+    pub(super) viscous_heat: Vec<Batch>,
+    /// Rate: volume of the point at mid-step. Hyperelastic: its initial volume.
+    pub(super) volume: Vec<Batch>,
+    /// Hyperelastic: weight of the point's stress in the forces.
+    pub(super) weight: Vec<Batch>,
+    /// What the law answered.
+    pub(super) response: Vec<Batch>,
+    /// Room of the law.
+    pub(super) law: Vec<Batch>,
+}
+
+/// Numbers of values that a strip holds.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shape {
+    pub(super) nodes: usize,
+    pub(super) dimensions: usize,
+    pub(super) points: usize,
+    pub(super) components: usize,
+    pub(super) turn: usize,
+    pub(super) velocities: bool,
+}
+
+impl Strip {
+    pub(super) fn new(shape: &Shape, law: &dyn PointLaw) -> Self {
+        let room = |values: usize| vec![Batch::default(); STRIP * values];
+        let Shape { nodes, dimensions, points, components, turn, velocities } = *shape;
+        Self {
+            nodes: room(nodes * dimensions),
+            velocities: room(if velocities { nodes * dimensions } else { 0 }),
+            strain: room(points * components),
+            rotation: room(if law.needs_rotation() { points * turn } else { 0 }),
+            volume_ratio: room(points),
+            viscous_heat: room(points),
+            volume: room(points),
+            weight: room(points),
+            response: room(points * RESPONSE),
+            law: Vec::new(),
+        }
+    }
+}

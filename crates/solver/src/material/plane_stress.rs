@@ -1,0 +1,174 @@
+//! Plane stress around any law: the strain normal to the plane is found such that the stress normal to it vanishes.
+//!
+//! The law is asked again and again with another Δε_zz (rate laws) or λ = t/t₀ (hyperelastic laws: b_zz = λ², J = λ det F) until |σ_zz| ≤ 1e-12 of
+//! the stiffness K + 4µ/3: first with the slope of an elastic body, then with the secant. The thickness ratio λ is part of the history.
+//! Source: the nested iteration of de Borst, Int. J. Numer. Meth. Engng 32 (1991) 1169-1180, with a secant for a law whose tangent is unknown.
+
+use super::points::{PLANE, PointLaw, Points, RESPONSE};
+use super::{Family, Variable};
+use embate_lanes::{BATCH, Batch, Level};
+
+/// Component zz of a tensor of the plane.
+const ZZ: usize = 2;
+/// Largest |σ_zz| over the stiffness K + 4µ/3.
+const TOLERANCE: f64 = 1e-12;
+/// Calls of the law; perfectly plastic points with a secant need about ten.
+const CALLS: usize = 40;
+
+/// A law under plane stress.
+pub(super) struct PlaneStress {
+    law: Box<dyn PointLaw>,
+}
+
+impl PlaneStress {
+    pub(super) fn new(law: Box<dyn PointLaw>) -> Self {
+        Self { law }
+    }
+
+    /// Δε_zz (or λ) to begin with: what an elastic law needs, to the last digits (or the last λ).
+    fn guess(&self, strain: &[Batch], stress: &[Batch], thickness: &Batch) -> Batch {
+        if self.law.family() == Family::Hyperelastic {
+            return *thickness;
+        }
+        let [bulk, shear] = self.law.stiffness();
+        let (wave, lame) = (bulk + 4.0 / 3.0 * shear, bulk - 2.0 / 3.0 * shear);
+        Batch(std::array::from_fn(|k| -(lame * (strain[0].0[k] + strain[1].0[k]) + stress[ZZ].0[k]) / wave))
+    }
+
+    /// Thickness ratio that belongs to the unknown.
+    fn thickness_new(&self, old: f64, unknown: f64) -> f64 {
+        match self.law.family() {
+            // Δε is the change of thickness over the mean thickness.
+            Family::Rate => old * (1.0 + 0.5 * unknown) / (1.0 - 0.5 * unknown),
+            Family::Hyperelastic => unknown,
+        }
+    }
+}
+
+/// One point's search.
+#[derive(Clone, Copy, Default)]
+struct Search {
+    unknown: Batch,
+    unknown_old: Batch,
+    residual_old: Batch,
+}
+
+impl Search {
+    /// The next unknown from the residual σ_zz; whether all eight are found.
+    fn next(&mut self, residual: &Batch, bulk: &Batch, shear: &Batch, first: bool) -> bool {
+        let mut found = true;
+        for k in 0..BATCH {
+            let (wave, f) = (bulk.0[k] + 4.0 / 3.0 * shear.0[k], residual.0[k]);
+            if f.abs() <= TOLERANCE * wave {
+                continue;
+            }
+            found = false;
+            let (step, change) = (self.unknown.0[k] - self.unknown_old.0[k], f - self.residual_old.0[k]);
+            let secant = change / step;
+            let slope = if !first && secant > 1e-3 * wave && secant < 4.0 * wave { secant } else { wave };
+            (self.unknown_old.0[k], self.residual_old.0[k]) = (self.unknown.0[k], f);
+            self.unknown.0[k] -= f / slope;
+        }
+        found
+    }
+}
+
+impl PointLaw for PlaneStress {
+    fn family(&self) -> Family {
+        self.law.family()
+    }
+    fn state_width(&self) -> usize {
+        self.law.state_width() + 1
+    }
+    fn needs_rotation(&self) -> bool {
+        self.law.needs_rotation()
+    }
+    fn needs_volume(&self) -> bool {
+        self.law.needs_volume()
+    }
+    fn variables(&self) -> &'static [(Variable, usize)] {
+        self.law.variables()
+    }
+    fn stiffness(&self) -> [f64; 2] {
+        self.law.stiffness()
+    }
+    fn thickness(&self) -> Option<usize> {
+        Some(self.law.state_width())
+    }
+    fn start(&self, state: &mut [Batch]) {
+        let width = self.law.state_width();
+        self.law.start(&mut state[..width]);
+        state[width] = Batch::splat(1.0);
+    }
+
+    fn respond(&self, level: Level, points: Points<'_>) {
+        let Points { time_step, strain, rotation, volume_ratio, viscous_heat, stress, state, response, room } = points;
+        let (inner, count) = (self.law.state_width(), strain.len() / PLANE);
+        let width = inner + 1;
+        let hyperelastic = self.law.family() == Family::Hyperelastic;
+        // Strain, stress, state and ratio of the trial; then the three batches of each point's search.
+        room.resize(count * (2 * PLANE + inner + 1 + 3), Batch::default());
+        let (trial_strain, rest) = room.split_at_mut(count * PLANE);
+        let (trial_stress, rest) = rest.split_at_mut(count * PLANE);
+        let (trial_state, rest) = rest.split_at_mut(count * inner);
+        let (trial_ratio, searches) = rest.split_at_mut(count);
+        for p in 0..count {
+            let guess = self.guess(&strain[p * PLANE..][..PLANE], &stress[p * PLANE..][..PLANE], &state[p * width + inner]);
+            searches[3 * p] = guess;
+        }
+        let mut nested = Vec::new();
+        for call in 0..CALLS {
+            trial_strain.copy_from_slice(strain);
+            trial_stress.copy_from_slice(stress);
+            for p in 0..count {
+                let (unknown, thickness) = (searches[3 * p], state[p * width + inner]);
+                for k in 0..BATCH {
+                    let u = unknown.0[k];
+                    trial_strain[p * PLANE + ZZ].0[k] = if hyperelastic { u * u } else { u };
+                    let ratio = volume_ratio.get(p).map_or(1.0, |ratio| ratio.0[k]);
+                    trial_ratio[p].0[k] = ratio * self.thickness_new(thickness.0[k], u);
+                }
+                trial_state[p * inner..(p + 1) * inner].copy_from_slice(&state[p * width..p * width + inner]);
+            }
+            self.law.respond(
+                level,
+                Points {
+                    time_step,
+                    strain: trial_strain,
+                    rotation,
+                    volume_ratio: trial_ratio,
+                    viscous_heat,
+                    stress: trial_stress,
+                    state: trial_state,
+                    response,
+                    room: &mut nested,
+                },
+            );
+            let mut found = true;
+            for p in 0..count {
+                let mut search = Search { unknown: searches[3 * p], unknown_old: searches[3 * p + 1], residual_old: searches[3 * p + 2] };
+                let out = &response[p * RESPONSE..];
+                found &= search.next(&trial_stress[p * PLANE + ZZ], &out[2], &out[3], call == 0);
+                [searches[3 * p], searches[3 * p + 1], searches[3 * p + 2]] = [search.unknown, search.unknown_old, search.residual_old];
+            }
+            if found {
+                break;
+            }
+        }
+        stress.copy_from_slice(trial_stress);
+        for p in 0..count {
+            state[p * width..p * width + inner].copy_from_slice(&trial_state[p * inner..(p + 1) * inner]);
+            let (unknown, thickness) = (searches[3 * p], state[p * width + inner]);
+            for k in 0..BATCH {
+                let new = self.thickness_new(thickness.0[k], unknown.0[k]);
+                state[p * width + inner].0[k] = new;
+                // Energies come per volume, the block counts areas: times the thickness at mid-step (rate) or at the end.
+                let mean = if hyperelastic { new } else { 0.5 * (thickness.0[k] + new) };
+                if !hyperelastic {
+                    response[p * RESPONSE].0[k] *= mean;
+                }
+                response[p * RESPONSE + 1].0[k] *= mean;
+            }
+        }
+    }
+}

@@ -1,0 +1,179 @@
+//! Laws as blocks see them: erased, many points at a time. The kernel of a law is compiled once for all elements and stress states.
+
+use super::{Family, Kinematics, Law, LawVisitor, Parameters, State, Variable, with_law};
+use crate::model::Material;
+use crate::tensor::{Dim, Plane, Space, SymmetricTensor, Turn};
+use embate_lanes::{BATCH, Batch, Kernel, Lane, Level};
+use std::marker::PhantomData;
+
+/// Batches of a response per point: stored, dissipated, bulk, shear.
+pub const RESPONSE: usize = 4;
+
+/// Points of a strip, point after point, eight elements side by side.
+#[derive(Debug)]
+pub struct Points<'a> {
+    /// Step that led here, s.
+    pub time_step: f64,
+    /// Rate: strain increment Δε; hyperelastic: b = F Fᵀ.
+    pub strain: &'a [Batch],
+    /// Rotation over the step; empty unless [`PointLaw::needs_rotation`].
+    pub rotation: &'a [Batch],
+    /// Volume ratio; set for hyperelastic laws and with [`PointLaw::needs_volume`].
+    pub volume_ratio: &'a [Batch],
+    /// Heat of the bulk viscosity, J/m³; set with [`PointLaw::needs_volume`].
+    pub viscous_heat: &'a [Batch],
+    /// Rate: the old stress turned to the end of the step, Pa. Becomes the new stress.
+    pub stress: &'a mut [Batch],
+    /// History, [`PointLaw::state_width`] per point.
+    pub state: &'a mut [Batch],
+    /// [`RESPONSE`] per point. Stored: of a hyperelastic law its energy per initial volume, of a rate law (σ_old + σ_new):Δε, twice the work of the
+    /// step per volume, J/m³; dissipated in the step per current volume, J/m³; bulk and shear stiffness, Pa.
+    pub response: &'a mut [Batch],
+    /// Room that an adapter may use; it keeps its size from step to step.
+    pub room: &'a mut Vec<Batch>,
+}
+
+/// A law with its parameters, for whichever kind of point it was made for.
+pub trait PointLaw: Send + Sync {
+    /// Which measures it works on.
+    fn family(&self) -> Family;
+    /// Batches of history per point.
+    fn state_width(&self) -> usize;
+    /// See [`Law::NEEDS_ROTATION`].
+    fn needs_rotation(&self) -> bool;
+    /// See [`Law::NEEDS_VOLUME`].
+    fn needs_volume(&self) -> bool;
+    /// History values that the user sees.
+    fn variables(&self) -> &'static [(Variable, usize)];
+    /// Bulk and shear stiffness at rest, Pa.
+    fn stiffness(&self) -> [f64; 2];
+    /// Writes the history of a point at the start.
+    fn start(&self, state: &mut [Batch]);
+    /// Place of the thickness ratio λ = t/t₀ in the history, if it changes (plane stress).
+    fn thickness(&self) -> Option<usize> {
+        None
+    }
+    /// Stresses at the end of the step; the result does not depend on `level`.
+    fn respond(&self, level: Level, points: Points<'_>);
+}
+
+/// The law of a material for points of the plane; `None` when it is unknown.
+#[must_use]
+pub fn plane(material: &Material) -> Option<Box<dyn PointLaw>> {
+    struct Make<'a>(&'a Material);
+    impl LawVisitor for Make<'_> {
+        type Output = Box<dyn PointLaw>;
+        fn visit<M: Law>(self) -> Self::Output {
+            let law = M::new(&Parameters::new(M::KIND.parameters, &self.0.parameters, &self.0.lists));
+            Box::new(Erased::<M, 2> { law })
+        }
+    }
+    with_law(&material.law, Make(material))
+}
+
+/// The law of a material for points in plane stress.
+#[must_use]
+pub fn plane_stress(material: &Material) -> Option<Box<dyn PointLaw>> {
+    plane(material).map(|law| Box::new(super::plane_stress::PlaneStress::new(law)) as Box<dyn PointLaw>)
+}
+
+struct Erased<M, const D: usize> {
+    law: M,
+}
+
+type Tensor<const D: usize, L> = <Dim<D> as Space<D>>::Tensor<L>;
+type Rotation<const D: usize, L> = <Tensor<D, L> as SymmetricTensor<L>>::Rotation;
+
+impl<M: Law, const D: usize> PointLaw for Erased<M, D>
+where
+    Dim<D>: Space<D>,
+{
+    fn family(&self) -> Family {
+        M::FAMILY
+    }
+    fn state_width(&self) -> usize {
+        <M::State<f64, Tensor<D, f64>> as State<f64>>::COUNT
+    }
+    fn needs_rotation(&self) -> bool {
+        M::NEEDS_ROTATION
+    }
+    fn needs_volume(&self) -> bool {
+        M::NEEDS_VOLUME
+    }
+    fn variables(&self) -> &'static [(Variable, usize)] {
+        M::VARIABLES
+    }
+    fn stiffness(&self) -> [f64; 2] {
+        self.law.stiffness()
+    }
+    fn start(&self, state: &mut [Batch]) {
+        for at in 0..BATCH {
+            self.law.start::<f64, Tensor<D, f64>>().store(state, at);
+        }
+    }
+    fn respond(&self, level: Level, points: Points<'_>) {
+        level.run(Respond::<M, D> { law: &self.law, points, dimension: PhantomData });
+    }
+}
+
+/// The law at many points.
+struct Respond<'a, M, const D: usize> {
+    law: &'a M,
+    points: Points<'a>,
+    dimension: PhantomData<Dim<D>>,
+}
+
+impl<M: Law, const D: usize> Kernel for Respond<'_, M, D>
+where
+    Dim<D>: Space<D>,
+{
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lane>(self) {
+        let Points { time_step, strain, rotation, volume_ratio, viscous_heat, stress, state, response, .. } = self.points;
+        let components = <Tensor<D, L> as SymmetricTensor<L>>::COMPONENTS;
+        let turn = <Rotation<D, L> as Turn<L>>::COMPONENTS;
+        let width = <M::State<L, Tensor<D, L>> as State<L>>::COUNT;
+        let zero = L::splat(0.0);
+        let needs_ratio = M::NEEDS_VOLUME || matches!(M::FAMILY, Family::Hyperelastic);
+        for p in 0..strain.len() / components {
+            let strain = &strain[p * components..(p + 1) * components];
+            let stress = &mut stress[p * components..(p + 1) * components];
+            let state = &mut state[p * width..(p + 1) * width];
+            let out = &mut response[p * RESPONSE..(p + 1) * RESPONSE];
+            for at in (0..BATCH).step_by(L::WIDTH) {
+                let strain = <Tensor<D, L> as SymmetricTensor<L>>::load(strain, at);
+                let old = <Tensor<D, L> as SymmetricTensor<L>>::load(stress, at);
+                let kinematics = Kinematics {
+                    time_step: L::splat(time_step),
+                    strain_increment: strain,
+                    rotation: if M::NEEDS_ROTATION {
+                        <Rotation<D, L> as Turn<L>>::load(&rotation[p * turn..(p + 1) * turn], at)
+                    } else {
+                        <Rotation<D, L> as Turn<L>>::none()
+                    },
+                    stress_rotated: old,
+                    left_cauchy_green: strain,
+                    volume_ratio: if needs_ratio { L::load(&volume_ratio[p], at) } else { zero },
+                    viscous_heat: if M::NEEDS_VOLUME { L::load(&viscous_heat[p], at) } else { zero },
+                };
+                let mut history = <M::State<L, Tensor<D, L>> as State<L>>::load(state, at);
+                let found = self.law.update(&kinematics, &mut history);
+                history.store(state, at);
+                found.stress.store(stress, at);
+                let stored = match M::FAMILY {
+                    Family::Rate => old.plus(found.stress).contract(strain),
+                    Family::Hyperelastic => found.stored,
+                };
+                stored.store(&mut out[0], at);
+                found.dissipated.store(&mut out[1], at);
+                found.bulk.store(&mut out[2], at);
+                found.shear.store(&mut out[3], at);
+            }
+        }
+    }
+}
+
+/// Components of a tensor of the plane.
+pub(super) const PLANE: usize = <Plane<f64> as SymmetricTensor<f64>>::COMPONENTS;

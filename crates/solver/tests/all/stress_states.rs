@@ -1,0 +1,172 @@
+//! What every stress state promises with every element and law: forces are the slope of the energy, uniform states are in equilibrium, the step is stable;
+//! and plane stress against closed forms.
+
+use crate::patches::*;
+use embate_solver::block::BlockInput;
+use embate_solver::block::stress_state::STRESS_STATES;
+use embate_solver::material::Variable;
+
+/// Calls `check(element, stress state, law)` for all that can meet.
+fn every_state(mut check: impl FnMut(&'static str, &'static str, &'static str)) {
+    every_pair(|element, law| STRESS_STATES.iter().for_each(|state| check(element, state.name, law)));
+}
+
+fn body(element: &str, stress_state: &str, law: &str, poisson: f64, patch: &Patch) -> Body {
+    let material = material(law, poisson);
+    Body::made(&BlockInput { stress_state, ..BlockInput::new(element, &material, &patch.connectivity, &patch.positions) })
+}
+
+/// A patch whose left edge is at radius `inner`.
+fn patch_from(element: &str, n: usize, roughness: f64, inner: f64) -> Patch {
+    let mut patch = patch(element, n, roughness);
+    patch.positions.iter_mut().for_each(|x| x[0] += inner);
+    patch
+}
+
+fn largest<'a>(values: impl IntoIterator<Item = &'a f64>) -> f64 {
+    values.into_iter().fold(0.0, |largest, value| largest.max(value.abs()))
+}
+
+/// A smooth motion that strains everything; radii grow with themselves, so that the axis stays.
+fn bent(size: f64) -> impl Fn([f64; 2]) -> [f64; 2] {
+    move |[x, y]| [x * (1.0 + size * (0.7 + 0.3 * y)), y * (1.0 - 0.5 * size) + size * 0.2 * x * x]
+}
+
+#[test]
+fn what_the_forces_take_is_found_in_the_stores() {
+    every_state(|element, state, law| {
+        for inner in [0.0, 2.0] {
+            let drift = |steps: usize| {
+                let patch = patch_from(element, 2, 0.2, inner);
+                let mut body = body(element, state, law, 0.3, &patch);
+                let (mut work, begin) = (0.0, patch.positions.clone());
+                for step in 1..=steps {
+                    let (before, forces) = (body.positions.clone(), body.forces());
+                    let to: Vec<_> = begin.iter().map(|&x| bent(0.04 * step as f64 / steps as f64)(x)).collect();
+                    body.move_to(&to);
+                    let pairs = forces
+                        .iter()
+                        .zip(&body.forces())
+                        .zip(before.iter().zip(&to))
+                        .map(|((f, g), (x, y))| (0..2).map(|d| -0.5 * (f[d] + g[d]) * (y[d] - x[d])).sum::<f64>())
+                        .sum::<f64>();
+                    work += pairs;
+                }
+                assert!(work > 0.0 && body.energy() > 0.0, "{element} {state} {law}");
+                (body.energy() / work - 1.0).abs()
+            };
+            let (coarse, fine) = (drift(10), drift(40));
+            // Second order; a wrong transpose or a forgotten hoop leaves a fixed error.
+            assert!(fine < 1e-4 && (fine < 0.15 * coarse || fine < 1e-9), "{element} {state} {law} from {inner}: {coarse:e} {fine:e}");
+        }
+    });
+}
+
+#[test]
+fn uniform_states_are_in_equilibrium_on_distorted_meshes() {
+    every_state(|element, state, law| {
+        // Radial and axial stretch is uniform in every stress state.
+        let patch = patch_from(element, 4, 0.25, 1.0);
+        let mut body = body(element, state, law, 0.3, &patch);
+        for _ in 0..20 {
+            body.map(|[x, y]| [x * 1.002, y * 0.999]);
+        }
+        let first = body.block.state(0).stress;
+        let size = largest(&first);
+        assert!(size > 1e-3 * YOUNG, "{element} {state} {law}");
+        for k in 1..body.block.elements() {
+            let stress = body.block.state(k).stress;
+            assert!((0..6).all(|c| (stress[c] - first[c]).abs() < 1e-9 * YOUNG), "{element} {state} {law}: {stress:?} {first:?}");
+        }
+        let forces = body.forces();
+        let inner = largest(patch.inner.iter().flat_map(|&node| &forces[node]));
+        assert!(inner < 1e-8 * YOUNG, "{element} {state} {law}: {inner}");
+    });
+}
+
+#[test]
+fn the_stable_step_bounds_the_largest_frequency_of_every_stress_state() {
+    every_state(|element, state, law| {
+        let mut worst = 0.0f64;
+        for round in 0..12 {
+            let inner = [0.0, 0.3, 3.0][round % 3];
+            let patch = patch_from(element, 2, if round < 6 { 0.0 } else { 0.25 }, inner);
+            let poisson = [0.0, 0.3, 0.49][round / 3 % 3];
+            let make_body = || body(element, state, law, poisson, &patch);
+            let body = make_body();
+            worst = worst.max(frequency_squared(&stiffness(make_body), &body.masses()) * body.report.time_step_squared / 4.0);
+        }
+        println!("{element:<11} {state:<12} {law:<12} worst ω² dt²/4 = {worst:.4}");
+        assert!(worst < 1.0 + 1e-5, "{element} {state} {law}: {worst}");
+    });
+}
+
+#[test]
+fn an_axisymmetric_body_weighs_what_its_revolution_weighs() {
+    for element in ["quad4", "quad4_full"] {
+        let body = body(element, "axisymmetric", "elastic", 0.3, &patch_from(element, 3, 0.2, 1.0));
+        let expected = DENSITY * std::f64::consts::PI * (4.0f64.powi(2) - 1.0) * 3.0;
+        let mass: f64 = body.masses().iter().sum();
+        assert!((mass / expected - 1.0).abs() < 1e-13, "{mass} for {expected}");
+    }
+}
+
+#[test]
+fn plane_stress_keeps_its_faces_free_and_its_thickness_true() {
+    let square = patch("quad4", 1, 0.0);
+    for law in ["elastic", "neo_hookean"] {
+        let mut body = body("quad4", "plane_stress", law, 0.3, &square);
+        const STRAIN: f64 = 1e-6;
+        body.map(|[x, y]| [x * (1.0 + STRAIN), y]);
+        let [xx, yy, zz, ..] = body.block.state(0).stress;
+        let modulus = YOUNG / (1.0 - 0.09);
+        assert!((xx / (modulus * STRAIN) - 1.0).abs() < 1e-5 && (yy / (0.3 * modulus * STRAIN) - 1.0).abs() < 1e-5, "{law}: {xx} {yy}");
+        assert!(zz.abs() < 1e-11 * YOUNG, "{law}: {zz}");
+    }
+    // Rubber under equal biaxial stretch λ: σ = µ J^{-5/3} (λ² − λ_z²), the thickness from σ_z = 0.
+    let mut rubber = body("quad4", "plane_stress", "neo_hookean", 0.49, &square);
+    for step in 1..=20 {
+        let stretch = 1.0 + 0.05 * f64::from(step);
+        rubber.move_to(&square.positions.iter().map(|x| x.map(|v| v * stretch)).collect::<Vec<_>>());
+        let (bulk, shear) = (YOUNG / (3.0 * 0.02), YOUNG / 2.98);
+        let sides = |z: f64| {
+            let j = stretch * stretch * z;
+            let (mean, pressure) = ((2.0 * stretch * stretch + z * z) / 3.0, 0.5 * bulk * (j - 1.0 / j));
+            [stretch, z].map(|l| shear * j.powf(-5.0 / 3.0) * (l * l - mean) + pressure)
+        };
+        let (mut low, mut high) = (0.05, 1.0);
+        for _ in 0..100 {
+            let z = 0.5 * (low + high);
+            if sides(z)[1] > 0.0 { high = z } else { low = z }
+        }
+        let [expected, _] = sides(low);
+        let stress = rubber.block.state(0).stress;
+        assert!((stress[0] / expected - 1.0).abs() < 1e-9 && stress[2].abs() < 1e-9 * YOUNG, "{stretch}: {stress:?} for {expected}");
+    }
+}
+
+#[test]
+fn a_sheet_that_flows_under_equal_biaxial_stress_follows_the_closed_form() {
+    let mut material = material("j2", 0.3);
+    let (limit, hardening) = (0.01 * YOUNG, 0.02 * YOUNG);
+    material.parameters.insert("yield".into(), limit);
+    material.parameters.insert("hardening".into(), hardening);
+    let square = patch("quad4", 1, 0.0);
+    let input = BlockInput { stress_state: "plane_stress", ..BlockInput::new("quad4", &material, &square.connectivity, &square.positions) };
+    let mut body = Body::made(&input);
+    let mut strain = 0.0;
+    let mut length = 1.0;
+    for step in 1..=200 {
+        let to = 1.0 + 2e-4 * f64::from(step);
+        strain += (to - length) / (0.5 * (to + length));
+        length = to;
+        body.move_to(&square.positions.iter().map(|x| x.map(|v| v * length)).collect::<Vec<_>>());
+        // ε = σ (1 − ν)/E + ½ ε_p, σ = σ_y + H ε_p
+        let elastic = strain * YOUNG / 0.7;
+        let plastic = ((strain - 0.7 / YOUNG * limit) / (0.5 + 0.7 / YOUNG * hardening)).max(0.0);
+        let expected = if plastic > 0.0 { limit + hardening * plastic } else { elastic };
+        let state = body.block.state(0);
+        assert!((state.stress[0] / expected - 1.0).abs() < 1e-9, "step {step}: {} for {expected}", state.stress[0]);
+        assert!((state.variables[Variable::PlasticStrain as usize] - plastic).abs() < 1e-11, "step {step}");
+    }
+}

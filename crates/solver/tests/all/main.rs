@@ -5,20 +5,25 @@
 // What the tests share.
 mod bodies;
 mod patches;
+mod point;
 
 mod bars;
 mod blocks;
 mod certificate;
+mod chaboche;
 mod conditions;
 mod contact;
 mod elements;
 mod formulations;
 mod friction;
 mod free_bodies;
+mod hardening;
 mod initial;
+mod johnson_cook;
 mod materials;
 mod mixed;
 mod obstacles;
+mod pressed;
 mod plasticity;
 mod projectiles;
 mod projection;

@@ -7,6 +7,43 @@ use embate_solver::block::{Block, BlockInput, Motion, make};
 use embate_solver::model::Material;
 use std::time::Instant;
 
+/// Steel for any law; rubbers and orthotropic bodies of its stiffness.
+fn material(law: &str) -> Material {
+    let parameters = [
+        ("density", 7800.0),
+        ("young", 2e11),
+        ("poisson", 0.3),
+        ("yield", 1e8),
+        ("hardening", 5e10),
+        ("bulk", 2e11),
+        ("shear", 8e10),
+        ("c10", 3e10),
+        ("c20", 1e10),
+        ("c30", 1e9),
+        ("c01", 1e10),
+        ("locking_stretch", 5.0),
+        ("young_1", 2e11),
+        ("young_2", 1e11),
+        ("young_3", 1e11),
+        ("poisson_12", 0.3),
+        ("poisson_23", 0.3),
+        ("poisson_31", 0.1),
+        ("shear_12", 5e10),
+        ("angle", 0.5),
+    ];
+    let lists: [(&str, &[f64]); 4] =
+        [("mu", &[6e10, -1e10, 1e9]), ("alpha", &[2.0, -2.0, 5.0]), ("shear_ratio", &[0.2, 0.3]), ("relaxation_time", &[1e-3, 1e-6])];
+    Material {
+        law: law.into(),
+        parameters: parameters.iter().map(|(k, v)| ((*k).to_string(), *v)).collect(),
+        lists: lists.iter().map(|(k, v)| ((*k).to_string(), v.to_vec())).collect(),
+    }
+}
+
+/// Laws in the first element; the second only tells what its points cost.
+const LAWS: [&str; 9] =
+    ["elastic", "j2", "neo_hookean", "mooney_rivlin", "yeoh", "arruda_boyce", "ogden", "viscoelastic", "orthotropic_elastic"];
+
 /// A square of `n` × `n` elements in a swirling, stretching motion that yields.
 fn patch(n: usize) -> (Vec<[f64; 2]>, Vec<[f64; 2]>, Vec<u32>) {
     let node = |i: usize, j: usize| (j * (n + 1) + i) as u32;
@@ -40,12 +77,10 @@ fn main() {
         println!("{elements}");
         let (positions, velocities, connectivity) = patch(n);
         for element in ["quad4", "quad4_full"] {
-            for law in ["elastic", "j2", "neo_hookean"] {
-                let parameters = [("density", 7800.0), ("young", 2e11), ("poisson", 0.3), ("yield", 1e8), ("hardening", 5e10)];
-                let parameters = parameters.iter().map(|(k, v)| ((*k).to_string(), *v)).collect();
-                let material = Material { law: law.into(), parameters, ..Material::default() };
+            for law in &LAWS[..if element == "quad4" { LAWS.len() } else { 3 }] {
+                let material = material(law);
                 let input = BlockInput::new(element, &material, &connectivity, &positions);
-                let mut line = format!("  {element:<11} {law:<12}");
+                let mut line = format!("  {element:<11} {law:<19}");
                 let mut scalar = 0.0;
                 for level in Level::available() {
                     let mut block = make(&input).expect("registered names");

@@ -38,8 +38,9 @@ impl Law for Ogden {
         source: "Ogden, Proc. R. Soc. A 326 (1972) 565-584",
         parameters: &[
             DENSITY,
-            Parameter::new("mu", "µ_k", Dimension::PRESSURE, Range::Finite, "moduli of the terms, each of its exponent's sign").list(TERMS),
-            Parameter::new("alpha", "α_k", Dimension::NONE, Range::Finite, "exponents of the terms, as many as moduli").list(TERMS),
+            Parameter::new("mu", "µ_k", Dimension::PRESSURE, Range::Finite, "moduli of up to three terms, each of its exponent's sign")
+                .list(TERMS),
+            Parameter::new("alpha", "α_k", Dimension::NONE, Range::Finite, "their exponents, as many as moduli").list(TERMS),
             BULK,
         ],
     };

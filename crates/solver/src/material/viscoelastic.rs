@@ -53,7 +53,7 @@ impl Law for Viscoelastic {
                 "g_k",
                 Dimension::NONE,
                 Range::Between(0.0, 1.0),
-                "parts of the shear modulus that relax; below 1 in sum",
+                "up to four parts of the shear modulus that relax; below 1 in sum",
             )
             .list(BRANCHES),
             Parameter::new("relaxation_time", "τ_k", Dimension::TIME, Range::Positive, "time in which each part falls to 1/e")

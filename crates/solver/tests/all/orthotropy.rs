@@ -54,6 +54,22 @@ fn a_sheet_pulled_along_across_and_aslant_strains_as_its_compliance_says() {
 }
 
 #[test]
+fn cords_in_rubber_keep_the_faces_of_a_sheet_free() {
+    let mut cords = ply(0.3);
+    let values = [("young_1", 1e5), ("young_2", 10.0), ("young_3", 8.0), ("shear_12", 3.0), ("shear_23", 3.0), ("shear_31", 3.0)];
+    cords.parameters.extend(values.map(|(name, value)| (name.to_string(), value)));
+    cords.parameters.extend([("poisson_31".to_string(), 0.3 * 8.0 / 1e5), ("poisson_23".to_string(), 0.5)]);
+    let square = patch("quad4", 1, 0.0);
+    let input = BlockInput { stress_state: "plane_stress", ..BlockInput::new("quad4", &cords, &square.connectivity, &square.positions) };
+    let mut sheet = Body::made(&input);
+    for _ in 0..20 {
+        sheet.map(|[x, y]| [x + 1e-4 * x + 2e-3 * y, y - 1e-3 * y]);
+        let [xx, _, zz, ..] = sheet.block.state(0).stress;
+        assert!(zz.abs() < 1e-11 * 1e5 && xx.abs() > 1.0, "{xx} {zz}");
+    }
+}
+
+#[test]
 fn the_axes_turn_with_the_body_over_a_hundred_turns() {
     let angle = 0.5f64;
     let mut sheet = sheet(angle);

@@ -49,6 +49,18 @@ pub fn pow<L: Lane>(x: L, y: L) -> L {
     L::select(x.less(least), L::splat(0.0), exp(y * ln(x.max(least))))
 }
 
+/// e^x − 1 − x without cancellation, relative error below 1e-15 below one half and 5e-15 anywhere.
+///
+/// Its Taylor series to x^15 where |x| < ½.
+#[inline(always)]
+pub fn exp_above_tangent<L: Lane>(x: L) -> L {
+    let mut p = L::splat(1.0);
+    for k in [15.0, 14.0, 13.0, 12.0, 11.0, 10.0, 9.0, 8.0, 7.0, 6.0, 5.0, 4.0, 3.0] {
+        p = L::splat(1.0) + x * p * L::splat(1.0 / k);
+    }
+    L::select(x.abs().less(L::splat(0.5)), x * x * p * L::splat(0.5), (exp(x) - L::splat(1.0)) - x)
+}
+
 /// Cube root of positive normal numbers, relative error below 1e-15.
 ///
 /// e^{ln(x)/3}, then one Newton step y ← y − (y³ − x)/(3 y²).

@@ -30,12 +30,31 @@ const NUMBERS: &[(&str, f64)] = &[
     ("cohesion", 1e8),
     ("friction_angle", 0.5),
     ("dilation_angle", 0.1),
+    ("bulk", 2e11),
+    ("shear", 8e10),
+    ("c10", 3e10),
+    ("c20", 1e10),
+    ("c30", 1e9),
+    ("c01", 1e10),
+    ("locking_stretch", 5.0),
+    ("young_1", 2e11),
+    ("young_2", 1e11),
+    ("young_3", 1e11),
+    ("poisson_12", 0.3),
+    ("poisson_23", 0.3),
+    ("poisson_31", 0.1),
+    ("shear_12", 5e10),
+    ("angle", 0.5),
 ];
 const LISTS: &[(&str, &[f64])] = &[
     ("plastic_strain", &[0.0, 0.1, 0.2, 0.5]),
     ("stress", &[1e8, 2e8, 3e8, 4e8]),
     ("backstress_modulus", &[5e10, 1e10, 1e9]),
     ("backstress_recall", &[500.0, 50.0, 0.0]),
+    ("mu", &[6e10, -1e10, 1e9]),
+    ("alpha", &[2.0, -2.0, 5.0]),
+    ("shear_ratio", &[0.2, 0.3]),
+    ("relaxation_time", &[1e-3, 1e-6]),
 ];
 
 /// A square of `n` × `n` elements in a swirling, stretching motion that yields.
@@ -76,7 +95,7 @@ fn main() {
                 let lists = LISTS.iter().map(|(name, list)| ((*name).to_string(), list.to_vec())).collect();
                 let material = Material { law: law.into(), parameters, lists };
                 let input = BlockInput::new(element, &material, &connectivity, &positions);
-                let mut line = format!("  {element:<11} {law:<14}");
+                let mut line = format!("  {element:<11} {law:<19}");
                 let mut scalar = 0.0;
                 for level in Level::available() {
                     let mut block = make(&input).expect("registered names");

@@ -3,7 +3,7 @@
 use embate_lanes::{Batch, Level};
 use embate_solver::block::{Block, BlockInput, Motion, Report, corner_slot, make};
 use embate_solver::element::{ELEMENTS, Element, ElementVisitor, with_element};
-use embate_solver::material::{LAWS, LawKind};
+use embate_solver::material::{LAWS, Law, LawKind, LawVisitor, with_law};
 use embate_solver::model::Material;
 use embate_solver::quantity::{Parameter, Range};
 use std::collections::BTreeMap;
@@ -28,6 +28,11 @@ impl Spread {
     }
 }
 
+/// The index at the end of a name, from zero.
+fn last(name: &str) -> usize {
+    name.bytes().last().map_or(0, |digit| usize::from(digit - b'1'))
+}
+
 /// A value for any parameter: known ones as above, stresses a small part of Young's modulus, the rest by their range. What makes a law of another
 /// kind of it (dependence on the rate) is left out, `options` has it.
 fn value(parameter: &Parameter, poisson: f64) -> f64 {
@@ -48,6 +53,15 @@ fn value(parameter: &Parameter, poisson: f64) -> f64 {
         ("specific_heat" | "softening_exponent", _) => 1.0,
         ("friction_angle", _) => 0.5,
         ("dilation_angle", _) => 0.2,
+        ("bulk", _) => YOUNG / (3.0 * (1.0 - 2.0 * poisson)),
+        // Rubber: shear stiffness of the order of the bulk stiffness.
+        ("c10" | "c01", _) => 0.1 * YOUNG,
+        ("shear", _) => 0.3 * YOUNG,
+        ("locking_stretch", _) => 2.0,
+        ("young_1" | "young_2" | "young_3", _) => YOUNG * [1.0, 0.5, 0.7][last(parameter.name)],
+        ("poisson_12" | "poisson_23" | "poisson_31", _) => [0.25, 0.3, 0.2][last(parameter.name)],
+        ("shear_12" | "shear_23" | "shear_31", _) => YOUNG * [0.25, 0.3, 0.2][last(parameter.name)],
+        ("angle", _) => 0.4,
         (_, Range::Between(low, high)) => 0.5 * (low + high),
         (_, Range::UpTo(_, high)) => high,
         _ => 0.01 * YOUNG,
@@ -66,21 +80,31 @@ pub(crate) fn options(kind: &LawKind) -> Vec<Vec<(&'static str, f64)>> {
     all.into_iter().filter(|set| set.iter().all(|(name, _)| has(name))).collect()
 }
 
-/// Lists of two ascending values for parameters that are lists; curves begin at zero.
-pub(crate) fn lists(kind: &LawKind) -> BTreeMap<String, Vec<f64>> {
-    let lists = kind.parameters.iter().filter(|parameter| parameter.list > 0);
-    let list = |parameter: &Parameter| match parameter.name {
+/// Values for parameters that are lists: two ascending ones unless they must go together; curves begin at zero.
+fn list(parameter: &Parameter) -> Vec<f64> {
+    match parameter.name {
         "plastic_strain" => vec![0.0, 0.1],
         "stress" => vec![0.01 * YOUNG, 0.02 * YOUNG],
         "damage" => vec![0.05, 3.0, -2.0, 0.02, 0.5],
+        "mu" => vec![0.2 * YOUNG, -0.05 * YOUNG],
+        "alpha" => vec![2.5, -3.0],
+        "shear_ratio" => vec![0.3, 0.2],
+        "relaxation_time" => vec![0.05, 2.0],
         _ => [0.4, 0.5].map(|factor| factor * value(parameter, 0.3)).to_vec(),
-    };
+    }
+}
+
+pub(crate) fn lists(kind: &LawKind) -> BTreeMap<String, Vec<f64>> {
+    let lists = kind.parameters.iter().filter(|parameter| parameter.list > 0);
     lists.map(|parameter| (parameter.name.to_string(), list(parameter))).collect()
 }
 
 pub(crate) fn material(law: &str, poisson: f64) -> Material {
     let kind = LAWS.iter().find(|kind| kind.name == law).unwrap();
-    Material { law: law.into(), parameters: parameters(kind, poisson), lists: lists(kind) }
+    let mut lists = lists(kind);
+    // What is told of bodies holds while they stand still: nothing may relax meanwhile. Laws by themselves are tested with short times.
+    lists.entry("relaxation_time".into()).and_modify(|times| times.fill(1e12));
+    Material { law: law.into(), parameters: parameters(kind, poisson), lists }
 }
 
 /// Strength far beyond every load: a law that flows stays elastic.
@@ -276,6 +300,26 @@ impl Body {
     pub(crate) fn energy(&self) -> f64 {
         self.report.stored + self.report.dissipated
     }
+}
+
+/// Slope of the stress in uniaxial strain along x, from rest: K + 4µ/3, where all directions are alike.
+pub(crate) fn modulus_along_x(element: &str, material: &Material) -> f64 {
+    const STRAIN: f64 = 1e-7;
+    let mut body = Body::single(element, material, &reference_nodes(element));
+    body.map(|[x, y]| [x * (1.0 + STRAIN), y]);
+    body.block.state(0).stress[0] / STRAIN
+}
+
+/// Whether the law answers alike in all directions at rest.
+pub(crate) fn is_isotropic(law: &str) -> bool {
+    struct Ask;
+    impl LawVisitor for Ask {
+        type Output = bool;
+        fn visit<M: Law>(self) -> bool {
+            M::ISOTROPIC
+        }
+    }
+    with_law(law, Ask).unwrap()
 }
 
 /// Tangent stiffness K_ij = −∂f_i/∂x_j by central differences; `make_body` must give the same body every time.

@@ -65,6 +65,9 @@ fn what_the_forces_take_is_found_in_the_stores() {
 #[test]
 fn uniform_states_are_in_equilibrium_on_distorted_meshes() {
     every_state(|element, state, law| {
+        if state == "axisymmetric" && !is_isotropic(law) {
+            return; // the same stretch all around gives other stresses along the radius than around: no equilibrium
+        }
         // Radial and axial stretch is uniform in every stress state.
         let patch = patch_from(element, 4, 0.25, 1.0);
         let mut body = body(element, state, law, 0.3, &patch);

@@ -97,7 +97,7 @@ fn one_list_can_be_chosen() {
         let answer = embate(here(), ["list", what]);
         assert_eq!(answer.code, Some(0));
         assert!(answer.out.starts_with(title));
-        assert_eq!(answer.out.contains("plastic_strain  "), what == "fields", "{}", answer.out);
+        assert_eq!(answer.out.contains("von_mises  "), what == "fields", "{}", answer.out);
     }
 }
 

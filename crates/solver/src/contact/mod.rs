@@ -118,6 +118,8 @@ pub struct Contact {
     terms: usize,
     /// Times between which it acts, s.
     active: [f64; 2],
+    /// Time of the last detection, s.
+    time: f64,
     /// Where its springs of this step lie in the list of all.
     found: Range<usize>,
 }
@@ -136,14 +138,20 @@ impl Contact {
             formulation,
             terms,
             active,
+            time: 0.0,
             found: 0..0,
         }
+    }
+
+    fn acts_at(&self, time: f64) -> bool {
+        (self.active[0]..self.active[1]).contains(&time)
     }
 
     /// Adds the springs of the step to `springs`.
     pub fn detect(&mut self, scene: &Scene<'_>, springs: &mut Springs) {
         let first = springs.list.len();
-        if (self.active[0]..self.active[1]).contains(&scene.time) {
+        self.time = scene.time;
+        if self.acts_at(scene.time) {
             self.formulation.detect(scene, springs);
         }
         self.found = first..springs.list.len();
@@ -160,7 +168,9 @@ impl Contact {
             traces.mark(springs, spring, time_step);
         }
         self.formulation.remember(&springs.list[self.found.clone()]);
-        self.totals.lost.freed = self.formulation.freed();
+        let ends = self.acts_at(self.time) && !self.acts_at(self.time + time_step);
+        self.totals.lost.freed =
+            if ends { springs.list[self.found.clone()].iter().flat_map(|spring| spring.stored).sum() } else { self.formulation.freed() };
     }
 
     /// Its ties, if it has such.

@@ -7,7 +7,7 @@ use super::initial::{is_ignored, kept};
 use super::projection::node_segment::{Projection, Target};
 use super::springs::{End, Spring, Springs, tangent};
 use super::tracker::{Certificate, Memory, SearchReport, Touch, Tracker, is_facing};
-use super::{Formulation, Scene, Vector};
+use super::{Formulation, Scene, Sweep, Vector};
 use crate::mesh::surface::NONE;
 use crate::model;
 
@@ -37,6 +37,8 @@ pub struct NodeSegment {
     thickness: f64,
     /// Largest gap at which the law pushes, m.
     reach: f64,
+    /// Whether springs store energy: multipliers do not.
+    stores: bool,
     /// Whether gaps that are negative when the contact begins to act count as zero.
     ignores_start: bool,
     /// Initial positions, m: only where a surface meets itself at a distance.
@@ -119,18 +121,18 @@ impl NodeSegment {
         let inputs = passes.iter().map(pass).collect();
         let (thickness, reach) = (setup.contact.interface.thickness, (setup.law)().reach());
         let initial = if thickness + reach > 0.0 { setup.positions.to_vec() } else { Vec::new() };
-        let ignores_start = setup.ignores_start();
+        let (ignores_start, stores) = (setup.ignores_start(), is_stored(&setup.contact.interface));
         let tracker = setup.tracker();
-        Self { tracker, passes: inputs, thickness, reach, ignores_start, initial, has_begun: false, touches: Vec::new() }
+        Self { tracker, passes: inputs, thickness, reach, stores, ignores_start, initial, has_begun: false, touches: Vec::new() }
     }
 
     /// For the passes of `tracker` with slaves whose stiffness is known; `reach` of the law, m.
     #[must_use]
     pub fn new(tracker: Tracker, slaves: Vec<Vec<Slave>>, interface: &model::Interface, reach: f64) -> Self {
         let passes = slaves.into_iter().map(|slaves| PassInput { slaves, ..PassInput::default() }).collect();
-        let ignores_start = is_ignored(interface);
+        let (ignores_start, stores) = (is_ignored(interface), is_stored(interface));
         let (thickness, initial, touches) = (interface.thickness, Vec::new(), Vec::new());
-        Self { tracker, passes, thickness, reach, ignores_start, initial, has_begun: false, touches }
+        Self { tracker, passes, thickness, reach, stores, ignores_start, initial, has_begun: false, touches }
     }
 
     /// Gap less the thickness. A surface keeps no more distance from itself than half of what it had: neighbours along a surface are near, and stay so.
@@ -192,9 +194,10 @@ impl NodeSegment {
             if touch.slope != 0.0 {
                 lean(&mut ends, &touch, scene.sweep.new);
             }
-            let (side, slip) = (self.tracker.side(touch.pass), touch.memory.slip);
+            let carried = if self.stores { carried(&touch, gap, &ends, self.reach, scene.sweep) } else { 0.0 };
+            let (side, slip, gap) = (self.tracker.side(touch.pass), touch.memory.slip, gap + carried);
             springs.push(Spring { normal, gap, stiffness, area, side, slip, ..Spring::default() }, &ends);
-            self.touches[index].memory = Memory { offset, faces, ..touch.memory };
+            self.touches[index].memory = Memory { offset, faces, carried, normal, ..touch.memory };
         }
         self.has_begun = true;
     }
@@ -207,7 +210,7 @@ impl Formulation for NodeSegment {
 
     fn remember(&mut self, solved: &[Spring]) {
         for (touch, spring) in self.touches.iter().zip(solved) {
-            self.tracker.remember(touch, Memory { slip: spring.slip_new, ..touch.memory });
+            self.tracker.remember(touch, Memory { slip: spring.slip_new, half: spring.gap_new, ..touch.memory });
         }
     }
 
@@ -218,6 +221,11 @@ impl Formulation for NodeSegment {
     fn search_report(&self) -> Option<SearchReport> {
         Some(self.tracker.search_report())
     }
+}
+
+/// Whether springs of an interface store energy.
+fn is_stored(interface: &model::Interface) -> bool {
+    interface.law != model::ContactLaw::Multiplier
 }
 
 /// The ends of a spring between a node and where it projects.
@@ -253,6 +261,32 @@ pub fn segment_ends([a, b]: [u32; 2], projection: &Projection, arm: f64, positio
         End { at, share, lean: [0, 1].map(|d| of(normal, d)), turn: [0, 1].map(|d| of(t, d) + sign * turn[d]), ..End::default() }
     };
     [end(a, wa, -1.0), end(b, wb, 1.0)]
+}
+
+/// Cosine of the angle by which the normal of a spring may turn within a step before its gap is carried over.
+const TURNED: f64 = 0.87;
+
+/// By how much a spring's gap is moved (m), so that it begins at n − ½ where it ended in the step before, though its normal jumped: from face to face of a corner. `open` is the gap from
+/// which on the law does not push.
+///
+/// The gap itself goes on there, its rate does not: g^{n−½} = g^n − ½ dt ġ^{n−½} would begin elsewhere, by up to what the node goes in half a step, and a spring that is not much deeper
+/// than that would lose or gain any multiple of its energy. What it was moved by stays for as long as it pushes, and then goes as the surfaces part.
+fn carried(touch: &Touch, gap: f64, ends: &[End], open: f64, sweep: Sweep<'_>) -> f64 {
+    let Memory { half, normal: before, carried, .. } = touch.memory;
+    if before == [0.0; 2] {
+        return 0.0;
+    }
+    let normal = touch.projection.normal;
+    let is_turned = before[0] * normal[0] + before[1] * normal[1] < TURNED;
+    if !is_turned && (carried == 0.0 || half < open) {
+        return carried;
+    }
+    let way = |end: &End| {
+        let [old, new] = [sweep.old, sweep.new].map(|positions| positions[end.at as usize]);
+        [0, 1].map(|d| (end.share * normal[d] + end.lean[d]) * (new[d] - old[d])).iter().sum::<f64>()
+    };
+    let begins = gap - 0.5 * ends.iter().map(way).sum::<f64>();
+    if half < open { half - begins } else { (open - begins).max(0.0) }
 }
 
 /// Adds to the rows of the gap those of what the face has fallen off at a distance d beyond its end, φ(d), with the slope φ'.

@@ -71,8 +71,13 @@ fn springs_as_stiff_as_one_likes_are_solved_and_the_books_close() {
                 summary.energy_drift
             };
             let drifts = [1.0, 1e1, 1e2, 1e3, 1e4, 1e5].map(drift);
-            // With stiffer ones up to nine tenths of the energy drift in some scenes although the forces are solved: only the solution and the books are asserted there.
-            assert!(drifts[..2].iter().all(|&drift| drift <= 0.05), "{formulation:?} {name}: {drifts:?}");
+            // Beyond these up to a third of the energy drifts in some scenes although the forces are solved: only the solution and the books are asserted there.
+            let kept = if formulation == Formulation::DoublePass { 5 } else { 2 };
+            assert!(drifts[..kept].iter().all(|&drift| drift <= 0.05), "{formulation:?} {name}: {drifts:?}");
+            if formulation == Formulation::DoublePass && name == "corner in a notch" {
+                // Where springs went from face to face as if nothing had been stored, 82 % were lost at 1e3 and an element was turned inside out at 1e5.
+                assert!(drifts[2..5].iter().all(|&drift| drift <= 1e-3), "{drifts:?}");
+            }
         }
     }
 }
@@ -416,6 +421,31 @@ fn bodies_meet_themselves_in_every_formulation() {
             );
             assert!(summary.energy_drift < 0.02 && summary.ledger_residual < 1e-12, "{name}: {summary:?}");
             assert!(summary.penetration_max < 0.25 * wall && summary.contact.unverified == 0, "{name}: {summary:?}");
+        }
+    }
+}
+
+#[test]
+fn what_springs_hold_when_a_contact_ends_is_booked() {
+    for obstacle in [false, true] {
+        for friction in [None, Some(FRICTION)] {
+            let mut model = slender(6e-4, 1e9, 1e3);
+            add(&mut model, "upper", rectangle([0.0, 0.0], [0.1, 0.05], [5, 3]), [3.0, -20.0]);
+            let active = [0.0, 1.02e-4];
+            let interface = if obstacle {
+                model.obstacles.push(embate_solver::model::Obstacle::wall("floor", [0.0, -1e-5], [0.0, 1.0]));
+                &mut model.obstacles[0].interface
+            } else {
+                add(&mut model, "lower", rectangle([-0.1, -0.05001], [0.3, 0.05], [15, 3]), [0.0, 0.0]);
+                touch(&mut model, "upper", "lower");
+                &mut model.contacts[0].interface
+            };
+            (interface.active, interface.friction, interface.law) = (active, friction, ContactLaw::Penalty(Penalty::automatic(0.2)));
+            let (simulation, history) = run(&model);
+            let (summary, held) = (simulation.summary(), history.largest("energy.contact"));
+            assert!(held > 0.1 * history.first("energy.kinetic") && history.last("energy.contact") == 0.0, "{obstacle} {held}");
+            assert!(history.last("energy.contact_damping") > 0.1 * history.first("energy.kinetic"), "{obstacle}: {summary:?}");
+            assert!(summary.energy_drift < 1e-3 && summary.ledger_residual < 1e-12, "{obstacle}: {summary:?}");
         }
     }
 }

@@ -232,3 +232,55 @@ fn bodies_are_pushed_out_of_obstacles_or_left_in_peace() {
         assert_eq!(simulation.summary().penetration_max, 0.0, "{name}");
     }
 }
+
+/// A bush in a ring, polygons of 120 and 148 sides with one radius: nodes of each are behind chords of the other. Of the ring a sector.
+fn press_fit(sides: bool, to: f64, radius: f64) -> Model {
+    let ring = |inner: f64, outer: f64, around: usize| {
+        Shape::Ring(Ring { centre: [0.0, 0.0], inner, outer, from: 0.0, to, elements: [2, around], ..Ring::default() })
+    };
+    let mut model = model(1e-4);
+    add(&mut model, "bush", ring(0.006, radius, 120), [0.0, 0.0]);
+    add(&mut model, "ring", ring(0.01, 0.014, 148), [0.0, 0.0]);
+    if sides {
+        touch(&mut model, "bush.outer", "ring.inner")
+    } else {
+        touch(&mut model, "bush", "ring")
+    }
+    model
+}
+
+#[test]
+fn the_side_of_a_hole_knows_what_is_inside_as_the_whole_body_does() {
+    let told = |model: &Model| {
+        let mut told = model_faults(model).into_iter().map(|fault| fault.message).collect::<Vec<_>>();
+        told.iter_mut().for_each(|line| *line = line.split_once(": ").map_or(String::new(), |(_, rest)| rest.to_string()));
+        told.sort();
+        told
+    };
+    for radius in [0.01, 0.01005] {
+        let (of_sides, of_parts) = (told(&press_fit(true, TAU, radius)), told(&press_fit(false, TAU, radius)));
+        assert!(of_parts.len() == 21 && of_sides == of_parts, "{radius}: {of_sides:?} {of_parts:?}");
+    }
+    assert_eq!(told(&press_fit(true, TAU, 0.00999)), Vec::<String>::new());
+    // A half on its symmetry line, whose sides end there.
+    let half = |sides: bool, radius: f64| {
+        let mut model = press_fit(sides, 0.5 * TAU, radius);
+        model.symmetries.push(Symmetry { normal: [0.0, 1.0], ..Symmetry::default() });
+        model
+    };
+    assert_eq!(told(&half(true, 0.01005)), told(&half(false, 0.01005)));
+    assert_eq!(told(&half(true, 0.00999)), Vec::<String>::new());
+}
+
+#[test]
+fn levels_are_right_in_a_hole_whatever_was_inside_at_the_start() {
+    for what in [InitialPenetration::Ignore, InitialPenetration::PushOut] {
+        let mut model = press_fit(true, TAU, 0.01005);
+        model.contacts[0].interface.initial_penetration = what;
+        model.parts[0].velocity = [40.0, 15.0];
+        let (simulation, history) = run(&model);
+        let summary = simulation.summary();
+        assert!(history.largest("energy.contact") > 0.0 && summary.contact.unverified == 0, "{summary:?}");
+        assert!(summary.energy_drift < 0.01 && summary.ledger_residual < 1e-12, "{summary:?}");
+    }
+}

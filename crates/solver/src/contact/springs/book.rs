@@ -35,6 +35,7 @@ impl Spring {
         (self.slip_new, self.slides, self.slip_rate) = (link.slip_new, link.slides, link.rates[1]);
         let spring = *self;
         let gap_new = self.gap + 0.5 * after * link.rates[0];
+        self.gap_new = gap_new;
         let (stored_old, stored_new) = (terms.law.stored(&spring, link.gap_old), terms.law.stored(&spring, gap_new));
         // Part of the force that the energy explains; the rest is damping, or a multiplier's.
         let elastic = match terms.law.is_elastic() {

@@ -62,6 +62,8 @@ pub struct Spring {
     pub slides: bool,
     /// Energy at the whole step n, J/m, in step with ½ Σ m v^{n-1/2}·v^{n+1/2}: ½ (V(g^{n−½}) + V(g^{n+½})) + ½ F (g^{n+½} + g^{n−½} − 2 g^n).
     pub energy: f64,
+    /// g^{n+½}, m.
+    pub gap_new: f64,
     /// Energy at n + ½ of the gap, and of a tie's slip, J/m.
     pub stored: [f64; 2],
     /// Energy of the elastic slip at n, J/m: ¼ k (s^{n−½}² + s^{n+½}²).
@@ -91,7 +93,7 @@ pub struct Lost {
     pub damping: f64,
     /// The same two impulses times the old rates instead of the mean ones.
     pub old: [f64; 2],
-    /// Energy at n + ½ of springs that are no more at n + 1: ties that broke.
+    /// Energy at n + ½ of springs that are no more at n + 1: ties that broke, contacts that end.
     pub freed: f64,
 }
 

@@ -53,6 +53,12 @@ pub struct Memory {
     pub slip: f64,
     /// Gap that counts as zero, m.
     pub offset: f64,
+    /// Where the spring's gap was at n − ½, m.
+    pub half: f64,
+    /// Its normal in the step before; zero: it had none.
+    pub normal: Vector,
+    /// What the gap had to be moved by so that it went on from face to face, m.
+    pub carried: f64,
     /// Which of the segments at the slave node stand for it: 1 that which ends there, 2 that which begins there, 3 both; 0 not known.
     pub faces: u8,
 }

@@ -1,11 +1,11 @@
 //! Which nodes are inside other bodies when nothing is known of the past: by winding numbers, exactly as the levels count from then on.
 //!
-//! A ray along +x is counted against the segments of its row; only nodes within the box of another body are asked. Surfaces with ends enclose nothing: there the nearest
-//! feature within the first reach decides. A node is never inside its own body.
+//! A ray along +x is counted against the segments of its row; only nodes within the box of another body are asked. Surfaces that don't enclose their body (those with ends, sides that end on
+//! symmetry lines, the sides of holes) say nothing of what is far from them: there the nearest feature within the first reach decides. A node is never inside its own body.
 
 use super::super::projection::node_segment::{Projection, Target, Vector};
 use super::group::{Group, Pass};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Segments sorted into rows by y.
 struct Rows {
@@ -52,10 +52,12 @@ impl Pass {
     /// Enters the nodes that are inside other bodies.
     pub(super) fn start(&mut self, targets: &[Target], positions: &[Vector]) {
         let target = &targets[self.target];
-        let mut inside = self.open_ones(target, positions);
+        let enclosed = self.enclosed(target, positions);
+        let mut inside = self.near_ones(target, &enclosed, positions);
         let segments = || target.surface.segments.iter().copied().zip(self.segment_bodies.iter().copied());
         let lids = || self.lids.iter().map(|&(lid, body)| (lid, body, true));
-        let closed = || segments().filter(|&(_, body)| !self.is_open(body)).map(|(segment, body)| (segment, body, false)).chain(lids());
+        let closed =
+            || segments().map(|(segment, body)| (segment, body, false)).chain(lids()).filter(|(_, body, _)| enclosed.contains(body));
         let mut boxes: BTreeMap<u32, Extent> = BTreeMap::new();
         for (segment, body, _) in closed() {
             let extent = boxes.entry(body).or_insert([[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]]);
@@ -95,14 +97,35 @@ impl Pass {
         self.slave != self.target && target.surface.nodes.binary_search(&node).is_ok()
     }
 
-    /// Nodes that are behind the nearest candidate of a surface with ends.
-    fn open_ones(&self, target: &Target, positions: &[Vector]) -> Vec<Group> {
+    /// Bodies that their surface, with the segments on symmetry lines, goes around: as many segments begin as end at each node, and the area on their right is not that of a void.
+    fn enclosed(&self, target: &Target, positions: &[Vector]) -> BTreeSet<u32> {
+        let segments = target.surface.segments.iter().copied().zip(self.segment_bodies.iter().copied());
+        let mut areas: BTreeMap<u32, f64> = BTreeMap::new();
+        let mut ends = Vec::new();
+        for ([a, b], body) in segments.chain(self.lids.iter().copied()) {
+            let [[ax, ay], [bx, by]] = [a, b].map(|node| positions[node as usize]);
+            *areas.entry(body).or_insert(0.0) += ay * bx - ax * by;
+            ends.extend([(body, a, 1), (body, b, -1)]);
+        }
+        ends.sort_unstable();
+        for at_node in ends.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+            if at_node.iter().map(|end| end.2).sum::<i32>() != 0 {
+                areas.remove(&at_node[0].0);
+            }
+        }
+        areas.into_iter().filter(|&(_, area)| area > 0.0).map(|(body, _)| body).collect()
+    }
+
+    /// Nodes that are behind the nearest candidate of a surface that does not enclose its body.
+    fn near_ones(&self, target: &Target, enclosed: &BTreeSet<u32>, positions: &[Vector]) -> Vec<Group> {
         let of = |group: &Group| {
             let candidates = &self.candidates[group.begin as usize..group.end as usize];
             let nearest = target.nearest(positions[group.node as usize], candidates, positions)?;
-            (nearest.gap < 0.0).then_some(Group { memory: nearest.segment, ..*group })
+            // From here on the level counts, as it does where the surface is closed.
+            let level = i32::from(!group.open);
+            (nearest.gap < 0.0).then_some(Group { memory: nearest.segment, level, ..*group })
         };
-        self.groups.iter().filter(|group| group.open && !group.own).filter_map(of).collect()
+        self.groups.iter().filter(|group| !group.own && !enclosed.contains(&group.body)).filter_map(of).collect()
     }
 }
 

@@ -1,10 +1,12 @@
-//! Decks of Abaqus and CalculiX: .inp files become an [`ImportedMesh`].
+//! Decks of Abaqus and CalculiX: .inp files become an [`ImportedMesh`], or a whole model.
 //!
 //! The walk of the data: `text.rs` (files, includes, keywords with their data lines) → `deck.rs` and `sets.rs` (nodes, elements, sets and
-//! surfaces, with instances in place; `element_kind.rs` is the table of element types) → `plane.rs` (the mesh).
+//! surfaces, with instances in place; `element_kind.rs` is the table of element types) → `plane.rs` (the mesh), or `import/` (a model file
+//! with a report of what became of each keyword).
 
 mod deck;
 mod element_kind;
+pub mod import;
 
 mod plane;
 mod sets;

@@ -55,7 +55,7 @@ pub(super) fn names(deck: &Deck) -> Names {
 }
 
 /// Whether an element has the node.
-fn used(deck: &Deck) -> Vec<bool> {
+pub(super) fn used(deck: &Deck) -> Vec<bool> {
     let mut used = vec![false; deck.nodes.len()];
     deck.elements.iter().flat_map(Element::nodes).for_each(|&node| used[node as usize] = true);
     used

@@ -1,5 +1,6 @@
 //! Decks of Abaqus and CalculiX: what is read, what is refused and with which words, and that no text makes the reader panic.
 
+mod import;
 mod malformed;
 mod meshes;
 

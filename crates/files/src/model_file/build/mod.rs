@@ -11,7 +11,7 @@ use super::diagnostics::Faults;
 use super::reader::{Document, Record};
 use super::units::shorten;
 use super::value::Datum;
-use crate::gmsh;
+use crate::{abaqus, gmsh};
 use embate_solver::mesh::shapes::Values;
 use embate_solver::model::{
     Cadence, Copies, ImportedMesh, Material, Mirror, Model, Output, Part, Partners, Placement, Probe, ProbeAt, Run, Shape, Symmetry,
@@ -121,7 +121,8 @@ impl Meshes<'_> {
             return *index;
         }
         let index = if path.is_file() {
-            match gmsh::read(&path, scale) {
+            let is_deck = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("inp"));
+            match if is_deck { abaqus::read(&path, scale) } else { gmsh::read(&path, scale) } {
                 Ok(mesh) => {
                     self.loaded.push(Arc::new(mesh));
                     Some(self.loaded.len() - 1)

@@ -10,12 +10,12 @@ use std::path::Path;
 /// time axis) into `folder`.
 ///
 /// `columns`: names as in `history.csv`, one of them `time` (else the first is the time); `rows`: one value per column, SI. Values that are
-/// not finite leave gaps; missing columns leave a plot without curves.
+/// not finite leave gaps; missing columns leave a plot without curves. Energies and forces are per metre of depth, `of_revolution` those of the whole circumference.
 ///
 /// # Errors
 /// [`PictureError::Io`] if a file can't be written.
-pub fn plots(columns: &[String], rows: &[Vec<f64>], title: &str, folder: &Path) -> Result<(), PictureError> {
-    let table = Table { columns, rows };
+pub fn plots(columns: &[String], rows: &[Vec<f64>], title: &str, of_revolution: bool, folder: &Path) -> Result<(), PictureError> {
+    let table = Table { columns, rows, of_revolution };
     write_text(&folder.join("energy.svg"), &chart(&titled(title, "energy"), &[energy(&table)]))?;
     write_text(&folder.join("history.svg"), &chart(&titled(title, "history"), &history(&table)))
 }
@@ -32,6 +32,7 @@ fn write_text(path: &Path, text: &str) -> Result<(), PictureError> {
 struct Table<'a> {
     columns: &'a [String],
     rows: &'a [Vec<f64>],
+    of_revolution: bool,
 }
 
 impl Table<'_> {
@@ -91,8 +92,8 @@ fn energy(table: &Table<'_>) -> Panel {
         curves.push(Curve { name: name.replace('_', " "), colour, dashes, width, points: table.points(column) });
     }
     let remark = if zero.is_empty() { String::new() } else { format!("zero throughout: {}", zero.join(", ")) };
-    // Plane models: everything is per metre of depth.
-    Panel { name: "energy".into(), si: "J/m", from_zero: true, height: 380.0, curves, remark }
+    let si = if table.of_revolution { "J" } else { "J/m" };
+    Panel { name: "energy".into(), si, from_zero: true, height: 380.0, curves, remark }
 }
 
 /// Curves in one panel; more would be a carpet.
@@ -139,7 +140,7 @@ fn history(table: &Table<'_>) -> Vec<Panel> {
     let name = if from_start { "displacement" } else { "position" };
     let quantities = [
         Quantity { name, si: "m", axes: positions, from_start },
-        Quantity { name: "contact force", si: "N/m", axes: forces, from_start: false },
+        Quantity { name: "contact force", si: if table.of_revolution { "N" } else { "N/m" }, axes: forces, from_start: false },
     ];
     let mut panels: Vec<Panel> = quantities.iter().flat_map(|quantity| quantity.panels(table)).collect();
     if panels.is_empty() {

@@ -24,6 +24,7 @@ mod obstacles;
 mod plasticity;
 mod projectiles;
 mod projection;
+mod revolution;
 mod rigid;
 mod search;
 mod self_contact;

@@ -63,7 +63,7 @@ impl Document {
     pub(super) fn single(&self, name: &str) -> Record {
         match (self.section(name).first(), section_by_name(name)) {
             (Some(record), _) => record.clone(),
-            (None, Some(section)) => Reader { vocabulary: &MODEL, faults: &mut Faults::default() }.table(
+            (None, Some(section)) => Reader { vocabulary: &MODEL, faults: &mut Faults::default(), of_revolution: false }.table(
                 section,
                 &[],
                 name,

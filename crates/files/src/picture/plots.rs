@@ -219,7 +219,7 @@ mod tests {
 
     fn names_of(columns: &[&str], rows: &[Vec<f64>]) -> Vec<String> {
         let columns: Vec<String> = columns.iter().map(ToString::to_string).collect();
-        history(&Table { columns: &columns, rows }).into_iter().map(|panel| panel.name).collect()
+        history(&Table { columns: &columns, rows, of_revolution: false }).into_iter().map(|panel| panel.name).collect()
     }
 
     #[test]
@@ -234,7 +234,7 @@ mod tests {
         let columns = ["time", "contact.force_y[a]", "obstacle.force_y[floor]", "obstacle.force_y[a]", "obstacle.force_x[floor]"];
         let columns: Vec<String> = columns.iter().map(ToString::to_string).collect();
         let rows: Vec<Vec<f64>> = (0..9).map(f64::from).map(|t| vec![t, t, 2.0 * t, 3.0 * t, 0.0]).collect();
-        let panels = history(&Table { columns: &columns, rows: &rows });
+        let panels = history(&Table { columns: &columns, rows: &rows, of_revolution: false });
         let curves: Vec<&str> = panels[0].curves.iter().map(|curve| curve.name.as_str()).collect();
         assert_eq!((panels.len(), panels[0].name.as_str()), (1, "contact force y"));
         assert_eq!(curves, ["a", "floor", "a (obstacle)"]);

@@ -4,16 +4,26 @@
 //! it returns the Cauchy stress and what the ledger and the stable step need. To add a law: one file, one line in `laws!`.
 //! Blocks see laws erased, as [`points::PointLaw`]: the kernel of a law is compiled once, not once per element.
 
+mod chaboche;
+mod crushable_foam;
+mod drucker_prager;
 mod elastic;
+pub mod hardening;
 mod j2;
+mod johnson_cook;
 mod neo_hookean;
 mod parameters;
 mod plane_stress;
 pub mod points;
 mod state;
+mod trial;
 
+pub use chaboche::Chaboche;
+pub use crushable_foam::CrushableFoam;
+pub use drucker_prager::DruckerPrager;
 pub use elastic::Elastic;
-pub use j2::J2;
+pub use j2::{J2, J2Ludwik, J2Swift, J2Table, J2Voce, J2With};
+pub use johnson_cook::JohnsonCook;
 pub use neo_hookean::NeoHookean;
 pub use parameters::{DENSITY, POISSON, ParameterFault, Parameters, YOUNG, bulk_and_shear};
 pub use state::{State, Tensors, Variable};
@@ -138,7 +148,7 @@ macro_rules! laws {
     };
 }
 
-laws!(Elastic, J2, NeoHookean);
+laws!(Elastic, J2, J2Voce, J2Swift, J2Ludwik, J2Table, Chaboche, JohnsonCook, DruckerPrager, CrushableFoam, NeoHookean);
 
 /// What the law called `name` finds wrong with parameters whose ranges are right.
 #[must_use]

@@ -25,6 +25,7 @@ use crate::load::damping::Damping;
 use crate::load::force::Forces;
 use crate::load::join::Joins;
 use crate::load::non_reflecting::{Behind, NonReflecting};
+use crate::load::tributary::Depth;
 use crate::mesh::surface::{NONE, Surface};
 use crate::mesh::{ElementGroup, Mesh};
 use crate::model::{self, ContactLaw, Interface, Model, Partners, Penalty, PenaltySource, Symmetry};
@@ -104,7 +105,7 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
     // A symmetry line is no surface: pressures count the length on the model's side.
     let outside =
         mesh.outside_without(&[], |segment| contacts.is_empty() || constraints.is_mirror(segment)).map_err(|fault| vec![fault])?;
-    let traces = Traces::new(outside, &mesh.positions);
+    let traces = Traces::new(outside, &mesh.positions, Depth::of(model));
     let run = &model.run;
     let (step, largest) = (run.step_limit.unwrap_or(0.0), run.time_step.unwrap_or(f64::INFINITY));
     let limits = Limits { end: run.end, safety: run.safety, energy: run.energy_limit, step, largest };
@@ -149,6 +150,7 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         constraints,
         limits,
         level,
+        of_revolution: model.is_axisymmetric(),
     })
 }
 
@@ -324,12 +326,12 @@ impl Builder<'_> {
         let (surface, positions, source) = (&target.surface, &self.mesh.positions, source_of(interface));
         let modulus = |under: &Under| self.moduli[under.group as usize][usize::from(source == PenaltySource::BulkModulus)] * under.flatness;
         let mut segments: Vec<f64> = surface.segments.iter().map(|&segment| self.under(segment).map_or(0.0, modulus)).collect();
-        let mut nodes = contact::node_stiffness(surface, &segments, positions);
+        let mut nodes = contact::tributaries(surface, &segments, positions, Depth::of(self.model));
         if source == PenaltySource::TimeStep {
-            for (&node, (length, stiffness)) in surface.nodes.iter().zip(&mut nodes) {
-                *stiffness = law::penalty::of_time_step(self.mass[node as usize], self.time_step, *length);
+            for (&node, own) in surface.nodes.iter().zip(&mut nodes) {
+                own.stiffness = law::penalty::of_time_step(self.mass[node as usize], self.time_step, own.area);
             }
-            let of = |node: u32| surface.nodes.binary_search(&node).map_or(0.0, |at| nodes[at].1);
+            let of = |node: u32| surface.nodes.binary_search(&node).map_or(0.0, |at| nodes[at].stiffness);
             segments = surface.segments.iter().map(|&[a, b]| 0.5 * (of(a) + of(b))).collect();
         }
         let cell = |&segment: &[u32; 2]| {
@@ -402,6 +404,7 @@ impl Builder<'_> {
             sides,
             bodies: &self.body_of_node,
             positions: &self.mesh.positions,
+            depth: Depth::of(self.model),
             law: &|| law_of(&contact.interface),
             passes: (kind.passes)(contact),
             tie_terms,

@@ -157,8 +157,20 @@ const fn at_cells(
 pub static FIELDS: &[FieldKind] = &[
     at_nodes("displacement", VECTOR, "m", Needs::Nothing, "current minus initial position"),
     at_nodes("velocity", VECTOR, "m/s", Needs::Nothing, "velocity at the frame's time"),
-    at_nodes("contact_force", VECTOR, "N/m", Needs::Contact, "sum of the contact and obstacle forces on the node, per metre of depth"),
-    at_nodes("contact_pressure", &[], "Pa", Needs::Contact, "normal part of the contact force over the node's current length of surface"),
+    at_nodes(
+        "contact_force",
+        VECTOR,
+        "N/m",
+        Needs::Contact,
+        "sum of the contact and obstacle forces on the node, per metre of depth (of an axisymmetric model in N, all around)",
+    ),
+    at_nodes(
+        "contact_pressure",
+        &[],
+        "Pa",
+        Needs::Contact,
+        "normal part of the contact force over the node's current length (of an axisymmetric model area) of surface",
+    ),
     at_nodes("contact_shear", &[], "Pa", Needs::Friction, "tangential part, along the surface with the body on its right"),
     at_nodes(
         "contact_gap",

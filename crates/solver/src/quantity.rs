@@ -42,6 +42,10 @@ impl Dimension {
     pub const SLOWNESS: Self = Self::new(0, -1, 1);
     /// Pa s/m: shear stress per slip rate.
     pub const VISCOSITY_PER_LENGTH: Self = Self::new(1, -2, -1);
+    /// N.
+    pub const FORCE: Self = Self::new(1, 1, -2);
+    /// kg.
+    pub const MASS: Self = Self::new(1, 0, 0);
     /// N/m = kg/s²: force per metre of depth.
     pub const FORCE_PER_LENGTH: Self = Self::new(1, 0, -2);
     /// kg/m: mass per metre of depth.
@@ -63,6 +67,7 @@ impl Dimension {
             Self::SPECIFIC_HEAT => return "J/kg/K".into(),
             Self::VISCOSITY_PER_LENGTH => return "Pa s/m".into(),
             Self::FORCE_PER_LENGTH => return "N/m".into(),
+            Self::FORCE => return "N".into(),
             _ => {}
         }
         let power = |(name, exponent): &(&str, i8)| match exponent.abs() {

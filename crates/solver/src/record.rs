@@ -306,6 +306,8 @@ pub(crate) fn state_hash(system: &System) -> String {
 pub(crate) struct Momentum {
     start: Moments,
     drift: [f64; 2],
+    /// Whether x is a radius: forces around the axis cancel, and only what goes along it is kept.
+    of_revolution: bool,
 }
 
 #[derive(Clone, Copy, Default)]
@@ -319,20 +321,24 @@ struct Moments {
 impl Momentum {
     /// `None` where something is held or driven, or loads act.
     pub(crate) fn new(system: &System) -> Option<Self> {
-        let isolated = system.bodies.iter().all(Body::is_free)
-            && system.constraints.is_empty()
+        let of_revolution = system.of_revolution;
+        let is_free = |body: &Body| if of_revolution { body.drives[1].is_none() } else { body.is_free() };
+        let is_held = if of_revolution { system.constraints.holds_more_than([1.0, 0.0]) } else { !system.constraints.is_empty() };
+        let isolated = system.bodies.iter().all(is_free)
+            && !is_held
             && system.body_forces.is_empty()
             && system.forces.is_empty()
             && system.boundary.is_empty()
             && !system.joins.is_periodic()
             && system.damping.is_empty();
         // Forces at time zero have acted half a step already; both momenta are kept by them as well.
-        isolated.then(|| Self { start: Moments::of(system), drift: [0.0; 2] })
+        isolated.then(|| Self { start: Moments::of(system), drift: [0.0; 2], of_revolution })
     }
 
     pub(crate) fn note(&mut self, system: &System) {
         let now = Moments::of(system);
-        let change = [now.linear[0] - self.start.linear[0], now.linear[1] - self.start.linear[1]];
+        let along_radius = if self.of_revolution { 0.0 } else { now.linear[0] - self.start.linear[0] };
+        let change = [along_radius, now.linear[1] - self.start.linear[1]];
         let linear = (change[0] * change[0] + change[1] * change[1]).sqrt();
         let angular = (now.angular - self.start.angular).abs();
         for (drift, (change, scales)) in
@@ -349,8 +355,9 @@ impl Momentum {
         self.drift[0]
     }
 
-    pub(crate) fn angular(&self) -> f64 {
-        self.drift[1]
+    /// `None` of bodies of revolution: there is none.
+    pub(crate) fn angular(&self) -> Option<f64> {
+        (!self.of_revolution).then_some(self.drift[1])
     }
 }
 
@@ -364,7 +371,9 @@ impl Moments {
             }
         }
         for body in system.bodies.iter() {
-            let [m, _, inertia] = body.mass;
+            // The free one: of a body of revolution that along the axis.
+            let [x, y, inertia] = body.mass;
+            let m = x.max(y);
             sum.add(m, &body.centre, &[body.velocity[0], body.velocity[1]]);
             let spin = inertia * body.velocity[2];
             sum.angular += spin;

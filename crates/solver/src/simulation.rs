@@ -429,7 +429,7 @@ impl Simulation {
             energy_drift: system.ledger.drift(),
             ledger_residual: system.ledger.residual(),
             momentum_drift_linear: self.momentum.as_ref().map(Momentum::linear),
-            momentum_drift_angular: self.momentum.as_ref().map(Momentum::angular),
+            momentum_drift_angular: self.momentum.as_ref().and_then(Momentum::angular),
             penetration_max: system.penetration_max,
             contact: self.certificate(),
             state_hash: crate::record::state_hash(system),

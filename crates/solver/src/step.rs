@@ -99,6 +99,8 @@ pub struct System {
     pub(crate) limits: Limits,
     pub(crate) level: Level,
     pub(crate) parallel: bool,
+    /// Whether x is a radius.
+    pub(crate) of_revolution: bool,
 
     pub(crate) step: u64,
     pub(crate) time: f64,

@@ -20,6 +20,8 @@ pub struct FilmSettings {
     pub title: String,
     /// Whether bodies are also shown mirrored at x = 0 and at y = 0 (symmetric models).
     pub mirror: [bool; 2],
+    /// Whether forces are those of the whole circumference, and not per metre of depth.
+    pub of_revolution: bool,
     /// Field shown as colour: a name (`von_mises`; vectors show their size) or a component (`stress.xy`); empty: plastic strain if there is
     /// any, else the equivalent stress.
     pub field: String,
@@ -31,7 +33,7 @@ pub struct FilmSettings {
 
 impl Default for FilmSettings {
     fn default() -> Self {
-        Self { title: String::new(), mirror: [false; 2], field: String::new(), width: 960, height: 720 }
+        Self { title: String::new(), mirror: [false; 2], of_revolution: false, field: String::new(), width: 960, height: 720 }
     }
 }
 
@@ -232,7 +234,8 @@ impl Film {
             Some(last) => ([0.0, last as f64], [false; 2]),
             None => colour_range(all(chosen), kind.starts_at_zero()),
         };
-        let key = Key::Bar { label: kind.label(), si: kind.kind.unit, range, beyond, states };
+        let si = if self.settings.of_revolution && kind.kind.unit == "N/m" { "N" } else { kind.kind.unit };
+        let key = Key::Bar { label: kind.label(), si, range, beyond, states };
         Show { scalar, range, key, view, sides }
     }
 

@@ -18,6 +18,7 @@ pub mod tied;
 pub mod obstacle;
 pub mod traces;
 
+use crate::load::tributary::Depth;
 use crate::mesh::surface::Surface;
 use crate::rigid::Bodies;
 use springs::{Spring, Springs, Totals};
@@ -219,18 +220,33 @@ pub(crate) fn length(segment: [u32; 2], positions: &[Vector]) -> f64 {
     ((b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2)).sqrt()
 }
 
-/// Tributary length (m) and mean pressure stiffness (Pa/m) of each node of a surface, in the order of its nodes.
+/// What a node of a surface stands for.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Tributary {
+    /// Area, m²/m; of a body of revolution m², all around.
+    pub area: f64,
+    /// Length, m.
+    pub length: f64,
+    /// Mean pressure stiffness κ of the elements behind it, Pa/m.
+    pub stiffness: f64,
+}
+
+/// What each node of a surface stands for, in the order of its nodes.
 #[must_use]
-pub fn node_stiffness(surface: &Surface, pressure_stiffness: &[f64], positions: &[Vector]) -> Vec<(f64, f64)> {
-    let mut sums = vec![(0.0, 0.0); surface.nodes.len()];
+pub fn tributaries(surface: &Surface, pressure_stiffness: &[f64], positions: &[Vector], depth: Depth) -> Vec<Tributary> {
+    let mut sums = vec![Tributary::default(); surface.nodes.len()];
     for (&segment, &stiffness) in surface.segments.iter().zip(pressure_stiffness) {
-        let half = 0.5 * length(segment, positions);
-        for node in segment {
+        let shares = depth.shares(segment.map(|node| positions[node as usize]));
+        for (node, share) in segment.into_iter().zip(shares) {
             if let Ok(at) = surface.nodes.binary_search(&node) {
-                sums[at].0 += half;
-                sums[at].1 += half * stiffness;
+                sums[at].area += share;
+                sums[at].length += 0.5 * length(segment, positions);
+                sums[at].stiffness += share * stiffness;
             }
         }
     }
-    sums.into_iter().map(|(length, weighted)| (length, weighted / length)).collect()
+    for sum in &mut sums {
+        sum.stiffness /= sum.area;
+    }
+    sums
 }

@@ -64,7 +64,7 @@ pub struct PassInput {
 /// What a segment at a node has of the node's tributary length and of its stiffness, as fractions.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Face {
-    /// Fraction of the length.
+    /// Fraction of the length, of a body of revolution of the area.
     pub length: f64,
     /// Fraction of the stiffness.
     pub stiffness: f64,
@@ -99,7 +99,7 @@ impl PassInput {
 pub struct Slave {
     /// Stiffness, N/m per metre of depth.
     pub stiffness: f64,
-    /// Length of surface that it stands for, m: its own, half of that where both surfaces are slaves.
+    /// Area of surface that it stands for, m (of a body of revolution m²): its own, half of that where both surfaces are slaves.
     pub area: f64,
     /// Elastic slip at n − ½, m.
     pub slip: f64,

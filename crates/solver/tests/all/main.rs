@@ -30,6 +30,7 @@ mod pressed;
 mod plasticity;
 mod projectiles;
 mod projection;
+mod revolution;
 mod rigid;
 mod rubbers;
 mod search;

@@ -100,12 +100,17 @@ static PART: Section = Section {
             "What the plane stands for. In an axisymmetric part x is the radius and y the axis; forces, masses and energies are those of the whole circumference.",
         ),
         key("velocity", Vector(Dimension::VELOCITY, Finite), Default("[0, 0]"), "Initial velocity."),
-        key("spin", Angle(Dimension::RATE, Finite), Default("0"), "Initial angular velocity about the centre of mass, counter-clockwise."),
+        key(
+            "spin",
+            Angle(Dimension::RATE, Finite),
+            Default("0"),
+            "Initial angular velocity about the centre of mass, counter-clockwise; not of an axisymmetric part.",
+        ),
         key(
             "rigid",
             Kind::Rigid,
             Default("false"),
-            "Whether the part is rigid, free to move; or how it moves: `x` and `y` of its centre of mass, `rotation` about it. What is left out is free.",
+            "Whether the part is rigid, free to move; or how it moves: `x` and `y` of its centre of mass, `rotation` about it. What is left out is free. An axisymmetric part moves along `y` only.",
         ),
         key("mirror", Table(&MIRROR), Optional("not mirrored"), "A line that the shape is mirrored on, before it is turned."),
         key("rotation", Table(&ROTATION), Optional("not turned"), "An angle by which the shape is turned, before it is moved."),
@@ -228,7 +233,7 @@ static LOAD: Section = Section {
             "gravity",
             Vector(Dimension::ACCELERATION, Finite),
             Optional("another load"),
-            "Uniform acceleration of parts, such as `[0, \"-9.81 m/s^2\"]`.",
+            "Uniform acceleration of parts, such as `[0, \"-9.81 m/s^2\"]`; in an axisymmetric model along y.",
         ),
         key(
             "centrifugal",

@@ -39,13 +39,13 @@ fn main() {
     for (elements, n) in [("in cache, 1,024 elements", 32), ("out of cache, 1,048,576 elements", 1024)] {
         println!("{elements}");
         let (positions, velocities, connectivity) = patch(n);
-        for element in ["quad4", "quad4_full"] {
+        for element in ["quad4", "quad4_full", "quad4_reduced", "quad4_reduced_assumed_strain"] {
             for law in ["elastic", "j2", "neo_hookean"] {
                 let parameters = [("density", 7800.0), ("young", 2e11), ("poisson", 0.3), ("yield", 1e8), ("hardening", 5e10)];
                 let parameters = parameters.iter().map(|(k, v)| ((*k).to_string(), *v)).collect();
                 let material = Material { law: law.into(), parameters, ..Material::default() };
                 let input = BlockInput::new(element, &material, &connectivity, &positions);
-                let mut line = format!("  {element:<11} {law:<12}");
+                let mut line = format!("  {element:<28} {law:<12}");
                 let mut scalar = 0.0;
                 for level in Level::available() {
                     let mut block = make(&input).expect("registered names");

@@ -89,13 +89,13 @@ fn main() {
     for (elements, n) in [("in cache, 1,024 elements", 32), ("out of cache, 1,048,576 elements", 1024)] {
         println!("{elements}");
         let (positions, velocities, connectivity) = patch(n);
-        for element in ["quad4", "quad4_full"] {
+        for element in ["quad4", "quad4_full", "quad4_reduced", "quad4_reduced_assumed_strain"] {
             for law in LAWS.iter().map(|kind| kind.name).filter(|law| n < 100 && element == "quad4" || FEW.contains(law)) {
                 let parameters = NUMBERS.iter().map(|(name, value)| ((*name).to_string(), *value)).collect();
                 let lists = LISTS.iter().map(|(name, list)| ((*name).to_string(), list.to_vec())).collect();
                 let material = Material { law: law.into(), parameters, lists };
                 let input = BlockInput::new(element, &material, &connectivity, &positions);
-                let mut line = format!("  {element:<11} {law:<19}");
+                let mut line = format!("  {element:<28} {law:<19}");
                 let mut scalar = 0.0;
                 for level in Level::available() {
                     let mut block = make(&input).expect("registered names");

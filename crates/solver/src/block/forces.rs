@@ -327,6 +327,7 @@ where
             shear,
             mass,
             time_step: L::splat(self.time_step),
+            is_plane_stress: S::PLANE_STRESS,
         };
         let held = self.element.hold_shape(&corners, kept, at);
         for a in 0..N {

@@ -9,6 +9,7 @@ mod batch;
 mod elements;
 mod forces;
 mod make;
+mod nodal;
 mod strain;
 pub mod stress_state;
 mod strip;

@@ -127,6 +127,11 @@ pub(crate) fn every_pair(mut check: impl FnMut(&'static str, &'static str)) {
     }
 }
 
+/// Whether hourglass shapes of this element meet dampers, which have no potential and no stiffness.
+pub(crate) fn is_damped(element: &str) -> bool {
+    element == "quad4_reduced_viscous"
+}
+
 pub(crate) fn nodes_of(element: &str) -> usize {
     ELEMENTS.iter().find(|kind| kind.name == element).unwrap().nodes
 }
@@ -269,6 +274,15 @@ impl Body {
         self.positions = positions.to_vec();
     }
 
+    /// One step with these velocities.
+    pub(crate) fn advance(&mut self, velocities: &[[f64; 2]], time_step: f64) {
+        for (x, v) in self.positions.iter_mut().zip(velocities) {
+            *x = [x[0] + v[0] * time_step, x[1] + v[1] * time_step];
+        }
+        let motion = Motion { positions: &self.positions, velocities, time_step };
+        self.report = self.block.advance(&motion, self.level, &mut self.corners, self.parallel);
+    }
+
     /// One step in which every node goes to `to(x)`.
     pub(crate) fn map(&mut self, to: impl Fn([f64; 2]) -> [f64; 2]) {
         let positions: Vec<_> = self.positions.iter().map(|&x| to(x)).collect();
@@ -296,9 +310,9 @@ impl Body {
         masses
     }
 
-    /// Stored and dissipated energy.
+    /// Stored and dissipated energy, with that of hourglass control.
     pub(crate) fn energy(&self) -> f64 {
-        self.report.stored + self.report.dissipated
+        self.report.stored + self.report.dissipated + self.report.hourglass
     }
 }
 

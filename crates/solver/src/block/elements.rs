@@ -4,6 +4,7 @@
 //! are shared by threads and do not depend on their number.
 
 use super::batch::{ElementBatch, element_of};
+use super::erosion::Eroded;
 use super::forces::{Forces, Sums, radius_initial};
 use super::make::BlockInput;
 use super::strain::{Measures, Strain, Tensor, initial_width};
@@ -11,6 +12,7 @@ use super::stress_state::StressState;
 use super::strip::{STRIP, Shape, Strip};
 use super::{Block, ElementState, Motion, Report};
 use crate::element::Element;
+use crate::failure::Criterion;
 use crate::material::points::{PointLaw, Points, RESPONSE};
 use crate::material::{Family, Variable};
 use crate::tensor::{Dim, Space, SymmetricTensor, Turn};
@@ -21,31 +23,32 @@ use std::marker::PhantomData;
 use std::sync::{Mutex, PoisonError};
 
 /// Batches that one task advances: small enough to share, large enough to be worth it; fixed, so that sums do not depend on threads.
-const CHUNK: usize = 64;
+pub(super) const CHUNK: usize = 64;
 
 /// The elements of a block with their state.
 pub(super) struct Elements<E, S, const D: usize, const N: usize, const P: usize> {
     element: E,
-    law: Box<dyn PointLaw>,
+    pub(super) law: Box<dyn PointLaw>,
     viscosity: Option<[f64; 2]>,
-    count: usize,
-    nodes: Indices,
+    pub(super) count: usize,
+    pub(super) nodes: Indices,
     /// Cauchy stress of the points, Pa.
-    stress: Vec<Batch>,
+    pub(super) stress: Vec<Batch>,
     /// What the law remembers of the points.
-    history: Vec<Batch>,
+    pub(super) history: Vec<Batch>,
     /// Hyperelastic laws: initial geometry of the points.
-    initial: Vec<Batch>,
-    elements: Vec<ElementBatch>,
+    pub(super) initial: Vec<Batch>,
+    pub(super) elements: Vec<ElementBatch>,
     /// What hourglass control remembers.
-    hourglass: Vec<Batch>,
+    pub(super) hourglass: Vec<Batch>,
     /// Share of each corner in the element's mass: `N` batches per batch of elements.
-    corner_mass: Vec<Batch>,
+    pub(super) corner_mass: Vec<Batch>,
     /// Initial volume of each element, one batch per batch of elements.
-    volume_initial: Vec<Batch>,
+    pub(super) volume_initial: Vec<Batch>,
     reports: Vec<Report>,
     /// Room for each thread.
     strips: Vec<Mutex<Strip>>,
+    pub(super) eroded: Eroded,
     state: PhantomData<S>,
 }
 
@@ -78,7 +81,7 @@ impl<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const 
 where
     Dim<D>: Space<D>,
 {
-    const COMPONENTS: usize = <Tensor<D, f64> as SymmetricTensor<f64>>::COMPONENTS;
+    pub(super) const COMPONENTS: usize = <Tensor<D, f64> as SymmetricTensor<f64>>::COMPONENTS;
 
     fn strip(law: &dyn PointLaw) -> Mutex<Strip> {
         let turn = <<Tensor<D, f64> as SymmetricTensor<f64>>::Rotation as Turn<f64>>::COMPONENTS;
@@ -87,7 +90,7 @@ where
     }
 
     /// Widths of a batch in stress, history, initial geometry and hourglass memory.
-    fn widths(&self) -> [usize; 4] {
+    pub(super) fn widths(&self) -> [usize; 4] {
         let initial = if self.law.family() == Family::Hyperelastic { P * initial_width::<S, D>() } else { 0 };
         [P * Self::COMPONENTS, P * self.law.state_width(), initial, E::HOURGLASS]
     }
@@ -226,6 +229,7 @@ where
             reports: vec![Report::NOTHING; batches.div_ceil(CHUNK)],
             strips,
             law,
+            eroded: Eroded::default(),
             state: PhantomData,
         };
         block.initial = vec![Batch::default(); batches * block.widths()[2]];
@@ -316,7 +320,7 @@ where
                 .enumerate()
                 .for_each(advance);
         }
-        self.reports.iter().fold(Report::NOTHING, |sum, &report| sum.join(report))
+        self.reports.iter().fold(self.eroded.left, |sum, &report| sum.join(report))
     }
 
     fn mass(&self, element: usize) -> f64 {
@@ -332,6 +336,9 @@ where
     }
 
     fn state(&self, element: usize) -> ElementState {
+        if let Some(last) = self.eroded.last.get(&element) {
+            return *last;
+        }
         let (batch, lane) = (element / BATCH, element % BATCH);
         let width = self.law.state_width();
         let mean = |values: &[Batch], width: usize, value: usize| {
@@ -359,5 +366,29 @@ where
 
     fn has(&self, variable: Variable) -> bool {
         self.law.variables().iter().any(|&(own, _)| own == variable)
+    }
+
+    fn scale_mass(&mut self, element: usize, factor: f64) {
+        self.make_heavier(element, factor);
+    }
+
+    fn is_alive(&self, element: usize) -> bool {
+        self.elements[element / BATCH].live.0[element % BATCH] > 0.0
+    }
+
+    fn failed(&self, criteria: &[Criterion], parallel: bool) -> Vec<(u32, u32)> {
+        self.failing(criteria, parallel)
+    }
+
+    fn determinant(&self, element: usize, positions: &[[f64; D]]) -> f64 {
+        self.least_determinant(element, positions)
+    }
+
+    fn erode(&mut self, elements: &[u32]) -> Vec<f64> {
+        self.take_out(elements)
+    }
+
+    fn report(&self, positions: &[[f64; D]]) -> Report {
+        self.of_the_living(positions)
     }
 }

@@ -53,7 +53,7 @@ pub(crate) fn lists(kind: &LawKind) -> BTreeMap<String, Vec<f64>> {
 
 pub(crate) fn material(law: &str, poisson: f64) -> Material {
     let kind = LAWS.iter().find(|kind| kind.name == law).unwrap();
-    Material { law: law.into(), parameters: parameters(kind, poisson), lists: lists(kind) }
+    Material { law: law.into(), parameters: parameters(kind, poisson), lists: lists(kind), ..Material::default() }
 }
 
 /// One law of each family.

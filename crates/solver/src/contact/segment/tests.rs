@@ -53,6 +53,7 @@ fn springs_of(model: &Facing2, penalty: Penalty) -> Springs {
         positions: &model.positions,
         law: &law,
         tie_terms: 0,
+        again: false,
         search: &search,
         bodies: &bodies,
         passes: both_passes(&contact),

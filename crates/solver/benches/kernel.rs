@@ -93,7 +93,7 @@ fn main() {
             for law in LAWS.iter().map(|kind| kind.name).filter(|law| n < 100 && element == "quad4" || FEW.contains(law)) {
                 let parameters = NUMBERS.iter().map(|(name, value)| ((*name).to_string(), *value)).collect();
                 let lists = LISTS.iter().map(|(name, list)| ((*name).to_string(), list.to_vec())).collect();
-                let material = Material { law: law.into(), parameters, lists };
+                let material = Material { law: law.into(), parameters, lists, ..Material::default() };
                 let input = BlockInput::new(element, &material, &connectivity, &positions);
                 let mut line = format!("  {element:<28} {law:<19}");
                 let mut scalar = 0.0;

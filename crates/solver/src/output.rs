@@ -66,6 +66,8 @@ pub enum Needs {
     Contact,
     /// A contact or an obstacle with friction.
     Friction,
+    /// A material that fails.
+    Failure,
 }
 
 /// Description of a field: the same for all its frames.
@@ -200,6 +202,13 @@ pub static FIELDS: &[FieldKind] = &[
         "temperature, mean over the element's points; 0 where the material has none",
     ),
     at_cells("damage", &[], "", Needs::History(Variable::Damage), "damage, 1 at failure, mean over the element's points"),
+    at_cells(
+        "alive",
+        &[],
+        "",
+        Needs::Failure,
+        "1 where the element is there, 0 where it was eroded: then its other values are those when it failed",
+    ),
     at_cells("energy_density", &[], "J/m^3", Needs::Nothing, "stored elastic energy per initial volume"),
 ];
 
@@ -207,6 +216,32 @@ pub static FIELDS: &[FieldKind] = &[
 #[must_use]
 pub fn field_kind(name: &str) -> Option<&'static FieldKind> {
     FIELDS.iter().find(|kind| kind.name == name)
+}
+
+/// An element that was eroded.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Eroded {
+    /// Its part.
+    pub part: String,
+    /// Its number in the part.
+    pub element: usize,
+    /// Mean of its nodes when it failed, m.
+    pub at: [f64; 2],
+    /// When it failed, s.
+    pub time: f64,
+    /// By which criterion.
+    pub criterion: &'static str,
+}
+
+/// What erosion has done.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Erosion {
+    /// Eroded elements of each part: name and number.
+    pub elements: Vec<(String, usize)>,
+    /// Mass of nodes that have no element any more, kg/m.
+    pub mass_loose: f64,
+    /// The first element.
+    pub first: Eroded,
 }
 
 /// Result figures of a run, in the order in which they are written; see `docs/output.md` for the meaning of each.
@@ -236,6 +271,10 @@ pub struct Summary {
     pub penetration_max: f64,
     /// What was checked in all contacts between surfaces, and whether one was missed.
     pub contact: Certificate,
+    /// Mass that was added for longer steps, kg/m.
+    pub mass_added: f64,
+    /// What erosion has done; `None`: no element was eroded.
+    pub erosion: Option<Erosion>,
     /// Hash of positions and velocities at the end, hexadecimal.
     pub state_hash: String,
     /// Threads used.

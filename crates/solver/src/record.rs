@@ -13,7 +13,7 @@ use crate::step::{System, Vector};
 use std::cell::OnceCell;
 
 /// Columns of energies, after `energy.`.
-const ENERGIES: [&str; 11] = [
+const ENERGIES: [&str; 12] = [
     "kinetic",
     "internal",
     "plastic",
@@ -23,6 +23,7 @@ const ENERGIES: [&str; 11] = [
     "friction",
     "contact_damping",
     "damping",
+    "eroded",
     "external",
     "total",
 ];
@@ -45,6 +46,7 @@ struct Probe {
 
 impl Recorded {
     pub(crate) fn new(model: &Model, system: &System) -> Result<Self, Vec<Fault>> {
+        let has_failure = system.erosion.is_some();
         let has_contact = !system.contacts.is_empty();
         let has_friction = system.terms.iter().any(|terms| matches!(terms.tangential, Tangential::Friction(_)));
         let wanted = |kind: &&FieldKind| {
@@ -55,9 +57,11 @@ impl Recorded {
                 Needs::History(variable) => system.blocks.iter().any(|block| block.has(variable)),
                 Needs::Contact => has_contact,
                 Needs::Friction => has_friction,
+                Needs::Failure => has_failure,
             };
             // Pictures fall back on these two.
             let pictured = model.output.pictures && (kind.name == "von_mises" || (kind.name == "plastic_strain" && sensible));
+            let pictured = pictured || (model.output.pictures && kind.name == "alive" && has_failure);
             named || pictured || (include.is_empty() && sensible)
         };
         let fields = FIELDS.iter().filter(wanted).collect();
@@ -109,6 +113,7 @@ impl Recorded {
             stores.friction,
             stores.contact_damping,
             stores.damping,
+            stores.eroded,
             external,
             stores.total() - external,
         ]);
@@ -202,6 +207,7 @@ fn values(name: &str, system: &System, surface: &OnSurface) -> Vec<f64> {
         "plastic_strain" => by_element(system, |state| [state.variables[Variable::PlasticStrain as usize]]),
         "temperature" => by_element(system, |state| [state.variables[Variable::Temperature as usize]]),
         "damage" => by_element(system, |state| [state.variables[Variable::Damage as usize]]),
+        "alive" => alive(system),
         "energy_density" => by_element(system, |state| [state.energy_density]),
         _ => Vec::new(),
     }
@@ -218,16 +224,26 @@ fn by_node<const N: usize>(system: &System, value: impl Fn(usize) -> [f64; N]) -
 
 /// Values of every element, part by part in the user's order.
 fn by_element<const N: usize>(system: &System, value: impl Fn(&ElementState) -> [f64; N]) -> Vec<f64> {
+    by_number(system, |group, element| value(&system.blocks[group].state(element)))
+}
+
+/// 1 for elements that are there, 0 for eroded ones.
+fn alive(system: &System) -> Vec<f64> {
+    by_number(system, |group, element| [f64::from(u8::from(system.mesh.groups[group].is_alive(element)))])
+}
+
+/// Values of every element by group and number in it, part by part in the user's order.
+fn by_number<const N: usize>(system: &System, value: impl Fn(usize, usize) -> [f64; N]) -> Vec<f64> {
     let mut values = Vec::new();
     // Groups of a part follow each other and share its numbering.
     let (mut first, mut last) = (0, None);
-    for (group, block) in system.mesh.groups.iter().zip(&system.blocks) {
+    for (index, group) in system.mesh.groups.iter().enumerate() {
         if last != Some(group.part) {
             (first, last) = (values.len(), Some(group.part));
             values.resize(first + N * system.mesh.elements_of(group.part), 0.0);
         }
         for (element, &user) in group.user_elements.iter().enumerate() {
-            values[first + N * user as usize..][..N].copy_from_slice(&value(&block.state(element)));
+            values[first + N * user as usize..][..N].copy_from_slice(&value(index, element));
         }
     }
     values

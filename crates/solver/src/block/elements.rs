@@ -4,6 +4,7 @@
 //! are shared by threads and do not depend on their number.
 
 use super::batch::{ElementBatch, element_of};
+use super::erosion::Eroded;
 use super::forces::{Forces, Sums, radius_initial};
 use super::make::BlockInput;
 use super::nodal::Nodal;
@@ -12,6 +13,7 @@ use super::stress_state::StressState;
 use super::strip::{STRIP, Shape, Strip};
 use super::{Block, ElementState, Motion, Report};
 use crate::element::Element;
+use crate::failure::Criterion;
 use crate::material::points::{PointLaw, Points, RESPONSE};
 use crate::material::{Family, Variable};
 use crate::tensor::{Dim, Space, SymmetricTensor, Turn};
@@ -29,7 +31,7 @@ pub(super) struct Elements<E, S, const D: usize, const N: usize, const P: usize>
     pub(super) element: E,
     pub(super) law: Box<dyn PointLaw>,
     pub(super) viscosity: Option<[f64; 2]>,
-    count: usize,
+    pub(super) count: usize,
     pub(super) nodes: Indices,
     /// Cauchy stress of the points, Pa.
     pub(super) stress: Vec<Batch>,
@@ -39,9 +41,9 @@ pub(super) struct Elements<E, S, const D: usize, const N: usize, const P: usize>
     pub(super) initial: Vec<Batch>,
     pub(super) elements: Vec<ElementBatch>,
     /// What hourglass control remembers.
-    hourglass: Vec<Batch>,
+    pub(super) hourglass: Vec<Batch>,
     /// Share of each corner in the element's mass: `N` batches per batch of elements.
-    corner_mass: Vec<Batch>,
+    pub(super) corner_mass: Vec<Batch>,
     /// Initial volume of each element, one batch per batch of elements.
     pub(super) volume_initial: Vec<Batch>,
     pub(super) reports: Vec<Report>,
@@ -49,6 +51,7 @@ pub(super) struct Elements<E, S, const D: usize, const N: usize, const P: usize>
     strips: Vec<Mutex<Strip>>,
     /// Averages over the nodes, for elements that want them.
     nodal: Option<Box<Nodal>>,
+    pub(super) eroded: Eroded,
     state: PhantomData<S>,
 }
 
@@ -90,7 +93,7 @@ where
     }
 
     /// Widths of a batch in stress, history, initial geometry and hourglass memory.
-    fn widths(&self) -> [usize; 4] {
+    pub(super) fn widths(&self) -> [usize; 4] {
         let initial = if self.law.family() == Family::Hyperelastic { P * initial_width::<S, D>() } else { 0 };
         [P * Self::COMPONENTS, P * self.law.state_width(), initial, E::HOURGLASS]
     }
@@ -236,6 +239,7 @@ where
             strips,
             nodal,
             law,
+            eroded: Eroded::default(),
             state: PhantomData,
         };
         block.initial = vec![Batch::default(); batches * block.widths()[2]];
@@ -331,7 +335,7 @@ where
                 .enumerate()
                 .for_each(advance);
         }
-        self.reports.iter().fold(Report::NOTHING, |sum, &report| sum.join(report))
+        self.reports.iter().fold(self.eroded.left, |sum, &report| sum.join(report))
     }
 
     fn mass(&self, element: usize) -> f64 {
@@ -347,6 +351,9 @@ where
     }
 
     fn state(&self, element: usize) -> ElementState {
+        if let Some(last) = self.eroded.last.get(&element) {
+            return *last;
+        }
         let (batch, lane) = (element / BATCH, element % BATCH);
         let width = self.law.state_width();
         let mean = |values: &[Batch], width: usize, value: usize| {
@@ -374,5 +381,29 @@ where
 
     fn has(&self, variable: Variable) -> bool {
         self.law.variables().iter().any(|&(own, _)| own == variable)
+    }
+
+    fn scale_mass(&mut self, element: usize, factor: f64) {
+        self.make_heavier(element, factor);
+    }
+
+    fn is_alive(&self, element: usize) -> bool {
+        self.elements[element / BATCH].live.0[element % BATCH] > 0.0
+    }
+
+    fn failed(&self, criteria: &[Criterion], parallel: bool) -> Vec<(u32, u32)> {
+        self.failing(criteria, parallel)
+    }
+
+    fn determinant(&self, element: usize, positions: &[[f64; D]]) -> f64 {
+        self.least_determinant(element, positions)
+    }
+
+    fn erode(&mut self, elements: &[u32]) -> Vec<f64> {
+        self.take_out(elements)
+    }
+
+    fn report(&self, positions: &[[f64; D]]) -> Report {
+        self.of_the_living(positions)
     }
 }

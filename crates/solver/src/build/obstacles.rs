@@ -46,17 +46,21 @@ impl Builder<'_> {
     pub(super) fn obstacles(&mut self) -> Vec<Contact> {
         let mut contacts = Vec::new();
         for (i, obstacle) in self.model.obstacles.iter().enumerate() {
-            let terms = terms_of(&obstacle.interface);
-            let made = self.met(obstacle, terms.law.reach()).and_then(|met| self.obstacle(obstacle, met));
-            match made {
+            match self.obstacle_formulation(obstacle) {
                 Ok((body, formulation)) => {
-                    let (kind, terms) = (ContactKind::Obstacle(body), self.add_terms(terms));
+                    let (kind, terms) = (ContactKind::Obstacle(body), self.add_terms(terms_of(&obstacle.interface)));
                     contacts.push(Contact::new(obstacle.name.clone(), kind, formulation, terms, obstacle.interface.active));
                 }
                 Err(fault) => self.faults.push(Fault { path: format!("obstacle[{i}]{}", fault.path), ..fault }),
             }
         }
         contacts
+    }
+
+    /// The body of an obstacle, and what makes springs at it.
+    pub(super) fn obstacle_formulation(&mut self, obstacle: &Obstacle) -> Result<(usize, Box<dyn Formulation>), Fault> {
+        let met = self.met(obstacle, terms_of(&obstacle.interface).law.reach())?;
+        self.obstacle(obstacle, met)
     }
 
     /// The outside of the parts that an obstacle stops.
@@ -96,14 +100,10 @@ impl Builder<'_> {
         // Beyond every picture of the model.
         let far = shape.half.min(20.0 * initial::size(&self.mesh.positions));
         let points = shape.at([-far, far]).into();
-        let mut rigid = self.obstacle_body(obstacle, reference);
         let arms = shape.ends().into_iter().flatten();
         let ends: Vec<(Vector, Vector)> = arms.map(|arm| (arm, [reference[0] + arm[0], reference[1] + arm[1]])).collect();
         let ends = ends.into_iter().filter(|&(_, x)| !self.is_beyond_mirrors(x, &obstacle.parts)).collect::<Vec<_>>();
-        rigid.members = ends.into_iter().map(|(arm, x)| Member { node: self.add_node(x), arm }).collect();
-        let own: Vec<u32> = rigid.members.iter().map(|member| member.node).collect();
-        let body = self.bodies.add_with_nodes(rigid, self.positions.len());
-        self.outlines.push(OutlineShape { name: obstacle.name.clone(), body, points });
+        let (body, own) = self.register(obstacle, reference, ends, points);
         let held = |node: u32| self.is_held_along(node, shape.normal);
         let nodes = self.node_obstacle(obstacle, &met, Box::new(shape), body, held);
         if own.is_empty() {
@@ -138,18 +138,11 @@ impl Builder<'_> {
         };
         let points = (0..=ROUND).map(place).collect();
         let shape = Box::new(shape);
-        let mut rigid = self.obstacle_body(obstacle, reference);
-        if hollow || pushed >= met.longest {
-            let body = self.bodies.add(rigid);
-            self.outlines.push(OutlineShape { name: obstacle.name.clone(), body, points });
-            return Ok((body, Box::new(self.node_obstacle(obstacle, &met, shape, body, |_| false))));
-        }
-        // Smaller than the segments: it can come in between the nodes.
-        let node = self.add_node(centre);
-        rigid.members.push(Member { node, arm: middle });
-        let body = self.bodies.add_with_nodes(rigid, self.positions.len());
-        self.outlines.push(OutlineShape { name: obstacle.name.clone(), body, points });
+        // Smaller than the segments it can come in between the nodes.
+        let slips_through = !hollow && pushed < met.longest;
+        let (body, own) = self.register(obstacle, reference, if slips_through { vec![(middle, centre)] } else { Vec::new() }, points);
         let nodes = self.node_obstacle(obstacle, &met, shape, body, |_| false);
+        let Some(&node) = own.first() else { return Ok((body, Box::new(nodes))) };
         let slave = met.point(obstacle);
         let tracker = self.tracker(met.outline, points_only(vec![node]), &[(1, 0)], &self.positions);
         let segments = RoundSegments::new(tracker, slave, [pushed, met.reach], body, initial::is_ignored(&obstacle.interface));
@@ -162,11 +155,8 @@ impl Builder<'_> {
         let mean = [0, 1].map(|d| own.iter().map(|x| x[d]).sum::<f64>() / own.len() as f64);
         let reference = obstacle.reference.unwrap_or(mean);
         let arm = |x: &[f64; 2]| [x[0] - reference[0], x[1] - reference[1]];
-        let mut rigid = self.obstacle_body(obstacle, reference);
-        rigid.members = own.iter().map(|x| Member { node: self.add_node(*x), arm: arm(x) }).collect();
-        let nodes: Vec<u32> = rigid.members.iter().map(|member| member.node).collect();
-        let body = self.bodies.add_with_nodes(rigid, self.positions.len());
-        self.outlines.push(OutlineShape { name: obstacle.name.clone(), body, points: points.iter().map(arm).collect() });
+        let places = own.iter().map(|x| (arm(x), *x)).collect();
+        let (body, nodes) = self.register(obstacle, reference, places, points.iter().map(arm).collect());
         let surface = chain(nodes, closed);
         let lines: Vec<f64> = surface.segments.iter().map(|&segment| length(segment, &self.positions)).collect();
         // Lines as fine as the segments meet them as another surface would, half in each pass. Of long ones only the corners count besides, each with as much as a node
@@ -190,6 +180,25 @@ impl Builder<'_> {
     pub(super) fn tracker(&self, parts: Outlined, obstacle: Target, passes: &[(usize, usize)], positions: &[Vector]) -> Tracker {
         let search = (search_by_name("").expect("the registry of searches is not empty").make)();
         Tracker::new(vec![parts.target, obstacle], passes, search, positions).with_bodies(&self.body_of_node, &[parts.lids, Vec::new()])
+    }
+
+    /// The rigid body of an obstacle and its nodes, at these arms and places, m; `points` of its outline. Those that are there already, where contacts are made again.
+    fn register(
+        &mut self,
+        obstacle: &Obstacle,
+        reference: Vector,
+        places: Vec<(Vector, Vector)>,
+        points: Vec<Vector>,
+    ) -> (usize, Vec<u32>) {
+        if let Some(&body) = self.made.get(&obstacle.name) {
+            return (body, self.bodies.state(body).members.iter().map(|member| member.node).collect());
+        }
+        let mut rigid = self.obstacle_body(obstacle, reference);
+        rigid.members = places.into_iter().map(|(arm, x)| Member { node: self.add_node(x), arm }).collect();
+        let nodes: Vec<u32> = rigid.members.iter().map(|member| member.node).collect();
+        let body = if nodes.is_empty() { self.bodies.add(rigid) } else { self.bodies.add_with_nodes(rigid, self.positions.len()) };
+        self.outlines.push(OutlineShape { name: obstacle.name.clone(), body, points });
+        (body, nodes)
     }
 
     /// A node that belongs to no element.

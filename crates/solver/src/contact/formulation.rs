@@ -106,6 +106,8 @@ pub struct Setup<'a> {
     pub tie_terms: usize,
     /// Makes a search of the kind that the contact names.
     pub search: &'a dyn Fn() -> Box<dyn Search<2>>,
+    /// Whether it will take over from one that has acted already, because surfaces have changed.
+    pub again: bool,
 }
 
 impl Setup<'_> {

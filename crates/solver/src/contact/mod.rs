@@ -22,6 +22,7 @@ use crate::load::tributary::Depth;
 use crate::mesh::surface::Surface;
 use crate::rigid::Bodies;
 use springs::{Spring, Springs, Totals};
+use std::any::Any;
 use std::ops::Range;
 use tied::Ties;
 use traces::Traces;
@@ -31,13 +32,17 @@ use tracker::{Certificate, SearchReport};
 pub type Vector = [f64; 2];
 
 /// What makes springs of surfaces: nodes against segments, segments against segments, pinballs, nodes against obstacles.
-pub trait Formulation: Send {
+pub trait Formulation: Any + Send {
     /// Adds the springs of the step: of everything that is inside or may come in during the next update, so that a spring is there before it is
     /// needed (one that closes unseen would give back what it never took).
     fn detect(&mut self, scene: &Scene<'_>, springs: &mut Springs);
 
     /// Keeps what the next step needs of the solved springs, in the order of [`Formulation::detect`].
     fn remember(&mut self, solved: &[Spring]);
+
+    /// Takes over what its predecessor knew, which was of the same kind and made of the same contact before surfaces changed. What belongs to nodes and segments that are no
+    /// more is forgotten.
+    fn inherit(&mut self, old: Box<dyn Any>);
 
     /// Energy of springs that broke in the last step and will not come back, J/m.
     fn freed(&self) -> f64 {
@@ -115,6 +120,8 @@ pub struct Contact {
     /// What friction took until the last half step, J/m.
     pub friction_work: f64,
     formulation: Box<dyn Formulation>,
+    /// What was checked before its surfaces were gone.
+    checked: Certificate,
     /// Number of the terms that its springs follow.
     terms: usize,
     /// Times between which it acts, s.
@@ -137,6 +144,7 @@ impl Contact {
             has_pressed: false,
             friction_work: 0.0,
             formulation,
+            checked: Certificate::default(),
             terms,
             active,
             time: 0.0,
@@ -174,6 +182,31 @@ impl Contact {
             if ends { springs.list[self.found.clone()].iter().flat_map(|spring| spring.stored).sum() } else { self.formulation.freed() };
     }
 
+    /// Goes on with another formulation of the same kind, made of changed surfaces.
+    pub fn renew(&mut self, formulation: Box<dyn Formulation>) {
+        let old = std::mem::replace(&mut self.formulation, formulation);
+        self.formulation.inherit(old);
+    }
+
+    /// Acts no more: one of its surfaces is gone.
+    pub fn end(&mut self) {
+        self.checked += self.formulation.certificate();
+        self.formulation = Box::new(Nothing);
+    }
+
+    /// Energy at n + ½ of the springs of the last step that have not broken, J/m.
+    #[must_use]
+    pub fn stored(&self, springs: &Springs) -> f64 {
+        let of = |spring: &Spring| spring.stored[0] + spring.stored[1];
+        springs.list[self.found.clone()].iter().map(of).sum::<f64>() - self.totals.lost.freed
+    }
+
+    /// Energy at n − ½ of the springs of this step, J/m.
+    #[must_use]
+    pub fn stored_before(&self, springs: &Springs) -> f64 {
+        springs.list[self.found.clone()].iter().map(|spring| spring.stored_before).sum()
+    }
+
     /// Its ties, if it has such.
     #[must_use]
     pub fn ties(&self) -> Option<Ties> {
@@ -183,7 +216,9 @@ impl Contact {
     /// What was checked so far, and whether a contact was missed.
     #[must_use]
     pub fn certificate(&self) -> Certificate {
-        self.formulation.certificate()
+        let mut sum = self.checked;
+        sum += self.formulation.certificate();
+        sum
     }
 
     /// What the global search did, if there is one.
@@ -213,6 +248,15 @@ impl Contact {
         let inside = springs.list[self.found.clone()].iter().filter(|spring| spring.gap < 0.0);
         inside.filter_map(|spring| Some((springs.ends(spring).first()?.at, -spring.gap)))
     }
+}
+
+/// Stands in where a surface is gone.
+struct Nothing;
+
+impl Formulation for Nothing {
+    fn detect(&mut self, _: &Scene<'_>, _: &mut Springs) {}
+    fn remember(&mut self, _: &[Spring]) {}
+    fn inherit(&mut self, _: Box<dyn Any>) {}
 }
 
 pub(crate) fn length(segment: [u32; 2], positions: &[Vector]) -> f64 {

@@ -10,6 +10,7 @@ use super::tracker::{Certificate, Memory, SearchReport, Touch, Tracker, is_facin
 use super::{Formulation, Scene, Sweep, Vector};
 use crate::mesh::surface::NONE;
 use crate::model;
+use std::any::Any;
 
 /// Registry entry.
 pub const DOUBLE_PASS: FormulationKind = FormulationKind {
@@ -211,6 +212,13 @@ impl Formulation for NodeSegment {
     fn remember(&mut self, solved: &[Spring]) {
         for (touch, spring) in self.touches.iter().zip(solved) {
             self.tracker.remember(touch, Memory { slip: spring.slip_new, half: spring.gap_new, ..touch.memory });
+        }
+    }
+
+    fn inherit(&mut self, old: Box<dyn Any>) {
+        if let Ok(old) = old.downcast::<Self>() {
+            self.tracker.inherit(&old.tracker);
+            self.has_begun = old.has_begun;
         }
     }
 

@@ -20,6 +20,7 @@ use super::{Formulation, Scene, Vector};
 use crate::load::tributary::Depth;
 use crate::mesh::surface::{NONE, Surface};
 use crate::model::{ContactLaw, Penalty};
+use std::any::Any;
 
 /// Registry entry.
 pub const KIND: FormulationKind = FormulationKind {
@@ -375,6 +376,33 @@ impl Formulation for Segment {
             self.connect(self.commons[index], springs);
         }
         self.start.has_begun = true;
+    }
+
+    fn inherit(&mut self, old: Box<dyn Any>) {
+        let Ok(old) = old.downcast::<Self>() else { return };
+        self.tracker.inherit(&old.tracker);
+        self.start.has_begun = old.start.has_begun;
+        let (surfaces, before) = (self.surfaces(), &old.facing);
+        let by_nodes = surfaces.map(|surface| {
+            let mut list: Vec<([u32; 2], u32)> = self.tracker.targets()[surface].surface.segments.iter().copied().zip(0..).collect();
+            list.sort_unstable();
+            list
+        });
+        let now = |facing: &Facing| {
+            let mut pair = facing.pair;
+            for k in 0..2 {
+                let nodes = old.tracker.targets()[surfaces[k]].surface.segments[pair[k] as usize];
+                let at = by_nodes[k].binary_search_by_key(&nodes, |&(nodes, _)| nodes).ok()?;
+                pair[k] = by_nodes[k][at].1;
+            }
+            // A surface that meets itself has each pair once.
+            if surfaces[0] == surfaces[1] {
+                pair.sort_unstable();
+            }
+            Some(Facing { pair, ..*facing })
+        };
+        self.facing = before.iter().filter_map(now).collect();
+        self.facing.sort_by_key(|facing| facing.pair);
     }
 
     fn certificate(&self) -> Certificate {

@@ -42,6 +42,12 @@ impl Traces {
         Self { outside, depth, area, slip: vec![0.0; positions.len()], heat: vec![0.0; positions.len()] }
     }
 
+    /// Goes on with another outside; `positions` are the initial ones. Sums stay with the nodes.
+    pub fn renew(&mut self, outside: Surface, positions: &[Vector]) {
+        let Self { slip, heat, depth, .. } = std::mem::take(self);
+        *self = Self { slip, heat, ..Self::new(outside, positions, depth) };
+    }
+
     /// Adds what a solved spring did in an update of `time_step` (s).
     pub fn mark(&mut self, springs: &Springs, spring: &Spring, time_step: f64) {
         if spring.force == 0.0 {

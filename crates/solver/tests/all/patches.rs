@@ -104,7 +104,7 @@ pub(crate) fn material(law: &str, poisson: f64) -> Material {
     let mut lists = lists(kind);
     // What is told of bodies holds while they stand still: nothing may relax meanwhile. Laws by themselves are tested with short times.
     lists.entry("relaxation_time".into()).and_modify(|times| times.fill(1e12));
-    Material { law: law.into(), parameters: parameters(kind, poisson), lists }
+    Material { law: law.into(), parameters: parameters(kind, poisson), lists, ..Material::default() }
 }
 
 /// Strength far beyond every load: a law that flows stays elastic.

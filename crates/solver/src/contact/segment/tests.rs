@@ -54,6 +54,7 @@ fn springs_of(model: &Facing2, penalty: Penalty, depth: Depth) -> Springs {
         depth,
         law: &law,
         tie_terms: 0,
+        again: false,
         search: &search,
         bodies: &bodies,
         passes: both_passes(&contact),

@@ -9,7 +9,7 @@ use embate_solver::contact::projection::node_segment::Target;
 use embate_solver::contact::search::registry;
 use embate_solver::contact::tracker::Tracker;
 use embate_solver::mesh::Mesh;
-use embate_solver::model::{Contact, Material, Model, Part, Partners, Run, Shape};
+use embate_solver::model::{Contact, Material, Model, Part, Partners, Rectangle, Run, Shape};
 use embate_solver::simulation::{Options, Simulation};
 use std::hint::black_box;
 use std::time::Instant;
@@ -30,7 +30,12 @@ fn stack(elements: usize, speed: f64) -> Model {
         let y = strip as f64 * (THROUGH as f64 * SIZE + GAP);
         let size = [along as f64 * SIZE, THROUGH as f64 * SIZE];
         let velocity = [0.0, if strip % 2 == 0 { speed } else { -speed }];
-        let shape = Shape::Rectangle { corner: [0.3 * SIZE * (strip % 2) as f64, y], size, elements: [along, THROUGH] };
+        let shape = Shape::Rectangle(Rectangle {
+            corner: [0.3 * SIZE * (strip % 2) as f64, y],
+            size,
+            elements: [along, THROUGH],
+            ..Rectangle::default()
+        });
         model.parts.push(Part { name: format!("strip{strip}"), material: "soft".into(), shape, velocity, ..Part::default() });
     }
     model.output.pictures = false;

@@ -18,10 +18,13 @@ use crate::contact::{self, Contact, ContactKind, search};
 use crate::element::ElementOptions;
 use crate::energy::{Ledger, Sums};
 use crate::error::Fault;
+use crate::load::body_force::BodyForces;
 use crate::load::constraint::{Constraints, unit};
 use crate::load::curve::Curves;
 use crate::load::damping::Damping;
-use crate::load::gravity;
+use crate::load::force::Forces;
+use crate::load::join::Joins;
+use crate::load::non_reflecting::{Behind, NonReflecting};
 use crate::mesh::surface::{NONE, Surface};
 use crate::mesh::{ElementGroup, Mesh};
 use crate::model::{self, ContactLaw, Interface, Model, Partners, Penalty, PenaltySource, Symmetry};
@@ -49,11 +52,13 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
     let with_axis = with_axis(model, &mesh)?;
     let model = with_axis.as_ref().unwrap_or(model);
     let curves = Curves::new(model);
+    let joins = Joins::new(model, &mesh)?;
     let mut builder = Builder {
         model,
         faults: Vec::new(),
         body_of_node: mesh.bodies(),
-        constraints: Constraints::new(model, &mesh, &curves)?,
+        constraints: Constraints::new(model, &mesh, &curves, &joins)?,
+        joins,
         curves,
         positions: mesh.positions.clone(),
         mass: vec![0.0; mesh.positions.len()],
@@ -78,17 +83,19 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
     for &(node, share) in part_mass.iter().flatten() {
         builder.mass[node as usize] += share;
     }
-    let gravity = gravity::accelerations(model, &builder.mesh, &builder.mass, &part_mass);
+    let body_forces = BodyForces::new(model, &builder.mesh, &builder.curves, &builder.mass, &part_mass);
     let damping = Damping::new(model, &builder.mesh, &builder.mass, &part_mass);
     let mut velocities = builder.velocities(&part_mass);
-    builder.rigid_parts(&part_mass, &gravity);
+    builder.rigid_parts(&part_mass);
     builder.find_elements_under_surfaces(&mut blocks, level);
+    let (forces, boundary) = builder.loads();
     let mut contacts = builder.contacts();
     contacts.extend(builder.obstacles());
     if !builder.faults.is_empty() {
         return Err(builder.faults);
     }
-    let Builder { mesh, constraints, curves, positions, mass, body_parts, bodies, terms, outlines, .. } = builder;
+    builder.bodies.weigh(&body_forces, &builder.mass);
+    let Builder { mesh, constraints, joins, curves, positions, mass, body_parts, bodies, terms, outlines, .. } = builder;
     let inputs: Vec<(&dyn Block<2>, usize, &[u32])> =
         blocks.iter().zip(&mesh.groups).map(|(block, group)| (block.as_ref(), group.nodes_per_element, &group.connectivity[..])).collect();
     let nodes = positions.len();
@@ -98,8 +105,9 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
     let outside =
         mesh.outside_without(&[], |segment| contacts.is_empty() || constraints.is_mirror(segment)).map_err(|fault| vec![fault])?;
     let traces = Traces::new(outside, &mesh.positions);
-    let limits =
-        Limits { end: model.run.end, safety: model.run.safety, energy: model.run.energy_limit, step: model.run.step_limit.unwrap_or(0.0) };
+    let run = &model.run;
+    let (step, largest) = (run.step_limit.unwrap_or(0.0), run.time_step.unwrap_or(f64::INFINITY));
+    let limits = Limits { end: run.end, safety: run.safety, energy: run.energy_limit, step, largest };
     let elements: usize = blocks.iter().map(|block| block.elements()).sum();
     Ok(System {
         corners: vec![Batch::default(); assembly.corner_batches],
@@ -132,7 +140,10 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         body_parts,
         curves,
         damping,
-        gravity,
+        body_forces,
+        forces,
+        boundary,
+        joins,
         outlines,
         traces,
         constraints,
@@ -184,6 +195,7 @@ struct Builder<'a> {
     /// Body that each node of the mesh belongs to.
     body_of_node: Vec<u32>,
     constraints: Constraints<2>,
+    joins: Joins,
     curves: Curves,
     faults: Vec<Fault>,
     /// Initial positions of all nodes, m: those of elements, then those of obstacles.
@@ -273,9 +285,34 @@ impl Builder<'_> {
                 let mut corners = vec![Batch::default(); block.corner_batches()];
                 block.advance(&motion, level, &mut corners, false).time_step_squared
             };
-            self.time_step =
+            let elements =
                 self.model.run.safety * blocks.iter_mut().zip(&self.mesh.groups).map(stable).fold(f64::INFINITY, f64::min).sqrt();
+            self.time_step = elements.min(self.model.run.time_step.unwrap_or(f64::INFINITY));
+            if self.time_step == f64::INFINITY {
+                self.faults.push(Fault::new(
+                    "run.time_step",
+                    "a penalty is made from the time step, but all parts are rigid and no step is given",
+                    "give `time_step`, or take another `penalty_from`",
+                ));
+            }
         }
+    }
+
+    /// Forces on nodes, and boundaries that reflect nothing.
+    fn loads(&mut self) -> (Forces, NonReflecting) {
+        let is_mirror = |segment| self.constraints.is_mirror(segment);
+        let behind = |segment| {
+            let under = self.under(segment)?;
+            let part = &self.model.parts[self.mesh.groups[under.group as usize].part];
+            let density = *self.model.materials.get(&part.material)?.parameters.get("density")?;
+            Some(Behind { density, moduli: self.moduli[under.group as usize] })
+        };
+        let forces = Forces::new(self.model, &self.mesh, &self.curves, is_mirror);
+        let boundary = NonReflecting::new(self.model, &self.mesh, is_mirror, behind);
+        let mut faults = Vec::new();
+        let made = (forces.unwrap_or_else(|wrong| told(wrong, &mut faults)), boundary.unwrap_or_else(|wrong| told(wrong, &mut faults)));
+        self.faults.extend(faults);
+        made
     }
 
     fn under(&self, segment: [u32; 2]) -> Option<&Under> {
@@ -423,6 +460,12 @@ impl Builder<'_> {
         mirrors.sort_by_key(|&(node, _)| node);
         Target { surface, mirrors }
     }
+}
+
+/// Notes faults and gives what stands in for the thing that has them.
+fn told<T: Default>(wrong: Vec<Fault>, faults: &mut Vec<Fault>) -> T {
+    faults.extend(wrong);
+    T::default()
 }
 
 impl Builder<'_> {

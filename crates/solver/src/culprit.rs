@@ -8,6 +8,7 @@ impl System {
     pub(crate) fn governor_name(&self, governor: Governor) -> String {
         match governor {
             Governor::Element(squared) => self.element_with_step(squared),
+            Governor::Given => "`run.time_step`".into(),
             Governor::Schedule => "growth limit or end of the run".into(),
         }
     }

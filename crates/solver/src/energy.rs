@@ -15,9 +15,11 @@ pub struct Works {
     pub internal: f64,
     /// Contacts and obstacles.
     pub contact: f64,
-    /// Gravity.
+    /// Gravity and centrifugal force.
     pub gravity: f64,
-    /// Damping loads.
+    /// Forces and pressures on nodes.
+    pub load: f64,
+    /// Damping loads and boundaries that reflect nothing.
     pub damping: f64,
     /// Reactions of prescribed motion and symmetry.
     pub constraint: f64,
@@ -29,17 +31,18 @@ impl Works {
     /// Everything.
     #[must_use]
     pub fn total(&self) -> f64 {
-        self.internal + self.contact + self.gravity + self.damping + self.constraint + self.drive
+        self.internal + self.contact + self.gravity + self.load + self.damping + self.constraint + self.drive
     }
     /// What comes from outside the model: it changes the sum of the stores.
     #[must_use]
     pub fn external(&self) -> f64 {
-        self.gravity + self.constraint + self.drive
+        self.gravity + self.load + self.constraint + self.drive
     }
     fn add(&mut self, other: &Self) {
         self.internal += other.internal;
         self.contact += other.contact;
         self.gravity += other.gravity;
+        self.load += other.load;
         self.damping += other.damping;
         self.constraint += other.constraint;
         self.drive += other.drive;
@@ -58,6 +61,8 @@ pub struct Sums {
     /// See `internal`.
     pub gravity: f64,
     /// See `internal`.
+    pub load: f64,
+    /// See `internal`.
     pub damping: f64,
     /// See `internal`.
     pub constraint: f64,
@@ -65,7 +70,7 @@ pub struct Sums {
     pub drive: f64,
     /// Impulses from outside times v^{n-1/2}, J/m.
     pub external_old: f64,
-    /// Impulses of damping loads times v^{n-1/2}, J/m.
+    /// Impulses of damping loads and boundaries that reflect nothing times v^{n-1/2}, J/m.
     pub damping_old: f64,
 }
 
@@ -75,6 +80,7 @@ impl std::ops::AddAssign<&Self> for Sums {
         self.kinetic += other.kinetic;
         self.internal += other.internal;
         self.gravity += other.gravity;
+        self.load += other.load;
         self.damping += other.damping;
         self.constraint += other.constraint;
         self.drive += other.drive;
@@ -102,7 +108,7 @@ pub struct Stores {
     pub friction: f64,
     /// Lost by damping in contacts, and by impacts on multipliers, so far.
     pub contact_damping: f64,
-    /// Lost by damping loads so far.
+    /// Lost by damping loads and into boundaries that reflect nothing so far.
     pub damping: f64,
 }
 

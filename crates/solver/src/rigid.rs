@@ -9,6 +9,7 @@
 //! the work that the forces do not.
 
 use crate::energy::Sums;
+use crate::load::body_force::BodyForces;
 use crate::load::curve::{Curves, Speed};
 use crate::load::damping::Damping;
 use crate::step::Vector;
@@ -47,6 +48,8 @@ pub struct Body {
     pub drives: [Option<Speed>; 3],
     /// What it weighs.
     pub weight: Weight,
+    /// Forces of loads on its nodes (N/m) and their moment (N).
+    pub load: [f64; 3],
     /// Rates of damping of its mass and inertia, 1/s.
     pub damping: [f64; 3],
     /// Whether it is made of elements: then its nodes have its mass.
@@ -70,7 +73,7 @@ pub struct Member {
     pub arm: Vector,
 }
 
-/// Gravity on a body: a force, and a moment where parts of one body weigh differently.
+/// What acts on the mass of a body: a force, and a moment where parts of one body weigh differently.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Weight {
     /// Force, N/m.
@@ -152,6 +155,14 @@ impl Body {
             let (x, force) = (acting.positions[node as usize], (acting.internal)(node as usize));
             Self::add_force(&mut self.internal, force, (x[0] - self.centre[0]) * force[1] - (x[1] - self.centre[1]) * force[0]);
         }
+        self.load = [0.0; 3];
+        if !acting.loads.is_empty() {
+            for member in &self.members {
+                let (x, force) = (acting.positions[member.node as usize], acting.loads[member.node as usize]);
+                let moment = (x[0] - self.centre[0]) * force[1] - (x[1] - self.centre[1]) * force[0];
+                Self::add_force(&mut self.load, force, moment);
+            }
+        }
         self.velocity_old = self.velocity;
         for k in 0..3 {
             let a = 0.5 * self.damping[k] * acting.mean_step;
@@ -162,7 +173,7 @@ impl Body {
                     self.inverse_mass[k] = 0.0;
                 }
                 None => {
-                    let undamped = self.velocity_old[k] + acting.mean_step * (self.internal[k] + weight[k]) / self.mass[k];
+                    let undamped = self.velocity_old[k] + acting.mean_step * (self.internal[k] + weight[k] + self.load[k]) / self.mass[k];
                     self.velocity_free[k] = (undamped - a * self.velocity_old[k]) / (1.0 + a);
                     self.inverse_mass[k] = 1.0 / (self.mass[k] * (1.0 + a));
                 }
@@ -187,8 +198,10 @@ impl Body {
             self.velocity[k] = new;
             let mean = 0.5 * (old + new);
             sums.internal += mean_step * self.internal[k] * mean;
+            sums.load += mean_step * self.load[k] * mean;
+            sums.external_old += mean_step * self.load[k] * old;
             if self.drives[k].is_some() {
-                let impulse = -mean_step * (self.internal[k] + self.force[k]);
+                let impulse = -mean_step * (self.internal[k] + self.force[k] + self.load[k]);
                 sums.drive += impulse * mean;
                 sums.external_old += impulse * old;
                 continue;
@@ -227,8 +240,19 @@ fn turn(v: Vector, angle: f64) -> Vector {
     [cos * v[0] - sin * v[1], sin * v[0] + cos * v[1]]
 }
 
+/// Velocity (m/s) that leads the point `arm` (m) from a centre that rests along the chord of an arc, with `spin` (rad/s) over `time_step` (s); without a step that
+/// along the tangent.
+pub(crate) fn chord(arm: Vector, spin: f64, time_step: f64) -> Vector {
+    if time_step == 0.0 {
+        return [-spin * arm[1], spin * arm[0]];
+    }
+    let [[_, sin], [_, half]] = [time_step * spin, 0.5 * time_step * spin].map(cos_sin);
+    let (along, across) = (-2.0 * half * half / time_step, sin / time_step);
+    [along * arm[0] - across * arm[1], along * arm[1] + across * arm[0]]
+}
+
 /// Cosine and sine by Taylor polynomials on ±45 degrees (truncation below 1e-17): the same bits on every platform.
-fn cos_sin(angle: f64) -> [f64; 2] {
+pub(crate) fn cos_sin(angle: f64) -> [f64; 2] {
     let quarters = (angle / FRAC_PI_2).round();
     let r = angle - quarters * FRAC_PI_2;
     let r2 = r * r;
@@ -261,6 +285,8 @@ pub struct Acting<'a, F: Fn(usize) -> Vector> {
     pub curves: &'a Curves,
     /// x^n, m.
     pub positions: &'a [Vector],
+    /// Forces of loads on nodes, N/m; empty without.
+    pub loads: &'a [Vector],
     /// Sum of the corner forces at a node, N/m.
     pub internal: F,
 }
@@ -310,6 +336,28 @@ impl Bodies {
     /// All bodies.
     pub fn iter(&self) -> impl Iterator<Item = &Body> {
         self.list.iter()
+    }
+
+    /// Takes what acts on their mass now; `mass` of the nodes, kg/m.
+    pub fn weigh(&mut self, forces: &BodyForces, mass: &[f64]) {
+        let accelerations = forces.accelerations();
+        for body in &mut self.list {
+            if !body.of_elements {
+                let g = forces.everywhere(body.centre);
+                body.weight = Weight { force: [body.mass[0] * g[0], body.mass[1] * g[1]], moments: [0.0; 2] };
+                continue;
+            }
+            let Some(&first) = body.members.first().and_then(|member| accelerations.get(member.node as usize)) else { continue };
+            let mut weight = Weight { force: [0, 1].map(|d| body.mass[d] * first[d]), moments: [0.0; 2] };
+            for Member { node, arm: [a, b] } in &body.members {
+                let (g, m) = (accelerations[*node as usize], mass[*node as usize]);
+                // What is uniform has no moment, to the last bit.
+                let [x, y] = [m * (g[0] - first[0]), m * (g[1] - first[1])];
+                weight.force = [weight.force[0] + x, weight.force[1] + y];
+                weight.moments = [weight.moments[0] + (a * y - b * x), weight.moments[1] + (a * x + b * y)];
+            }
+            body.weight = weight;
+        }
     }
 
     /// Takes the rates at which their mass is damped now; `mass` of the nodes, kg/m.

@@ -3,6 +3,8 @@
 //! The state between two steps is x^n, v^{n+1/2} and the step dt^n that leads to x^{n+1}; forces have been evaluated at x^n. Everything that
 //! is shared by threads is cut in chunks that come from the mesh, and sums are joined in chunk order: the same bits for any number of threads.
 
+mod nodes;
+
 use crate::assembly::Assembly;
 use crate::block::{Block, Motion, Report};
 use crate::contact::obstacle::OutlineShape;
@@ -11,12 +13,17 @@ use crate::contact::traces::Traces;
 use crate::contact::{Contact, Scene, Sweep};
 use crate::energy::{Entry, Ledger, Stores, Sums, Works};
 use crate::error::Error;
+use crate::load::body_force::BodyForces;
 use crate::load::constraint::Constraints;
 use crate::load::curve::Curves;
 use crate::load::damping::Damping;
+use crate::load::force::Forces;
+use crate::load::join::Joins;
+use crate::load::non_reflecting::NonReflecting;
 use crate::mesh::Mesh;
 use crate::rigid::{Acting, Bodies};
 use embate_lanes::{Batch, Level};
+use nodes::Nodes;
 use rayon::prelude::*;
 
 /// A vector of the plane.
@@ -44,6 +51,8 @@ pub struct Limits {
     pub energy: f64,
     /// Smallest time step, s.
     pub step: f64,
+    /// Largest time step, s; infinite: none is given.
+    pub largest: f64,
 }
 
 /// Who sets the time step.
@@ -51,6 +60,8 @@ pub struct Limits {
 pub enum Governor {
     /// An element of the block whose smallest squared step this is.
     Element(f64),
+    /// The model, by the largest step that it allows.
+    Given,
     /// The end of the run, or growth from a smaller step.
     Schedule,
 }
@@ -77,8 +88,14 @@ pub struct System {
     pub(crate) constraints: Constraints<2>,
     pub(crate) curves: Curves,
     pub(crate) damping: Damping,
-    /// Acceleration of every node by gravity, m/s²; empty without.
-    pub(crate) gravity: Vec<Vector>,
+    /// Gravity and centrifugal forces.
+    pub(crate) body_forces: BodyForces,
+    /// Forces and pressures on nodes.
+    pub(crate) forces: Forces,
+    /// Boundaries that reflect nothing.
+    pub(crate) boundary: NonReflecting,
+    /// Nodes that move as one.
+    pub(crate) joins: Joins,
     pub(crate) limits: Limits,
     pub(crate) level: Level,
     pub(crate) parallel: bool,
@@ -110,6 +127,27 @@ pub struct System {
     pub(crate) initial_penetrations: Vec<String>,
 }
 
+/// What the velocity update of the system's nodes reads: its fields one by one, so that the new velocities can be written meanwhile.
+macro_rules! nodes {
+    ($system:ident, $velocities_old:ident, $time_step:expr) => {
+        Nodes {
+            dt: 0.5 * ($time_step + $system.time_step_old),
+            assembly: &$system.assembly,
+            corners: &$system.corners,
+            contact_forces: &$system.contact_forces,
+            loads: $system.forces.now(),
+            gravity: $system.body_forces.accelerations(),
+            mass: &$system.mass,
+            constraints: &$system.constraints,
+            damping: &$system.damping,
+            boundary: &$system.boundary,
+            joins: &$system.joins,
+            bodies: &$system.bodies,
+            velocities_old: &$system.$velocities_old,
+        }
+    };
+}
+
 impl System {
     /// One step: x, forces, stable step, v, ledger.
     ///
@@ -135,11 +173,16 @@ impl System {
     /// # Errors
     /// As [`System::step`].
     pub fn start(&mut self) -> Result<(), Error> {
-        self.constraints.drive(&self.curves, 0.0, 0.0);
+        self.joins.begin(&self.mass, &mut self.velocities);
+        self.constraints.begin(&self.velocities);
+        self.constraints.drive(&self.curves, [0.0, 0.0], &self.positions);
         for (node, velocity) in self.velocities.iter_mut().enumerate() {
             if let Some(held) = self.constraints.of(node) {
                 *velocity = held.apply(*velocity);
             }
+        }
+        for group in self.joins.groups() {
+            group.lead(self.velocities[group.members[0].node as usize], &mut self.velocities);
         }
         self.bodies.start(&self.curves, &self.positions, &mut self.velocities);
         let free = |&(node, _): &(u32, _)| self.bodies.of_node(node).is_none();
@@ -187,13 +230,16 @@ impl System {
         self.reports.iter().fold(Report::NOTHING, |sum, &report| sum.join(report))
     }
 
-    /// The next step: the elements' bound (which is that of the nodes in contact too, see [`crate::contact::springs`]), growth, and the end.
+    /// The next step: the elements' bound (which is that of the nodes in contact too, see [`crate::contact::springs`]), the largest one of the model, growth, and the end.
     fn stable_step(&mut self, elements: &Report) -> Result<f64, Error> {
         if elements.determinant <= 0.0 {
             return Err(self.inverted());
         }
         let mut time_step = self.limits.safety * elements.time_step_squared.sqrt();
         let mut governor = Governor::Element(elements.time_step_squared);
+        if self.limits.largest < time_step {
+            (time_step, governor) = (self.limits.largest, Governor::Given);
+        }
         if time_step < self.limits.step || time_step.is_nan() {
             return Err(self.collapsed(time_step, governor));
         }
@@ -216,13 +262,22 @@ impl System {
     fn load(&mut self, time_step: f64) {
         let (from, to) = (self.time, self.time + time_step);
         let mean_step = 0.5 * (time_step + self.time_step_old);
-        self.constraints.drive(&self.curves, from, to);
-        if !self.damping.is_empty() && self.damping.prepare(from, mean_step, &self.mass) {
+        self.constraints.drive(&self.curves, [from, to], &self.positions);
+        if !self.damping.is_empty() && self.damping.prepare(from, mean_step, self.mass.len()) {
             self.bodies.damp(&self.damping, &self.mass);
         }
+        // Loads mean the update, from half step to half step.
+        let update = [from - 0.5 * self.time_step_old, from + 0.5 * time_step];
+        if self.body_forces.varies() {
+            self.body_forces.prepare(&self.curves, update, &self.positions);
+            self.bodies.weigh(&self.body_forces, &self.mass);
+        }
+        self.forces.prepare(&self.curves, update, &self.positions);
         let (assembly, corners) = (&self.assembly, &self.corners);
         let internal = |node: usize| assembly.force(node, corners);
-        self.bodies.set_free(&Acting { mean_step, from, to, curves: &self.curves, positions: &self.positions, internal });
+        let (curves, positions, loads) = (&self.curves, &self.positions, self.forces.now());
+        self.bodies.set_free(&Acting { mean_step, from, to, curves, positions, loads, internal });
+        self.curves.pass(from, to);
     }
 
     /// Contact and obstacle forces at x^n for the coming update.
@@ -237,21 +292,9 @@ impl System {
             contact.detect(&scene, &mut self.springs);
             self.penetration_max = self.penetration_max.max(contact.penetration);
         }
-        let dt = 0.5 * (time_step + self.time_step_old);
-        let (assembly, corners, constraints, gravity) = (&self.assembly, &self.corners, &self.constraints, &self.gravity);
-        let (mass, old, damping) = (&self.mass, &self.velocities, &self.damping);
-        let velocity_free = |node: usize| {
-            let (f, v, g) = (assembly.force(node, corners), old[node], gravity.get(node).copied().unwrap_or_default());
-            let mut free = [v[0] + dt * (f[0] / mass[node] + g[0]), v[1] + dt * (f[1] / mass[node] + g[1])];
-            let a = damping.factor(node);
-            if a > 0.0 {
-                free = [(free[0] - a * v[0]) / (1.0 + a), (free[1] - a * v[1]) / (1.0 + a)];
-            }
-            constraints.of(node).map_or(free, |held| held.apply(free))
-        };
-        let mass = damping.mass().unwrap_or(mass);
-        let (time_steps, positions, bodies) = ([self.time_step_old, time_step], &self.positions, &self.bodies);
-        let update = Update { time_steps, mass, positions, velocities_old: old, velocity_free, constraints, bodies };
+        let nodes = nodes!(self, velocities, time_step);
+        let update =
+            Update { time_steps: [self.time_step_old, time_step], positions: &self.positions, nodes: &nodes, bodies: &self.bodies };
         self.springs.solve(&update, &self.terms);
         self.contact_forces.fill([0.0; 2]);
         for contact in &mut self.contacts {
@@ -262,26 +305,17 @@ impl System {
     /// v^{n+1/2} = v^{n-1/2} + ½ (dt^n + dt^{n-1}) f^n / m, then prescribed motion; sums for the ledger.
     fn accelerate(&mut self, time_step: f64) {
         std::mem::swap(&mut self.velocities, &mut self.velocities_old);
-        let dt = 0.5 * (time_step + self.time_step_old);
-        let nodes = Nodes {
-            dt,
-            assembly: &self.assembly,
-            corners: &self.corners,
-            contact_forces: &self.contact_forces,
-            gravity: &self.gravity,
-            mass: &self.mass,
-            constraints: &self.constraints,
-            damping: &self.damping,
-            bodies: &self.bodies,
-            velocities_old: &self.velocities_old,
-        };
+        let nodes = nodes!(self, velocities_old, time_step);
         let chunk = |(index, (velocities, sums)): (usize, (&mut [Vector], &mut Sums))| *sums = nodes.update(index * CHUNK, velocities);
         if self.parallel {
             self.velocities.par_chunks_mut(CHUNK).zip(self.sums.par_iter_mut()).enumerate().for_each(chunk);
         } else {
             self.velocities.chunks_mut(CHUNK).zip(self.sums.iter_mut()).enumerate().for_each(chunk);
         }
-        self.of_bodies = self.bodies.accelerate([dt, time_step], &self.contact_forces, &self.positions, &mut self.velocities);
+        let groups = nodes.update_groups(&mut self.velocities);
+        let steps = [nodes.dt, time_step];
+        self.of_bodies = self.bodies.accelerate(steps, &self.contact_forces, &self.positions, &mut self.velocities);
+        self.of_bodies += &groups;
         self.time_step = time_step;
     }
 
@@ -296,6 +330,7 @@ impl System {
             internal: sum.internal,
             contact: totals().map(|totals| totals.work).sum(),
             gravity: sum.gravity,
+            load: sum.load,
             damping: sum.damping,
             constraint: sum.constraint,
             drive: sum.drive,
@@ -350,10 +385,10 @@ impl System {
         self.time_step_old / (self.time_step_old + self.time_step)
     }
 
-    /// Gives rigid parts their first and last look: they never pull. Only where nothing else does they set the step, that which their elements would need.
+    /// Gives rigid parts their first and last look: they never pull. Only where nothing else does, nor the model, they set the step: that which their elements would need.
     fn see_rigid_parts(&mut self) {
         let motion = Motion { positions: &self.positions, velocities: &self.velocities, time_step: 0.0 };
-        let alone = self.rigid.iter().all(|&rigid| rigid);
+        let alone = self.rigid.iter().all(|&rigid| rigid) && self.limits.largest == f64::INFINITY;
         let mut rest = &mut self.corners[..];
         for ((block, report), rigid) in self.blocks.iter_mut().zip(&mut self.reports).zip(&self.rigid) {
             let (corners, others) = rest.split_at_mut(block.corner_batches());
@@ -393,68 +428,5 @@ impl System {
         } else {
             dot(old, new) - 0.5 * dot(new, new)
         }
-    }
-}
-
-/// What the velocity update reads.
-struct Nodes<'a> {
-    dt: f64,
-    assembly: &'a Assembly<2>,
-    corners: &'a [Batch],
-    contact_forces: &'a [Vector],
-    gravity: &'a [Vector],
-    mass: &'a [f64],
-    constraints: &'a Constraints<2>,
-    damping: &'a Damping,
-    bodies: &'a Bodies,
-    velocities_old: &'a [Vector],
-}
-
-impl Nodes<'_> {
-    /// Updates the velocities of the nodes from `first` on and sums their works.
-    fn update(&self, first: usize, velocities: &mut [Vector]) -> Sums {
-        let mut sums = Sums::default();
-        for (i, v) in velocities.iter_mut().enumerate() {
-            let node = first + i;
-            if self.bodies.of_node(node as u32).is_some() {
-                continue;
-            }
-            let (m, old, contact) = (self.mass[node], self.velocities_old[node], self.contact_forces[node]);
-            let internal = self.assembly.force(node, self.corners);
-            let scale = self.dt / m;
-            *v = [old[0] + scale * (internal[0] + contact[0]), old[1] + scale * (internal[1] + contact[1])];
-            let g = self.gravity.get(node).copied();
-            if let Some(g) = g {
-                *v = [v[0] + self.dt * g[0], v[1] + self.dt * g[1]];
-            }
-            let a = self.damping.factor(node);
-            if a > 0.0 {
-                *v = [(v[0] - a * old[0]) / (1.0 + a), (v[1] - a * old[1]) / (1.0 + a)];
-            }
-            let mut reaction = None;
-            if let Some(held) = self.constraints.of(node) {
-                let (free, response) = (*v, m * (1.0 + a));
-                *v = held.apply(free);
-                reaction = Some([response * (v[0] - free[0]), response * (v[1] - free[1])]);
-            }
-            let mean = [0.5 * (old[0] + v[0]), 0.5 * (old[1] + v[1])];
-            sums.kinetic_half += 0.5 * m * (v[0] * v[0] + v[1] * v[1]);
-            sums.kinetic += 0.5 * m * (old[0] * v[0] + old[1] * v[1]);
-            sums.internal += self.dt * (internal[0] * mean[0] + internal[1] * mean[1]);
-            if let Some(g) = g {
-                sums.gravity += self.dt * m * (g[0] * mean[0] + g[1] * mean[1]);
-                sums.external_old += self.dt * m * (g[0] * old[0] + g[1] * old[1]);
-            }
-            if a > 0.0 {
-                let impulse = [-2.0 * a * m * mean[0], -2.0 * a * m * mean[1]];
-                sums.damping += impulse[0] * mean[0] + impulse[1] * mean[1];
-                sums.damping_old += impulse[0] * old[0] + impulse[1] * old[1];
-            }
-            if let Some(impulse) = reaction {
-                sums.constraint += impulse[0] * mean[0] + impulse[1] * mean[1];
-                sums.external_old += impulse[0] * old[0] + impulse[1] * old[1];
-            }
-        }
-        sums
     }
 }

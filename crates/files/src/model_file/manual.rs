@@ -32,7 +32,7 @@ pub fn reference_markdown() -> String {
         "Units: {}. Those with a star take prefixes, from `f` (1e-15) to `P` (1e15) where usual; micro is `u` or `µ`.\n",
         units::names()
     );
-    out.push_str("## Names\n\nParts, materials, contacts, obstacles and probes have names of letters, digits, `_` and `-`. A contact, a constraint or a probe may name a part\n");
+    out.push_str("## Names\n\nParts, materials, contacts, obstacles and probes have names of letters, digits, `_` and `-`. A contact, a constraint, a load, a join or a probe may name a part\n");
     out.push_str("(its whole outside, or all its nodes), a side of a built-in shape such as `plate.top`, or a group of a mesh file; a part comes before a group of the same name.\n\n");
     let _ = writeln!(out, "## Above all sections\n");
     table(&mut out, TOP.keys, TOP.rules);
@@ -42,12 +42,7 @@ pub fn reference_markdown() -> String {
         for group in section.groups {
             let _ = writeln!(out, "And the keys of [{}](#{}).\n", group.title, group.title.to_lowercase().replace(' ', "-"));
         }
-        for key in section.keys {
-            if let Kind::Table(inner) = key.kind {
-                let _ = writeln!(out, "### `{}`\n\n{}\n", header(inner), inner.doc);
-                table(&mut out, inner.keys, inner.rules);
-            }
-        }
+        tables_in(&mut out, section.keys);
         if let Some(more) = section.more {
             laws(&mut out, more.keys);
         }
@@ -69,6 +64,17 @@ fn groups_after(out: &mut String, section: &Section) {
         if last.is_some_and(|last| last.name == section.name) {
             let _ = writeln!(out, "## {}\n\n{}\n", group.title, group.doc);
             table(out, group.keys, group.rules);
+            tables_in(out, group.keys);
+        }
+    }
+}
+
+/// The tables that some of the keys stand for.
+fn tables_in(out: &mut String, keys: &[Key]) {
+    for key in keys {
+        if let Kind::Table(inner) = key.kind {
+            let _ = writeln!(out, "### `{}`\n\n{}\n", header(inner), inner.doc);
+            table(out, inner.keys, inner.rules);
         }
     }
 }
@@ -127,9 +133,13 @@ fn words(key: &Key) -> String {
         Kind::Angle(..) => "angle, rad".to_string(),
         Kind::Vector(dimension, range) => format!("`[x, y]`: {}{}", of(dimension), within(range)),
         Kind::Quantities(dimension, range, least) => format!("list of {least} or more: {}{}", of(dimension), within(range)),
+        Kind::Value => "number, or quantity of any dimension".to_string(),
         Kind::Values => "list of 1 or more: numbers, or quantities of one dimension".to_string(),
+        Kind::Outlines(least) => format!("list of lists of {least} or more `[x, y]`: {}", of(Dimension::LENGTH)),
         Kind::Points(least) => format!("list of {least} or more `[x, y]`: {}", of(Dimension::LENGTH)),
-        Kind::Velocities => "`{ x, y }`: each a velocity, m/s, or the name of a curve".to_string(),
+        Kind::Drive(Dimension::RATE) => "angular velocity, rad/s, or the name of a curve".to_string(),
+        Kind::Drive(dimension) => format!("{}, or the name of a curve", of(dimension)),
+        Kind::Components(dimension) => format!("`{{ x, y }}`: each a {}, or the name of a curve", of(dimension)).replace("a acc", "an acc"),
         Kind::Motion => MOTION.to_string(),
         Kind::Rigid => format!("true, false, or {MOTION}"),
         Kind::Integer(least) => format!("whole number from {least}"),

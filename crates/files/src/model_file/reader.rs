@@ -5,6 +5,7 @@
 use super::diagnostics::Faults;
 use super::tree::{Entry, Node, Place, Value};
 use super::value::{self, Datum, Wrong};
+use embate_solver::mesh::shapes::Values;
 use embate_solver::model::describe::{
     Form, Key, Kind, MOVED, Need, Rule, SECTIONS, Section, TOP, nearest, section as section_by_name, suggestion,
 };
@@ -127,11 +128,6 @@ impl Record {
         if let Some(Datum::Integer(value)) = self.datum(name) { Some(*value) } else { None }
     }
 
-    pub(super) fn counts(&self, name: &str) -> [usize; 2] {
-        let Some(Datum::Integers(values)) = self.datum(name) else { return [usize::MAX; 2] };
-        [0, 1].map(|index| values.get(index).map_or(usize::MAX, |value| usize::try_from(*value).unwrap_or(usize::MAX)))
-    }
-
     pub(crate) fn text(&self, name: &str) -> String {
         if let Some(Datum::Text(value)) = self.datum(name) { value.clone() } else { String::new() }
     }
@@ -140,9 +136,57 @@ impl Record {
         if let Some(Datum::Texts(values)) = self.datum(name) { values.clone() } else { Vec::new() }
     }
 
+    /// Its tables, by their keys.
+    pub(super) fn tables(&self) -> impl Iterator<Item = (&str, &Record)> {
+        self.values.iter().filter_map(|(key, datum)| if let Datum::Table(record) = datum { Some((key.as_str(), &**record)) } else { None })
+    }
+
     pub(crate) fn table(&self, name: &str) -> Option<&Record> {
         if let Some(Datum::Table(record)) = self.datum(name) { Some(record) } else { None }
     }
+}
+
+impl Values for Record {
+    fn has(&self, key: &str) -> bool {
+        self.written(key).is_some()
+    }
+
+    fn number(&self, key: &str) -> f64 {
+        Self::number(self, key).unwrap_or(f64::NAN)
+    }
+
+    fn vector(&self, key: &str) -> [f64; 2] {
+        Self::vector(self, key)
+    }
+
+    fn numbers(&self, key: &str) -> Vec<f64> {
+        self.list(key)
+    }
+
+    fn points(&self, key: &str) -> Vec<[f64; 2]> {
+        if let Some(Datum::Points(points)) = self.datum(key) { points.clone() } else { Vec::new() }
+    }
+
+    fn outlines(&self, key: &str) -> Vec<Vec<[f64; 2]>> {
+        if let Some(Datum::Outlines(outlines)) = self.datum(key) { outlines.clone() } else { Vec::new() }
+    }
+
+    fn count(&self, key: &str) -> usize {
+        self.integer(key).map_or(usize::MAX, whole)
+    }
+
+    fn counts(&self, key: &str) -> [usize; 2] {
+        let Some(Datum::Integers(values)) = self.datum(key) else { return [usize::MAX; 2] };
+        [0, 1].map(|index| values.get(index).copied().map_or(usize::MAX, whole))
+    }
+
+    fn flag(&self, key: &str) -> bool {
+        self.is(key)
+    }
+}
+
+fn whole(value: u64) -> usize {
+    usize::try_from(value).unwrap_or(usize::MAX)
 }
 
 /// Reads all sections.

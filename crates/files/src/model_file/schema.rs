@@ -188,12 +188,14 @@ fn of_key(key: &Key) -> Json {
         }
         Kind::Vector(dimension, range) => list(quantity(dimension, range), Some(2)),
         Kind::Quantities(dimension, range, least) => at_least(quantity(dimension, range), least),
+        Kind::Value => quantity(Dimension::VELOCITY, Range::Finite),
         Kind::Values => at_least(quantity(Dimension::VELOCITY, Range::Finite), 1),
-        Kind::Points(least) => at_least(list(quantity(Dimension::LENGTH, Range::Finite), Some(2)), least),
-        Kind::Drive(dimension) => quantity(dimension, Range::Finite),
-        Kind::Velocities => courses(&["x", "y"]),
-        Kind::Motion => courses(&["x", "y", "rotation"]),
-        Kind::Rigid => any([object([("type", text("boolean"))]), courses(&["x", "y", "rotation"])]),
+        Kind::Points(least) => points(least),
+        Kind::Outlines(least) => at_least(points(least), 1),
+        Kind::Drive(dimension) => drive(&example_of(dimension), &["ramp"]),
+        Kind::Components(dimension) => courses(&["x", "y"], dimension, &["ramp"]),
+        Kind::Motion => courses(&["x", "y", "rotation"], Dimension::VELOCITY, &["free", "ramp"]),
+        Kind::Rigid => any([object([("type", text("boolean"))]), courses(&["x", "y", "rotation"], Dimension::VELOCITY, &["free", "ramp"])]),
         Kind::Stiffness(range) => {
             any([number(range), object([("type", text("string")), ("examples", texts(["3.5e11 N/m/m", "1e14 Pa/m"]))])])
         }
@@ -237,16 +239,30 @@ fn list(items: Json, count: Option<usize>) -> Json {
     }
 }
 
+fn points(least: usize) -> Json {
+    at_least(list(quantity(Dimension::LENGTH, Range::Finite), Some(2)), least)
+}
+
 fn at_least(items: Json, count: usize) -> Json {
     object([("type", text("array")), ("items", items), ("minItems", Json::Number(count as f64))])
 }
 
-/// Prescribed velocities: numbers, or texts with a unit, names of curves, or `free`.
-fn courses(axes: &[&str]) -> Json {
+/// What follows a number or a curve.
+fn drive(example: &str, others: &[&str]) -> Json {
+    let words = std::iter::once(example).chain(others.iter().copied());
+    any([number(Range::Finite), object([("type", text("string")), ("examples", texts(words))])])
+}
+
+/// A quantity with its unit.
+fn example_of(dimension: Dimension) -> String {
+    if dimension == Dimension::RATE { "30 rad/s".to_string() } else { units::example(dimension) }
+}
+
+/// Prescribed components: numbers, or texts with a unit, names of curves, or `free`.
+fn courses(axes: &[&str], straight: Dimension, others: &[&str]) -> Json {
     let course = |axis: &&str| {
-        let example = if *axis == "rotation" { "30 rad/s" } else { "5 m/s" };
-        let words = object([("type", text("string")), ("examples", texts([example, "free", "ramp"]))]);
-        (axis.to_string(), any([number(Range::Finite), words]))
+        let dimension = if *axis == "rotation" { Dimension::RATE } else { straight };
+        (axis.to_string(), drive(&example_of(dimension), others))
     };
     object([
         ("type", text("object")),

@@ -20,6 +20,9 @@ pub(super) enum Datum {
     /// Numbers of one dimension; `None` where none has a unit.
     Values(Vec<f64>, Option<Dimension>),
     Points(Vec<[f64; 2]>),
+    Outlines(Vec<Vec<[f64; 2]>>),
+    /// A number or the name of a curve.
+    Drive(Drive),
     /// Prescribed motion along x and y and around.
     Courses([Option<Course>; 3]),
     Integer(u64),
@@ -150,20 +153,24 @@ impl<'a> At<'a> {
         self.each(items, read)
     }
 
-    /// Numbers whose dimension the first one with a unit decides.
-    fn values(&self, items: &[Node]) -> Read<Datum> {
-        let read = |at: At<'_>| match &at.node.value {
-            Value::Text(text) => match units::read(text, Wanted { name: at.name(), dimensions: &[], angle: true }) {
+    /// A number of any dimension; `None` where it has no unit.
+    fn value(&self) -> Read<(f64, Option<Dimension>)> {
+        match &self.node.value {
+            Value::Text(text) => match units::read(text, Wanted { name: self.name(), dimensions: &[], angle: true }) {
                 Ok((value, dimension)) if value.is_finite() => Ok((value, Some(dimension))),
                 Ok((value, _)) => {
-                    let (message, help) = out_of_range(at.name(), text, value, Range::Finite);
-                    at.wrong("range", message, help)
+                    let (message, help) = out_of_range(self.name(), text, value, Range::Finite);
+                    self.wrong("range", message, help)
                 }
-                Err((message, help)) => at.wrong("unit", message, help),
+                Err((message, help)) => self.wrong("unit", message, help),
             },
-            _ => Ok((at.number(&[Dimension::NONE], Range::Finite, false)?.0, None)),
-        };
-        let values = self.each(items, read)?;
+            _ => Ok((self.number(&[Dimension::NONE], Range::Finite, false)?.0, None)),
+        }
+    }
+
+    /// Numbers whose dimension the first one with a unit decides.
+    fn values(&self, items: &[Node]) -> Read<Datum> {
+        let values = self.each(items, |at| at.value())?;
         let first = values.iter().enumerate().find_map(|(index, (_, dimension))| Some((index, (*dimension)?)));
         if let Some((first, wanted)) = first
             && let Some((index, other)) = values.iter().enumerate().find_map(|(i, (_, it))| Some((i, it.filter(|it| *it != wanted)?)))
@@ -197,6 +204,10 @@ impl<'a> At<'a> {
         Ok(items)
     }
 
+    fn points(&self, least: usize) -> Read<Vec<[f64; 2]>> {
+        self.each(self.list(least)?, |at| at.vector(Dimension::LENGTH, Range::Finite))
+    }
+
     /// A velocity, the name of a curve, or `"free"`. A text that begins like a number is one.
     fn course(&self, dimension: Dimension, free: bool) -> Read<Course> {
         let like_a_number = |text: &str| text.is_empty() || text.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '-' | '+' | '.'));
@@ -218,8 +229,8 @@ impl<'a> At<'a> {
         }
     }
 
-    /// A table of courses, one for each degree of freedom.
-    fn courses(&self, axes: &[&str], free: bool) -> Read<Datum> {
+    /// A table of courses, one for each degree of freedom; along x and y of this dimension.
+    fn courses(&self, axes: &[&str], straight: Dimension, free: bool) -> Read<Datum> {
         let Value::Table(entries) = &self.node.value else { return self.unlike() };
         let mut courses = [None, None, None];
         let mut wrongs = Vec::new();
@@ -232,7 +243,7 @@ impl<'a> At<'a> {
                 wrongs.push(Wrong { kind: "unknown key", path, place: entry.place, texts });
                 continue;
             };
-            let dimension = if axis == 2 { Dimension::RATE } else { Dimension::VELOCITY };
+            let dimension = if axis == 2 { Dimension::RATE } else { straight };
             match (At { kind: Kind::Drive(dimension), ..self.on(&entry.node, &path) }).course(dimension, free) {
                 Ok(course) => courses[axis] = Some(course),
                 Err(wrong) => wrongs.extend(wrong),
@@ -262,13 +273,22 @@ pub(super) fn read(key: &Key, node: &Node, path: &str) -> Read<Datum> {
             let values = at.each(at.list(least)?, |at| at.number(&[dimension], range, false))?;
             Datum::Numbers(values.into_iter().map(|(value, _)| value).collect())
         }
+        Kind::Value => {
+            let (value, dimension) = at.value()?;
+            Datum::Values(vec![value], dimension)
+        }
         Kind::Values => at.values(at.list(1)?)?,
-        Kind::Points(least) => Datum::Points(at.each(at.list(least)?, |at| at.vector(Dimension::LENGTH, Range::Finite))?),
-        Kind::Velocities => at.courses(&["x", "y"], false)?,
-        Kind::Motion => at.courses(&["x", "y", "rotation"], true)?,
+        Kind::Points(least) => Datum::Points(at.points(least)?),
+        Kind::Outlines(least) => Datum::Outlines(at.each(at.list(1)?, |at| at.points(least))?),
+        Kind::Components(dimension) => at.courses(&["x", "y"], dimension, false)?,
+        Kind::Motion => at.courses(&["x", "y", "rotation"], Dimension::VELOCITY, true)?,
         Kind::Rigid => match node.value {
             Value::Flag(flag) => Datum::Flag(flag),
-            _ => at.courses(&["x", "y", "rotation"], true)?,
+            _ => at.courses(&["x", "y", "rotation"], Dimension::VELOCITY, true)?,
+        },
+        Kind::Drive(dimension) => match at.course(dimension, false)? {
+            Course::Driven(drive) => Datum::Drive(drive),
+            Course::Free => return at.unlike(),
         },
         Kind::Stiffness(range) => match at.number(&[Dimension::PRESSURE, Dimension::PRESSURE_PER_LENGTH], range, false)? {
             (value, Dimension::PRESSURE) => Datum::Penalty(Penalty::PerNode(value)),
@@ -301,7 +321,7 @@ pub(super) fn read(key: &Key, node: &Node, path: &str) -> Read<Datum> {
         }
         Kind::Choice(known) => Datum::Text(at.choice(&known())?),
         Kind::Choices(known) => Datum::Texts(at.several(|at| at.choice(&known()))?),
-        Kind::Drive(_) | Kind::Table(_) => return at.unlike(),
+        Kind::Table(_) => return at.unlike(),
     })
 }
 
@@ -311,6 +331,7 @@ fn item(kind: Kind) -> Kind {
         Kind::Vector(dimension, range) | Kind::Quantities(dimension, range, _) => Kind::Quantity(dimension, range),
         Kind::Values => Kind::Quantity(Dimension::NONE, Range::Finite),
         Kind::Points(_) => Kind::Vector(Dimension::LENGTH, Range::Finite),
+        Kind::Outlines(least) => Kind::Points(least),
         Kind::Integers(_, least) => Kind::Integer(least),
         Kind::References(_) => Kind::Reference,
         Kind::Choices(known) => Kind::Choice(known),
@@ -334,11 +355,17 @@ pub(super) fn words(kind: Kind) -> String {
         Kind::Quantities(dimension, _, least) => {
             format!("a list of at least {least} numbers with a unit of {}", units::quantity(dimension))
         }
+        Kind::Value => "a number".to_string(),
         Kind::Values => "a list of numbers".to_string(),
         Kind::Points(least) => format!("a list of at least {least} points"),
+        Kind::Outlines(least) => format!("a list of lists of at least {least} points"),
         Kind::Drive(Dimension::RATE) => "an angular velocity or the name of a curve".to_string(),
-        Kind::Drive(dimension) => format!("a {} or the name of a curve", units::quantity(dimension)),
-        Kind::Velocities => "a table with x, y or both".to_string(),
+        Kind::Drive(dimension) => {
+            let quantity = units::quantity(dimension);
+            let article = if quantity.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
+            format!("{article} {quantity} or the name of a curve")
+        }
+        Kind::Components(_) => "a table with x, y or both".to_string(),
         Kind::Motion => "a table with x, y, rotation or some of them".to_string(),
         Kind::Rigid => "true, false, or a table with x, y, rotation or some of them".to_string(),
         Kind::Stiffness(_) => "a stiffness".to_string(),
@@ -367,10 +394,16 @@ pub(super) fn example(key: &Key) -> String {
         Kind::Vector(Dimension::NONE, _) => "[1, 0]".to_string(),
         Kind::Vector(dimension, _) => format!("[0, {}]", number(dimension)),
         Kind::Quantities(dimension, _, least) => format!("[{}]", vec![number(dimension); least].join(", ")),
+        Kind::Value => "\"5 m/s\"".to_string(),
         Kind::Values => "[0, \"5 m/s\"]".to_string(),
-        Kind::Points(_) => "[[0, 0], [\"3 mm\", 0]]".to_string(),
+        Kind::Points(least) => {
+            let square = ["[0, 0]", "[\"3 mm\", 0]", "[\"3 mm\", \"3 mm\"]", "[0, \"3 mm\"]"];
+            format!("[{}]", square.iter().cycle().take(least.max(2)).copied().collect::<Vec<_>>().join(", "))
+        }
+        Kind::Outlines(_) => "[[[0, 0], [\"3 mm\", 0], [0, \"3 mm\"]]]".to_string(),
+        Kind::Drive(Dimension::RATE) => "\"30 rad/s\"".to_string(),
         Kind::Drive(dimension) => number(dimension),
-        Kind::Velocities => "{ x = \"5 m/s\" }".to_string(),
+        Kind::Components(dimension) => format!("{{ x = {} }}", number(dimension)),
         Kind::Motion => "{ x = \"5 m/s\", rotation = \"free\" }".to_string(),
         Kind::Rigid => "true".to_string(),
         Kind::Stiffness(_) => "\"3.5e11 N/m/m\"".to_string(),

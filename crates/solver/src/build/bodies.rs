@@ -5,7 +5,7 @@ use crate::error::Fault;
 use crate::load::curve::Speed;
 use crate::mesh::PartMesh;
 use crate::model::{Motion, Part};
-use crate::rigid::{Body, Member, Weight};
+use crate::rigid::{Body, Member};
 
 /// What a part has on its nodes.
 pub(super) struct Bulk {
@@ -64,8 +64,8 @@ impl Builder<'_> {
         momentum.iter().zip(&self.mass).map(|(p, &m)| p.map(|p| p / m)).collect()
     }
 
-    /// Makes the rigid parts; `gravity` is the acceleration of every node (m/s²), empty without.
-    pub(super) fn rigid_parts(&mut self, part_mass: &[Vec<(u32, f64)>], gravity: &[[f64; 2]]) {
+    /// Makes the rigid parts.
+    pub(super) fn rigid_parts(&mut self, part_mass: &[Vec<(u32, f64)>]) {
         let model = self.model;
         for (i, part) in model.parts.iter().enumerate() {
             let Some(motion) = &part.rigid else { continue };
@@ -84,7 +84,13 @@ impl Builder<'_> {
                 self.faults.push(Fault::new(format!("part[{i}].rigid"), message, help));
                 continue;
             }
-            let body = self.rigid_part(&self.mesh.parts[i], part, motion, &part_mass[i], gravity);
+            if let Some(&node) = nodes.iter().find(|&&node| self.joins.of_node(node).is_some()) {
+                let message = format!("part \"{}\" is rigid, but a join binds its node at {}", part.name, self.place(node));
+                let help = "leave it out of the join; a tied contact binds others to rigid parts";
+                self.faults.push(Fault::new(format!("part[{i}].rigid"), message, help));
+                continue;
+            }
+            let body = self.rigid_part(&self.mesh.parts[i], part, motion, &part_mass[i]);
             let number = self.bodies.add_with_nodes(body, self.mesh.positions.len());
             self.body_parts.push((i, number));
         }
@@ -95,7 +101,7 @@ impl Builder<'_> {
         format!("({x:.6e}, {y:.6e}) m")
     }
 
-    fn rigid_part(&self, mesh: &PartMesh, part: &Part, motion: &Motion, own: &[(u32, f64)], gravity: &[[f64; 2]]) -> Body {
+    fn rigid_part(&self, mesh: &PartMesh, part: &Part, motion: &Motion, own: &[(u32, f64)]) -> Body {
         let positions = &self.mesh.positions;
         // The whole mass of the nodes: that of other parts at common nodes belongs to the body.
         let whole: Vec<(u32, f64)> = own.iter().map(|&(node, _)| (node, self.mass[node as usize])).collect();
@@ -108,7 +114,6 @@ impl Builder<'_> {
             velocity: [velocity[0], velocity[1], part.spin],
             mass: std::array::from_fn(|k| if drives[k].is_none() { masses[k] } else { 0.0 }),
             drives,
-            weight: weight(&whole, &bulk, positions, gravity),
             of_elements: true,
             members: mesh.nodes.iter().map(|&node| Member { node, arm: bulk.arm(positions[node as usize]) }).collect(),
             shared: own.iter().filter(|&&(node, share)| self.mass[node as usize] != share).map(|&(node, _)| node).collect(),
@@ -121,18 +126,4 @@ impl Builder<'_> {
         let [x, y] = &motion.velocity;
         [x, y, &motion.spin].map(|drive| drive.as_ref().and_then(|drive| self.curves.speed(drive)))
     }
-}
-
-/// What nodes with masses (kg/m) weigh together.
-fn weight(masses: &[(u32, f64)], bulk: &Bulk, positions: &[[f64; 2]], gravity: &[[f64; 2]]) -> Weight {
-    let Some(first) = masses.first().and_then(|&(node, _)| gravity.get(node as usize)) else { return Weight::default() };
-    let mut weight = Weight { force: first.map(|g| bulk.mass * g), moments: [0.0; 2] };
-    for &(node, m) in masses {
-        let (g, [a, b]) = (gravity[node as usize], bulk.arm(positions[node as usize]));
-        // What is uniform has no moment, to the last bit.
-        let [x, y] = [m * (g[0] - first[0]), m * (g[1] - first[1])];
-        weight.force = [weight.force[0] + x, weight.force[1] + y];
-        weight.moments = [weight.moments[0] + (a * y - b * x), weight.moments[1] + (a * x + b * y)];
-    }
-    weight
 }

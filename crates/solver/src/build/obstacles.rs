@@ -12,8 +12,8 @@ use crate::contact::{self, Contact, ContactKind, Formulation, Vector, initial, l
 use crate::error::Fault;
 use crate::load::constraint::unit;
 use crate::mesh::surface::{NONE, Surface};
-use crate::model::{Load, Obstacle, ObstacleShape};
-use crate::rigid::{Body, Member, Weight};
+use crate::model::{Obstacle, ObstacleShape};
+use crate::rigid::{Body, Member};
 use std::f64::consts::TAU;
 
 /// The outside of the bodies that an obstacle stops.
@@ -224,26 +224,8 @@ impl Builder<'_> {
         let drives = self.drives(&obstacle.motion);
         let [mass, inertia] = [obstacle.mass, obstacle.inertia].map(|mass| mass.unwrap_or(0.0));
         let mass: [f64; 3] = std::array::from_fn(|k| if drives[k].is_none() { [mass, mass, inertia][k] } else { 0.0 });
-        // Gravity on all parts acts on what is free of obstacles too.
-        let mut force = [0.0; 2];
-        for load in &self.model.loads {
-            if let Load::Gravity { parts, acceleration } = load
-                && parts.is_empty()
-            {
-                for d in 0..2 {
-                    force[d] += mass[d] * acceleration[d];
-                }
-            }
-        }
         let [vx, vy] = obstacle.velocity;
-        Body {
-            centre: reference,
-            velocity: [vx, vy, obstacle.spin],
-            mass,
-            drives,
-            weight: Weight { force, moments: [0.0; 2] },
-            ..Body::default()
-        }
+        Body { centre: reference, velocity: [vx, vy, obstacle.spin], mass, drives, ..Body::default() }
     }
 }
 

@@ -5,13 +5,13 @@
 
 use super::initial::is_ignored;
 use super::law::Law;
-use super::node_segment::Slave;
+use super::node_segment::{Face, Slave};
 use super::projection::node_segment::Target;
 use super::search::Search;
 use super::tracker::Tracker;
-use super::{Formulation, Vector, law, node_segment, pinball, segment, tied};
+use super::{Formulation, Vector, law, length, node_segment, pinball, segment, tied};
 use crate::error::Fault;
-use crate::model::{self, ContactLaw, Partners, Penalty};
+use crate::model::{self, ContactLaw, Partners, Penalty, PenaltySource};
 
 /// A formulation as the registry describes it.
 #[derive(Clone, Copy)]
@@ -122,7 +122,7 @@ impl Setup<'_> {
     #[must_use]
     pub fn tracker(self) -> Tracker {
         let (targets, lids): (Vec<_>, Vec<_>) = self.sides.into_iter().map(|side| (side.target, side.lids)).unzip();
-        Tracker::new(targets, self.passes, (self.search)(), self.positions).with_bodies(self.bodies, &lids)
+        Tracker::new(targets, self.passes, (self.search)(), self.positions).with_bodies(self.bodies, &lids).with_ends(self.positions)
     }
 
     /// The nodes of a side as slaves in one of `passes` passes.
@@ -136,6 +136,38 @@ impl Setup<'_> {
             Slave { stiffness: law::penalty::stiffness(self.penalty(), node, passes), area: tributary / passes as f64, slip: 0.0 }
         };
         self.sides[side].nodes.iter().zip(&surface.nodes).map(of).collect()
+    }
+
+    /// What each of the segments at the nodes of a side has of the node's tributary length and of its stiffness: [that which ends there, that which begins there].
+    #[must_use]
+    pub fn faces(&self, side: usize) -> Vec<[Face; 2]> {
+        let Side { target, segments, .. } = &self.sides[side];
+        let surface = &target.surface;
+        let mut faces = vec![[Face::default(); 2]; surface.nodes.len()];
+        for (&segment, stiffness) in surface.segments.iter().zip(segments) {
+            let length = length(segment, self.positions);
+            for (end, node) in segment.iter().enumerate() {
+                if let Ok(at) = surface.nodes.binary_search(node) {
+                    faces[at][1 - end] = Face { length, stiffness: length * stiffness };
+                }
+            }
+        }
+        let penalty = self.penalty();
+        for [before, after] in &mut faces {
+            let (whole, stiff) = (before.length + after.length, before.stiffness + after.stiffness);
+            for face in [before, after] {
+                face.length /= whole;
+                face.stiffness = match penalty {
+                    Penalty::Pressure(_) => face.length,
+                    Penalty::Automatic { source: PenaltySource::WaveModulus | PenaltySource::BulkModulus, .. } if stiff > 0.0 => {
+                        face.stiffness / stiff
+                    }
+                    // What is given for a node, or made from its mass, is the node's on any face.
+                    Penalty::PerNode(_) | Penalty::Automatic { .. } => 1.0,
+                };
+            }
+        }
+        faces
     }
 
     /// Stiffness (N/m per metre of depth) of each node of a side by unit of pressure stiffness κ (Pa/m) of the target; empty where the stiffness is given.

@@ -5,9 +5,10 @@
 use super::formulation::{FormulationKind, Setup, both_passes, one_pass};
 use super::initial::{is_ignored, kept};
 use super::projection::node_segment::{Projection, Target};
-use super::springs::{End, Spring, Springs};
-use super::tracker::{Certificate, Memory, SearchReport, Touch, Tracker};
+use super::springs::{End, Spring, Springs, tangent};
+use super::tracker::{Certificate, Memory, SearchReport, Touch, Tracker, is_facing};
 use super::{Formulation, Scene, Vector};
+use crate::mesh::surface::NONE;
 use crate::model;
 
 /// Registry entry.
@@ -54,13 +55,40 @@ pub struct PassInput {
     pub per_modulus: Vec<f64>,
     /// Smallest κ of the part behind each segment of the target, Pa/m.
     pub moduli: Vec<f64>,
+    /// What the segments at each slave stand for, [that which ends there, that which begins there]; empty: slaves count whole.
+    pub faces: Vec<[Face; 2]>,
 }
+
+/// What a segment at a node has of the node's tributary length and of its stiffness, as fractions.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Face {
+    /// Fraction of the length.
+    pub length: f64,
+    /// Fraction of the stiffness.
+    pub stiffness: f64,
+}
+
+/// Both faces of a node.
+const BOTH: u8 = 3;
 
 impl PassInput {
     /// The softer of both sides decides, where they meet.
     pub(super) fn stiffness(&self, slave: usize, segment: u32) -> f64 {
-        let own = self.slaves[slave].stiffness;
-        self.per_modulus.get(slave).map_or(own, |per| own.min(per * self.moduli[segment as usize]))
+        self.stiffness_of(slave, segment, Face { length: 1.0, stiffness: 1.0 })
+    }
+
+    fn stiffness_of(&self, slave: usize, segment: u32, part: Face) -> f64 {
+        let own = part.stiffness * self.slaves[slave].stiffness;
+        self.per_modulus.get(slave).map_or(own, |per| own.min(part.length * per * self.moduli[segment as usize]))
+    }
+
+    /// What counts of a slave.
+    fn part(&self, slave: usize, faces: u8) -> Face {
+        match self.faces.get(slave) {
+            Some(&[before, _]) if faces == 1 => before,
+            Some(&[_, after]) if faces == 2 => after,
+            _ => Face { length: 1.0, stiffness: 1.0 },
+        }
     }
 }
 
@@ -86,6 +114,7 @@ impl NodeSegment {
             slaves: setup.slaves(slave, sides),
             per_modulus: setup.per_modulus(slave, sides),
             moduli: setup.sides[target].softest(),
+            faces: setup.faces(slave),
         };
         let inputs = passes.iter().map(pass).collect();
         let (thickness, reach) = (setup.contact.interface.thickness, (setup.law)().reach());
@@ -125,6 +154,26 @@ impl NodeSegment {
 }
 
 impl NodeSegment {
+    /// Which of the segments at a slave stand for it in a touch. At a sharp edge that is the one that faces the target, so that the corner of a block presses with half of the segment
+    /// under it and not with the side wall; else, and where none faces the target, both. It stays so for as long as they are near: a spring that is closed may not change its
+    /// stiffness.
+    fn faces(&self, touch: &Touch, positions: &[Vector]) -> u8 {
+        if touch.memory.faces != 0 {
+            return touch.memory.faces;
+        }
+        let ([before, after], slaves) = self.tracker.segments_at(touch);
+        if before == NONE || after == NONE || !slaves.is_edge(before, after, positions) {
+            return BOTH;
+        }
+        // Of a corner of the target the direction to it counts.
+        let along = tangent(touch.projection.normal);
+        let faces = [before, after].map(|own| u8::from(is_facing(slaves.along(own, positions), along)));
+        match faces[0] + 2 * faces[1] {
+            0 => BOTH,
+            faces => faces,
+        }
+    }
+
     /// [`Formulation::detect`] for those slaves of the first pass that are not bound otherwise (`bound` by index; empty: all).
     pub(super) fn detect_free(&mut self, bound: &[bool], scene: &Scene<'_>, springs: &mut Springs) {
         self.touches.clear();
@@ -133,13 +182,19 @@ impl NodeSegment {
         for index in 0..self.touches.len() {
             let touch = self.touches[index];
             let pass = &self.passes[touch.pass];
-            let ends = ends(touch.node, &touch.projection, self.tracker.target(touch.pass), scene.sweep.new);
+            let target = self.tracker.target(touch.pass);
+            let mut ends = ends(touch.node, &touch.projection, target, scene.sweep.new);
             let Projection { normal, segment, .. } = touch.projection;
-            let (stiffness, area) = (pass.stiffness(touch.slave, segment), pass.slaves[touch.slave].area);
+            let faces = self.faces(&touch, scene.sweep.new);
+            let part = pass.part(touch.slave, faces);
+            let (stiffness, area) = (pass.stiffness_of(touch.slave, segment, part), part.length * pass.slaves[touch.slave].area);
             let (gap, offset) = self.beyond(&touch);
+            if touch.slope != 0.0 {
+                lean(&mut ends, &touch, scene.sweep.new);
+            }
             let (side, slip) = (self.tracker.side(touch.pass), touch.memory.slip);
             springs.push(Spring { normal, gap, stiffness, area, side, slip, ..Spring::default() }, &ends);
-            self.touches[index].memory.offset = offset;
+            self.touches[index].memory = Memory { offset, faces, ..touch.memory };
         }
         self.has_begun = true;
     }
@@ -177,17 +232,100 @@ pub fn ends(node: u32, projection: &Projection, target: &Target, positions: &[Ve
     let x = positions[node as usize];
     let foot = [wa * xa[0] + wb * xb[0], wa * xa[1] + wb * xb[1]];
     let arm = (x[0] - foot[0]) * projection.normal[0] + (x[1] - foot[1]) * projection.normal[1];
-    let [a, b] = segment_ends(segment, projection.weights, arm, positions);
+    let [a, b] = segment_ends(segment, projection, arm, positions);
     [End::node(node, 1.0), a, b]
 }
 
 /// The nodes of a segment as ends of a spring to what is seen from its foot at the distance `arm` (m), and slides there.
 #[must_use]
-pub fn segment_ends([a, b]: [u32; 2], [wa, wb]: [f64; 2], arm: f64, positions: &[Vector]) -> [End; 2] {
+pub fn segment_ends([a, b]: [u32; 2], projection: &Projection, arm: f64, positions: &[Vector]) -> [End; 2] {
+    let Projection { weights: [wa, wb], normal, .. } = *projection;
     let (xa, xb) = (positions[a as usize], positions[b as usize]);
     let along = [xb[0] - xa[0], xb[1] - xa[1]];
     let square = along[0] * along[0] + along[1] * along[1];
     // arm / L times the segment's normal
     let turn = if square > 0.0 { [-along[1] * arm / square, along[0] * arm / square] } else { [0.0; 2] };
-    [End { at: a, share: -wa, turn: [-turn[0], -turn[1]], ..End::default() }, End { at: b, share: -wb, turn, ..End::default() }]
+    let t = tangent(normal);
+    // A weight is negative beyond the end of a face: such a node is pulled along, but belongs to the target all the same.
+    let end = |at: u32, weight: f64, sign: f64| {
+        let (share, beyond) = (-weight.max(0.0), (-weight).max(0.0));
+        let of = |row: Vector, d: usize| beyond * row[d];
+        End { at, share, lean: [0, 1].map(|d| of(normal, d)), turn: [0, 1].map(|d| of(t, d) + sign * turn[d]), ..End::default() }
+    };
+    [end(a, wa, -1.0), end(b, wb, 1.0)]
+}
+
+/// Adds to the rows of the gap those of what the face has fallen off at a distance d beyond its end, φ(d), with the slope φ'.
+///
+/// d = ± t·(x − C) with the segment's direction t and its nearer end C, so dd = ± [t·(dx − dC) + h n·(dx_C2 − dx_C1) / L] with the height h of the node over the segment's line. The
+/// whole gradient, so no energy is lost, and d does not see motions of node and segment together, so both momenta are exact.
+fn lean(ends: &mut [End; 3], touch: &Touch, positions: &[Vector]) {
+    let Projection { weights: [before, place], normal, .. } = touch.projection;
+    let t = tangent(normal);
+    let along = |k: usize| positions[ends[k].at as usize];
+    let ([x, a, b], whole) = ([0, 1, 2].map(along), |a: Vector, b: Vector| (a[0] - b[0]) * t[0] + (a[1] - b[1]) * t[1]);
+    let height = (x[0] - a[0]) * normal[0] + (x[1] - a[1]) * normal[1];
+    let turned = height / whole(b, a);
+    let (slope, nearer) = if place > before { (touch.slope, 2) } else { (-touch.slope, 1) };
+    for (k, end) in ends.iter_mut().enumerate() {
+        let straight = f64::from(u8::from(k == 0)) - f64::from(u8::from(k == nearer));
+        let turned = [0.0, -turned, turned][k];
+        end.lean = [0, 1].map(|d| end.lean[d] + slope * (straight * t[d] + turned * normal[d]));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::projection::node_segment::fall_off;
+    use crate::mesh::surface::Surface;
+
+    /// An open segment from node 1 to node 2 and a node 0 beside one of its ends.
+    fn beside(x: Vector) -> (Target, [Vector; 3]) {
+        let surface = Surface { segments: vec![[1, 2]], previous: vec![NONE], next: vec![NONE], nodes: vec![1, 2] };
+        (Target { surface, mirrors: Vec::new() }, [x, [0.1, 0.2], [1.3, 0.7]])
+    }
+
+    #[test]
+    fn beyond_an_end_the_rows_are_the_gradient_of_the_gap_and_blind_to_rigid_motion() {
+        let band = 0.1;
+        for x in [[1.36, 0.70], [1.35, 0.715], [1.5, 0.6], [0.0, 0.1], [0.05, 0.17]] {
+            let (target, positions) = beside(x);
+            let gap = |positions: &[Vector]| target.beyond(positions[0], 0, band, positions).unwrap().gap;
+            let projection = target.beyond(x, 0, band, &positions).unwrap();
+            let slope = fall_off(target.seen(x, 0, &positions).unwrap().beyond(), band)[1];
+            assert!(slope > 0.0, "{x:?}");
+            let touch = Touch { pass: 0, slave: 0, node: 0, projection, slope, group: 0, own: false, memory: Memory::default() };
+            let mut ends = ends(0, &projection, &target, &positions);
+            lean(&mut ends, &touch, &positions);
+            let row = |end: &End| [0, 1].map(|d| end.share * projection.normal[d] + end.lean[d]);
+            let (mut sum, mut moment) = ([0.0; 2], 0.0);
+            for end in &ends {
+                let (row, place) = (row(end), positions[end.at as usize]);
+                for d in 0..2 {
+                    let moved = |by: f64| {
+                        let mut positions = positions;
+                        positions[end.at as usize][d] += by;
+                        gap(&positions)
+                    };
+                    let slope = (moved(1e-6) - moved(-1e-6)) / 2e-6;
+                    assert!((row[d] - slope).abs() < 1e-8, "{x:?} node {} {d}: {} {slope}", end.at, row[d]);
+                    sum[d] += row[d];
+                }
+                moment += place[0] * row[1] - place[1] * row[0];
+                assert!(end.at == 0 || end.share <= 0.0, "the target's nodes are the target's");
+            }
+            assert!(sum[0].abs() + sum[1].abs() + moment.abs() < 1e-14, "{x:?}: {sum:?} {moment}");
+            // Friction does not see rotations of both together either.
+            let t = tangent(projection.normal);
+            let spin: f64 = ends
+                .iter()
+                .map(|end| {
+                    let ([x, y], slip) = (positions[end.at as usize], [0, 1].map(|d| end.share * t[d] + end.turn[d]));
+                    x * slip[1] - y * slip[0]
+                })
+                .sum();
+            assert!(spin.abs() < 1e-14, "{x:?}: {spin}");
+        }
+    }
 }

@@ -1,10 +1,13 @@
-//! Prescribed motion by direction: symmetry lines, fixed and driven nodes. After the free update the velocity is set along each direction;
-//! the impulse that this takes is the reaction, and its work goes to the ledger.
+//! Prescribed motion by direction: symmetry lines, fixed and driven nodes, nodes that are led around a point. After the free update the velocity is set
+//! along each direction; the impulse that this takes is the reaction, and its work goes to the ledger.
 
-use super::curve::{Curves, Speed};
+use super::curve::{Curves, Meaning, Speed};
+use super::join::{Joins, back};
+use super::non_reflecting::{Matrix, times};
 use crate::error::Fault;
 use crate::mesh::Mesh;
-use crate::model::{Model, Symmetry};
+use crate::model::{Constraint, Model, Symmetry};
+use crate::rigid::chord;
 
 /// Prescribed directions of one node, orthonormal.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -13,17 +16,32 @@ pub struct Held<const D: usize> {
     directions: Vec<([f64; D], f64)>,
     /// What prescribes the velocity of each direction.
     speeds: Vec<Speed>,
+    /// Which condition gave each direction: index into [`Constraints::conditions`].
+    givers: Vec<u32>,
+    /// Which of [`Constraints::turns`] leads it around, along all directions.
+    turn: Option<u32>,
+}
+
+/// Why a direction can't be added.
+struct Contradiction {
+    /// Velocity that is prescribed along it already.
+    earlier: Speed,
+    /// The conditions that do so.
+    givers: Vec<u32>,
 }
 
 impl<const D: usize> Held<D> {
-    /// Adds a direction; `Err` holds the velocity that the earlier directions already prescribe along it.
-    fn add(&mut self, direction: [f64; D], velocity: &Speed) -> Result<(), Speed> {
-        let size = |speed: &Speed| speed.as_constant().unwrap_or(0.0).abs();
-        let (mut rest, mut speed, mut largest) = (direction, velocity.clone(), size(velocity));
-        for ((held, _), held_speed) in self.directions.iter().zip(&self.speeds) {
+    /// Adds a direction, unless the earlier directions prescribe another velocity along it.
+    fn add(&mut self, direction: [f64; D], velocity: &Speed, giver: u32) -> Result<(), Contradiction> {
+        let (mut rest, mut speed, mut largest) = (direction, velocity.clone(), velocity.size());
+        let mut givers = Vec::new();
+        for (((held, _), held_speed), giver) in self.directions.iter().zip(&self.speeds).zip(&self.givers) {
             let along: f64 = (0..D).map(|d| held[d] * direction[d]).sum();
             speed = speed.plus(-along, held_speed);
-            largest = largest.max(size(held_speed));
+            largest = largest.max(held_speed.size());
+            if along.abs() > 1e-9 && !givers.contains(giver) {
+                givers.push(*giver);
+            }
             for d in 0..D {
                 rest[d] -= along * held[d];
             }
@@ -33,11 +51,12 @@ impl<const D: usize> Held<D> {
             let speed = speed.times(1.0 / length);
             self.directions.push((rest.map(|r| r / length), speed.as_constant().unwrap_or(0.0)));
             self.speeds.push(speed);
+            self.givers.push(giver);
             Ok(())
         } else if speed.is_round_off(largest) {
             Ok(())
         } else {
-            Err(velocity.plus(-1.0, &speed))
+            Err(Contradiction { earlier: velocity.plus(-1.0, &speed), givers })
         }
     }
 
@@ -51,6 +70,26 @@ impl<const D: usize> Held<D> {
             }
         }
         direction
+    }
+
+    /// The same of something that gives way to impulses by a matrix (xx, xy, yy): the reactions act along the held directions.
+    #[must_use]
+    pub fn apply_in(&self, mut velocity: [f64; 2], mut mobility: Matrix) -> [f64; 2] {
+        for (direction, speed) in &self.directions {
+            let direction = [direction[0], direction[1]];
+            let change = speed - (velocity[0] * direction[0] + velocity[1] * direction[1]);
+            let response = times(mobility, direction);
+            let along = response[0] * direction[0] + response[1] * direction[1];
+            velocity = [velocity[0] + change / along * response[0], velocity[1] + change / along * response[1]];
+            mobility = without(mobility, direction);
+        }
+        velocity
+    }
+
+    /// What is left of a mobility (xx, xy, yy) along what is free.
+    #[must_use]
+    pub fn mobility(&self, mobility: Matrix) -> Matrix {
+        self.directions.iter().fold(mobility, |mobility, (direction, _)| without(mobility, [direction[0], direction[1]]))
     }
 
     /// The velocity with the prescribed components.
@@ -73,10 +112,14 @@ pub struct Constraints<const D: usize> {
     /// Index into `held` per node; `u32::MAX`: free. Empty when nothing is held.
     index: Vec<u32>,
     held: Vec<Held<D>>,
-    /// Those in `held` whose velocity follows a curve.
-    driven: Vec<u32>,
+    /// Those in `held` whose velocity changes with time, and their nodes.
+    driven: Vec<(u32, u32)>,
     /// Nodes on symmetry lines, ascending.
     mirrors: Vec<Mirror<D>>,
+    /// Rotations about points.
+    turns: Vec<Turn<D>>,
+    /// What the conditions are called in messages.
+    conditions: Vec<String>,
 }
 
 /// A node on a symmetry line.
@@ -88,80 +131,261 @@ struct Mirror<const D: usize> {
     normal: [f64; D],
 }
 
+/// A prescribed rotation about a point.
+#[derive(Clone, Debug, PartialEq)]
+struct Turn<const D: usize> {
+    centre: [f64; D],
+    speed: Speed,
+}
+
 /// Nodes nearer to a symmetry line than this fraction of the model's size lie on it.
 const ON_LINE: f64 = 1e-9;
+/// At most so many contradictions of a condition are told one by one.
+const TOLD: usize = 20;
 
 impl Constraints<2> {
     /// From the symmetries and constraints of a model.
     ///
+    /// `joins` tells which nodes move as one: what holds one of them holds its leader.
+    ///
     /// # Errors
-    /// Names without nodes, symmetry lines that hold no node, velocities that contradict each other on a node.
-    pub fn new(model: &Model, mesh: &Mesh<2>, curves: &Curves) -> Result<Self, Vec<Fault>> {
+    /// Names without nodes, symmetry lines that hold no node, motions that contradict each other on a node.
+    pub fn new(model: &Model, mesh: &Mesh<2>, curves: &Curves, joins: &Joins) -> Result<Self, Vec<Fault>> {
         let mut result = Self::default();
-        let mut faults = Vec::new();
-        if model.symmetries.is_empty() && model.constraints.is_empty() {
+        if model.symmetries.is_empty() && model.constraints.is_empty() && joins.is_empty() {
             return Ok(result);
         }
         result.index = vec![u32::MAX; mesh.positions.len()];
+        let mut faults = Vec::new();
+        let place = Place { mesh, joins };
         for (i, symmetry) in model.symmetries.iter().enumerate() {
-            let path = format!("symmetry[{i}]");
-            let Some(normal) = unit(symmetry.normal) else { continue };
-            let nodes = on_line(symmetry, normal, mesh);
-            if nodes.is_empty() {
-                faults.push(Fault::new(
-                    &path,
-                    "no node lies on this symmetry line",
-                    "move the line or the bodies; nodes must lie on it within 1e-9 of the model's size",
-                ));
-            }
-            for node in nodes {
-                result.mirrors.push(Mirror { node, line: i, normal });
-                result.hold(node, normal, &Speed::constant(0.0), &path, mesh, &mut faults);
-            }
+            result.mirror(i, symmetry, place, &mut faults);
         }
         result.mirrors.sort_by_key(|mirror| mirror.node);
         for (i, constraint) in model.constraints.iter().enumerate() {
-            let path = format!("constraint[{i}]");
-            let Some(nodes) = mesh.nodes(&constraint.on) else {
-                faults.push(Fault::new(
-                    format!("{path}.on"),
-                    format!("there is nothing called \"{}\"", constraint.on),
-                    "name a part, a side as part.side, or a group",
-                ));
-                continue;
-            };
-            let speeds = [0, 1].map(|d| constraint.velocity[d].as_ref().and_then(|drive| curves.speed(drive)));
-            for node in nodes {
+            result.constrain(i, constraint, place, curves, &mut faults);
+        }
+        result.fix_tips(place, &mut faults);
+        let changes = |held: &Held<2>| held.turn.is_some() || held.speeds.iter().any(|speed| speed.as_constant().is_none());
+        for (node, &index) in (0..).zip(&result.index) {
+            if result.held.get(index as usize).is_some_and(changes) {
+                result.driven.push((index, node));
+            }
+        }
+        result.driven.sort_unstable();
+        if faults.is_empty() { Ok(result) } else { Err(faults) }
+    }
+
+    /// Holds the nodes on a symmetry line.
+    fn mirror(&mut self, i: usize, symmetry: &Symmetry, place: Place<'_>, faults: &mut Vec<Fault>) {
+        let mut found = Telling::new(format!("symmetry[{i}]"));
+        self.conditions.push(format!("symmetry[{i}]"));
+        let Some(normal) = unit(symmetry.normal) else { return };
+        let nodes = on_line(symmetry, normal, place.mesh);
+        if nodes.is_empty() {
+            faults.push(Fault::new(
+                &found.path,
+                "no node lies on this symmetry line",
+                "move the line or the bodies; nodes must lie on it within 1e-9 of the model's size",
+            ));
+        }
+        for node in nodes {
+            self.mirrors.push(Mirror { node, line: i, normal });
+            self.hold(node, normal, &Speed::constant(0.0), place, &mut found);
+        }
+        found.tell(faults);
+    }
+
+    /// Holds the nodes of a constraint.
+    fn constrain(&mut self, i: usize, constraint: &Constraint, place: Place<'_>, curves: &Curves, faults: &mut Vec<Fault>) {
+        let mut found = Telling::new(format!("constraint[{i}]"));
+        self.conditions.push(format!("constraint[{i}] on \"{}\"", constraint.on));
+        let Some(nodes) = place.mesh.nodes(&constraint.on) else {
+            faults.push(Fault::new(
+                format!("{}.on", found.path),
+                format!("there is nothing called \"{}\"", constraint.on),
+                "name a part, a side as part.side, or a group",
+            ));
+            return;
+        };
+        if let Some(speed) = constraint.rotation.as_ref().and_then(|rotation| curves.speed(&rotation.speed)) {
+            let centre = constraint.rotation.as_ref().map_or([0.0; 2], |rotation| rotation.centre);
+            self.turns.push(Turn { centre, speed });
+            for &node in &nodes {
+                self.turn(node, place, &mut found);
+            }
+        }
+        for (meaning, drives) in [
+            (Meaning::Velocity, &constraint.velocity),
+            (Meaning::Displacement, &constraint.displacement),
+            (Meaning::Acceleration, &constraint.acceleration),
+        ] {
+            let speeds = [0, 1].map(|d| drives[d].as_ref().and_then(|drive| curves.meant(drive, meaning)));
+            for &node in &nodes {
                 for (speed, direction) in speeds.iter().zip([[1.0, 0.0], [0.0, 1.0]]) {
-                    if let Some(speed) = speed {
-                        result.hold(node, direction, speed, &path, mesh, &mut faults);
+                    let Some(speed) = speed else { continue };
+                    if meaning == Meaning::Acceleration {
+                        self.hold(
+                            node,
+                            direction,
+                            &speed.clone().from_initial(back(place.joins.leader(node).1, direction)),
+                            place,
+                            &mut found,
+                        );
+                    } else {
+                        self.hold(node, direction, speed, place, &mut found);
                     }
                 }
             }
         }
-        let driven = |held: &Held<2>| held.speeds.iter().any(|speed| speed.as_constant().is_none());
-        result.driven = (0..).zip(&result.held).filter(|(_, held)| driven(held)).map(|(index, _)| index).collect();
-        faults.dedup();
-        if faults.is_empty() { Ok(result) } else { Err(faults) }
+        found.tell(faults);
     }
 
-    fn hold(&mut self, node: u32, direction: [f64; 2], velocity: &Speed, path: &str, mesh: &Mesh<2>, faults: &mut Vec<Fault>) {
+    /// Holds the nodes that a rotation leads to themselves.
+    fn fix_tips(&mut self, place: Place<'_>, faults: &mut Vec<Fault>) {
+        let mut found = Telling::new("join".to_string());
+        self.conditions.push("a join around it".to_string());
+        for group in place.joins.groups().iter().filter(|group| group.fixed) {
+            for direction in [[1.0, 0.0], [0.0, 1.0]] {
+                self.hold(group.members[0].node, direction, &Speed::constant(0.0), place, &mut found);
+            }
+        }
+        found.tell(faults);
+    }
+
+    fn slot(&mut self, node: u32) -> &mut Held<2> {
         let slot = &mut self.index[node as usize];
         if *slot == u32::MAX {
             *slot = self.held.len() as u32;
             self.held.push(Held::default());
         }
-        if let Err(earlier) = self.held[*slot as usize].add(direction, velocity) {
-            let [x, y] = mesh.positions[node as usize];
-            let told = |speed: &Speed| speed.as_constant().map_or("as a curve says".to_string(), |velocity| format!("at {velocity} m/s"));
-            let message = format!(
-                "the node at ({x:.6e}, {y:.6e}) shall move {}, but another condition already moves it {} there",
-                told(velocity),
-                told(&earlier)
+        &mut self.held[*slot as usize]
+    }
+
+    /// Prescribes a velocity along a direction, by the last of the conditions.
+    fn hold(&mut self, node: u32, direction: [f64; 2], velocity: &Speed, place: Place<'_>, found: &mut Telling) {
+        let giver = self.conditions.len() as u32 - 1;
+        let (leader, turn) = place.joins.leader(node);
+        let direction = back(turn, direction);
+        let held = self.slot(leader);
+        let told = |speed: &Speed| speed.as_constant().map_or("as a curve says".to_string(), |velocity| format!("at {velocity} m/s"));
+        if held.turn.is_some() {
+            let others = held.givers.clone();
+            found.note(
+                place.mesh.positions[node as usize],
+                &format!("shall move {}", told(velocity)),
+                &self.names(&others),
+                "leads it around a point",
             );
-            if faults.len() < 20 {
-                faults.push(Fault::new(path, message, "take the node out of one of the two"));
+        } else if let Err(Contradiction { earlier, givers }) = held.add(direction, velocity, giver) {
+            let does = format!("already moves it {} there", told(&earlier));
+            found.note(place.mesh.positions[node as usize], &format!("shall move {}", told(velocity)), &self.names(&givers), &does);
+        }
+    }
+
+    /// Leads a node around by the last of the turns.
+    fn turn(&mut self, node: u32, place: Place<'_>, found: &mut Telling) {
+        let (giver, turn) = (self.conditions.len() as u32 - 1, self.turns.len() as u32 - 1);
+        let at_centre = self.turns.last().is_some_and(|turn| turn.centre == place.mesh.positions[node as usize]);
+        if at_centre {
+            // The centre itself rests.
+            self.hold(node, [1.0, 0.0], &Speed::constant(0.0), place, found);
+            return self.hold(node, [0.0, 1.0], &Speed::constant(0.0), place, found);
+        }
+        let (leader, _) = place.joins.leader(node);
+        if place.joins.is_periodic() && place.mesh.positions[leader as usize] != place.mesh.positions[node as usize] {
+            return found.note(
+                place.mesh.positions[node as usize],
+                "shall be led around a point",
+                "a join",
+                "lets it move like another place",
+            );
+        }
+        let held = self.slot(leader);
+        if held.turn == Some(turn) {
+            return; // through another node of the group
+        }
+        if held.givers.is_empty() {
+            held.directions = vec![([1.0, 0.0], 0.0), ([0.0, 1.0], 0.0)];
+            held.speeds = vec![Speed::default(); 2];
+            held.givers = vec![giver; 2];
+            held.turn = Some(turn);
+        } else {
+            let others = held.givers.clone();
+            found.note(
+                place.mesh.positions[node as usize],
+                "shall be led around a point",
+                &self.names(&others),
+                "already holds or moves it",
+            );
+        }
+    }
+
+    /// What conditions are called.
+    fn names(&self, givers: &[u32]) -> String {
+        let mut givers = givers.to_vec();
+        givers.dedup();
+        givers.iter().map(|&giver| self.conditions[giver as usize].as_str()).collect::<Vec<_>>().join(" and ")
+    }
+
+    /// Takes the velocities that change with time, as their mean between two times, s; `positions` at the first of them, m.
+    pub fn drive(&mut self, curves: &Curves, [from, to]: [f64; 2], positions: &[[f64; 2]]) {
+        for &(index, node) in &self.driven {
+            let held = &mut self.held[index as usize];
+            if let Some(Turn { centre, speed }) = held.turn.and_then(|turn| self.turns.get(turn as usize)) {
+                let x = positions[node as usize];
+                let velocity = chord([x[0] - centre[0], x[1] - centre[1]], curves.mean(speed, from, to), to - from);
+                held.directions[0].1 = velocity[0];
+                held.directions[1].1 = velocity[1];
+                continue;
             }
+            for ((_, velocity), speed) in held.directions.iter_mut().zip(&held.speeds) {
+                *velocity = curves.mean(speed, from, to);
+            }
+        }
+    }
+
+    /// Tells what accelerates from which velocities (m/s) it begins.
+    pub fn begin(&mut self, velocities: &[[f64; 2]]) {
+        for &(index, node) in &self.driven {
+            for speed in &mut self.held[index as usize].speeds {
+                speed.begin(velocities[node as usize]);
+            }
+        }
+    }
+}
+
+/// Where nodes are, and which move as one.
+#[derive(Clone, Copy)]
+struct Place<'a> {
+    mesh: &'a Mesh<2>,
+    joins: &'a Joins,
+}
+
+/// Contradictions of one condition with earlier ones.
+struct Telling {
+    path: String,
+    faults: Vec<Fault>,
+    count: usize,
+}
+
+impl Telling {
+    fn new(path: String) -> Self {
+        Self { path, faults: Vec::new(), count: 0 }
+    }
+
+    fn note(&mut self, [x, y]: [f64; 2], shall: &str, others: &str, does: &str) {
+        self.count += 1;
+        if self.count <= TOLD {
+            let message = format!("the node at ({x:.6e}, {y:.6e}) m {shall}, but {others} {does}");
+            self.faults.push(Fault::new(&self.path, message, "take the node out of one of the two"));
+        }
+    }
+
+    fn tell(self, faults: &mut Vec<Fault>) {
+        faults.extend(self.faults);
+        if self.count > TOLD {
+            faults.push(Fault::new(self.path, format!("and so on at {} more nodes", self.count - TOLD), ""));
         }
     }
 }
@@ -172,16 +396,6 @@ impl<const D: usize> Constraints<D> {
     #[must_use]
     pub fn of(&self, node: usize) -> Option<&Held<D>> {
         self.held.get(*self.index.get(node)? as usize)
-    }
-
-    /// Takes the velocities that curves prescribe, as their mean between two times, s.
-    pub fn drive(&mut self, curves: &Curves, from: f64, to: f64) {
-        for &index in &self.driven {
-            let held = &mut self.held[index as usize];
-            for ((_, velocity), speed) in held.directions.iter_mut().zip(&held.speeds) {
-                *velocity = curves.mean(speed, from, to);
-            }
-        }
     }
 
     /// Whether no node is held.
@@ -226,6 +440,13 @@ fn on_line(symmetry: &Symmetry, normal: [f64; 2], mesh: &Mesh<2>) -> Vec<u32> {
     nodes.sort_unstable();
     nodes.dedup();
     nodes
+}
+
+/// A mobility without what gives way along a direction.
+fn without(mobility: Matrix, direction: [f64; 2]) -> Matrix {
+    let [x, y] = times(mobility, direction);
+    let along = x * direction[0] + y * direction[1];
+    [mobility[0] - x * x / along, mobility[1] - x * y / along, mobility[2] - y * y / along]
 }
 
 /// Unit vector; `None` for a vector without direction.

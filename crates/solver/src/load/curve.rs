@@ -1,51 +1,91 @@
-//! Curves: functions of time, linear between their points, constant before the first and after the last; and velocities that follow them.
+//! Curves: functions of time by points, sine or formula; and prescribed motion that follows them.
 //!
-//! Curves come from the model. Constraints and rigid bodies ask for the mean velocity over a step, so that what is driven is at every step where the
-//! integral of its curve says, whatever the step.
+//! Curves come from the model. Constraints, rigid bodies and loads ask for means over a step, so that what is driven is at every step where its curve
+//! says, whatever the step, and a load's impulse is the integral of its curve. Means and moments of what has no closed form are taken by four Gauss
+//! points between the corners: exact for lines and smooth steps, of eighth order in the step for formulas.
 
-use crate::model::{Drive, Model};
+pub mod expression;
+pub mod sine;
+pub mod table;
+
+use crate::model::{self, CurveShape, Drive, Model};
+use expression::Expression;
+use sine::Sine;
+use table::Table;
+
+/// Points and weights of Gauss' rule on −1..1.
+const GAUSS: [(f64, f64); 4] = [
+    (-0.861_136_311_594_052_6, 0.347_854_845_137_453_85),
+    (-0.339_981_043_584_856_26, 0.652_145_154_862_546_1),
+    (0.339_981_043_584_856_26, 0.652_145_154_862_546_1),
+    (0.861_136_311_594_052_6, 0.347_854_845_137_453_85),
+];
 
 /// A function of time.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Curve {
-    /// Strictly ascending, s.
-    times: Vec<f64>,
-    values: Vec<f64>,
+#[derive(Clone, Debug, PartialEq)]
+pub enum Curve {
+    /// Through points.
+    Table(Table),
+    /// A wave.
+    Sine(Sine),
+    /// A formula.
+    Expression(Expression),
 }
 
 impl Curve {
-    /// Through these points; as many times, strictly ascending, as values. Without points it is zero.
+    /// Of a model that has been checked; a formula that can't be read counts as zero.
     #[must_use]
-    pub fn new(times: Vec<f64>, values: Vec<f64>) -> Self {
-        Self { times, values }
+    pub fn new(curve: &model::Curve) -> Self {
+        match &curve.shape {
+            CurveShape::Table { times, values, smooth } => {
+                Self::Table(Table { times: times.clone(), values: values.clone(), smooth: *smooth })
+            }
+            CurveShape::Sine(sine) => Self::Sine(*sine),
+            CurveShape::Expression(text) => Expression::parse(text).map_or_else(|_| Self::Table(Table::default()), Self::Expression),
+        }
     }
 
-    /// Value at `time`.
+    /// Value at `time`, s.
     #[must_use]
     pub fn value(&self, time: f64) -> f64 {
-        let next = self.times.partition_point(|&t| t <= time);
-        let at = |k: usize| self.values.get(k).copied().unwrap_or(0.0);
-        if next == 0 || next >= self.times.len() {
-            return at(next.saturating_sub(1));
+        match self {
+            Self::Table(table) => table.value(time),
+            Self::Sine(sine) => sine.value(time),
+            Self::Expression(expression) => expression.value(time),
         }
-        let (t0, t1) = (self.times[next - 1], self.times[next]);
-        let s = (time - t0) / (t1 - t0);
-        at(next - 1) + s * (at(next) - at(next - 1))
     }
 
     /// Mean value between two times; the value itself where they are one.
     #[must_use]
     pub fn mean(&self, from: f64, to: f64) -> f64 {
-        let (first, last) = (self.times.partition_point(|&t| t <= from), self.times.partition_point(|&t| t < to));
-        if first >= last {
-            return self.value(0.5 * (from + to));
+        match self {
+            Self::Table(table) if !table.smooth => table.mean(from, to),
+            Self::Sine(sine) => sine.mean(from, to),
+            _ if from == to => self.value(from),
+            _ => self.gauss(from, to, |_| 1.0) / (to - from),
         }
+    }
+
+    /// ∫ (to − t) y(t) dt / (to − from): what an acceleration adds to the mean velocity.
+    #[must_use]
+    pub fn moment(&self, from: f64, to: f64) -> f64 {
+        if from == to { 0.0 } else { self.gauss(from, to, |time| to - time) / (to - from) }
+    }
+
+    /// ∫ y(t) weight(t) dt.
+    fn gauss(&self, from: f64, to: f64, weight: impl Fn(f64) -> f64) -> f64 {
+        let times = if let Self::Table(table) = self { &table.times[..] } else { &[] };
+        let (first, last) = (times.partition_point(|&t| t <= from), times.partition_point(|&t| t < to));
         let (mut sum, mut begin) = (0.0, from);
-        for &end in self.times[first..last].iter().chain([&to]) {
-            sum += (end - begin) * self.value(0.5 * (begin + end));
+        for &end in times[first..last.max(first)].iter().chain([&to]) {
+            let (middle, half) = (0.5 * (begin + end), 0.5 * (end - begin));
+            for (at, share) in GAUSS {
+                let time = middle + half * at;
+                sum += half * share * weight(time) * self.value(time);
+            }
             begin = end;
         }
-        sum / (to - from)
+        sum
     }
 }
 
@@ -54,40 +94,108 @@ impl Curve {
 pub struct Curves {
     list: Vec<Curve>,
     names: Vec<String>,
+    /// ∫ y dt of each curve from time zero to now: the velocity of what it accelerates.
+    integrals: Vec<f64>,
+    /// A time that is short in the run, s: over it slopes at time zero are taken.
+    short: f64,
 }
 
-/// A velocity that is prescribed: a constant and multiples of curves, m/s or rad/s.
+/// What a curve or a number prescribes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Meaning {
+    /// A velocity, m/s or rad/s.
+    Velocity,
+    /// A displacement from the initial position, m: the velocity over a step is its difference over the step.
+    Displacement,
+    /// An acceleration, m/s²: the velocity is the initial one plus its integral.
+    Acceleration,
+}
+
+/// A velocity that is prescribed: a constant, what grows with time, and multiples of what curves mean; m/s or rad/s.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Speed {
     constant: f64,
-    /// Factor and curve.
-    terms: Vec<(f64, usize)>,
+    /// Constant acceleration, m/s².
+    growth: f64,
+    /// Shares of the components of the node's initial velocity.
+    initial: [f64; 2],
+    terms: Vec<Term>,
+}
+
+/// A multiple of what a curve means.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Term {
+    factor: f64,
+    curve: usize,
+    meaning: Meaning,
 }
 
 impl Curves {
     /// Of a model that has been checked.
     #[must_use]
     pub fn new(model: &Model) -> Self {
-        let list = model.curves.values().map(|curve| Curve::new(curve.times.clone(), curve.values.clone())).collect();
-        Self { list, names: model.curves.keys().cloned().collect() }
+        let list: Vec<Curve> = model.curves.values().map(Curve::new).collect();
+        let integrals = vec![0.0; list.len()];
+        Self { list, names: model.curves.keys().cloned().collect(), integrals, short: 1e-6 * model.run.end }
+    }
+
+    /// Number of the curve called so.
+    #[must_use]
+    pub fn find(&self, name: &str) -> Option<usize> {
+        self.names.iter().position(|it| it == name)
+    }
+
+    /// A curve by its number.
+    #[must_use]
+    pub fn curve(&self, number: usize) -> &Curve {
+        &self.list[number]
     }
 
     /// The velocity that a drive means; `None` where there is no such curve.
     #[must_use]
     pub fn speed(&self, drive: &Drive) -> Option<Speed> {
-        match drive {
-            Drive::Constant(velocity) => Some(Speed::constant(*velocity)),
-            Drive::Curve(name) => {
-                let curve = self.names.iter().position(|it| it == name)?;
-                Some(Speed { constant: 0.0, terms: vec![(1.0, curve)] })
+        self.meant(drive, Meaning::Velocity)
+    }
+
+    /// The velocity that a drive of this meaning prescribes; `None` where there is no such curve.
+    #[must_use]
+    pub fn meant(&self, drive: &Drive, meaning: Meaning) -> Option<Speed> {
+        match (drive, meaning) {
+            (Drive::Constant(velocity), Meaning::Velocity) => Some(Speed::constant(*velocity)),
+            // The check refuses it unless it is zero.
+            (Drive::Constant(_), Meaning::Displacement) => Some(Speed::constant(0.0)),
+            (Drive::Constant(growth), Meaning::Acceleration) => Some(Speed { growth: *growth, ..Speed::default() }),
+            (Drive::Curve(name), _) => {
+                let curve = self.find(name)?;
+                Some(Speed { terms: vec![Term { factor: 1.0, curve, meaning }], ..Speed::default() })
             }
         }
     }
 
-    /// Mean of `speed` between two times, s.
+    /// Mean of `speed` between two times, s; `from` is now.
     #[must_use]
     pub fn mean(&self, speed: &Speed, from: f64, to: f64) -> f64 {
-        speed.terms.iter().fold(speed.constant, |sum, &(factor, curve)| sum + factor * self.list[curve].mean(from, to))
+        let grown = if speed.growth == 0.0 { speed.constant } else { speed.constant + speed.growth * 0.5 * (from + to) };
+        speed.terms.iter().fold(grown, |sum, term| sum + term.factor * self.mean_of(term, from, to))
+    }
+
+    fn mean_of(&self, term: &Term, from: f64, to: f64) -> f64 {
+        let curve = &self.list[term.curve];
+        match term.meaning {
+            Meaning::Velocity => curve.mean(from, to),
+            Meaning::Displacement => {
+                let to = if to > from { to } else { from + self.short };
+                (curve.value(to) - curve.value(from)) / (to - from)
+            }
+            Meaning::Acceleration => self.integrals[term.curve] + curve.moment(from, to),
+        }
+    }
+
+    /// Notes that the time goes on.
+    pub fn pass(&mut self, from: f64, to: f64) {
+        for (integral, curve) in self.integrals.iter_mut().zip(&self.list) {
+            *integral += (to - from) * curve.mean(from, to);
+        }
     }
 }
 
@@ -95,23 +203,41 @@ impl Speed {
     /// The same at all times.
     #[must_use]
     pub fn constant(velocity: f64) -> Self {
-        Self { constant: velocity, terms: Vec::new() }
+        Self { constant: velocity, ..Self::default() }
     }
 
     /// Whether it is the same at all times, and which.
     #[must_use]
     pub fn as_constant(&self) -> Option<f64> {
-        self.terms.is_empty().then_some(self.constant)
+        (self.terms.is_empty() && self.growth == 0.0 && self.initial == [0.0; 2]).then_some(self.constant)
+    }
+
+    /// This velocity plus `share` of a node's initial velocity.
+    #[must_use]
+    pub fn from_initial(mut self, share: [f64; 2]) -> Self {
+        self.initial = [self.initial[0] + share[0], self.initial[1] + share[1]];
+        self
+    }
+
+    /// Takes the node's initial velocity, m/s.
+    pub fn begin(&mut self, velocity: [f64; 2]) {
+        self.constant += self.initial[0] * velocity[0] + self.initial[1] * velocity[1];
+        self.initial = [0.0; 2];
     }
 
     /// This velocity plus `factor` times another.
     #[must_use]
     pub fn plus(&self, factor: f64, other: &Self) -> Self {
-        let mut sum = Self { constant: self.constant + factor * other.constant, terms: self.terms.clone() };
-        for &(share, curve) in &other.terms {
-            match sum.terms.iter_mut().find(|(_, it)| *it == curve) {
-                Some((own, _)) => *own += factor * share,
-                None => sum.terms.push((factor * share, curve)),
+        let mut sum = Self {
+            constant: self.constant + factor * other.constant,
+            growth: self.growth + factor * other.growth,
+            initial: [0, 1].map(|d| self.initial[d] + factor * other.initial[d]),
+            terms: self.terms.clone(),
+        };
+        for term in &other.terms {
+            match sum.terms.iter_mut().find(|own| (own.curve, own.meaning) == (term.curve, term.meaning)) {
+                Some(own) => own.factor += factor * term.factor,
+                None => sum.terms.push(Term { factor: factor * term.factor, ..*term }),
             }
         }
         sum
@@ -120,13 +246,26 @@ impl Speed {
     /// This velocity `factor` times.
     #[must_use]
     pub fn times(&self, factor: f64) -> Self {
-        Self { constant: factor * self.constant, terms: self.terms.iter().map(|&(share, curve)| (factor * share, curve)).collect() }
+        Self {
+            constant: factor * self.constant,
+            growth: factor * self.growth,
+            initial: self.initial.map(|share| factor * share),
+            terms: self.terms.iter().map(|term| Term { factor: factor * term.factor, ..*term }).collect(),
+        }
     }
 
-    /// Whether it is nothing but round-off beside velocities of the size of `scale` (m/s) and whole curves.
+    /// Size of its constant parts, m/s and m/s².
+    #[must_use]
+    pub fn size(&self) -> f64 {
+        self.constant.abs().max(self.growth.abs())
+    }
+
+    /// Whether it is nothing but round-off beside constants of the size of `scale` and whole curves.
     #[must_use]
     pub fn is_round_off(&self, scale: f64) -> bool {
-        self.constant.abs() <= 1e-9 * scale && self.terms.iter().all(|(share, _)| share.abs() <= 1e-9)
+        self.size() <= 1e-9 * scale
+            && self.initial.iter().all(|share| share.abs() <= 1e-9)
+            && self.terms.iter().all(|term| term.factor.abs() <= 1e-9)
     }
 }
 
@@ -134,26 +273,96 @@ impl Speed {
 mod tests {
     use super::*;
 
+    fn table(times: &[f64], values: &[f64], smooth: bool) -> Curve {
+        Curve::Table(Table { times: times.into(), values: values.into(), smooth })
+    }
+
+    /// A table, smooth steps, a wave and a formula.
+    fn all() -> [Curve; 4] {
+        [
+            table(&[1.0, 2.0, 4.0], &[3.0, 5.0, -1.0], false),
+            table(&[1.0, 2.0, 4.0], &[3.0, 5.0, -1.0], true),
+            Curve::Sine(Sine { amplitude: 2.0, frequency: 0.7, phase: 0.3, offset: 1.0 }),
+            Curve::Expression(Expression::parse("1 + 2*sin(0.7*2*pi*t + 0.3)").unwrap()),
+        ]
+    }
+
     #[test]
     fn a_curve_is_linear_between_its_points_and_constant_beyond() {
-        let curve = Curve::new(vec![1.0, 2.0, 4.0], vec![3.0, 5.0, -1.0]);
+        let curve = table(&[1.0, 2.0, 4.0], &[3.0, 5.0, -1.0], false);
         for (time, value) in [(-7.0, 3.0), (1.0, 3.0), (1.5, 4.0), (2.0, 5.0), (3.0, 2.0), (4.0, -1.0), (9.0, -1.0)] {
             assert_eq!(curve.value(time), value, "at {time}");
         }
-        assert_eq!(Curve::new(vec![2.0], vec![7.0]).value(1.0), 7.0);
+        assert_eq!(table(&[2.0], &[7.0], false).value(1.0), 7.0);
+    }
+
+    #[test]
+    fn a_smooth_step_begins_and_ends_without_velocity_and_acceleration() {
+        let curve = table(&[1.0, 3.0], &[2.0, 6.0], true);
+        assert_eq!([0.0, 1.0, 2.0, 3.0, 9.0].map(|time| curve.value(time)), [2.0, 2.0, 4.0, 6.0, 6.0]);
+        let h = 1e-3;
+        for (end, side) in [(1.0, 1.0), (3.0, -1.0)] {
+            let rise = |k: f64| curve.value(end + side * k * h) - curve.value(end);
+            // y ~ 10 s³ of the height: both differences vanish with the cube of the distance.
+            assert!(rise(1.0).abs() < 1e-8 && (rise(2.0) - 2.0 * rise(1.0)).abs() < 1e-7);
+        }
     }
 
     #[test]
     fn means_over_steps_add_up_to_the_integral() {
-        let curve = Curve::new(vec![1.0, 2.0, 4.0], vec![3.0, 5.0, -1.0]);
-        // 3 until 1, 4 until 2, 2 on average until 4, then −1.
-        assert!((5.0 * curve.mean(0.0, 5.0) - (3.0 + 4.0 + 4.0 - 1.0)).abs() < 1e-14);
-        for steps in [1, 3, 7, 100] {
-            let dt = 5.0 / f64::from(steps);
-            let sum: f64 = (0..steps).map(|k| dt * curve.mean(dt * f64::from(k), dt * f64::from(k + 1))).sum();
-            assert!((sum - 10.0).abs() < 1e-13, "{steps}: {sum}");
+        let wave = |t: f64| t - 2.0 / (0.7 * std::f64::consts::TAU) * (0.7 * std::f64::consts::TAU * t + 0.3).cos();
+        // 3 until 1, 4 until 2, 2 on average until 4 (smooth steps have the means of lines), then −1.
+        for (curve, integral) in all().into_iter().zip([10.0, 10.0, wave(5.0) - wave(0.0), wave(5.0) - wave(0.0)]) {
+            for steps in [1, 3, 7, 100] {
+                if matches!(curve, Curve::Expression(_)) && steps < 100 {
+                    continue; // a formula needs steps that resolve it
+                }
+                let dt = 5.0 / f64::from(steps);
+                let sum: f64 = (0..steps).map(|k| dt * curve.mean(dt * f64::from(k), dt * f64::from(k + 1))).sum();
+                assert!((sum - integral).abs() < 1e-12, "{curve:?} in {steps}: {sum} {integral}");
+            }
+            assert_eq!(curve.mean(3.0, 3.0), curve.value(3.0));
         }
-        assert_eq!(curve.mean(2.0, 2.0), 5.0);
-        assert_eq!(curve.mean(3.0, 3.0), 2.0);
+        assert_eq!(all()[0].mean(2.0, 2.0), 5.0);
+    }
+
+    #[test]
+    fn a_step_as_long_as_all_time_still_has_its_exact_mean() {
+        let sine = all()[2].clone();
+        assert!((sine.mean(0.0, 10.0 / 0.7) - 1.0).abs() < 1e-14, "ten whole waves");
+        assert!((sine.mean(0.1, 0.1 + 1e-10) - sine.value(0.1)).abs() < 1e-9);
+    }
+
+    #[test]
+    fn displacements_and_accelerations_lead_to_where_their_curves_say() {
+        let curves = |list: Vec<Curve>| Curves { integrals: vec![0.0; list.len()], names: vec!["c".into(); list.len()], list, short: 1e-6 };
+        let walk = |curve: &Curve, meaning: Meaning, steps: u32| {
+            let mut curves = curves(vec![curve.clone()]);
+            let speed = Speed { terms: vec![Term { factor: 1.0, curve: 0, meaning }], ..Speed::default() };
+            let (mut x, dt) = (0.0, 5.0 / f64::from(steps));
+            for k in 0..steps {
+                let (from, to) = (dt * f64::from(k), dt * f64::from(k + 1));
+                x += dt * curves.mean(&speed, from, to);
+                curves.pass(from, to);
+            }
+            x
+        };
+        for curve in all() {
+            let moved = walk(&curve, Meaning::Displacement, 37);
+            assert!((moved - (curve.value(5.0) - curve.value(0.0))).abs() < 1e-13, "{curve:?}");
+        }
+        // ∫∫ of the points: 3 until 1, then 3 + 2 s until 2, then 5 − 3 s until 4, then −1.
+        let (v1, x1) = (3.0, 1.5);
+        let (v2, x2) = (v1 + 4.0, x1 + v1 + 1.5 + 1.0 / 3.0);
+        let (v4, x4) = (v2 + 4.0, x2 + 2.0 * v2 + 10.0 - 4.0);
+        let exact = x4 + v4 - 0.5;
+        for steps in [1, 8, 37] {
+            let found = walk(&all()[0], Meaning::Acceleration, steps);
+            assert!((found - exact).abs() < 1e-12, "{steps}: {found} {exact}");
+        }
+        let sine = |steps| walk(&all()[2], Meaning::Acceleration, steps);
+        assert!((sine(100) - sine(800)).abs() < 1e-10, "{} {}", sine(100), sine(800));
+        let constant = Speed { growth: 3.0, constant: 1.0, ..Speed::default() };
+        assert_eq!(curves(vec![]).mean(&constant, 2.0, 4.0), 10.0);
     }
 }

@@ -15,8 +15,6 @@ pub struct Damping {
     loads: Vec<Acting>,
     /// Rate of each node now, 1/s; empty while nothing acts.
     rates: Vec<f64>,
-    /// m (1 + a) of each node, kg/m; as long as `rates`.
-    mass: Vec<f64>,
     /// Rate on the parts and obstacles that no load leaves out, 1/s.
     everywhere: f64,
     time_step: f64,
@@ -59,8 +57,8 @@ impl Damping {
         self.loads.is_empty()
     }
 
-    /// What acts at `time` (s) in an update over `time_step` = ½ (dt^{n−1} + dt^n), s, on nodes with these masses. Tells whether rates have changed.
-    pub fn prepare(&mut self, time: f64, time_step: f64, mass: &[f64]) -> bool {
+    /// What acts at `time` (s) in an update over `time_step` = ½ (dt^{n−1} + dt^n), s, on so many nodes. Tells whether rates have changed.
+    pub fn prepare(&mut self, time: f64, time_step: f64, nodes: usize) -> bool {
         let mut changed = false;
         for load in &mut self.loads {
             let now = (load.active[0]..load.active[1]).contains(&time);
@@ -70,17 +68,13 @@ impl Damping {
             self.everywhere = self.loads.iter().filter(|load| load.now && load.everywhere).map(|load| load.rate).sum();
             self.rates.clear();
             if self.loads.iter().any(|load| load.now) {
-                self.rates.resize(mass.len(), 0.0);
+                self.rates.resize(nodes, 0.0);
             }
             for load in self.loads.iter().filter(|load| load.now) {
                 self.rates.iter_mut().zip(&load.shares).for_each(|(rate, share)| *rate += load.rate * share);
             }
         }
-        if changed || time_step != self.time_step {
-            self.time_step = time_step;
-            self.mass.clear();
-            self.mass.extend(self.rates.iter().zip(mass).map(|(rate, m)| m * (1.0 + 0.5 * rate * time_step)));
-        }
+        self.time_step = time_step;
         changed
     }
 
@@ -101,11 +95,5 @@ impl Damping {
     #[must_use]
     pub fn rate_everywhere(&self) -> f64 {
         self.everywhere
-    }
-
-    /// Masses m (1 + a) with which nodes respond to contact forces, kg/m; `None` while nothing acts.
-    #[must_use]
-    pub fn mass(&self) -> Option<&[f64]> {
-        (!self.mass.is_empty()).then_some(&self.mass[..])
     }
 }

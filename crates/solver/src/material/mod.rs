@@ -5,9 +5,14 @@
 //! Blocks see laws erased, as [`points::PointLaw`]: the kernel of a law is compiled once, not once per element.
 
 mod arruda_boyce;
+mod chaboche;
+mod crushable_foam;
+mod drucker_prager;
 mod elastic;
+pub mod hardening;
 mod j2;
 mod mooney_rivlin;
+mod johnson_cook;
 mod neo_hookean;
 mod ogden;
 mod orthotropic_elastic;
@@ -16,12 +21,17 @@ mod plane_stress;
 pub mod points;
 mod rubber;
 mod state;
+mod trial;
 mod viscoelastic;
 mod yeoh;
 
 pub use arruda_boyce::ArrudaBoyce;
+pub use chaboche::Chaboche;
+pub use crushable_foam::CrushableFoam;
+pub use drucker_prager::DruckerPrager;
 pub use elastic::Elastic;
-pub use j2::J2;
+pub use j2::{J2, J2Ludwik, J2Swift, J2Table, J2Voce, J2With};
+pub use johnson_cook::JohnsonCook;
 pub use mooney_rivlin::MooneyRivlin;
 pub use neo_hookean::NeoHookean;
 pub use ogden::Ogden;
@@ -155,7 +165,25 @@ macro_rules! laws {
     };
 }
 
-laws!(Elastic, J2, NeoHookean, MooneyRivlin, Yeoh, ArrudaBoyce, Ogden, Viscoelastic, OrthotropicElastic);
+laws!(
+    Elastic,
+    J2,
+    J2Voce,
+    J2Swift,
+    J2Ludwik,
+    J2Table,
+    Chaboche,
+    JohnsonCook,
+    DruckerPrager,
+    CrushableFoam,
+    Viscoelastic,
+    OrthotropicElastic,
+    NeoHookean,
+    MooneyRivlin,
+    Yeoh,
+    ArrudaBoyce,
+    Ogden,
+);
 
 /// What the law called `name` finds wrong with parameters whose ranges are right.
 #[must_use]

@@ -3,12 +3,14 @@
 //! [`Mesh::new`] puts the bodies of a model side by side with one node numbering; names (`part`, `part.side`, groups of a mesh file) are
 //! resolved to nodes and surfaces here and nowhere else.
 
+pub mod placement;
 pub mod shapes;
 pub mod surface;
 mod order;
 
 use crate::error::Fault;
-use crate::model::{ImportedMesh, Model, Shape};
+use crate::model::{ImportedMesh, Model, Part, Shape};
+use shapes::Wrong;
 use std::collections::BTreeMap;
 use surface::Surface;
 
@@ -90,7 +92,7 @@ impl Mesh<2> {
                     Some(source) => mesh.add_group(source, group, &part.name, &mut imported[*file], &mut faults),
                     None => faults.push(Fault::new(format!("part[{index}]"), "its mesh was not read", "")),
                 },
-                shape => mesh.add_shape(shape, &part.name),
+                shape => mesh.add_shape(shape, part, &mut faults),
             }
             mesh.check_elements(index, &mut faults);
         }
@@ -104,14 +106,24 @@ impl Mesh<2> {
         Ok(mesh)
     }
 
-    fn add_shape(&mut self, shape: &Shape, name: &str) {
-        let Some(body) = shapes::body(shape) else { return };
+    fn add_shape(&mut self, shape: &Shape, part: &Part, faults: &mut Vec<Fault>) {
+        let Some((shape, key)) = shape.built_in() else { return };
+        let body = match shape.body() {
+            Ok(body) => part.placement.applied(body),
+            Err(Wrong { key: at, message, help }) => {
+                let dot = if at.is_empty() { "" } else { "." };
+                faults.push(Fault::new(format!("part[{}].{key}{dot}{at}", self.parts.len()), message, help));
+                self.parts.push(PartMesh { name: part.name.clone(), ..PartMesh::default() });
+                return;
+            }
+        };
         let first = self.positions.len() as u32;
         self.positions.extend(&body.positions);
-        self.add_elements(body.quads.iter().map(|quad| quad.map(|node| node + first)));
-        self.parts.push(PartMesh { name: name.to_string(), nodes: (first..first + body.positions.len() as u32).collect() });
+        self.add_elements(body.cells().map(|cell| cell.iter().map(|node| node + first).collect::<Vec<u32>>()));
+        self.parts.push(PartMesh { name: part.name.clone(), nodes: (first..first + body.positions.len() as u32).collect() });
         for (side, segments) in body.sides {
-            self.lines.insert(format!("{name}.{side}"), segments.iter().map(|segment| segment.map(|node| node + first)).collect());
+            let segments = segments.iter().map(|segment| segment.map(|node| node + first)).collect();
+            self.lines.insert(format!("{}.{side}", part.name), segments);
         }
     }
 

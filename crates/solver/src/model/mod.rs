@@ -4,10 +4,17 @@
 
 pub mod check;
 pub mod describe;
+mod load;
 pub mod reference;
+
+pub use load::{Constraint, Image, Join, Load, NonReflecting, Rotation, Symmetry};
 
 use crate::block::stress_state::STRESS_STATES;
 use crate::element::{ELEMENTS, ElementKind};
+use crate::load::curve::sine::Sine;
+pub use crate::mesh::placement::{Copies, Mirror, Placement};
+use crate::mesh::shapes::Count;
+pub use crate::mesh::shapes::{Disk, Edge, Path, Polygon, Quadrilateral, Rectangle, Ring, Shape, Trapezoid};
 use crate::quantity::Dimension;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -39,6 +46,10 @@ pub struct Model {
     pub constraints: Vec<Constraint>,
     /// `[[load]]`.
     pub loads: Vec<Load>,
+    /// `[[non_reflecting]]`.
+    pub non_reflecting: Vec<NonReflecting>,
+    /// `[[join]]`.
+    pub joins: Vec<Join>,
     /// `[[probe]]`.
     pub probes: Vec<Probe>,
     /// `[output]`.
@@ -56,6 +67,8 @@ pub struct Run {
     pub energy_limit: f64,
     /// Time step (s) below which the run stops; `None`: a thousandth of the first stable step.
     pub step_limit: Option<f64>,
+    /// Largest time step (s), and that of a model of rigid parts alone; `None`: what the elements need, also those of rigid parts if there are no others.
+    pub time_step: Option<f64>,
     /// Largest number of steps; `None`: no limit.
     pub max_steps: Option<u64>,
     /// Linear and quadratic coefficient of the bulk viscosity; both zero: none.
@@ -72,7 +85,7 @@ impl Model {
 
 impl Default for Run {
     fn default() -> Self {
-        Self { end: 0.0, safety: 0.9, energy_limit: 0.05, step_limit: None, max_steps: None, bulk_viscosity: [0.0; 2] }
+        Self { end: 0.0, safety: 0.9, energy_limit: 0.05, step_limit: None, time_step: None, max_steps: None, bulk_viscosity: [0.0; 2] }
     }
 }
 
@@ -104,6 +117,8 @@ pub struct Part {
     pub stress_state: String,
     /// Where its elements come from.
     pub shape: Shape,
+    /// Where the body of a built-in shape goes.
+    pub placement: Placement,
     /// Initial velocity of the centre of mass, m/s.
     pub velocity: [f64; 2],
     /// Initial spin about the centre of mass, rad/s, counter-clockwise.
@@ -123,6 +138,7 @@ impl Default for Part {
             hourglass: None,
             stress_state: String::new(),
             shape: Shape::Group { mesh: usize::MAX, group: String::new() },
+            placement: Placement::default(),
             velocity: [0.0; 2],
             spin: 0.0,
             rigid: None,
@@ -135,6 +151,12 @@ impl Part {
     #[must_use]
     pub fn is_axisymmetric(&self) -> bool {
         STRESS_STATES.iter().any(|kind| kind.name == self.stress_state && kind.axisymmetric)
+    }
+
+    /// How large its mesh will be, where it has a built-in shape.
+    #[must_use]
+    pub fn count(&self) -> Option<Count> {
+        Some(self.shape.count()?.times(self.placement.copies.map_or(1, |copies| copies.count)))
     }
 
     /// The element that has so many nodes; `None` when the part names none.
@@ -176,61 +198,45 @@ impl From<f64> for Drive {
     }
 }
 
-/// `[curve.NAME]`: a function of time, linear between its points, constant before the first and after the last.
+/// `[curve.NAME]`: a function of time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Curve {
-    /// Times, s, strictly ascending.
-    pub times: Vec<f64>,
-    /// Values, SI.
-    pub values: Vec<f64>,
+    /// What it looks like.
+    pub shape: CurveShape,
     /// Dimension of the values as they were written; `None`: bare numbers, SI of whatever uses them.
     pub dimension: Option<Dimension>,
 }
 
-/// Where the elements of a part come from. Angles in radians, lengths in metres.
+impl Curve {
+    /// Straight lines between points, of bare numbers.
+    #[must_use]
+    pub fn table(times: Vec<f64>, values: Vec<f64>) -> Self {
+        Self { shape: CurveShape::Table { times, values, smooth: false }, dimension: None }
+    }
+}
+
+/// The shape of a curve.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Shape {
-    /// Axis-parallel rectangle; sides `left`, `right`, `bottom`, `top`.
-    Rectangle {
-        /// Lower left corner.
-        corner: [f64; 2],
-        /// Width and height.
-        size: [f64; 2],
-        /// Elements along x and y.
-        elements: [usize; 2],
+pub enum CurveShape {
+    /// Through points; constant before the first and after the last.
+    Table {
+        /// Times, s, strictly ascending.
+        times: Vec<f64>,
+        /// Values, SI.
+        values: Vec<f64>,
+        /// Whether smooth steps lead from point to point; else straight lines.
+        smooth: bool,
     },
-    /// Ring or sector, counter-clockwise from angle `from` to angle `to` (full circle when they differ by 2π);
-    /// sides `inner`, `outer` and, for a sector, `start`, `end`.
-    Ring {
-        /// Centre.
-        centre: [f64; 2],
-        /// Inner radius.
-        inner: f64,
-        /// Outer radius.
-        outer: f64,
-        /// First angle, from +x counter-clockwise.
-        from: f64,
-        /// Last angle, greater than `from` by at most 2π.
-        to: f64,
-        /// Elements through the wall and around.
-        elements: [usize; 2],
-    },
-    /// Full disk without needle elements: a square core and a ring of quadrilaterals around it; side `outer`.
-    Disk {
-        /// Centre.
-        centre: [f64; 2],
-        /// Radius.
-        radius: f64,
-        /// Elements around a quarter of the circumference.
-        elements: usize,
-    },
-    /// A group of an imported mesh.
-    Group {
-        /// Index into [`Model::meshes`].
-        mesh: usize,
-        /// Name of a two-dimensional group.
-        group: String,
-    },
+    /// A wave.
+    Sine(Sine),
+    /// A formula of the time `t`: see [`crate::load::curve::expression`].
+    Expression(String),
+}
+
+impl Default for CurveShape {
+    fn default() -> Self {
+        Self::Table { times: Vec::new(), values: Vec::new(), smooth: false }
+    }
 }
 
 /// A mesh that came from a file: plane nodes and named groups of cells. Parts that use the same mesh share its nodes.
@@ -529,47 +535,6 @@ impl Obstacle {
             interface: Interface::default(),
         }
     }
-}
-
-/// `[[symmetry]]`: nodes that lie on a line at the start stay on it.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Symmetry {
-    /// Parts; empty: all.
-    pub parts: Vec<String>,
-    /// A point of the line, m.
-    pub point: [f64; 2],
-    /// Normal of the line; any length.
-    pub normal: [f64; 2],
-}
-
-/// `[[constraint]]`: prescribed velocity of a set of nodes, by component; zero is fixed.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Constraint {
-    /// A part, `part.side`, or a group of a mesh file.
-    pub on: String,
-    /// Prescribed velocity per component, m/s; `None`: free.
-    pub velocity: [Option<Drive>; 2],
-}
-
-/// `[[load]]`.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Load {
-    /// Uniform acceleration of the mass of some parts.
-    Gravity {
-        /// Parts; empty: all.
-        parts: Vec<String>,
-        /// Acceleration, m/s².
-        acceleration: [f64; 2],
-    },
-    /// Force −rate · m · v on the mass of some parts: what is quasi-static comes to rest.
-    Damping {
-        /// Parts; empty: all.
-        parts: Vec<String>,
-        /// Rate, 1/s.
-        rate: f64,
-        /// Times between which it acts, s.
-        active: [f64; 2],
-    },
 }
 
 /// `[[probe]]`: what is recorded in the history.

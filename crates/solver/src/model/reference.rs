@@ -3,8 +3,8 @@
 //! Names come from contacts, constraints and probes; the answer goes to [`Model::check`] and to the mesh builder, so that both understand
 //! a name in the same way.
 
+use super::Model;
 use super::describe::nearest;
-use super::{Model, Shape};
 
 /// What a name stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,8 +15,8 @@ pub enum Reference {
     Side {
         /// Index of the part.
         part: usize,
-        /// Name of the side.
-        side: &'static str,
+        /// Its place among the shape's sides.
+        side: usize,
     },
     /// A group of an imported mesh.
     Group {
@@ -35,20 +35,6 @@ pub(crate) fn is_full_turn(from: f64, to: f64) -> bool {
     (to - from - std::f64::consts::TAU).abs() <= FULL_TURN_TOLERANCE
 }
 
-impl Shape {
-    /// Names of the sides that `part.side` can mean.
-    #[must_use]
-    pub fn sides(&self) -> &'static [&'static str] {
-        match self {
-            Self::Rectangle { .. } => &["left", "right", "bottom", "top"],
-            Self::Ring { from, to, .. } if is_full_turn(*from, *to) => &["inner", "outer"],
-            Self::Ring { .. } => &["inner", "outer", "start", "end"],
-            Self::Disk { .. } => &["outer"],
-            Self::Group { .. } => &[],
-        }
-    }
-}
-
 impl Model {
     /// What `name` stands for: first a part, then a group of a mesh file, then `part.side`. With `dimension` only groups of that dimension count.
     ///
@@ -65,12 +51,13 @@ impl Model {
             && let Some(part) = self.parts.iter().position(|part| part.name == part_name)
         {
             let sides = self.parts[part].shape.sides();
-            if let Some(side) = sides.iter().copied().find(|side| *side == side_name) {
+            if let Some(side) = sides.iter().position(|side| side == side_name) {
                 return Ok(Reference::Side { part, side });
             }
-            let help = match sides {
+            let sides: Vec<&str> = sides.iter().map(String::as_str).collect();
+            let help = match &sides[..] {
                 [] => "a part of a mesh file has no named sides: name a line group of the file".to_string(),
-                _ => super::describe::suggestion(side_name, sides),
+                sides => super::describe::suggestion(side_name, sides),
             };
             return Err((format!("part `{part_name}` has no side `{}`", excerpt(side_name)), help));
         }
@@ -113,7 +100,7 @@ impl Model {
         }
         let plain: Vec<&str> = known.iter().map(String::as_str).filter(|name| !name.is_empty()).collect();
         let sides: Vec<String> =
-            self.parts.iter().flat_map(|part| part.shape.sides().iter().map(move |side| format!("{}.{side}", part.name))).collect();
+            self.parts.iter().flat_map(|part| part.shape.sides().into_iter().map(move |side| format!("{}.{side}", part.name))).collect();
         if let Some(near) = nearest(name, plain.iter().copied().chain(sides.iter().map(String::as_str))) {
             return format!("did you mean `{near}`?");
         }

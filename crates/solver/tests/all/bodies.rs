@@ -3,7 +3,8 @@
 
 use embate_solver::error::{Error, Fault};
 use embate_solver::model::{
-    Contact, Drive, Friction, ImportedMesh, Interface, Load, Material, MeshGroup, Model, Motion, Part, Probe, ProbeAt, Run, Shape,
+    Contact, Drive, Friction, ImportedMesh, Interface, Load, Material, MeshGroup, Model, Motion, Part, Probe, ProbeAt, Rectangle, Run,
+    Shape,
 };
 use embate_solver::output::Frame;
 use embate_solver::simulation::{Control, Observer, ObserverError, Options, Progress, Simulation};
@@ -47,7 +48,7 @@ pub(crate) fn model(end: f64) -> Model {
 }
 
 pub(crate) fn rectangle(corner: [f64; 2], size: [f64; 2], elements: [usize; 2]) -> Shape {
-    Shape::Rectangle { corner, size, elements }
+    Shape::Rectangle(Rectangle { corner, size, elements, ..Rectangle::default() })
 }
 
 /// A small block.
@@ -115,7 +116,7 @@ pub(crate) fn rough(coefficient: f64) -> Interface {
 }
 
 pub(crate) fn gravity(model: &mut Model, acceleration: [f64; 2]) {
-    model.loads.push(Load::Gravity { parts: vec![], acceleration });
+    model.loads.push(Load::Gravity { parts: vec![], acceleration, curve: None });
 }
 
 /// Makes a part rigid; it may move as `motion` says.

@@ -8,7 +8,7 @@ use embate_solver::contact::projection::node_segment::{Target, Vector};
 use embate_solver::contact::search::registry;
 use embate_solver::contact::tracker::Tracker;
 use embate_solver::mesh::surface::Surface;
-use embate_solver::model::{Contact, Partners, Shape};
+use embate_solver::model::{Contact, Disk, Partners, Shape};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
@@ -125,7 +125,7 @@ fn runs_certify_themselves() {
         add(&mut model, &name, rectangle([-0.1, -0.004 * f64::from(plate)], [0.2, 0.002], [40, 1]), [0.0, 0.0]);
         model.parts[plate as usize].material = "heavy".into();
     }
-    add(&mut model, "block", Shape::Disk { centre: [0.01, 0.05], radius: 0.03, elements: 4 }, [5.0, -60.0]);
+    add(&mut model, "block", Shape::Disk(Disk { centre: [0.01, 0.05], radius: 0.03, elements: 4 }), [5.0, -60.0]);
     model.contacts.push(Contact { name: "all".into(), partners: Partners::Bodies(vec![]), ..Contact::default() });
     let (simulation, history) = run(&model);
     let summary = simulation.summary();

@@ -1,10 +1,14 @@
 //! Prescribed motion, symmetry, walls and gravity through the public face.
 
 use crate::bodies::*;
-use embate_solver::model::{Constraint, Load, Model, Obstacle, Penalty, Symmetry};
+use embate_solver::model::{Constraint, Curve, CurveShape, Drive, Load, Model, Obstacle, Penalty, Ring, Rotation, Shape, Symmetry};
 
 fn fix(model: &mut Model, on: &str, velocity: [Option<f64>; 2]) {
-    model.constraints.push(Constraint { on: on.into(), velocity: velocity.map(|velocity| velocity.map(Into::into)) });
+    model.constraints.push(Constraint {
+        on: on.into(),
+        velocity: velocity.map(|velocity| velocity.map(Into::into)),
+        ..Constraint::default()
+    });
 }
 
 #[test]
@@ -106,7 +110,7 @@ fn contradictions_are_told_with_condition_and_place() {
     fix(&mut model, "block.top", [Some(0.0), Some(0.0)]);
     let told = faults(&model);
     assert_eq!(told.len(), 1, "only the corner is in both: {told:?}");
-    for word in ["constraint[1]", "(0.000000e0, 5.000000e-2)", "0 m/s", "1 m/s"] {
+    for word in ["constraint[1]", "(0.000000e0, 5.000000e-2)", "0 m/s", "constraint[0] on \"block.left\" already moves it at 1 m/s"] {
         assert!(told[0].contains(word), "{word}: {told:?}");
     }
     // The same velocity twice is no contradiction, nor is another direction.
@@ -118,6 +122,119 @@ fn contradictions_are_told_with_condition_and_place() {
     assert!(told.iter().any(|fault| fault.contains("constraint[0]") && fault.contains("(0.000000e0, 0.000000e0)")), "{told:?}");
     model.symmetries[0].point = [0.03, 0.0];
     assert!(faults(&model)[0].contains("no node lies on this symmetry line"), "{:?}", faults(&model));
+}
+
+#[test]
+fn of_many_contradictions_twenty_are_told_and_the_others_counted() {
+    let mut model = model(1e-3);
+    add(&mut model, "block", rectangle([0.0, 0.0], [0.1, 0.05], [2, 30]), [0.0, 0.0]);
+    model.symmetries.push(Symmetry { normal: [1.0, 0.0], ..Symmetry::default() });
+    fix(&mut model, "block.left", [Some(1.0), None]);
+    let told = faults(&model);
+    assert_eq!(told.len(), 21);
+    assert!(told[0].contains("but symmetry[0] already moves it at 0 m/s there") && told[20].contains("at 11 more nodes"), "{told:?}");
+}
+
+#[test]
+fn a_node_that_is_led_around_a_point_is_moved_by_nothing_else() {
+    let mut model = model(1e-3);
+    add(&mut model, "block", rectangle([0.0, 0.0], [0.1, 0.05], [2, 1]), [0.0, 0.0]);
+    let turn = |on: &str| {
+        let rotation = Some(Rotation { centre: [0.0; 2], speed: 3.0.into() });
+        Constraint { on: on.into(), rotation, ..Constraint::default() }
+    };
+    model.constraints.push(turn("block.left"));
+    fix(&mut model, "block.top", [None, Some(0.0)]);
+    let told = faults(&model);
+    assert!(told.len() == 1 && told[0].contains("but constraint[0] on \"block.left\" leads it around a point"), "{told:?}");
+    model.constraints.reverse();
+    let told = faults(&model);
+    assert!(told.len() == 1 && told[0].contains("but constraint[0] on \"block.top\" already holds or moves it"), "{told:?}");
+    // The centre rests: to hold it is no contradiction.
+    model.constraints = vec![turn("block.left")];
+    fix(&mut model, "block.bottom", [None, Some(0.0)]);
+    assert_eq!(faults(&model), Vec::<String>::new());
+}
+
+fn curve(model: &mut Model, name: &str, shape: CurveShape) -> Option<Drive> {
+    model.curves.insert(name.into(), Curve { shape, dimension: None });
+    Some(Drive::Curve(name.into()))
+}
+
+#[test]
+fn displacements_and_accelerations_lead_nodes_where_they_say() {
+    let end = 1e-3;
+    let mut model = model(end);
+    for (name, y) in [("smooth", 0.0), ("formula", 1.0), ("thrown", 2.0), ("pushed", 3.0)] {
+        add(&mut model, name, rectangle([0.0, y], [0.02, 0.02], [2, 2]), [0.0, if y > 1.5 { 4.0 } else { 0.0 }]);
+        model.constraints.push(Constraint { on: format!("{name}.top"), ..Constraint::default() });
+    }
+    let smooth = CurveShape::Table { times: vec![0.2e-3, 0.7e-3], values: vec![0.0, 3e-3], smooth: true };
+    model.constraints[0].displacement[1] = curve(&mut model, "smooth", smooth);
+    model.constraints[1].displacement[0] = curve(&mut model, "formula", CurveShape::Expression("1e-3*sin(pi*t/2e-3)".into()));
+    model.constraints[2].acceleration = [Some(5e3.into()), Some((-8e3).into())];
+    let push = curve(&mut model, "pushed", CurveShape::Table { times: vec![0.0, end], values: vec![0.0, 6e3], smooth: false });
+    model.constraints[3].acceleration[1] = push;
+    let mut simulation = simulation(&model);
+    let start = simulation.frame().positions;
+    simulation.advance(f64::INFINITY, u64::MAX).unwrap();
+    let now = simulation.frame().positions;
+    let expected = [
+        [None, Some(3e-3)],
+        [Some(1e-3), None],
+        [Some(0.5 * 5e3 * end * end), Some(4.0 * end - 0.5 * 8e3 * end * end)],
+        [None, Some(4.0 * end + 6e3 * end * end / 6.0)],
+    ];
+    let mut seen = 0;
+    for (a, b) in start.iter().zip(&now) {
+        let which = a[1].floor() as usize;
+        if a[1] - which as f64 > 0.0199 {
+            for (d, wanted) in expected[which].iter().enumerate() {
+                if let Some(wanted) = wanted {
+                    assert!((b[d] - a[d] - wanted).abs() < 1e-15 + 1e-15 * a[1], "{which} {d}: {} {wanted}", b[d] - a[d]);
+                    seen += 1;
+                }
+            }
+        }
+    }
+    assert_eq!(seen, 15);
+    let summary = simulation.summary();
+    assert!(summary.ledger_residual < 1e-12 && summary.energy_drift < 0.01, "{} {}", summary.ledger_residual, summary.energy_drift);
+}
+
+#[test]
+fn nodes_that_are_led_around_a_point_turn_exactly() {
+    // A ring whose inside is led around by three and a half turns: a rigid rotation once it has begun so.
+    let (speed, end): (f64, f64) = (700.0 * std::f64::consts::PI, 1e-2);
+    let mut model = model(end);
+    let ring = Shape::Ring(Ring {
+        centre: [0.3, 0.1],
+        inner: 0.02,
+        outer: 0.03,
+        from: 0.0,
+        to: std::f64::consts::TAU,
+        elements: [2, 24],
+        ..Ring::default()
+    });
+    add(&mut model, "ring", ring, [0.0, 0.0]);
+    model.parts[0].spin = speed;
+    let rotation = Some(Rotation { centre: [0.3, 0.1], speed: speed.into() });
+    model.constraints.push(Constraint { on: "ring.inner".into(), rotation, ..Constraint::default() });
+    let mut simulation = simulation(&model);
+    let start = simulation.frame().positions;
+    simulation.advance(f64::INFINITY, u64::MAX).unwrap();
+    let mut inner = 0;
+    for (a, b) in start.iter().zip(&simulation.frame().positions) {
+        let arm = [a[0] - 0.3, a[1] - 0.1];
+        if arm[0].hypot(arm[1]) < 0.0201 {
+            inner += 1;
+            let away = (b[0] - 0.3 - (-arm[0] * (speed * end).cos().abs())).hypot(b[1] - 0.1 + arm[1] * (speed * end).cos().abs());
+            assert!(away < 5e-14, "{away:e}");
+        }
+    }
+    assert_eq!(inner, 24);
+    let summary = simulation.summary();
+    assert!(summary.ledger_residual < 1e-11 && summary.energy_drift < 0.01, "{} {}", summary.ledger_residual, summary.energy_drift);
 }
 
 #[test]
@@ -142,7 +259,8 @@ fn gravity_acts_on_the_parts_it_names_and_on_their_share_of_common_nodes() {
     let (left, right): (Vec<_>, Vec<_>) = cells.into_iter().enumerate().partition(|(i, _)| i % 4 < 2);
     mesh.groups = [("left", left), ("right", right)].map(|(name, cells)| group(name, 2, cells.into_iter().map(|(_, cell)| cell))).into();
     add_groups(&mut model, mesh, &["left", "right"], [0.0, 0.0]);
-    let gravity = |parts: &[&str], acceleration| Load::Gravity { parts: parts.iter().map(|p| (*p).to_string()).collect(), acceleration };
+    let gravity =
+        |parts: &[&str], acceleration| Load::Gravity { parts: parts.iter().map(|p| (*p).to_string()).collect(), acceleration, curve: None };
     model.loads = vec![gravity(&["apple", "left"], [0.0, -10.0]), gravity(&["apple"], [2.0, 0.0])];
     let steps = every_step(&model);
     let velocity = |name: &str| ["vx", "vy"].map(|v| *steps.column(&format!("{name}.{v}")).last().unwrap());

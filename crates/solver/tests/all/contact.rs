@@ -3,7 +3,7 @@
 
 use crate::bodies::*;
 use embate_solver::contact::search::registry;
-use embate_solver::model::{Formulation, InitialPenetration, Model, Obstacle, Penalty, Shape, Symmetry};
+use embate_solver::model::{Disk, Formulation, InitialPenetration, Model, Obstacle, Penalty, Rectangle, Shape, Symmetry};
 use embate_solver::simulation::{Options, Simulation};
 
 /// Two blocks that meet obliquely, corner against side.
@@ -18,7 +18,7 @@ fn oblique() -> Model {
 /// A disk inside a box of four bars that touch it one after the other.
 fn disk_in_a_box() -> Model {
     let mut model = model(8e-3);
-    add(&mut model, "disk", Shape::Disk { centre: [0.0, 0.0], radius: 0.05, elements: 3 }, [31.0, 12.0]);
+    add(&mut model, "disk", Shape::Disk(Disk { centre: [0.0, 0.0], radius: 0.05, elements: 3 }), [31.0, 12.0]);
     for (name, corner, size) in [
         ("west", [-0.08, -0.06], [0.02, 0.12]),
         ("east", [0.06, -0.06], [0.02, 0.12]),
@@ -83,10 +83,8 @@ fn momentum_is_kept_and_the_books_close_in_every_kind_of_contact() {
         assert!(summary.momentum_drift_linear.unwrap() <= 1e-12, "{name}: {summary:?}");
         assert!(summary.momentum_drift_angular.unwrap() <= 1e-12, "{name}: {summary:?}");
         assert!(summary.ledger_residual <= 1e-12, "{name}: {summary:?}");
-        // A single corner carries the notch: where it leaves a face at an edge, its spring's energy goes.
-        let drift = if name == "corner in a notch" { 0.05 } else { 0.01 };
-        assert!(summary.energy_drift <= drift, "{name}: {summary:?}");
-        assert!(summary.penetration_max < 0.1 * segment, "{name}: {summary:?}");
+        assert!(summary.energy_drift <= 0.01, "{name}: {summary:?}");
+        assert!(summary.penetration_max < 0.15 * segment, "{name}: {summary:?}");
     }
 }
 
@@ -150,7 +148,7 @@ fn every_contact_has_its_own_columns() {
 fn every_search_gives_the_same_bits() {
     let mut overlapping = oblique();
     // Almost two segments inside at the start: some nodes are deeper than any search need look, and no search may see more than another.
-    if let Shape::Rectangle { corner, .. } = &mut overlapping.parts[1].shape {
+    if let Shape::Rectangle(Rectangle { corner, .. }) = &mut overlapping.parts[1].shape {
         corner[0] = 0.07;
     }
     overlapping.contacts[0].interface.initial_penetration = InitialPenetration::Ignore;
@@ -316,7 +314,7 @@ fn the_impulse_of_a_wall_is_the_change_of_momentum() {
 #[test]
 fn a_disk_bounces_between_two_walls_many_times_and_keeps_its_energy() {
     let mut model = model(0.05);
-    add(&mut model, "disk", Shape::Disk { centre: [0.0, 0.0], radius: 0.05, elements: 4 }, [0.0, 20.0]);
+    add(&mut model, "disk", Shape::Disk(Disk { centre: [0.0, 0.0], radius: 0.05, elements: 4 }), [0.0, 20.0]);
     for (name, y) in [("floor", -0.06), ("ceiling", 0.06)] {
         model.obstacles.push(Obstacle::wall(name, [0.0, y], [0.0, -y]));
     }

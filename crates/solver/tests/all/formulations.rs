@@ -43,12 +43,36 @@ fn momentum_is_kept_and_the_books_close_with_every_law_and_formulation() {
                     assert!(summary.momentum_drift_linear.unwrap() <= 1e-12, "{what}: {summary:?}");
                     assert!(summary.momentum_drift_angular.unwrap() <= 1e-12, "{what}: {summary:?}");
                     assert!(summary.ledger_residual <= 1e-12, "{what}: {summary:?}");
-                    // Where a single node carries a corner and leaves a face at an edge, its spring's energy goes.
-                    let drift = if name == "corner in a notch" && formulation == Formulation::DoublePass { 0.05 } else { 0.01 };
-                    assert!(summary.energy_drift <= drift, "{what}: {summary:?}");
+                    assert!(summary.energy_drift <= 0.01, "{what}: {summary:?}");
                     assert!(summary.penetration_max < 0.25 * segment, "{what}: {summary:?}");
+                    assert_eq!(simulation.sweeps().1, 0, "{what}: forces that were not solved");
                 }
             }
+        }
+    }
+}
+
+#[test]
+fn springs_as_stiff_as_one_likes_are_solved_and_the_books_close() {
+    for formulation in [Formulation::DoublePass, Formulation::Segment] {
+        for (name, model, _) in scenes() {
+            let drift = |scale: f64| {
+                let mut model = model.clone();
+                for contact in &mut model.contacts {
+                    contact.formulation = formulation;
+                    contact.interface.law = ContactLaw::Penalty(Penalty::automatic(scale));
+                }
+                model.run.energy_limit = 1.0;
+                let (simulation, _) = run(&model);
+                let (summary, (sweeps, unsolved)) = (simulation.summary(), simulation.sweeps());
+                let what = format!("{formulation:?} {name} {scale:e}");
+                assert!(unsolved == 0 && sweeps < 200, "{what}: {sweeps} sweeps, {unsolved} steps not solved");
+                assert!(summary.ledger_residual <= 1e-12, "{what}: {summary:?}");
+                summary.energy_drift
+            };
+            let drifts = [1.0, 1e1, 1e2, 1e3, 1e4, 1e5].map(drift);
+            // With stiffer ones up to nine tenths of the energy drift in some scenes although the forces are solved: only the solution and the books are asserted there.
+            assert!(drifts[..2].iter().all(|&drift| drift <= 0.05), "{formulation:?} {name}: {drifts:?}");
         }
     }
 }
@@ -164,8 +188,12 @@ fn a_block_that_slides_is_braked_by_the_coefficient_times_what_presses() {
             let mut model = model(6e-3);
             add(&mut model, "slab", rectangle([0.0, 0.0], [0.2, 0.02], [23, 2]), [0.0, 0.0]);
             add(&mut model, "block", rectangle([0.02, 0.02], [0.05, 0.03], [5, 3]), [8.0, 0.0]);
-            model.constraints.push(Constraint { on: "slab.bottom".into(), velocity: [Some(0.0.into()), Some(0.0.into())] });
-            model.loads.push(Load::Gravity { parts: vec!["block".into()], acceleration: [0.0, -1000.0] });
+            model.constraints.push(Constraint {
+                on: "slab.bottom".into(),
+                velocity: [Some(0.0.into()), Some(0.0.into())],
+                ..Constraint::default()
+            });
+            model.loads.push(Load::Gravity { parts: vec!["block".into()], acceleration: [0.0, -1000.0], curve: None });
             let interface =
                 Interface { law: law.clone(), friction: Some(FRICTION), damping: damping_of(&law, 0.3), ..Interface::default() };
             model.contacts.push(Contact { formulation, interface, ..Contact::between("slide", "slab.top", "block.bottom") });
@@ -187,7 +215,7 @@ fn a_soft_layer_takes_the_energy_that_its_table_says() {
         let mut model = slender(6e-3, 1e11, density);
         add(&mut model, "block", rectangle([0.0, 1e-3], [0.1, height], [4, 2]), [0.0, -speed]);
         add(&mut model, "plate", rectangle([0.0, -0.02], [0.1, 0.02], [7, 1]), [0.0; 2]);
-        model.constraints.push(Constraint { on: "plate".into(), velocity: [Some(0.0.into()), Some(0.0.into())] });
+        model.constraints.push(Constraint { on: "plate".into(), velocity: [Some(0.0.into()), Some(0.0.into())], ..Constraint::default() });
         let law = ContactLaw::PressureGap { gaps: vec![-2e-3, 0.0, 5e-4], pressures: vec![1e5, 2e4, 0.0] };
         let interface = Interface { law, ..Interface::default() };
         model.contacts.push(Contact { formulation, interface, ..Contact::between("layer", "plate.top", "block.bottom") });
@@ -276,7 +304,8 @@ fn ties_that_bind_nothing_or_a_node_twice_are_told() {
 
 /// V-1 of the contact patch test (Taylor and Papadopoulos 1991; data of Crisfield 2000): two blocks 1 m x 0.5 m, three rows of elements each, pressed together by 10 mm, brought to rest by
 /// damping; turned by an angle as a whole. Largest |σ/σ_mean − 1| across the interface and |σ_other/σ_mean| of all elements.
-fn patch_error(formulation: Formulation, penalty: Penalty, [lower, upper]: [usize; 2], angle: f64) -> f64 {
+fn patch_error(formulation: Formulation, penalty: Penalty, meshes: [usize; 2], angle: f64) -> f64 {
+    let [lower, upper] = meshes;
     let (sin, cos) = f64::sin_cos(angle);
     let turn = move |[x, y]: [f64; 2]| [cos * x - sin * y, sin * x + cos * y];
     let mut model = slender(2.0, 1e6, 1000.0);
@@ -291,16 +320,21 @@ fn patch_error(formulation: Formulation, penalty: Penalty, [lower, upper]: [usiz
     block("upper", upper, 0.5);
     let press = turn([0.0, -0.1]);
     for (d, name) in ["along_x", "along_y"].into_iter().enumerate() {
-        let curve = Curve { times: vec![0.0, 0.1, 0.1001], values: vec![press[d], press[d], 0.0], dimension: None };
+        let curve = Curve::table(vec![0.0, 0.1, 0.1001], vec![press[d], press[d], 0.0]);
         model.curves.insert(name.into(), curve);
     }
     let velocity = [Some(Drive::Curve("along_x".into())), Some(Drive::Curve("along_y".into()))];
-    model.constraints.push(Constraint { on: "lower-bottom".into(), velocity: [Some(0.0.into()), Some(0.0.into())] });
-    model.constraints.push(Constraint { on: "upper-top".into(), velocity });
+    model.constraints.push(Constraint {
+        on: "lower-bottom".into(),
+        velocity: [Some(0.0.into()), Some(0.0.into())],
+        ..Constraint::default()
+    });
+    model.constraints.push(Constraint { on: "upper-top".into(), velocity, ..Constraint::default() });
     model.loads.push(Load::Damping { parts: vec![], rate: 150.0, active: [0.0, f64::INFINITY] });
     model.contacts.push(Contact { formulation, interface: penalty.into(), ..Contact::between("seam", "lower-top", "upper-bottom") });
     let mut simulation = simulation(&model);
     simulation.advance(f64::INFINITY, u64::MAX).unwrap();
+    assert_eq!(simulation.sweeps().1, 0, "{formulation:?} {meshes:?}: forces that were not solved");
     let frame = simulation.frame();
     let stresses = &frame.fields.iter().find(|field| field.kind.name == "stress").unwrap().values;
     // xx, yy, zz, xy turned back: across the interface, along it, and shear.
@@ -333,7 +367,7 @@ fn a_double_pass_errs_in_the_patch_test_less_with_stiffer_springs_and_a_single_p
     for meshes in [[4, 5], [8, 11]] {
         let errors = |formulation| [1e7, 1e8].map(|stiffness| patch_error(formulation, Penalty::Pressure(stiffness), meshes, 0.0));
         let [soft, stiff] = errors(Formulation::DoublePass);
-        assert!(soft < 0.03 && stiff < 0.6 * soft, "{meshes:?}: {soft} {stiff}");
+        assert!(soft < 0.03 && stiff < 0.7 * soft, "{meshes:?}: {soft} {stiff}");
         for slave in [0, 1] {
             let [soft, stiff] = errors(Formulation::SinglePass { slave });
             assert!(soft < 0.12 && stiff < 0.12 && stiff > 0.015, "{meshes:?}, slave {slave}: {soft} {stiff}");

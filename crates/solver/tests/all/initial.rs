@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)] // what tests call may stop a test like the tests themselves
 
 use crate::bodies::*;
-use embate_solver::model::{Contact, InitialPenetration, Model, Obstacle, ObstacleShape, Partners, Shape, Symmetry};
+use embate_solver::model::{Contact, Disk, InitialPenetration, Model, Obstacle, ObstacleShape, Partners, Ring, Shape, Symmetry};
 
 use std::f64::consts::TAU;
 
@@ -37,13 +37,15 @@ fn overlaps_of_any_depth_are_found_and_long_lists_are_counted() {
         }
         model_faults(&model)
     };
-    let ring = |inner: f64, outer: f64| Shape::Ring { centre: [0.0, 0.0], inner, outer, from: 0.0, to: TAU, elements: [2, 30] };
+    let ring = |inner: f64, outer: f64| {
+        Shape::Ring(Ring { centre: [0.0, 0.0], inner, outer, from: 0.0, to: TAU, elements: [2, 30], ..Ring::default() })
+    };
     for bodies in [false, true] {
         // Wholly inside, far from the surface.
         let small = scene(rectangle([-0.01, -0.01], [0.02, 0.02], [2, 2]), bodies);
         assert_eq!(small.len(), 8, "{small:?}");
         assert!(small[0].message.contains("9.000e-2 m inside"), "{small:?}");
-        let many = scene(Shape::Disk { centre: [0.0, 0.0], radius: 0.03, elements: 8 }, bodies);
+        let many = scene(Shape::Disk(Disk { centre: [0.0, 0.0], radius: 0.03, elements: 8 }), bodies);
         assert_eq!(many.len(), 21);
         assert!(many[20].message.contains("and 12 more nodes"), "{:?}", many[20]);
         // A ring around the block: inside its hole there is nothing.
@@ -119,7 +121,7 @@ fn a_contact_that_begins_late_takes_what_is_there_as_zero() {
 fn pushed_out_bodies_are_apart_and_free_of_stress() {
     let round = |what: InitialPenetration| {
         let mut model = model(1e-4);
-        add(&mut model, "disk", Shape::Disk { centre: [0.0, 0.052], radius: 0.05, elements: 6 }, [0.0, 0.0]);
+        add(&mut model, "disk", Shape::Disk(Disk { centre: [0.0, 0.052], radius: 0.05, elements: 6 }), [0.0, 0.0]);
         add(&mut model, "plate", rectangle([-0.1, -0.02], [0.2, 0.023], [31, 4]), [0.0, 0.0]);
         model.contacts.push(Contact { name: "all".into(), partners: Partners::Bodies(vec![]), ..Contact::default() });
         model.contacts[0].interface.initial_penetration = what;
@@ -144,7 +146,15 @@ fn nodes_that_are_pushed_out_stay_on_their_symmetry_line() {
     add(
         &mut model,
         "disk",
-        Shape::Ring { centre: [0.0, 0.052], inner: 0.03, outer: 0.05, from: -0.25 * TAU, to: 0.25 * TAU, elements: [3, 20] },
+        Shape::Ring(Ring {
+            centre: [0.0, 0.052],
+            inner: 0.03,
+            outer: 0.05,
+            from: -0.25 * TAU,
+            to: 0.25 * TAU,
+            elements: [3, 20],
+            ..Ring::default()
+        }),
         [0.0, 0.0],
     );
     add(&mut model, "plate", rectangle([0.0, -0.02], [0.1, 0.0225], [15, 4]), [0.0, 0.0]);

@@ -5,21 +5,28 @@
 // What the tests share.
 mod bodies;
 mod patches;
+mod point;
 
 mod bars;
 mod blocks;
 mod certificate;
+mod chaboche;
 mod conditions;
 mod contact;
 mod elements;
+mod ends;
 mod formulations;
 mod friction;
 mod free_bodies;
+mod hardening;
 mod initial;
+mod loads;
+mod johnson_cook;
 mod materials;
 mod mixed;
 mod obstacles;
 mod orthotropy;
+mod pressed;
 mod plasticity;
 mod projectiles;
 mod projection;

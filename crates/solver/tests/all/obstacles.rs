@@ -2,13 +2,13 @@
 
 use crate::bodies::*;
 use embate_solver::model::{
-    Constraint, Curve, Drive, InitialPenetration, Interface, Motion, Obstacle, ObstacleShape, Penalty, Shape, Symmetry,
+    Constraint, Curve, Disk, Drive, InitialPenetration, Interface, Motion, Obstacle, ObstacleShape, Penalty, Shape, Symmetry,
 };
 
 #[test]
 fn a_free_plane_that_is_hit_keeps_both_momenta_and_the_energy() {
     let mut model = model(4e-3);
-    add(&mut model, "ball", Shape::Disk { centre: [0.02, 0.0], radius: 0.03, elements: 4 }, [0.0, -12.0]);
+    add(&mut model, "ball", Shape::Disk(Disk { centre: [0.02, 0.0], radius: 0.03, elements: 4 }), [0.0, -12.0]);
     model.obstacles.push(Obstacle {
         motion: Motion::default(),
         mass: Some(4.0),
@@ -28,8 +28,12 @@ fn a_free_plane_that_is_hit_keeps_both_momenta_and_the_energy() {
 fn a_driven_plane_gives_a_block_the_energy_that_is_found_in_it() {
     let mut model = model(2e-3);
     add(&mut model, "block", rectangle([0.0, 0.0], [0.1, 0.05], [8, 4]), [0.0, 0.0]);
-    model.constraints.push(Constraint { on: "block.bottom".into(), velocity: [Some(0.0.into()), Some(0.0.into())] });
-    model.curves.insert("press".into(), Curve { times: vec![0.0, 1e-3], values: vec![0.0, -2.0], dimension: None });
+    model.constraints.push(Constraint {
+        on: "block.bottom".into(),
+        velocity: [Some(0.0.into()), Some(0.0.into())],
+        ..Constraint::default()
+    });
+    model.curves.insert("press".into(), Curve::table(vec![0.0, 1e-3], vec![0.0, -2.0]));
     let mut motion = Motion::fixed();
     motion.velocity[1] = Some(Drive::Curve("press".into()));
     model.obstacles.push(Obstacle { motion, ..Obstacle::wall("press", [0.02, 0.05], [0.0, -1.0]) });
@@ -56,7 +60,11 @@ fn a_circle_is_pressed_into_a_block_and_comes_out_again_with_nothing_lost() {
     for (radius, elements) in [(0.04, [24, 10]), (0.004, [9, 4])] {
         let mut model = model(2e-3);
         add(&mut model, "block", rectangle([-0.06, -0.05], [0.12, 0.05], elements), [0.0, 0.0]);
-        model.constraints.push(Constraint { on: "block.bottom".into(), velocity: [Some(0.0.into()), Some(0.0.into())] });
+        model.constraints.push(Constraint {
+            on: "block.bottom".into(),
+            velocity: [Some(0.0.into()), Some(0.0.into())],
+            ..Constraint::default()
+        });
         model.obstacles.push(Obstacle {
             motion: Motion { velocity: [Some(0.0.into()), None], spin: Some(0.0.into()) },
             mass: Some(10.0),
@@ -78,7 +86,7 @@ fn a_circle_is_pressed_into_a_block_and_comes_out_again_with_nothing_lost() {
 #[test]
 fn a_free_circle_in_a_hollow_one_keeps_momenta_and_energy() {
     let mut model = model(6e-3);
-    add(&mut model, "ball", Shape::Disk { centre: [0.0, 0.0], radius: 0.03, elements: 4 }, [12.0, 5.0]);
+    add(&mut model, "ball", Shape::Disk(Disk { centre: [0.0, 0.0], radius: 0.03, elements: 4 }), [12.0, 5.0]);
     let free = |name: &str, shape: ObstacleShape, mass: f64| Obstacle {
         motion: Motion::default(),
         mass: Some(mass),
@@ -136,7 +144,7 @@ fn a_polyline_has_convex_and_concave_corners() {
     // A ridge (nodes do not see its tip) under the middle of coarse elements, and a valley that holds a ball.
     let mut model = model(4e-3);
     add(&mut model, "plank", rectangle([-0.05, 0.011], [0.1, 0.03], [5, 2]), [0.0, -8.0]);
-    add(&mut model, "ball", Shape::Disk { centre: [0.2, 0.04], radius: 0.02, elements: 4 }, [0.0, -8.0]);
+    add(&mut model, "ball", Shape::Disk(Disk { centre: [0.2, 0.04], radius: 0.02, elements: 4 }), [0.0, -8.0]);
     let points = vec![[-0.3, 0.0], [-0.005, 0.0], [0.0, 0.01], [0.005, 0.0], [0.1, 0.0], [0.1, 0.1], [0.2, 0.0], [0.3, 0.1]];
     model.obstacles.push(Obstacle::fixed("ground", ObstacleShape::Polyline { points }));
     model.obstacles[0].parts = vec!["plank".into(), "ball".into()];
@@ -211,7 +219,7 @@ fn a_plane_that_ends_at_or_beyond_a_symmetry_line_goes_on_there() {
 #[test]
 fn a_free_polyline_keeps_both_momenta_and_moves_with_its_outline() {
     let mut model = model(3e-3);
-    add(&mut model, "ball", Shape::Disk { centre: [0.0, 0.0], radius: 0.03, elements: 4 }, [15.0, 2.0]);
+    add(&mut model, "ball", Shape::Disk(Disk { centre: [0.0, 0.0], radius: 0.03, elements: 4 }), [15.0, 2.0]);
     // A square, clockwise.
     let points = vec![[0.035, -0.02], [0.035, 0.02], [0.075, 0.02], [0.075, -0.02], [0.035, -0.02]];
     model.obstacles.push(Obstacle {

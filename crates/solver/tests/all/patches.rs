@@ -33,7 +33,8 @@ fn last(name: &str) -> usize {
     name.bytes().last().map_or(0, |digit| usize::from(digit - b'1'))
 }
 
-/// A value for any parameter: known ones as above, stresses a small part of Young's modulus, the rest by their range.
+/// A value for any parameter: known ones as above, stresses a small part of Young's modulus, the rest by their range. What makes a law of another
+/// kind of it (dependence on the rate) is left out, `options` has it.
 fn value(parameter: &Parameter, poisson: f64) -> f64 {
     match (parameter.name, parameter.range) {
         ("density", _) => DENSITY,
@@ -48,6 +49,19 @@ fn value(parameter: &Parameter, poisson: f64) -> f64 {
         ("poisson_12" | "poisson_23" | "poisson_31", _) => [0.25, 0.3, 0.2][last(parameter.name)],
         ("shear_12" | "shear_23" | "shear_31", _) => YOUNG * [0.25, 0.3, 0.2][last(parameter.name)],
         ("angle", _) => 0.4,
+        ("rate_reference", _) => parameter.default.unwrap_or(1.0),
+        ("rate_exponent", _) => 5.0,
+        ("saturation", _) => 0.02 * YOUNG,
+        ("saturation_rate", _) => 20.0,
+        ("strength", _) => 0.04 * YOUNG,
+        ("strain_offset", _) => 0.01,
+        ("hardening_exponent", _) => 0.3,
+        ("rate_coefficient", _) => parameter.default.unwrap_or(0.0),
+        ("temperature" | "temperature_reference", _) => 300.0,
+        ("temperature_melt", _) => 1000.0,
+        ("specific_heat" | "softening_exponent", _) => 1.0,
+        ("friction_angle", _) => 0.5,
+        ("dilation_angle", _) => 0.2,
         (_, Range::Between(low, high)) => 0.5 * (low + high),
         (_, Range::UpTo(_, high)) => high,
         _ => 0.01 * YOUNG,
@@ -59,13 +73,23 @@ pub(crate) fn parameters(kind: &LawKind, poisson: f64) -> BTreeMap<String, f64> 
     numbers.map(|parameter| (parameter.name.to_string(), value(parameter, poisson))).collect()
 }
 
-/// Values for parameters that are lists: two ascending ones unless they must go together.
+/// What parameters may have besides [`parameters`]: each set makes a law of another kind.
+pub(crate) fn options(kind: &LawKind) -> Vec<Vec<(&'static str, f64)>> {
+    let all = [vec![], vec![("rate_reference", 50.0)], vec![("rate_coefficient", 0.02)]];
+    let has = |name: &str| kind.parameters.iter().any(|parameter| parameter.name == name);
+    all.into_iter().filter(|set| set.iter().all(|(name, _)| has(name))).collect()
+}
+
+/// Values for parameters that are lists: two ascending ones unless they must go together; curves begin at zero.
 fn list(parameter: &Parameter) -> Vec<f64> {
     match parameter.name {
         "mu" => vec![0.2 * YOUNG, -0.05 * YOUNG],
         "alpha" => vec![2.5, -3.0],
         "shear_ratio" => vec![0.3, 0.2],
         "relaxation_time" => vec![0.05, 2.0],
+        "plastic_strain" => vec![0.0, 0.1],
+        "stress" => vec![0.01 * YOUNG, 0.02 * YOUNG],
+        "damage" => vec![0.05, 3.0, -2.0, 0.02, 0.5],
         _ => [0.4, 0.5].map(|factor| factor * value(parameter, 0.3)).to_vec(),
     }
 }
@@ -81,6 +105,13 @@ pub(crate) fn material(law: &str, poisson: f64) -> Material {
     // What is told of bodies holds while they stand still: nothing may relax meanwhile. Laws by themselves are tested with short times.
     lists.entry("relaxation_time".into()).and_modify(|times| times.fill(1e12));
     Material { law: law.into(), parameters: parameters(kind, poisson), lists }
+}
+
+/// Strength far beyond every load: a law that flows stays elastic.
+pub(crate) fn stay_elastic(material: &mut Material) {
+    let strengths = ["yield", "saturation", "strength", "cohesion", "tension_cutoff"];
+    material.parameters.iter_mut().filter(|(name, _)| strengths.contains(&name.as_str())).for_each(|(_, value)| *value *= 1e5);
+    material.lists.iter_mut().filter(|(name, _)| *name == "stress").for_each(|(_, list)| list.iter_mut().for_each(|value| *value *= 1e5));
 }
 
 /// One law of each family.

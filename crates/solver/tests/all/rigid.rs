@@ -1,14 +1,16 @@
 //! Rigid parts against closed forms: free, driven, rolling, sliding, hit; and damping.
 
 use crate::bodies::*;
-use embate_solver::model::{Constraint, Curve, Drive, Interface, Load, Model, Motion, Obstacle, ObstacleShape, Shape, Symmetry};
+use embate_solver::model::{
+    Constraint, Curve, Disk, Drive, Interface, Load, Model, Motion, Obstacle, ObstacleShape, Penalty, PenaltySource, Ring, Shape, Symmetry,
+};
 use embate_solver::simulation::{Options, Simulation};
 use std::f64::consts::TAU;
 
 const G: f64 = 9.81;
 
 fn ring(inner: f64, outer: f64, centre: [f64; 2], elements: [usize; 2]) -> Shape {
-    Shape::Ring { centre, inner, outer, from: 0.0, to: TAU, elements }
+    Shape::Ring(Ring { centre, inner, outer, from: 0.0, to: TAU, elements, ..Ring::default() })
 }
 
 #[test]
@@ -41,7 +43,7 @@ fn a_free_rigid_part_flies_and_spins_without_end_and_without_strain() {
 fn a_part_begins_with_its_spin_whether_rigid_or_not() {
     for rigid in [false, true] {
         let mut model = model(1e-6);
-        add(&mut model, "disk", Shape::Disk { centre: [0.3, 0.2], radius: 0.1, elements: 4 }, [1.0, 2.0]);
+        add(&mut model, "disk", Shape::Disk(Disk { centre: [0.3, 0.2], radius: 0.1, elements: 4 }), [1.0, 2.0]);
         model.parts[0].spin = 50.0;
         model.parts[0].rigid = rigid.then(Motion::default);
         let frame = simulation(&model).frame();
@@ -58,7 +60,7 @@ fn a_free_rigid_part_that_is_hit_keeps_both_momenta_and_the_energy() {
     for (first, second) in [(true, false), (false, true), (true, true)] {
         for interface in [Interface::default(), rough(0.3)] {
             let mut model = model(2e-3);
-            add(&mut model, "ball", Shape::Disk { centre: [0.0, 0.0], radius: 0.03, elements: 4 }, [12.0, 1.0]);
+            add(&mut model, "ball", Shape::Disk(Disk { centre: [0.0, 0.0], radius: 0.03, elements: 4 }), [12.0, 1.0]);
             add(&mut model, "block", rectangle([0.031, -0.01], [0.03, 0.08], [3, 8]), [0.0, 0.0]);
             model.parts[0].spin = 100.0;
             for (part, rigid) in model.parts.iter_mut().zip([first, second]) {
@@ -81,10 +83,10 @@ fn what_follows_a_curve_is_where_its_integral_says() {
     add(&mut model, "block", rectangle([0.0, 0.0], [0.05, 0.05], [3, 3]), [0.0, 0.0]);
     add(&mut model, "die", rectangle([1.0, 0.0], [0.05, 0.05], [3, 3]), [0.0, 0.0]);
     // Up to 3 m/s within 0.2 ms, down to −1 m/s at 0.7 ms: integrals 0.3e-3 + 0.5e-3 − 0.3e-3 m.
-    model.curves.insert("way".into(), Curve { times: vec![0.0, 2e-4, 7e-4], values: vec![0.0, 3.0, -1.0], dimension: None });
-    model.curves.insert("turn".into(), Curve { times: vec![0.0, 2e-4, 7e-4], values: vec![0.0, 300.0, -100.0], dimension: None });
+    model.curves.insert("way".into(), Curve::table(vec![0.0, 2e-4, 7e-4], vec![0.0, 3.0, -1.0]));
+    model.curves.insert("turn".into(), Curve::table(vec![0.0, 2e-4, 7e-4], vec![0.0, 300.0, -100.0]));
     let way = || Some(Drive::Curve("way".into()));
-    model.constraints.push(Constraint { on: "block.left".into(), velocity: [way(), Some(0.0.into())] });
+    model.constraints.push(Constraint { on: "block.left".into(), velocity: [way(), Some(0.0.into())], ..Constraint::default() });
     stiffen(&mut model, "die", Motion { velocity: [None, way()], spin: Some(Drive::Curve("turn".into())) });
     let motion = Motion { velocity: [Some(0.5.into()), way()], spin: Some(Drive::Curve("turn".into())) };
     model.obstacles.push(Obstacle { motion, reference: Some([3.0, 1.0]), ..Obstacle::wall("far", [5.0, 0.0], [-1.0, 0.0]) });
@@ -169,7 +171,7 @@ fn damping_begins_and_ends_and_goes_with_contact_and_constraints() {
     let mut model = model(3e-3);
     add(&mut model, "block", rectangle([0.0, 0.001], [0.05, 0.05], [4, 4]), [0.0, -5.0]);
     model.obstacles.push(Obstacle { interface: rough(0.3), ..Obstacle::wall("floor", [0.0, 0.0], [0.2, 1.0]) });
-    model.constraints.push(Constraint { on: "block.left".into(), velocity: [Some(0.0.into()), None] });
+    model.constraints.push(Constraint { on: "block.left".into(), velocity: [Some(0.0.into()), None], ..Constraint::default() });
     for (rate, active) in [(300.0, [1e-3, 2e-3]), (200.0, [1.5e-3, 2.5e-3])] {
         model.loads.push(Load::Damping { parts: vec![], rate, active });
     }
@@ -298,6 +300,32 @@ fn a_block_on_a_slope_sticks_or_slides_as_its_friction_says() {
             assert!(simulation.summary().ledger_residual < 1e-11, "{:?}", simulation.summary());
         }
     }
+}
+
+#[test]
+fn a_model_of_rigid_parts_takes_the_step_that_it_is_given() {
+    let mut model = model(0.2);
+    add(&mut model, "stone", rectangle([0.0, 0.001], [0.1, 0.1], [4, 4]), [0.0, -1.0]);
+    stiffen(&mut model, "stone", Motion::default());
+    model.obstacles.push(Obstacle { interface: Penalty::PerNode(1e5).into(), ..Obstacle::wall("floor", [0.0; 2], [0.0, 1.0]) });
+    let own = simulation(&model).time_step();
+    assert!(own < 5e-5, "without one that of its elements: {own}");
+    model.run.time_step = Some(1e-4);
+    assert!((simulation(&model).time_step() - 1e-4).abs() < 1e-18);
+    let (simulation, history) = run(&model);
+    // Half a vibration on five springs of 1e5 N/m², and back again.
+    assert!((history.last("stone.vy") - 1.0).abs() < 1e-9, "{}", history.last("stone.vy"));
+    assert!(simulation.summary().steps == 2000 && simulation.summary().energy_drift < 1e-9, "{:?}", simulation.summary());
+    // Where something deforms it is the largest one.
+    model.parts[0].rigid = None;
+    assert!((self::simulation(&model).time_step() / own - 1.0).abs() < 1e-6);
+    model.run.time_step = Some(0.5 * own);
+    assert!((self::simulation(&model).time_step() / own - 0.5).abs() < 1e-6);
+    // A penalty from the time step needs one.
+    stiffen(&mut model, "stone", Motion::default());
+    model.run.time_step = None;
+    model.obstacles[0].interface = Penalty::Automatic { scale: 1.0, source: PenaltySource::TimeStep }.into();
+    assert!(faults(&model).iter().any(|fault| fault.contains("run.time_step")), "{:?}", faults(&model));
 }
 
 #[test]

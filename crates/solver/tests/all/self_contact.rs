@@ -3,7 +3,7 @@
 
 use crate::bodies::*;
 use embate_solver::contact::search::registry;
-use embate_solver::model::{Contact, ImportedMesh, Model, Partners, Shape};
+use embate_solver::model::{Contact, Disk, ImportedMesh, Model, Partners, Ring, Shape};
 use embate_solver::simulation::{Options, Simulation};
 use std::f64::consts::{PI, TAU};
 
@@ -13,7 +13,7 @@ pub(crate) fn all(model: &mut Model) {
 }
 
 fn ring(inner: f64, outer: f64, elements: [usize; 2]) -> Shape {
-    Shape::Ring { centre: [0.0, 0.0], inner, outer, from: 0.0, to: TAU, elements }
+    Shape::Ring(Ring { centre: [0.0, 0.0], inner, outer, from: 0.0, to: TAU, elements, ..Ring::default() })
 }
 
 /// A wavy strip of one element through its wall: `folds` narrow bows of a sine.
@@ -56,8 +56,19 @@ pub(crate) fn alone() -> Vec<(&'static str, Model)> {
         ("fine on the short side", with(rectangle([0.0, 0.0], [0.1, 0.01], [5, 12]))),
         ("thin ring", with(ring(0.05, 0.0502, [1, 60]))),
         ("coarse ring", with(ring(0.02, 0.05, [2, 6]))),
-        ("open ring", with(Shape::Ring { centre: [0.0, 0.0], inner: 0.04, outer: 0.05, from: 0.001, to: TAU - 0.001, elements: [2, 70] })),
-        ("disk", with(Shape::Disk { centre: [0.0, 0.0], radius: 0.05, elements: 4 })),
+        (
+            "open ring",
+            with(Shape::Ring(Ring {
+                centre: [0.0, 0.0],
+                inner: 0.04,
+                outer: 0.05,
+                from: 0.001,
+                to: TAU - 0.001,
+                elements: [2, 70],
+                ..Ring::default()
+            })),
+        ),
+        ("disk", with(Shape::Disk(Disk { centre: [0.0, 0.0], radius: 0.05, elements: 4 }))),
         ("star", with_mesh(star)),
         ("narrow inside", with_mesh(slit)),
         ("serpentine", with_mesh(serpentine(6, [0.012, 0.006, 0.0003], 150))),

@@ -1,9 +1,10 @@
 //! Makes a [`Model`] from the records of a file: names that were left out, contradictions between keys, mesh files.
 //!
 //! Records come from `reader.rs`. Where a value is missing or faulty a placeholder stands in (NaN, empty, the largest count, a mesh that is not there): its fault is
-//! noted already, and faults that only follow from it are not shown. Contacts and obstacles are in `contact.rs`, what moves and is loaded in `motion.rs`.
+//! noted already, and faults that only follow from it are not shown. Contacts and obstacles are in `contact.rs`, what moves in `motion.rs`, loads in `load.rs`.
 
 mod contact;
+mod load;
 mod motion;
 
 use super::diagnostics::Faults;
@@ -11,7 +12,10 @@ use super::reader::{Document, Record};
 use super::units::shorten;
 use super::value::Datum;
 use crate::gmsh;
-use embate_solver::model::{Cadence, ImportedMesh, Material, Model, Output, Part, Partners, Probe, ProbeAt, Run, Shape, Symmetry};
+use embate_solver::mesh::shapes::Values;
+use embate_solver::model::{
+    Cadence, Copies, ImportedMesh, Material, Mirror, Model, Output, Part, Partners, Placement, Probe, ProbeAt, Run, Shape, Symmetry,
+};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -31,7 +35,9 @@ pub(super) fn model(document: &Document, name: &str, folder: &Path, faults: &mut
     model.curves = document.section("curve").iter().map(|record| (record.name.clone(), motion::curve(record, faults))).collect();
     model.symmetries = document.section("symmetry").iter().map(symmetry).collect();
     model.constraints = document.section("constraint").iter().map(|record| motion::constraint(record, faults)).collect();
-    model.loads = document.section("load").iter().map(|record| motion::load(record, faults)).collect();
+    model.loads = document.section("load").iter().map(|record| load::load(record, faults)).collect();
+    model.non_reflecting = document.section("non_reflecting").iter().map(load::non_reflecting).collect();
+    model.joins = document.section("join").iter().map(|record| load::join(record, faults)).collect();
     model.probes = document.section("probe").iter().map(|record| probe(record, faults)).collect();
     model.output = output(&document.single("output"));
     name_the_nameless(&mut model);
@@ -45,6 +51,7 @@ fn run(record: &Record) -> Run {
         safety: number("safety"),
         energy_limit: number("energy_limit"),
         step_limit: record.number("step_limit"),
+        time_step: record.number("time_step"),
         max_steps: record.integer("max_steps"),
         bulk_viscosity: record.vector("bulk_viscosity"),
     }
@@ -61,6 +68,7 @@ fn part(record: &Record, meshes: &mut Meshes<'_>, faults: &mut Faults) -> Part {
             .filter(|name| !name.is_empty())
             .unwrap_or(Part::default().element_triangles),
         shape: shape(record, meshes, faults),
+        placement: placement(record),
         velocity: record.vector("velocity"),
         spin: record.number("spin").unwrap_or(f64::NAN),
         rigid: motion::rigid(record),
@@ -68,23 +76,8 @@ fn part(record: &Record, meshes: &mut Meshes<'_>, faults: &mut Faults) -> Part {
 }
 
 fn shape(part: &Record, meshes: &mut Meshes<'_>, faults: &mut Faults) -> Shape {
-    let number = |record: &Record, name| record.number(name).unwrap_or(f64::NAN);
-    if let Some(it) = part.table("rectangle") {
-        return Shape::Rectangle { corner: it.vector("corner"), size: it.vector("size"), elements: it.counts("elements") };
-    }
-    if let Some(it) = part.table("ring") {
-        return Shape::Ring {
-            centre: it.vector("centre"),
-            inner: number(it, "inner"),
-            outer: number(it, "outer"),
-            from: number(it, "from"),
-            to: number(it, "to"),
-            elements: it.counts("elements"),
-        };
-    }
-    if let Some(it) = part.table("disk") {
-        let elements = it.integer("elements").map_or(usize::MAX, |count| usize::try_from(count).unwrap_or(usize::MAX));
-        return Shape::Disk { centre: it.vector("centre"), radius: number(it, "radius"), elements };
+    if let Some(shape) = part.tables().find_map(|(name, table)| Shape::read(name, table)) {
+        return shape;
     }
     let mesh = part.table("mesh").and_then(|it| Some((meshes.index(it, faults)?, it.text("group"))));
     if mesh.is_none() {
@@ -92,6 +85,23 @@ fn shape(part: &Record, meshes: &mut Meshes<'_>, faults: &mut Faults) -> Shape {
     }
     let (mesh, group) = mesh.unwrap_or((usize::MAX, String::new()));
     Shape::Group { mesh, group }
+}
+
+fn placement(part: &Record) -> Placement {
+    let mut placement = Placement { translation: part.vector("translation"), ..Placement::default() };
+    if let Some(it) = part.table("mirror") {
+        placement.mirror = Some(Mirror { point: it.vector("point"), normal: it.vector("normal") });
+    }
+    if let Some(it) = part.table("rotation") {
+        placement.rotation = it.number("angle").unwrap_or(f64::NAN);
+        placement.rotation_point = it.vector("point");
+    }
+    if let Some(it) = part.table("copies") {
+        let angle = it.number("angle").unwrap_or(f64::NAN);
+        let count = Values::count(it, "count");
+        placement.copies = Some(Copies { count, translation: it.vector("translation"), angle, point: it.vector("point") });
+    }
+    placement
 }
 
 /// The mesh files of a model, each read once per scale.

@@ -1,9 +1,11 @@
-//! What moves bodies from outside, from the records of a file: rigid parts and obstacles, constraints, loads, curves.
+//! What moves bodies from outside, from the records of a file: rigid parts and obstacles, constraints, curves.
 
 use crate::model_file::diagnostics::Faults;
 use crate::model_file::reader::Record;
 use crate::model_file::value::{Course, Datum};
-use embate_solver::model::{Constraint, Curve, Drive, Load, Motion};
+use embate_solver::load::curve::sine::Sine;
+use embate_solver::model::{Constraint, Curve, CurveShape, Drive, Motion, Rotation};
+use embate_solver::quantity::Dimension;
 
 /// What a part's `rigid` says: `None` for a part that deforms.
 pub(super) fn rigid(record: &Record) -> Option<Motion> {
@@ -29,50 +31,75 @@ fn motion(courses: &[Option<Course>; 3], left_out: &Motion) -> Motion {
 }
 
 pub(super) fn curve(record: &Record, faults: &mut Faults) -> Curve {
-    for [one, other] in [["time", "value"], ["value", "time"]] {
-        if record.datum(one).is_none() {
-            faults.cover(&record.key(other));
-        }
+    if let Some(it) = record.table("sine") {
+        return sine(it, faults);
     }
-    let (values, dimension) = match record.datum("value") {
-        Some(Datum::Values(values, dimension)) => (values.clone(), *dimension),
-        _ => (Vec::new(), None),
-    };
-    Curve { times: record.list("time"), values, dimension }
+    if record.written("expression").is_some() {
+        if record.datum("expression").is_none() {
+            faults.cover(&record.path);
+        }
+        return Curve { shape: CurveShape::Expression(record.text("expression")), dimension: None };
+    }
+    if record.datum("time").is_none() || record.datum("value").is_none() {
+        ["time", "value"].iter().for_each(|name| faults.cover(&record.key(name)));
+    }
+    let (values, dimension) = scalars(record, "value");
+    let smooth = record.text("between") == "smooth_steps";
+    Curve { shape: CurveShape::Table { times: record.list("time"), values, smooth }, dimension }
+}
+
+fn sine(record: &Record, faults: &mut Faults) -> Curve {
+    let ((amplitude, wave), (offset, mean)) = (scalars(record, "amplitude"), scalars(record, "offset"));
+    if let (Some(wave), Some(mean)) = (wave, mean)
+        && wave != mean
+        && let Some(place) = record.written("offset")
+    {
+        let message = format!("`offset` is in {mean}, but `amplitude` is in {wave}");
+        faults.value("unit", &record.key("offset"), place, (message, "give both in one dimension".to_string()));
+    }
+    let first = |values: Vec<f64>| values.first().copied().unwrap_or(f64::NAN);
+    let number = |name| record.number(name).unwrap_or(f64::NAN);
+    let sine = Sine { amplitude: first(amplitude), frequency: number("frequency"), phase: number("phase"), offset: first(offset) };
+    Curve { shape: CurveShape::Sine(sine), dimension: wave.or(mean) }
+}
+
+/// Numbers of one dimension.
+fn scalars(record: &Record, name: &str) -> (Vec<f64>, Option<Dimension>) {
+    if let Some(Datum::Values(values, dimension)) = record.datum(name) { (values.clone(), *dimension) } else { (Vec::new(), None) }
 }
 
 pub(super) fn constraint(record: &Record, faults: &mut Faults) -> Constraint {
-    let mut velocity = match record.datum("velocity") {
+    let components = |name| match record.datum(name) {
         Some(Datum::Courses(courses)) => motion(courses, &Motion::default()).velocity,
         _ => [None, None],
     };
+    let mut velocity = components("velocity");
+    let [displacement, acceleration] = ["displacement", "acceleration"].map(components);
     for axis in record.texts("fixed") {
         let index = usize::from(axis == "y");
-        if velocity[index].is_some()
-            && let Some(place) = record.written("fixed")
-        {
-            let message = format!("component `{axis}` is both fixed and given a velocity");
+        let others = [("velocity", &velocity), ("displacement", &displacement), ("acceleration", &acceleration)];
+        let other = others.iter().find(|(_, drives)| drives[index].is_some()).map(|(name, _)| *name);
+        if let (Some(other), Some(place)) = (other, record.written("fixed")) {
+            let article = if other == "acceleration" { "an" } else { "a" };
+            let message = format!("component `{axis}` is both fixed and given {article} {other}");
             faults.value("rule", &record.key("fixed"), place, (message, "leave it out of one of the two".to_string()));
+        } else {
+            velocity[index] = Some(Drive::Constant(0.0));
         }
-        velocity[index].get_or_insert(Drive::Constant(0.0));
     }
-    if velocity == [None, None] {
+    let rotation = record.table("rotation").map(|it| {
+        let speed = if let Some(Datum::Drive(drive)) = it.datum("speed") { drive.clone() } else { Drive::Constant(f64::NAN) };
+        Rotation { centre: it.vector("centre"), speed }
+    });
+    if rotation.is_some() {
+        // What else is given has its fault already.
+        return Constraint { on: record.text("on"), rotation, ..Constraint::default() };
+    }
+    if [&velocity, &displacement, &acceleration].iter().all(|drives| **drives == [None, None]) {
         // Nothing sound was given: the reader has said so.
         velocity = [Some(Drive::Constant(0.0)), None];
     }
-    Constraint { on: record.text("on"), velocity }
-}
-
-pub(super) fn load(record: &Record, faults: &mut Faults) -> Load {
-    let parts = record.texts("parts");
-    if record.written("damping").is_some() && record.written("gravity").is_none() {
-        let rate = record.number("damping").unwrap_or(f64::NAN);
-        return Load::Damping { parts, rate, active: window(record, ["from", "until"], faults) };
-    }
-    if record.written("gravity").is_none() {
-        faults.cover(&record.key("gravity"));
-    }
-    Load::Gravity { parts, acceleration: record.vector("gravity") }
+    Constraint { on: record.text("on"), velocity, displacement, acceleration, rotation }
 }
 
 /// Times of beginning and end; left out: from the start, for ever.

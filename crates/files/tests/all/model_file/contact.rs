@@ -1,9 +1,10 @@
 //! Contacts, obstacles, and what moves: which models their keys make, and what is refused with which words.
 
-use super::{SOUND, changed, faults, read};
+use super::{MORE, SOUND, changed, faults, read};
+use embate_solver::load::curve::sine::Sine;
 use embate_solver::model::{
-    Contact, ContactLaw, Curve, Drive, Formulation, Friction, InitialPenetration, Interface, Load, Model, Motion, Obstacle, ObstacleShape,
-    Partners, Penalty, PenaltySource,
+    Constraint, Contact, ContactLaw, Curve, CurveShape, Drive, Formulation, Friction, Image, InitialPenetration, Interface, Join, Load,
+    Model, Motion, NonReflecting, Obstacle, ObstacleShape, Partners, Penalty, PenaltySource, Rotation,
 };
 use embate_solver::quantity::Dimension;
 
@@ -144,10 +145,60 @@ fn curves_drive_constraints_and_keep_their_dimension() {
     let model = sound(&changed("fixed = \"x\"", "fixed = \"x\"\nvelocity.y = \"ramp\""));
     assert_eq!(model.constraints[0].velocity, [Some(Drive::Constant(0.0)), Some(Drive::Curve("ramp".into()))]);
     let curve = |value: &str| sound(&changed("[0, \"5 m/s\"]", value)).curves["ramp"].clone();
-    let ramp = |values, dimension| Curve { times: vec![0.0, 0.001], values, dimension };
+    let ramp = |values, dimension| Curve { dimension, ..Curve::table(vec![0.0, 0.001], values) };
     assert_eq!(curve("[0, \"5 m/s\"]"), ramp(vec![0.0, 5.0], Some(Dimension::VELOCITY)));
     assert_eq!(curve("[1, 2.5]"), ramp(vec![1.0, 2.5], None));
     assert_eq!(curve("[\"90 deg/s\", 0]"), ramp(vec![std::f64::consts::FRAC_PI_2, 0.0], Some(Dimension::RATE)));
+}
+
+#[test]
+fn curves_have_shapes() {
+    let curve = |text: &str| sound(&and(&format!("[curve.c]\n{text}"))).curves["c"].clone();
+    let steps = curve("time = [0, \"1 ms\"]\nvalue = [0, \"3 mm\"]\nbetween = \"smooth_steps\"");
+    let shape = CurveShape::Table { times: vec![0.0, 0.001], values: vec![0.0, 0.003], smooth: true };
+    assert_eq!(steps, Curve { shape, dimension: Some(Dimension::LENGTH) });
+    let wave = curve("sine = { amplitude = \"2 mm\", frequency = \"1 kHz\", phase = \"90 deg\" }");
+    let sine = Sine { amplitude: 0.002, frequency: 1000.0, phase: std::f64::consts::FRAC_PI_2, offset: 0.0 };
+    assert_eq!(wave, Curve { shape: CurveShape::Sine(sine), dimension: Some(Dimension::LENGTH) });
+    assert_eq!(curve("expression = \"2*t\""), Curve { shape: CurveShape::Expression("2*t".into()), dimension: None });
+    each_has(&[
+        (and("[curve.c]\nbetween = \"lines\""), "curve.c", "needs one of `value`, `sine` and `expression`"),
+        (and("[curve.c]\ntime = [0]"), "curve.c", "needs one of `value`, `sine` and `expression`"),
+        (and("[curve.c]\nvalue = [0]"), "curve.c", "has `value` but no `time`"),
+        (and("[curve.c]\nexpression = \"t\"\nbetween = \"lines\""), "curve.c", "has `between` and `expression` at once"),
+        (and("[curve.c]\nexpression = \"t\"\nsine = { amplitude = 1, frequency = 1 }"), "curve.c", "at once"),
+        (and("[curve.c]\nexpression = \"2*sin(3*t\""), "curve.c.expression", "at character 6 of `2*sin(3*t`: this `(` is never closed"),
+        (and("[curve.c]\nexpression = \"1/(t - 5e-4)\""), "curve.c.expression", "is inf at 0.0005 s"),
+        (
+            and("[curve.c]\nsine = { amplitude = \"2 mm\", frequency = 5, offset = \"1 s\" }"),
+            "curve.c.sine.offset",
+            "`offset` is in s, but `amplitude` is in m",
+        ),
+    ]);
+}
+
+#[test]
+fn constraints_move_nodes_in_every_way() {
+    let constraint = |text: &str| {
+        sound(&and(&format!("[[constraint]]\non = \"plate.right\"\n{text}\n[curve.c]\nexpression = \"t\""))).constraints.pop().unwrap()
+    };
+    let curve = || Some(Drive::Curve("c".into()));
+    let empty = || Constraint { on: "plate.right".into(), ..Constraint::default() };
+    assert_eq!(constraint("displacement.y = \"c\""), Constraint { displacement: [None, curve()], ..empty() });
+    let both = Constraint { velocity: [None, Some(Drive::Constant(0.0))], acceleration: [Some(Drive::Constant(3.0)), None], ..empty() };
+    assert_eq!(constraint("fixed = \"y\"\nacceleration = { x = \"3 m/s^2\" }"), both);
+    let rotation = |centre, speed| Constraint { rotation: Some(Rotation { centre, speed }), ..empty() };
+    assert_eq!(constraint("rotation = { speed = \"c\", centre = [1, \"2 mm\"] }"), rotation([1.0, 0.002], Drive::Curve("c".into())));
+    assert_eq!(constraint("rotation = { speed = \"60 rpm\" }"), rotation([0.0; 2], Drive::Constant(std::f64::consts::TAU)));
+    let on = |text: &str| and(&format!("[[constraint]]\non = \"plate.right\"\n{text}"));
+    each_has(&[
+        (on("fixed = \"x\"\nacceleration.x = 1"), "constraint[1].fixed", "component `x` is both fixed and given an acceleration"),
+        (on("rotation = { speed = 1 }\nfixed = \"x\""), "constraint[1]", "`rotation` and `fixed`"),
+        (on("rotation = { centre = [0, 0] }"), "constraint[1].rotation.speed", "has no `speed`"),
+        (on("displacement.x = \"3 mm\""), "constraint[1].displacement.x", "would move the nodes at once"),
+        (on("displacement.x = \"ramp\""), "constraint[1].displacement.x", "the values of curve `ramp` are in m/s, but `x` is in m"),
+        (on("velocity.x = 1\nacceleration.x = 1"), "constraint[1].acceleration.x", "prescribed by both `velocity` and `acceleration`"),
+    ]);
 }
 
 #[test]
@@ -156,6 +207,45 @@ fn a_load_can_damp() {
     assert_eq!(load("damping = 100"), Load::Damping { parts: vec![], rate: 100.0, active: [0.0, f64::INFINITY] });
     let part = load("damping = \"1 1/ms\"\nparts = \"ball\"\nfrom = \"1 ms\"\nuntil = \"2 ms\"");
     assert_eq!(part, Load::Damping { parts: vec!["ball".into()], rate: 1000.0, active: [0.001, 0.002] });
+}
+
+#[test]
+fn loads_boundaries_and_joins_are_read() {
+    let load = |lines: &str| sound(&and(&format!("[[load]]\n{lines}\n[curve.c]\nexpression = \"t\""))).loads.pop().unwrap();
+    let curve = || Some("c".to_string());
+    let gravity = Load::Gravity { parts: vec!["ball".into()], acceleration: [1.0, 2.0], curve: curve() };
+    assert_eq!(load("gravity = [1, 2]\nparts = \"ball\"\ncurve = \"c\""), gravity);
+    let spin = |centre, curve| Load::Centrifugal { parts: vec![], centre, speed: std::f64::consts::TAU, curve };
+    assert_eq!(load("centrifugal = \"60 rpm\""), spin([0.0; 2], None));
+    assert_eq!(load("centrifugal = \"60 rpm\"\ncentre = [1, 2]\ncurve = \"c\""), spin([1.0, 2.0], curve()));
+    let force = Load::Force { on: "plate.top".into(), force: [3.0, -2000.0], curve: None };
+    assert_eq!(load("force = [3, \"-2 kN/m\"]\non = \"plate.top\""), force);
+    assert_eq!(load("pressure = \"2 MPa\"\non = \"ball\""), Load::Pressure { on: "ball".into(), pressure: 2e6, curve: None });
+    let model = sound(&and(&format!(
+        "{MORE}[[join]]\nbetween = [\"plate.top\", \"plate.bottom\"]\ntranslation = [0, \"-3 mm\"]\ntolerance = \"1 um\""
+    )));
+    assert_eq!(model.non_reflecting, [NonReflecting { on: "ball.outer".into() }]);
+    let image = Image::Turned { centre: [0.0, 0.1], angle: std::f64::consts::PI };
+    let turned = Join { between: ["tube.start".into(), "tube.end".into()], image, tolerance: None };
+    let image = Image::Translated([0.0, -0.003]);
+    let moved = Join { between: ["plate.top".into(), "plate.bottom".into()], image, tolerance: Some(1e-6) };
+    assert_eq!(model.joins, [turned, moved]);
+    let of = |section: &str, lines: &str| and(&format!("{MORE}[[{section}]]\n{lines}"));
+    each_has(&[
+        (of("load", "pressure = 1"), "load[1]", "has `pressure` but no `on`"),
+        (of("load", "pressure = 1\non = \"plate.tpo\""), "load[1].on", "part `plate` has no side `tpo` | did you mean `top`?"),
+        (of("load", "force = [1, 1]\non = \"plate\""), "load[1].on", "`plate` is a part, but a force acts on a set of its nodes"),
+        (of("load", "gravity = [1, 1]\ncurve = \"ramp\""), "load[1].curve", "the values of curve `ramp` are in m/s, but `curve` is"),
+        (of("load", "gravity = [1, 1]\ncurve = \"rmap\""), "load[1].curve", "there is no curve `rmap` | did you mean `ramp`?"),
+        (of("load", "force = [1, 1]\npressure = 1\non = \"plate.top\""), "load[1]", "has `force` and `pressure` at once"),
+        (of("non_reflecting", "on = \"ball.outer\""), "non_reflecting[1].on", "reflects nothing by non_reflecting[0] already"),
+        (of("join", "between = [\"tube.start\", \"tube.start\"]"), "join[1].between", "is joined to itself"),
+        (
+            of("join", "between = [\"tube.start\", \"tube.end\"]\nrotation = 1\ntranslation = [1, 0]"),
+            "join[1]",
+            "`translation` and `rotation`",
+        ),
+    ]);
 }
 
 #[test]
@@ -291,6 +381,6 @@ fn obstacles_and_moving_parts_that_make_no_sense_are_refused() {
         (and("[curve.2b]\ntime = [0]\nvalue = [0]"), "curve.2b", "must begin with a letter"),
         (and("[[load]]\ngravity = [0, -9]\nfrom = 1"), "load[1]", "has `from` but no `damping`"),
         (and("[[load]]\ndamping = 1\nfrom = 2\nuntil = 1"), "load[1].until", "it ends at 1 s, not after its beginning at 2 s"),
-        (and("[[load]]\nparts = \"ball\""), "load[1]", "needs one of `gravity` and `damping`"),
+        (and("[[load]]\nparts = \"ball\""), "load[1]", "needs one of `gravity`, `centrifugal`, `force`, `pressure` and `damping`"),
     ]);
 }

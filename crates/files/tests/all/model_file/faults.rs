@@ -123,7 +123,9 @@ const CASES: &[Case] = &[
     (
         "disk = { centre = [0, 0.1], radius = \"9 mm\", elements = 4 }\n",
         "",
-        &["18:1 [[part]] needs one of `rectangle`, `ring`, `disk` and `mesh` | add one of them"],
+        &[
+            "18:1 [[part]] needs one of `rectangle`, `ring`, `disk`, `trapezoid`, `quadrilateral`, `polygon`, `path` and `mesh` | add one of them",
+        ],
     ),
     (
         "[\"tube\", \"plate\"]",
@@ -161,7 +163,11 @@ const CASES: &[Case] = &[
     ),
     ("normal = [1, 0]", "normal = [0.0, 0]", &["26:20 the normal is zero, so it has no direction | give a vector such as [1, 0]"]),
     ("fixed = \"x\"", "fixed = [\"x\", \"z\"]", &["31:15 `fixed[1]` can't be \"z\" | did you mean `x`?"]),
-    ("fixed = \"x\"", "", &["29:1 [[constraint]] needs `fixed` or `velocity` | add one of them"]),
+    (
+        "fixed = \"x\"",
+        "",
+        &["29:1 [[constraint]] needs `fixed`, `velocity`, `displacement`, `acceleration` or `rotation` | add one of them"],
+    ),
     (
         "fixed = \"x\"",
         "fixed = \"x\"\nvelocity = { x = 0 }",

@@ -5,12 +5,13 @@ mod described;
 mod faults;
 mod random;
 mod reads;
+mod shapes;
 
 use embate_files::model_file::{Diagnostic, Diagnostics, load_text};
 use embate_solver::model::Model;
 use std::path::Path;
 
-/// A sound model that uses every section; tests replace or add lines.
+/// A sound model that uses every section but those of [`MORE`]; tests replace or add lines.
 pub(crate) const SOUND: &str = r#"title = "all sections"
 [run]
 end = "1 ms"
@@ -57,6 +58,15 @@ value = [0, "5 m/s"]
 circle = { centre = [0, 1], radius = "10 mm" }
 [[obstacle]]
 polyline = { points = [[0, -1], [1, -1]] }
+"#;
+
+/// The other sections.
+pub(crate) const MORE: &str = r#"[[non_reflecting]]
+on = "ball.outer"
+[[join]]
+between = ["tube.start", "tube.end"]
+rotation = "180 deg"
+centre = [0, 0.1]
 "#;
 
 /// Reads a text with all its lines numbered from 1.

@@ -4,8 +4,8 @@ use super::{SOUND, changed, read};
 use embate_files::model_file::{load, load_text, reference_markdown, schema, starter};
 use embate_solver::model::describe::SECTIONS;
 use embate_solver::model::{
-    Cadence, ContactLaw, Drive, Formulation, Interface, Load, Model, Obstacle, Output, Partners, Penalty, PenaltySource, ProbeAt, Run,
-    Shape, Symmetry,
+    Cadence, ContactLaw, Drive, Formulation, Interface, Load, Model, Obstacle, Output, Partners, Penalty, PenaltySource, ProbeAt,
+    Rectangle, Ring, Run, Shape, Symmetry,
 };
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::path::{Path, PathBuf};
@@ -29,9 +29,17 @@ fn the_tube_plate_example_has_exactly_the_values_that_it_shows() {
         assert_eq!(steel.parameters[key], value, "{key}");
     }
     let [tube, plate] = model.parts.as_slice() else { panic!("two parts") };
-    let ring = Shape::Ring { centre: [0.0, 0.1], inner: 0.094, outer: 0.1, from: -FRAC_PI_2, to: FRAC_PI_2, elements: [1, 40] };
+    let ring = Shape::Ring(Ring {
+        centre: [0.0, 0.1],
+        inner: 0.094,
+        outer: 0.1,
+        from: -FRAC_PI_2,
+        to: FRAC_PI_2,
+        elements: [1, 40],
+        ..Ring::default()
+    });
     assert_eq!((tube.name.as_str(), tube.element.as_str(), &tube.shape, tube.velocity), ("tube", "quad4", &ring, [0.0, -50.0]));
-    let rectangle = Shape::Rectangle { corner: [0.0, -0.003], size: [0.6, 0.003], elements: [120, 3] };
+    let rectangle = Shape::Rectangle(Rectangle { corner: [0.0, -0.003], size: [0.6, 0.003], elements: [120, 3], ..Rectangle::default() });
     assert_eq!((plate.name.as_str(), &plate.shape, plate.velocity), ("plate", &rectangle, [0.0, 50.0]));
     let contact = &model.contacts[0];
     assert_eq!(
@@ -61,9 +69,9 @@ fn what_is_left_out_has_the_default_of_the_solver() {
     assert_eq!(model.contacts[0].interface, Interface::default());
     assert_eq!((model.contacts[0].name.as_str(), model.obstacles[0].name.as_str()), ("tube-plate", "obstacle"));
     assert_eq!(model.constraints[0].velocity, [Some(0.0.into()), None]);
-    assert_eq!(model.loads, [Load::Gravity { parts: vec![], acceleration: [0.0, -9.81] }]);
+    assert_eq!(model.loads, [Load::Gravity { parts: vec![], acceleration: [0.0, -9.81], curve: None }]);
     let full = sound(&changed("from = \"-90 deg\", to = \"90 deg\", ", ""));
-    assert!(matches!(full.parts[0].shape, Shape::Ring { from: 0.0, to: TAU, .. }), "{:?}", full.parts[0].shape);
+    assert!(matches!(full.parts[0].shape, Shape::Ring(Ring { from: 0.0, to: TAU, .. })), "{:?}", full.parts[0].shape);
 }
 
 #[test]

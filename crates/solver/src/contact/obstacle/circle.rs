@@ -139,7 +139,7 @@ impl RoundSegments {
         let segment = self.tracker.target(touch.pass).surface.segments[projection.segment as usize];
         let gap = projection.gap - self.radius;
         // A node comes first: it stands for the place in messages.
-        let [a, b] = segment_ends(segment, projection.weights, gap, positions);
+        let [a, b] = segment_ends(segment, &projection, gap, positions);
         let ends = [a, b, End { at: (positions.len() + self.body) as u32, share: 1.0, point, ..End::default() }];
         let (Slave { stiffness, area, .. }, slip) = (self.slave, touch.memory.slip);
         let gap = gap - touch.memory.offset;

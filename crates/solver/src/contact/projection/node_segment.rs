@@ -40,6 +40,53 @@ const ROUNDING: f64 = 16.0 * f64::EPSILON;
 const TIE: f64 = 1e-9;
 /// Cosine of the angle between two segments from which on their common node is an edge, not a facet of something round.
 const EDGE: f64 = 0.5;
+/// How far a face goes on beyond a free end: this fraction of the length of its last segment, or of the slave's segments where those are shorter.
+pub const BAND: f64 = 0.025;
+
+/// By how much a face that goes on over a band of this width (m) has fallen at a distance `beyond` its end (m): φ, m, and its slope.
+///
+/// It goes straight on over half of the band, bends down over the other half, and falls at 45 degrees from there. What is flush but for half of the band feels no end at all; what
+/// leaves the face sideways slides down the slope and gives the energy of its spring back as work, over a way that is as long as it was deep.
+#[must_use]
+pub fn fall_off(beyond: f64, band: f64) -> [f64; 2] {
+    let half = 0.5 * band;
+    let down = beyond - half;
+    if down <= 0.0 {
+        [0.0; 2]
+    } else if down < half {
+        [0.5 * down * down / half, down / half]
+    } else {
+        [down - 0.5 * half, 1.0]
+    }
+}
+
+/// How a slave is held beyond the ends of faces.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Held {
+    /// How far faces go on, m; 0: not at all.
+    pub band: f64,
+    /// Gap up to which it is held, m.
+    pub gap: f64,
+}
+
+/// A node as a segment's line sees it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Seen {
+    /// Place along the segment; 0 and 1 are its nodes.
+    pub place: f64,
+    /// Distance from the line, m, positive on the outer side.
+    pub gap: f64,
+    /// Length of the segment, m.
+    pub length: f64,
+}
+
+impl Seen {
+    /// How far beyond an end it is, m; negative where it is not.
+    #[must_use]
+    pub fn beyond(&self) -> f64 {
+        (-self.place).max(self.place - 1.0) * self.length
+    }
+}
 
 impl Target {
     /// Projects `x` on segment `segment` or on the end that is nearest; `None` where the surface is cut off there, or the segment has no length.
@@ -63,6 +110,48 @@ impl Target {
         let t = minus(c2, c1);
         let length = dot(t, t).sqrt();
         (length > 0.0).then(|| cross(t, minus(x, c1)) / length)
+    }
+
+    /// Where `x` is as seen from the line of segment `segment`; `None` where it has no length.
+    #[must_use]
+    pub fn seen(&self, x: Vector, segment: u32, positions: &[Vector]) -> Option<Seen> {
+        let [c1, c2] = self.surface.segments[segment as usize].map(|node| positions[node as usize]);
+        let (t, r) = (minus(c2, c1), minus(x, c1));
+        let square = dot(t, t);
+        let length = square.sqrt();
+        (length > 0.0).then(|| Seen { place: dot(r, t) / square, gap: cross(t, r) / length, length })
+    }
+
+    /// Whether a face ends where segment `segment` begins (`end` 0) or ends (1): the surface is cut off there, or goes on around a sharp edge, away from the outside.
+    #[must_use]
+    pub fn is_free(&self, segment: u32, end: usize, positions: &[Vector]) -> bool {
+        let neighbour = self.neighbour(segment, PLACES[end]);
+        if neighbour == NONE {
+            let node = self.surface.segments[segment as usize][end];
+            return self.mirrors.binary_search_by_key(&node, |&(node, _)| node).is_err();
+        }
+        let [before, after] = if end == 0 { [neighbour, segment] } else { [segment, neighbour] };
+        self.is_edge(before, after, positions) && cross(self.along(before, positions), self.along(after, positions)) <= 0.0
+    }
+
+    /// The projection on segment `segment` as it goes on beyond a free end over a band of this width (m), see [`fall_off`]; `None` where `x` is not beyond such an end. Weights are
+    /// those of the place on the segment's line, one of them negative; the gap is that of the line and what the face has fallen off.
+    #[must_use]
+    pub fn beyond(&self, x: Vector, segment: u32, band: f64, positions: &[Vector]) -> Option<Projection> {
+        let seen = self.seen(x, segment, positions)?;
+        let beyond = seen.beyond();
+        if !(beyond > 0.0 && band > 0.0 && self.is_free(segment, usize::from(seen.place > 0.5), positions)) {
+            return None;
+        }
+        let normal = outward(self.along(segment, positions), seen.length);
+        Some(Projection { segment, weights: [1.0 - seen.place, seen.place], gap: seen.gap + fall_off(beyond, band)[0], normal })
+    }
+
+    /// From the beginning of a segment to its end, m.
+    #[must_use]
+    pub fn along(&self, segment: u32, positions: &[Vector]) -> Vector {
+        let [a, b] = self.surface.segments[segment as usize].map(|node| positions[node as usize]);
+        minus(b, a)
     }
 
     /// The nearest feature of a segment; `None` for a segment without length.
@@ -125,8 +214,15 @@ impl Target {
     /// plate's far side nor that of its own body. `None` where the nearest is an end at which the surface is cut off.
     #[must_use]
     pub fn ahead(&self, x: Vector, candidates: &[u32], rounding: f64, positions: &[Vector]) -> Option<Projection> {
+        self.first_ahead(x, candidates, rounding, positions)?.1
+    }
+
+    /// As [`Target::ahead`], with the segment that the nearest feature belongs to: it is told where the surface is cut off, too.
+    #[must_use]
+    pub fn first_ahead(&self, x: Vector, candidates: &[u32], rounding: f64, positions: &[Vector]) -> Option<(u32, Option<Projection>)> {
         let features = candidates.iter().filter_map(|&segment| self.feature(x, segment, positions));
-        features.filter(|feature| feature.projection.is_none_or(|projection| projection.gap >= -rounding)).reduce(nearer)?.projection
+        let in_front = features.filter(|feature| feature.projection.is_none_or(|projection| projection.gap >= -rounding));
+        in_front.reduce(nearer).map(|feature| (feature.segment, feature.projection))
     }
 
     /// Nearest feature to `x` among `candidates`; of equally near ones the first. `None` where that is an end at which the surface is cut off.
@@ -145,16 +241,23 @@ impl Target {
     /// node deep below a thin body would be led around the body's edge to the far side.
     #[must_use]
     pub fn follow(&self, x: Vector, start: u32, positions: &[Vector]) -> Option<Projection> {
-        self.follow_without(x, start, NONE, positions)
+        self.follow_without(x, start, NONE, Held::default(), positions)
     }
 
-    /// As [`Target::follow`], but the chain ends at the segments of node `own`: those of the slave itself, in a contact of a surface with itself.
+    /// As [`Target::follow`], but the chain ends at the segments of node `own`: those of the slave itself, in a contact of a surface with itself. Beyond a free end the node stays
+    /// with the face as [`Target::beyond`] and `held` say.
     #[must_use]
-    pub fn follow_without(&self, x: Vector, start: u32, own: u32, positions: &[Vector]) -> Option<Projection> {
+    pub fn follow_without(&self, x: Vector, start: u32, own: u32, held: Held, positions: &[Vector]) -> Option<Projection> {
         let mut best = self.feature(x, start, positions)?;
         for _ in 0..self.surface.segments.len() {
             let here = best;
-            for end in [Place::Begin, Place::End] {
+            if here.at != Place::Inside
+                && let Some(beyond) = self.beyond(x, here.segment, held.band, positions)
+                && beyond.gap <= held.gap
+            {
+                return Some(beyond);
+            }
+            for end in PLACES {
                 let neighbour = self.neighbour(here.segment, end);
                 if !self.goes_on(neighbour, own) || (here.at == Place::Inside && self.is_edge(here.segment, neighbour, positions)) {
                     continue;
@@ -199,11 +302,9 @@ impl Target {
     }
 
     /// Whether two segments meet at a sharp angle.
-    fn is_edge(&self, a: u32, b: u32, positions: &[Vector]) -> bool {
-        let [ta, tb] = [a, b].map(|segment| {
-            let [n1, n2] = self.surface.segments[segment as usize].map(|node| positions[node as usize]);
-            minus(n2, n1)
-        });
+    #[must_use]
+    pub fn is_edge(&self, a: u32, b: u32, positions: &[Vector]) -> bool {
+        let [ta, tb] = [a, b].map(|segment| self.along(segment, positions));
         dot(ta, tb) < EDGE * (dot(ta, ta) * dot(tb, tb)).sqrt()
     }
 
@@ -311,6 +412,9 @@ enum Place {
     Inside,
     End,
 }
+
+/// Both ends of a segment.
+const PLACES: [Place; 2] = [Place::Begin, Place::End];
 
 /// How often a node goes out through a segment a → b (body on its right) less how often it goes in, in one step. `seen` are a and b at the
 /// beginning and a and b at the end, as seen from the node.

@@ -54,6 +54,20 @@ pub struct Stick {
     pub time_steps: [f64; 2],
 }
 
+impl Stick {
+    /// Change of the slip rate per friction that sticks, beside `compliance`, m/s per N/m.
+    #[must_use]
+    pub fn softness(&self) -> f64 {
+        8.0 / (self.stiffness * (self.time_steps[0] + self.time_steps[1]))
+    }
+
+    /// The same of a tie.
+    #[must_use]
+    pub fn tie_softness(&self) -> f64 {
+        4.0 / (self.stiffness * self.time_steps[1])
+    }
+}
+
 /// Friction that was found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Slid {

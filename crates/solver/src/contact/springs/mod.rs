@@ -13,16 +13,24 @@
 //! Stability: while a linear spring is closed, F = −k (g^{n−1} + 2 g^n + g^{n+1})/4, so it adds k to the stiffness and k dt²/4 to the mass:
 //! (K + k) dt² ≤ 4 (M + k dt²/4) holds exactly if K dt² ≤ 4 M. The stable step of the elements alone is the stable step with contact.
 //!
-//! g^{n+½} depends on F itself and on the other springs at the same nodes: Gauss-Seidel over the springs, in their fixed order, normal force and
-//! friction in turn. For linear springs the matrix (2/k on the diagonal plus compliances) is symmetric and positive definite, so the sweeps converge; pair
-//! forces keep both momenta exactly at any time. Laws of the normal force are in [`super::law`], friction is in [`friction`].
+//! g^{n+½} depends on F itself and on the other springs at the same nodes. Springs that share none are in different [`islands`]; those of one are swept over in their fixed order
+//! ([`relax`]: Gauss-Seidel, normal force and friction in turn) until no force changes, and where that is slow, Newton's step predicts the forces ([`newton`], [`skyline`]). Pair forces
+//! keep both momenta exactly at any time. [`solve`] leads through the step, [`link`] has what springs act on, [`book`] the energies. Laws of the normal force are in [`super::law`],
+//! friction is in [`friction`].
 
 pub mod friction;
+mod book;
+mod islands;
+mod link;
+mod newton;
+mod relax;
+mod skyline;
+mod solve;
 
 use super::law::Law;
-use crate::load::constraint::Constraints;
 use crate::rigid::Bodies;
-use friction::{Friction, Stick};
+use friction::Friction;
+use std::ops::Range;
 
 /// A vector of the plane.
 pub type Vector = [f64; 2];
@@ -66,6 +74,14 @@ pub struct Spring {
     pub(super) count: u32,
 }
 
+impl Spring {
+    /// Where its ends are among all.
+    #[inline]
+    fn ends(&self) -> Range<usize> {
+        self.first as usize..(self.first + self.count) as usize
+    }
+}
+
 /// Work that no normal spring stores, J/m: positive is taken from the motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Lost {
@@ -104,6 +120,8 @@ pub struct End {
     pub turn: Vector,
     /// Where the forces act on a rigid body without nodes, m.
     pub point: Vector,
+    /// Cosine and sine of the rotation from the motion of the node that moves in its stead; `None`: no rotation.
+    pub image: Option<Vector>,
 }
 
 impl End {
@@ -166,84 +184,46 @@ pub struct Springs {
     /// In the order in which contacts and obstacles found them.
     pub list: Vec<Spring>,
     ends: Vec<End>,
-    /// First spring of each contact, and what acts in it.
-    groups: Vec<Group>,
-    /// Place of each node (then of each rigid body) in `movables`; `u32::MAX`: not touched.
-    place: Vec<u32>,
-    movables: Vec<Movable>,
-    places: Vec<u32>,
-    links: Vec<Link>,
-    /// Springs that push.
-    live: Vec<u32>,
+    /// Number of what acts in each.
+    terms_of: Vec<u32>,
+    work: solve::Workspace,
     /// Most sweeps that a step took so far.
     pub sweeps_max: usize,
     /// Steps whose forces still changed after the last sweep that is allowed.
     pub unsolved: u64,
 }
 
-/// The springs of one contact.
-#[derive(Clone, Copy)]
-struct Group {
-    end: usize,
-    terms: usize,
-}
-
-/// A node or rigid body that springs act on.
-#[derive(Clone, Copy)]
-struct Movable {
-    at: u32,
-    /// x, y and, of a rigid body, angular.
-    velocity_old: [f64; 3],
-    velocity: [f64; 3],
-    /// Change of velocity per force: xx, xy, yy and, of a rigid body, angular.
-    mobility: [f64; 4],
-    /// Centre of a rigid body; `None`: a node.
-    centre: Option<Vector>,
-}
-
-impl Movable {
-    /// A row of force `row` at `point`, with its moment on a rigid body.
-    #[inline]
-    fn row(&self, row: Vector, point: Vector) -> [f64; 3] {
-        let moment = self.centre.map_or(0.0, |centre| (point[0] - centre[0]) * row[1] - (point[1] - centre[1]) * row[0]);
-        [row[0], row[1], moment]
-    }
-
-    #[inline]
-    fn response(&self, row: [f64; 3]) -> [f64; 3] {
-        let [xx, xy, yy, spin] = self.mobility;
-        [xx * row[0] + xy * row[1], xy * row[0] + yy * row[1], spin * row[2]]
-    }
-}
-
-/// What a spring needs in every sweep.
-#[derive(Clone, Copy, Debug, Default)]
-struct Link {
-    /// Change of g^{n+½} per normal force.
-    compliance: f64,
-    /// Change of the slip rate per friction.
-    slip_compliance: f64,
-    gap_old: f64,
-    rate_old: f64,
-    slip_rate_old: f64,
-}
-
 /// What the solution needs of the model.
-pub struct Update<'a, F: Fn(usize) -> Vector> {
+pub struct Update<'a, M: Movers> {
     /// Steps before and after, s: v^{n+½} = v^{n−½} + ½ (dt^{n−1} + dt^n) F / m, x^{n+1} = x^n + dt^n v^{n+½}.
     pub time_steps: [f64; 2],
-    /// Nodal masses, kg/m.
-    pub mass: &'a [f64],
     /// x^n, m.
     pub positions: &'a [Vector],
-    /// v^{n−½}, m/s.
-    pub velocities_old: &'a [Vector],
-    /// Velocity v^{n+½} of a node without springs, prescribed motion included, m/s.
-    pub velocity_free: F,
-    /// Prescribed directions.
-    pub constraints: &'a Constraints<2>,
+    /// How nodes move and give way.
+    pub nodes: &'a M,
     /// Rigid bodies.
     pub bodies: &'a Bodies,
+}
+
+/// Nodes as springs see them.
+pub trait Movers {
+    /// How many nodes there are.
+    fn count(&self) -> usize;
+    /// The node that moves in the stead of `node`, and the rotation from its motion to that of `node`, if any.
+    fn leader(&self, node: u32) -> (u32, Option<Vector>);
+    /// Motion of a node that leads itself.
+    fn mover(&self, leader: usize) -> Mover;
+}
+
+/// A node without springs.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Mover {
+    /// v^{n−½}, m/s.
+    pub velocity_old: Vector,
+    /// v^{n+½} without springs, prescribed motion included, m/s.
+    pub velocity: Vector,
+    /// Change of v^{n+½} per force: xx, xy, yy.
+    pub mobility: [f64; 3],
 }
 
 /// A spring as laws of the normal force see it.
@@ -276,23 +256,18 @@ pub struct Totals {
     pub lost: Lost,
 }
 
-/// Sweeps stop when no force changes by more than this fraction of the largest.
-const TOLERANCE: f64 = 1e-12;
-/// Sweeps after which the forces are taken as they are; far beyond what penalties of 100 times the elements' stiffness need.
-const SWEEPS: usize = 500;
-
 impl Springs {
     /// For `nodes` nodes and `bodies` rigid bodies.
     #[must_use]
     pub fn new(nodes: usize, bodies: usize) -> Self {
-        Self { place: vec![u32::MAX; nodes + bodies], ..Self::default() }
+        Self { work: solve::Workspace::new(nodes + bodies), ..Self::default() }
     }
 
     /// Forgets the springs of the last step.
     pub fn clear(&mut self) {
         self.list.clear();
         self.ends.clear();
-        self.groups.clear();
+        self.terms_of.clear();
     }
 
     /// Adds a spring with its ends.
@@ -304,198 +279,17 @@ impl Springs {
 
     /// Ends the springs of a contact: what was pushed since the last group follows `terms`.
     pub fn close_group(&mut self, terms: usize) {
-        self.groups.push(Group { end: self.list.len(), terms });
+        self.terms_of.resize(self.list.len(), terms as u32);
     }
 
     /// The ends of a spring.
     #[must_use]
     pub fn ends(&self, spring: &Spring) -> &[End] {
-        &self.ends[spring.first as usize..(spring.first + spring.count) as usize]
-    }
-
-    /// Finds the force, work and energy of every spring. `terms` as the groups number them.
-    pub fn solve<F: Fn(usize) -> Vector>(&mut self, update: &Update<'_, F>, terms: &[Terms]) {
-        if self.list.is_empty() {
-            return;
-        }
-        self.link(update, terms);
-        let mut sweep = 1;
-        let mut live = std::mem::take(&mut self.live);
-        // All springs, then those that push until they agree, then all again: open ones are only looked at.
-        loop {
-            let all = self.relax(update, terms, None);
-            self.sweeps_max = self.sweeps_max.max(sweep);
-            if all.0 <= TOLERANCE * all.1 {
-                break;
-            }
-            live.clear();
-            live.extend(
-                (0..self.list.len() as u32).filter(|&i| self.list[i as usize].force != 0.0 || self.list[i as usize].friction != 0.0),
-            );
-            loop {
-                sweep += 1;
-                let (change, largest) = self.relax(update, terms, Some(&live));
-                if change <= TOLERANCE * largest || sweep >= SWEEPS {
-                    break;
-                }
-            }
-            sweep += 1;
-            if sweep > SWEEPS {
-                self.unsolved += 1;
-                self.sweeps_max = SWEEPS;
-                break;
-            }
-        }
-        self.live = live;
-        self.book(update, terms);
-        for movable in self.movables.drain(..) {
-            self.place[movable.at as usize] = u32::MAX;
-        }
-    }
-
-    /// One sweep over the springs (`only` those, if given): largest change of a force, largest force.
-    fn relax<F: Fn(usize) -> Vector>(&mut self, update: &Update<'_, F>, terms: &[Terms], only: Option<&[u32]>) -> (f64, f64) {
-        let mut result = (0.0f64, 0.0f64);
-        let mut begin = 0;
-        let mut rest = only;
-        let groups = std::mem::take(&mut self.groups);
-        for group in &groups {
-            let mut group_of = Relaxing { springs: self, time_steps: update.time_steps, terms: &terms[group.terms] };
-            let (change, largest) = match &mut rest {
-                None => group_of.sweep(begin as u32..group.end as u32),
-                Some(list) => {
-                    let (here, others) = list.split_at(list.partition_point(|&i| (i as usize) < group.end));
-                    *list = others;
-                    group_of.sweep(here.iter().copied())
-                }
-            };
-            result = (result.0.max(change), result.1.max(largest));
-            begin = group.end;
-        }
-        self.groups = groups;
-        result
-    }
-
-    /// Gathers the nodes and bodies of the springs and what a force does to them.
-    fn link<F: Fn(usize) -> Vector>(&mut self, update: &Update<'_, F>, terms: &[Terms]) {
-        self.links.clear();
-        self.places.clear();
-        let [before, after] = update.time_steps;
-        let nodes = update.mass.len();
-        for end in &mut self.ends {
-            let mut at = end.at;
-            if let Some(body) = update.bodies.of_node(at) {
-                end.point = update.positions[at as usize];
-                at = (nodes + body) as u32;
-            }
-            let place = &mut self.place[at as usize];
-            if *place == u32::MAX {
-                *place = self.movables.len() as u32;
-                self.movables.push(movable(at, nodes, update));
-            }
-            self.places.push(*place);
-        }
-        let mut groups = self.groups.iter();
-        let mut group = groups.next();
-        for (i, spring) in self.list.iter().enumerate() {
-            while group.is_some_and(|group| i >= group.end) {
-                group = groups.next();
-            }
-            let slips = group.is_some_and(|group| !matches!(terms[group.terms].tangential, Tangential::Free));
-            let t = tangent(spring.normal);
-            let mut link = Link::default();
-            for k in spring.first as usize..(spring.first + spring.count) as usize {
-                let (end, movable) = (&self.ends[k], &self.movables[self.places[k] as usize]);
-                let row = movable.row(end.gap_row(spring.normal), end.point);
-                link.rate_old += dot(row, movable.velocity_old);
-                link.compliance += 0.5 * after * dot(row, movable.response(row));
-                if slips {
-                    let row = movable.row(end.slip_row(t), end.point);
-                    link.slip_rate_old += dot(row, movable.velocity_old);
-                    link.slip_compliance += dot(row, movable.response(row));
-                }
-            }
-            link.gap_old = spring.gap - 0.5 * before * link.rate_old;
-            self.links.push(link);
-        }
-    }
-
-    /// Energies and works of the solved springs.
-    fn book<F: Fn(usize) -> Vector>(&mut self, update: &Update<'_, F>, terms: &[Terms]) {
-        let [before, after] = update.time_steps;
-        let mean_step = 0.5 * (before + after);
-        let mut begin = 0;
-        for group in &self.groups {
-            let terms = &terms[group.terms];
-            for i in begin..group.end {
-                let link = self.links[i];
-                let spring = self.list[i];
-                let rates = self.rates(i, spring.force != 0.0 || !matches!(terms.tangential, Tangential::Free));
-                let spring_new = &mut self.list[i];
-                let gap_new = spring.gap + 0.5 * after * rates[0];
-                let (stored_old, stored_new) = (terms.law.stored(&spring, link.gap_old), terms.law.stored(&spring, gap_new));
-                // Part of the force that the energy explains; the rest is damping, or a multiplier's.
-                let elastic = match terms.law.is_elastic() {
-                    false => 0.0,
-                    true if terms.damping == 0.0 => spring.force,
-                    true => terms.law.mean_force(&spring, link.gap_old, gap_new),
-                };
-                let bend = gap_new + link.gap_old - 2.0 * spring.gap;
-                spring_new.energy = 0.5 * (stored_old + stored_new) + 0.5 * elastic * bend;
-                spring_new.stored = [stored_new, 0.0];
-                let rate_mean = 0.5 * (link.rate_old + rates[0]);
-                let slip_mean = 0.5 * (link.slip_rate_old + rates[1]);
-                spring_new.work = mean_step * (spring.force * rate_mean + spring.friction * slip_mean);
-                let inelastic = spring.force - elastic;
-                spring_new.lost = Lost { damping: -mean_step * inelastic * rate_mean, ..Lost::default() };
-                spring_new.lost.old[1] = -mean_step * inelastic * link.rate_old;
-                spring_new.slip_rate = rates[1];
-                match terms.tangential {
-                    Tangential::Free => spring_new.slides = spring.force != 0.0,
-                    Tangential::Friction(_) => {
-                        spring_new.lost.friction = -mean_step * spring.friction * slip_mean;
-                        spring_new.lost.old[0] = -mean_step * spring.friction * link.slip_rate_old;
-                        let stiffness = terms.law.slip_stiffness(&spring);
-                        if stiffness.is_finite() {
-                            spring_new.slip_energy = 0.25 * stiffness * (spring.slip * spring.slip + spring.slip_new * spring.slip_new);
-                        }
-                    }
-                    Tangential::Tied => {
-                        let stiffness = terms.law.slip_stiffness(&spring);
-                        if stiffness.is_finite() {
-                            let (old, new) = (spring.slip - 0.5 * before * link.slip_rate_old, spring.slip + 0.5 * after * rates[1]);
-                            spring_new.stored[1] = 0.5 * stiffness * new * new;
-                            spring_new.energy +=
-                                0.25 * stiffness * (old * old + new * new) + 0.5 * spring.friction * (old + new - 2.0 * spring.slip);
-                        } else {
-                            spring_new.lost.damping -= mean_step * spring.friction * slip_mean;
-                            spring_new.lost.old[1] -= mean_step * spring.friction * link.slip_rate_old;
-                        }
-                    }
-                }
-            }
-            begin = group.end;
-        }
-    }
-
-    /// Rates of gap and slip with the present velocities.
-    fn rates(&self, i: usize, slips: bool) -> [f64; 2] {
-        let spring = &self.list[i];
-        let t = tangent(spring.normal);
-        let mut rates = [0.0; 2];
-        for k in spring.first as usize..(spring.first + spring.count) as usize {
-            let (end, movable) = (&self.ends[k], &self.movables[self.places[k] as usize]);
-            rates[0] += dot(movable.row(end.gap_row(spring.normal), end.point), movable.velocity);
-            if slips {
-                let row = movable.row(end.slip_row(t), end.point);
-                rates[1] += dot(row, movable.velocity);
-            }
-        }
-        rates
+        &self.ends[spring.ends()]
     }
 
     /// Sums up the springs `range`: adds their forces to `forces` (of nodes) and `bodies` (of bodies without nodes at the ends).
-    pub fn collect(&self, range: std::ops::Range<usize>, forces: &mut [Vector], bodies: &mut Bodies) -> Totals {
+    pub fn collect(&self, range: Range<usize>, forces: &mut [Vector], bodies: &mut Bodies) -> Totals {
         let mut totals = Totals::default();
         for spring in &self.list[range] {
             totals.energy += spring.energy;
@@ -519,112 +313,6 @@ impl Springs {
         }
         totals
     }
-}
-
-/// A node or rigid body at the beginning of the solution.
-fn movable<F: Fn(usize) -> Vector>(at: u32, nodes: usize, update: &Update<'_, F>) -> Movable {
-    let mean_step = 0.5 * (update.time_steps[0] + update.time_steps[1]);
-    let node = at as usize;
-    if node >= nodes {
-        let body = update.bodies.state(node - nodes);
-        let [x, y, spin] = body.inverse_mass.map(|inverse| mean_step * inverse);
-        let (velocity_old, velocity) = (body.velocity_old, body.velocity_free);
-        return Movable { at, velocity_old, velocity, mobility: [x, 0.0, y, spin], centre: Some(body.centre) };
-    }
-    let [vx, vy] = (update.velocity_free)(node);
-    let [ox, oy] = update.velocities_old[node];
-    let scale = mean_step / update.mass[node];
-    let mobility = match update.constraints.of(node) {
-        None => [scale, 0.0, scale, 0.0],
-        Some(held) => {
-            let (x, y) = (held.free_part([1.0, 0.0]), held.free_part([0.0, 1.0]));
-            [scale * x[0], scale * 0.5 * (x[1] + y[0]), scale * y[1], 0.0]
-        }
-    };
-    Movable { at, velocity_old: [ox, oy, 0.0], velocity: [vx, vy, 0.0], mobility, centre: None }
-}
-
-/// The sweep over the springs of one contact.
-struct Relaxing<'a> {
-    springs: &'a mut Springs,
-    time_steps: [f64; 2],
-    terms: &'a Terms,
-}
-
-impl Relaxing<'_> {
-    fn sweep(&mut self, indices: impl Iterator<Item = u32>) -> (f64, f64) {
-        let (mut change, mut largest) = (0.0f64, 0.0f64);
-        let [before, after] = self.time_steps;
-        let terms = self.terms;
-        let slips = !matches!(terms.tangential, Tangential::Free);
-        for i in indices.map(|i| i as usize) {
-            let [rate, _] = self.springs.rates(i, false);
-            let (spring, link) = (self.springs.list[i], self.springs.links[i]);
-            let free = spring.gap + 0.5 * after * rate - link.compliance * spring.force;
-            let closing = Closing { spring: &spring, old: link.gap_old, free, compliance: link.compliance };
-            let force = if terms.damping > 0.0 {
-                super::law::damped(terms.law.as_ref(), &closing, terms.damping, link.rate_old, self.time_steps)
-            } else {
-                terms.law.force(&closing, self.time_steps)
-            };
-            let step = force - spring.force;
-            if step != 0.0 {
-                self.push(i, step, 0.0);
-            }
-            self.springs.list[i].force = force;
-            change = change.max(step.abs());
-            largest = largest.max(force.abs());
-            if !slips || (force == 0.0 && spring.friction == 0.0 && matches!(terms.tangential, Tangential::Friction(_))) {
-                continue;
-            }
-            let [_, slip_rate] = self.springs.rates(i, true);
-            let spring = &mut self.springs.list[i];
-            let stick = Stick {
-                old: link.slip_rate_old,
-                free: slip_rate - link.slip_compliance * spring.friction,
-                compliance: link.slip_compliance,
-                stiffness: terms.law.slip_stiffness(spring),
-                time_steps: [before, after],
-            };
-            let friction_old = spring.friction;
-            match terms.tangential {
-                Tangential::Friction(law) => {
-                    let limit = law.limit(force, spring.area, link.slip_rate_old);
-                    let found = friction::slide(&stick, spring.slip, limit);
-                    (spring.friction, spring.slip_new, spring.slides) = (found.friction, found.slip, found.slides);
-                }
-                _ => spring.friction = friction::tie(&stick, spring.slip),
-            }
-            let step = spring.friction - friction_old;
-            if step != 0.0 {
-                self.push(i, 0.0, step);
-            }
-            change = change.max(step.abs());
-        }
-        (change, largest)
-    }
-
-    /// Adds to the forces of a spring: the velocities at its ends follow.
-    #[inline]
-    fn push(&mut self, i: usize, force: f64, friction: f64) {
-        let springs = &mut *self.springs;
-        let spring = &springs.list[i];
-        let (n, t) = (spring.normal, tangent(spring.normal));
-        for k in spring.first as usize..(spring.first + spring.count) as usize {
-            let (end, movable) = (&springs.ends[k], &mut springs.movables[springs.places[k] as usize]);
-            let (gap_row, slip_row) = (end.gap_row(n), end.slip_row(t));
-            let row = [0, 1].map(|d| gap_row[d] * force + slip_row[d] * friction);
-            let response = movable.response(movable.row(row, end.point));
-            for d in 0..3 {
-                movable.velocity[d] += response[d];
-            }
-        }
-    }
-}
-
-#[inline]
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@ use super::super::Sweep;
 use super::super::projection::node_segment::{Target, Vector};
 use super::super::search::Query;
 use super::Memory;
+use super::ends::Ends;
 use super::locate::View;
 use super::reach::{Reach, SLACK};
 use crate::mesh::surface::NONE;
@@ -56,6 +57,7 @@ pub(super) struct Pass {
     /// Ascending by slave and body.
     pub(super) groups: Vec<Group>,
     pub(super) candidates: Vec<u32>,
+    pub(super) ends: Ends,
     spare: Vec<Group>,
     /// Candidates (body, segment) of one slave.
     found: Vec<(u32, u32)>,
@@ -66,8 +68,8 @@ impl Pass {
         let slave_bodies = vec![slave as u32; targets[slave].surface.nodes.len()];
         let segment_bodies = vec![target as u32; targets[target].surface.segments.len()];
         let (groups, candidates, spare, found) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        let mut pass =
-            Self { slave, target, slave_bodies, segment_bodies, open: Vec::new(), lids: Vec::new(), groups, candidates, spare, found };
+        let (open, lids, ends) = (Vec::new(), Vec::new(), Ends::default());
+        let mut pass = Self { slave, target, slave_bodies, segment_bodies, open, lids, groups, candidates, ends, spare, found };
         pass.find_open(&targets[target]);
         pass
     }
@@ -110,13 +112,14 @@ impl Pass {
         skin_and_extra: [f64; 2],
         sweep: Sweep<'a>,
     ) -> (&'a mut [Group], &'a [u32], View<'a>) {
-        let view = View::new(&targets[self.target], number, self.slave == self.target, skin_and_extra, sweep);
+        let view = View::new([&targets[self.slave], &targets[self.target]], &self.ends, number, skin_and_extra, sweep);
         (&mut self.groups, &self.candidates, view)
     }
 
     /// Global search, then a filter by distance: candidates are the same whatever the search, and few.
     pub(super) fn search(&mut self, targets: &[Target], sweep: Sweep<'_>, distance: f64, reach: &mut Reach) {
         let target = &targets[self.target];
+        self.ends.find(target, sweep.new);
         let slaves = &targets[self.slave].surface.nodes;
         let query =
             Query { positions_old: sweep.old, positions_new: sweep.new, slaves, facets: &target.surface.segments, reach: SLACK * distance };

@@ -4,7 +4,8 @@
 //! of entries less exits, is the proof that none was missed.
 
 use super::super::Sweep;
-use super::super::projection::node_segment::{Projection, Target, Vector};
+use super::super::projection::node_segment::{Held, Projection, Target, Vector};
+use super::ends::Ends;
 use super::group::Group;
 use super::{Certificate, Found, Memory, Touch};
 use crate::mesh::surface::NONE;
@@ -23,6 +24,9 @@ const START: f64 = 0.02;
 #[derive(Clone, Copy)]
 pub(super) struct View<'a> {
     target: &'a Target,
+    /// Surface of the slaves, and what is known of ends.
+    slaves: &'a Target,
+    ends: &'a Ends,
     pass: usize,
     /// Whether slaves and targets are one surface.
     own_surface: bool,
@@ -45,8 +49,10 @@ struct Passages {
 }
 
 impl<'a> View<'a> {
-    pub(super) fn new(target: &'a Target, pass: usize, own_surface: bool, [skin, extra]: [f64; 2], sweep: Sweep<'a>) -> Self {
-        Self { target, pass, own_surface, rounding: ROUNDING * skin, hold: HOLD * skin, near: extra + START * skin, sweep }
+    /// `[slaves, target]` of the pass.
+    pub(super) fn new([slaves, target]: [&'a Target; 2], ends: &'a Ends, pass: usize, [skin, extra]: [f64; 2], sweep: Sweep<'a>) -> Self {
+        let own_surface = std::ptr::eq(slaves, target);
+        Self { target, slaves, ends, pass, own_surface, rounding: ROUNDING * skin, hold: HOLD * skin, near: extra + START * skin, sweep }
     }
 
     /// Locates the groups from number `first` on.
@@ -57,8 +63,9 @@ impl<'a> View<'a> {
             match self.locate(group, candidates, &mut found.certificate) {
                 Some(projection) => {
                     let Group { slave, node, own, kept, .. } = *group;
+                    let slope = self.ends.slope(slave, &projection, self.target, self.sweep.new);
                     let (slave, group) = (slave as usize, first + number);
-                    found.touches.push(Touch { pass: self.pass, slave, node, projection, group, own, memory: kept });
+                    found.touches.push(Touch { pass: self.pass, slave, node, projection, slope, group, own, memory: kept });
                 }
                 None => group.kept = Memory::default(),
             }
@@ -71,7 +78,7 @@ impl<'a> View<'a> {
         group.level -= passages.exits;
         let was_inside = group.memory != NONE;
         if was_inside {
-            let projection = self.follow(x, group.memory, group.node).filter(|projection| projection.gap <= self.hold);
+            let projection = self.follow(x, group.memory, group).filter(|projection| projection.gap <= self.hold);
             if let Some(inside) = projection {
                 group.memory = inside.segment;
                 return projection;
@@ -91,31 +98,92 @@ impl<'a> View<'a> {
             [None, None]
         };
         for (_, segment) in entries.into_iter().flatten() {
-            if let Some(inside) = self.inside(x, segment, group.node) {
+            if let Some(inside) = self.inside(x, segment, group).filter(|inside| self.may_hold(group, inside)) {
                 group.memory = inside.segment;
                 certificate.crossings_found += 1;
                 return Some(inside);
             }
         }
         if group.level > 0 && !group.open {
-            let nearest = self.target.nearest(x, candidates, self.sweep.new);
+            let nearest = self.target.nearest(x, candidates, self.sweep.new).map(|nearest| self.rightful(x, group, nearest));
             if let Some(inside) = nearest.filter(|nearest| nearest.gap < 0.0 && !group.own) {
                 group.memory = inside.segment;
                 return Some(inside);
             }
             certificate.unverified += u64::from(nearest.is_none_or(|nearest| nearest.gap.abs() > self.rounding));
         }
-        let ahead = match entries[0] {
+        let (nearest, ahead) = match entries[0] {
             // In and out again through another face.
-            Some((_, segment)) => self.follow(x, segment, group.node),
-            None => self.target.ahead(x, candidates, self.rounding, self.sweep.new),
-        }?;
+            Some((_, segment)) => (segment, self.follow(x, segment, group)),
+            None => self.target.first_ahead(x, candidates, self.rounding, self.sweep.new)?,
+        };
+        let beside = if self.ends.is_near(nearest) && !group.own { self.beside(x, group, nearest) } else { None };
+        let at_end = |ahead: Projection| if self.ends.is_near(ahead.segment) { self.at_end(x, group, ahead) } else { Some(ahead) };
+        let ahead = beside.or_else(|| ahead.and_then(at_end))?;
         if ahead.gap > self.hold {
             return (ahead.gap <= self.near + LOOK_AHEAD * self.motion(group.node, ahead.segment)).then_some(ahead);
         }
-        let touched = self.touched(group.node, candidates).unwrap_or(ahead);
-        group.memory = touched.segment;
+        let touched = if beside.is_none() { self.touched(group, candidates).unwrap_or(ahead) } else { ahead };
+        if self.may_hold(group, &touched) {
+            group.memory = touched.segment;
+        }
         Some(touched)
+    }
+
+    /// As [`Ends::admit`]; a surface that meets itself has no ends in this sense.
+    fn may_hold(&self, group: &Group, projection: &Projection) -> bool {
+        group.own || self.ends.admit(&self.slaves.surface, self.target, group.slave, projection, self.sweep.new)
+    }
+
+    /// What a node is ahead of where faces end: `ahead`, or the face around the edge, if it is that which the node's own surface goes back over; nothing for a node that only passes by,
+    /// over the end of a face or hardly beyond it.
+    fn at_end(&self, x: Vector, group: &Group, ahead: Projection) -> Option<Projection> {
+        if self.may_hold(group, &ahead) {
+            return Some(ahead);
+        }
+        let (surface, nearest) = (&self.target.surface, ahead.segment);
+        let around = [surface.previous[nearest as usize], surface.next[nearest as usize], nearest];
+        let mut is_passed = false;
+        for segment in around.into_iter().filter(|&segment| segment != NONE) {
+            let Some(seen) = self.target.seen(x, segment, self.sweep.new) else { continue };
+            // Below the end of the face around the edge that face is no matter any more.
+            if self.ends.is_over_end(group.slave, segment, &seen) && (segment == nearest || seen.gap >= -self.hold) {
+                if segment != nearest
+                    && let Some(other) = self.target.project(x, segment, self.sweep.new)
+                    && self.may_hold(group, &other)
+                {
+                    return Some(other);
+                }
+                is_passed = true;
+            }
+        }
+        (!is_passed).then_some(ahead)
+    }
+
+    /// The projection on a face, or on that around the edge where the node may not be in contact through the first.
+    fn rightful(&self, x: Vector, group: &Group, nearest: Projection) -> Projection {
+        if self.may_hold(group, &nearest) {
+            return nearest;
+        }
+        let surface = &self.target.surface;
+        let around = if nearest.weights[1] > 0.5 { &surface.next } else { &surface.previous }[nearest.segment as usize];
+        let other = (around != NONE).then(|| self.target.project(x, around, self.sweep.new)).flatten();
+        other.filter(|other| other.gap < 0.0).unwrap_or(nearest)
+    }
+
+    /// The projection of a node that is beyond the end of a face near the segment `nearest`, if it is held there.
+    fn beside(&self, x: Vector, group: &Group, nearest: u32) -> Option<Projection> {
+        let surface = &self.target.surface;
+        let x_old = self.sweep.old[group.node as usize];
+        let held = |segment: u32| {
+            let band = self.ends.band(group.slave, segment);
+            let beyond = self.target.beyond(x, segment, band, self.sweep.new)?;
+            let at = (group.slave, segment, usize::from(beyond.weights[1] > 0.5));
+            let comes = Ends::comes_over(self.target, &beyond, band, [x_old, x], self.hold, self.sweep);
+            (comes && self.ends.overlaps(&self.slaves.surface, self.target, at, self.sweep.new)).then_some(beyond)
+        };
+        let around = [nearest, surface.previous[nearest as usize], surface.next[nearest as usize]];
+        around.into_iter().filter(|&segment| segment != NONE).find_map(held)
     }
 
     /// Bound of how much the gap between a node and a segment changed in the step, m.
@@ -134,25 +202,26 @@ impl<'a> View<'a> {
     }
 
     /// Of the faces that a node touches, that from which it was farthest before: the one that it comes upon.
-    fn touched(&self, node: u32, candidates: &[u32]) -> Option<Projection> {
-        let (x_old, x) = (self.sweep.old[node as usize], self.sweep.new[node as usize]);
+    fn touched(&self, group: &Group, candidates: &[u32]) -> Option<Projection> {
+        let (x_old, x) = (self.sweep.old[group.node as usize], self.sweep.new[group.node as usize]);
         let touches = |segment: u32| {
             let projection = self.target.project(x, segment, self.sweep.new)?;
             let before = self.target.side_of(x_old, segment, self.sweep.old)?;
-            (projection.gap.abs() <= self.hold).then_some((before, projection))
+            (projection.gap.abs() <= self.hold && self.may_hold(group, &projection)).then_some((before, projection))
         };
         let farther = |best: (f64, Projection), other: (f64, Projection)| if other.0 > best.0 { other } else { best };
         candidates.iter().filter_map(|&segment| touches(segment)).reduce(farther).map(|(_, projection)| projection)
     }
 
     /// The projection of a node that is inside, on the chain from `segment` on.
-    fn inside(&self, x: Vector, segment: u32, node: u32) -> Option<Projection> {
-        self.follow(x, segment, node).filter(|projection| projection.gap < 0.0)
+    fn inside(&self, x: Vector, segment: u32, group: &Group) -> Option<Projection> {
+        self.follow(x, segment, group).filter(|projection| projection.gap < 0.0)
     }
 
-    fn follow(&self, x: Vector, segment: u32, node: u32) -> Option<Projection> {
-        let own = if self.own_surface { node } else { NONE };
-        self.target.follow_without(x, segment, own, self.sweep.new)
+    fn follow(&self, x: Vector, segment: u32, group: &Group) -> Option<Projection> {
+        let own = if self.own_surface { group.node } else { NONE };
+        let held = Held { band: self.ends.band(group.slave, segment), gap: self.hold };
+        self.target.follow_without(x, segment, own, held, self.sweep.new)
     }
 
     fn sweep_through(&self, node: u32, candidates: &[u32]) -> Passages {

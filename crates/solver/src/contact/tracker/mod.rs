@@ -6,17 +6,21 @@
 //! ascending; so results depend neither on the search nor on the number of threads.
 
 mod certificate;
+mod ends;
 mod group;
 mod locate;
 mod reach;
 mod start;
 
 pub use certificate::{Certificate, SearchReport};
+pub use ends::is_facing;
 pub use reach::SKIN;
 
 use super::Sweep;
 use super::projection::node_segment::{Projection, Target, Vector};
 use super::search::Search;
+use crate::mesh::surface::NONE;
+use ends::Ends;
 use group::Pass;
 use rayon::prelude::*;
 use reach::Reach;
@@ -32,6 +36,8 @@ pub struct Touch {
     pub node: u32,
     /// Where it lies.
     pub projection: Projection,
+    /// Slope with which the face falls off there: 0 but beyond the end of a face.
+    pub slope: f64,
     /// Number of the group of slave and body in this step.
     pub group: usize,
     /// Whether it is the node's own body.
@@ -47,6 +53,8 @@ pub struct Memory {
     pub slip: f64,
     /// Gap that counts as zero, m.
     pub offset: f64,
+    /// Which of the segments at the slave node stand for it: 1 that which ends there, 2 that which begins there, 3 both; 0 not known.
+    pub faces: u8,
 }
 
 /// Follows the nodes of surfaces along the bodies of other surfaces, or of their own.
@@ -91,6 +99,22 @@ impl Tracker {
             pass.set_bodies(&self.targets, bodies, lids.get(pass.target).map_or(&[], |lids| lids));
         }
         self
+    }
+
+    /// Holds nodes a little beyond the ends of faces, so that bodies that end flush stay in contact; `positions` are the initial ones.
+    #[must_use]
+    pub fn with_ends(mut self, positions: &[Vector]) -> Self {
+        for pass in &mut self.passes {
+            pass.ends = Ends::new(&self.targets[pass.slave], &self.targets[pass.target], positions);
+        }
+        self
+    }
+
+    /// Segments of its own surface that end and begin at the slave node of a touch, and the surface; [`crate::mesh::surface::NONE`] where there is none. Known only with [`Tracker::with_ends`].
+    #[must_use]
+    pub fn segments_at(&self, touch: &Touch) -> ([u32; 2], &Target) {
+        let pass = &self.passes[touch.pass];
+        (pass.ends.around.get(touch.slave).copied().unwrap_or([NONE; 2]), &self.targets[pass.slave])
     }
 
     /// The surfaces.

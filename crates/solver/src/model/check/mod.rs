@@ -1,11 +1,14 @@
 //! Everything that can be told about a model before it is meshed: numbers, names, references, contradictions.
 //!
 //! Data comes from [`Model`], whoever made it; ranges come from [`describe`] and the registries, so that they stand in one place. All faults
-//! are returned at once, each with the path of its key. Parts are in `parts.rs`, contacts in `contact.rs`, what moves in `motion.rs`.
+//! are returned at once, each with the path of its key. Parts are in `parts.rs`, contacts in `contact.rs`, what moves in `motion.rs`, loads and joins in `load.rs`.
 
 mod contact;
+mod load;
 mod motion;
 mod parts;
+
+pub(crate) use parts::CheckOf;
 
 use super::describe::{self, out_of_range, suggestion};
 use super::reference::{Reference, excerpt};
@@ -34,7 +37,9 @@ impl Model {
         check.obstacles();
         check.symmetries();
         check.constraints();
+        check.joins();
         check.loads();
+        check.non_reflecting();
         check.probes();
         check.output();
         check.faults
@@ -115,6 +120,9 @@ impl Check<'_> {
             if limit >= run.end && run.end > 0.0 {
                 self.fault("run.step_limit", "the step limit is not smaller than the end time, so no step could be taken", "");
             }
+        }
+        if let Some(largest) = run.time_step {
+            self.number("run.time_step", largest);
         }
         if run.max_steps == Some(0) {
             self.fault("run.max_steps", "`max_steps` must be at least 1, but it is 0", "leave it out for no limit");
@@ -244,7 +252,7 @@ impl Check<'_> {
             ProbeAt::Node { part, node } => {
                 self.known(&format!("{path}.part"), "part", part, &known);
                 let found = self.model.parts.iter().find(|it| it.name == *part);
-                if let Some(count) = found.and_then(|it| node_count(self.model, &it.shape))
+                if let Some(count) = found.and_then(|it| node_count(self.model, it))
                     && *node as u128 >= count
                 {
                     let help = format!("nodes are numbered from 0 to {}", count.saturating_sub(1));
@@ -312,17 +320,12 @@ pub fn name_is_plain(name: &str) -> Result<(), (String, String)> {
 }
 
 /// Number of nodes, where it can be told without meshing.
-fn node_count(model: &Model, shape: &Shape) -> Option<u128> {
-    let grid = |first: u128, second: u128| Some(first.saturating_mul(second));
-    match shape {
-        Shape::Rectangle { elements, .. } => grid(elements[0] as u128 + 1, elements[1] as u128 + 1),
-        Shape::Ring { elements, .. } => grid(elements[0] as u128 + 1, elements[1] as u128 + u128::from(shape.sides().len() == 4)),
-        Shape::Disk { .. } => None,
-        Shape::Group { mesh, group } => {
-            let it = model.meshes.get(*mesh)?.groups.iter().find(|it| it.name == *group && it.dimension == 2)?;
-            Some(it.cells.iter().flatten().collect::<BTreeSet<_>>().len() as u128)
-        }
+fn node_count(model: &Model, part: &Part) -> Option<u128> {
+    if let Shape::Group { mesh, group } = &part.shape {
+        let it = model.meshes.get(*mesh)?.groups.iter().find(|it| it.name == *group && it.dimension == 2)?;
+        return Some(it.cells.iter().flatten().collect::<BTreeSet<_>>().len() as u128);
     }
+    part.count().filter(|count| count.exact).map(|count| count.nodes as u128)
 }
 
 #[cfg(test)]

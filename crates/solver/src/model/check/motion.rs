@@ -1,11 +1,16 @@
-//! Faults of what moves or is held: obstacles, rigid parts, constraints, loads, and the curves that they follow.
+//! Faults of what moves or is held: obstacles, rigid parts, constraints, and the curves that they follow. Loads are in `load.rs`.
 
 use super::Check;
+use crate::load::curve::Curve;
+use crate::load::curve::expression::Expression;
+use crate::load::curve::sine::Sine;
 use crate::model::describe::suggestion;
 use crate::model::reference::{Reference, excerpt};
-use crate::model::{Drive, Load, Motion, Obstacle, ObstacleShape, Part};
+use crate::model::{Constraint, CurveShape, Drive, Motion, Obstacle, ObstacleShape, Part};
 use crate::quantity::{Dimension, Range};
 
+/// Intervals of a run at whose ends formulas are tried.
+const SAMPLES: u32 = 1000;
 /// Names of the degrees of freedom.
 const AXES: [&str; 3] = ["x", "y", "rotation"];
 
@@ -19,17 +24,53 @@ impl Check<'_> {
                 let message = format!("a curve can't be called `{}`", excerpt(name));
                 self.fault(path.as_str(), message, "its name must begin with a letter, and `free` means something else");
             }
-            let (times, values) = (format!("{path}.time"), format!("{path}.value"));
-            self.each(&times, &curve.times);
-            self.each(&values, &curve.values);
-            if curve.times.is_empty() {
-                self.fault(times.as_str(), "the curve has no point", "give at least one time and its value");
+            match &curve.shape {
+                CurveShape::Table { times, values, .. } => self.table(&path, times, values),
+                CurveShape::Sine(sine) => self.sine(&format!("{path}.sine"), sine),
+                CurveShape::Expression(text) => self.expression(&format!("{path}.expression"), text),
             }
-            if curve.times.len() != curve.values.len() {
-                let message = format!("there are {} times, but {} values", curve.times.len(), curve.values.len());
-                self.fault(values, message, "give one value for each time");
+        }
+    }
+
+    fn table(&mut self, path: &str, times: &[f64], values: &[f64]) {
+        let [times_path, values_path] = ["time", "value"].map(|key| format!("{path}.{key}"));
+        self.each(&times_path, times);
+        self.each(&values_path, values);
+        if times.is_empty() {
+            self.fault(times_path.as_str(), "the curve has no point", "give at least one time and its value");
+        }
+        if times.len() != values.len() {
+            let message = format!("there are {} times, but {} values", times.len(), values.len());
+            self.fault(values_path, message, "give one value for each time");
+        }
+        self.ascending(&times_path, "times", times, "s");
+    }
+
+    fn sine(&mut self, path: &str, sine: &Sine) {
+        self.within(&format!("{path}.frequency"), sine.frequency, Dimension::RATE, Range::Positive);
+        for (key, value) in [("amplitude", sine.amplitude), ("phase", sine.phase), ("offset", sine.offset)] {
+            self.within(&format!("{path}.{key}"), value, Dimension::NONE, Range::Finite);
+        }
+    }
+
+    /// A formula must be one, and have a value at all times of the run.
+    fn expression(&mut self, path: &str, text: &str) {
+        let formula = match Expression::parse(text) {
+            Ok(formula) => formula,
+            Err(wrong) => {
+                let message = format!("at character {} of `{}`: {}", wrong.at, excerpt(text), wrong.message);
+                return self.fault(path, message, "write it like \"2*sin(3*t) + exp(-t)\", with the time t in s");
             }
-            self.ascending(&times, "times", &curve.times, "s");
+        };
+        let end = if self.model.run.end.is_finite() { self.model.run.end.max(0.0) } else { 0.0 };
+        let times = (0..=SAMPLES).map(|k| end * f64::from(k) / f64::from(SAMPLES));
+        if let Some((time, value)) = times.map(|time| (time, formula.value(time))).find(|(_, value)| !value.is_finite()) {
+            let what = if value.is_nan() { "not a number".to_string() } else { value.to_string() };
+            self.fault(
+                path,
+                format!("`{}` is {what} at {time} s", excerpt(text)),
+                "give a formula with a finite value from the start to `run.end`",
+            );
         }
     }
 
@@ -63,7 +104,7 @@ impl Check<'_> {
     }
 
     /// A prescribed velocity: a finite number, or a curve of the right dimension.
-    fn drive(&mut self, path: &str, drive: &Drive, dimension: Dimension) {
+    pub(super) fn drive(&mut self, path: &str, drive: &Drive, dimension: Dimension) {
         let model = self.model;
         let name = match drive {
             Drive::Constant(velocity) => return self.within(path, *velocity, dimension, Range::Finite),
@@ -72,7 +113,7 @@ impl Check<'_> {
         let Some(curve) = model.curves.get(name) else {
             let known: Vec<&str> = model.curves.keys().map(String::as_str).collect();
             let help = if known.is_empty() {
-                format!("add [curve.{}] with `time` and `value`, or give a number", excerpt(name))
+                format!("add [curve.{}], for example with `time` and `value`, or give a number", excerpt(name))
             } else {
                 suggestion(name, &known)
             };
@@ -208,33 +249,68 @@ impl Check<'_> {
                     format!("part `{}` is rigid, so its nodes can't be held or moved one by one", excerpt(&model.parts[part].name));
                 self.fault(format!("{path}.on"), message, "prescribe its motion: `rigid = { x = 0, y = 0, rotation = 0 }` holds it");
             }
-            for (axis, drive) in AXES.iter().zip(&constraint.velocity) {
-                if let Some(drive) = drive {
-                    self.drive(&format!("{path}.velocity.{axis}"), drive, Dimension::VELOCITY);
-                }
-            }
-            if constraint.velocity == [None, None] {
-                self.fault(
-                    path,
-                    "the constraint leaves both components free, so it does nothing",
-                    "add `fixed = \"x\"` or `velocity = { x = \"1 m/s\" }`",
-                );
-            }
+            self.prescribed(&path, constraint);
         }
     }
 
-    pub(super) fn loads(&mut self) {
-        for (index, load) in self.model.loads.iter().enumerate() {
-            let path = format!("load[{index}]");
-            match load {
-                Load::Gravity { parts, acceleration } => {
-                    self.part_list(&format!("{path}.parts"), parts);
-                    self.vector(&format!("{path}.gravity"), *acceleration);
+    /// What a constraint prescribes.
+    fn prescribed(&mut self, path: &str, constraint: &Constraint) {
+        let kinds = [
+            ("velocity", &constraint.velocity, Dimension::VELOCITY),
+            ("displacement", &constraint.displacement, Dimension::LENGTH),
+            ("acceleration", &constraint.acceleration, Dimension::ACCELERATION),
+        ];
+        for (key, drives, dimension) in kinds {
+            for (axis, drive) in AXES.iter().zip(drives) {
+                if let Some(drive) = drive {
+                    self.drive(&format!("{path}.{key}.{axis}"), drive, dimension);
                 }
-                Load::Damping { parts, rate, active } => {
-                    self.part_list(&format!("{path}.parts"), parts);
-                    self.number(&format!("{path}.damping"), *rate);
-                    self.window(&path, ["from", "until"], *active);
+            }
+        }
+        for (axis, drive) in AXES.iter().zip(&constraint.displacement) {
+            if let Some(drive) = drive {
+                self.begins_with_zero(format!("{path}.displacement.{axis}"), drive);
+            }
+        }
+        for axis in 0..2 {
+            let several: Vec<&str> = kinds.iter().filter(|(_, drives, _)| drives[axis].is_some()).map(|(key, ..)| *key).collect();
+            if let [first, second, ..] = several[..] {
+                let message = format!("`{}` is prescribed by both `{first}` and `{second}`", AXES[axis]);
+                self.fault(format!("{path}.{second}.{}", AXES[axis]), message, "leave it out of one of the two");
+            }
+        }
+        let straight = kinds.iter().any(|(_, drives, _)| drives.iter().any(Option::is_some));
+        if let Some(rotation) = &constraint.rotation {
+            self.vector(&format!("{path}.rotation.centre"), rotation.centre);
+            self.drive(&format!("{path}.rotation.speed"), &rotation.speed, Dimension::RATE);
+            if straight {
+                let message = "nodes that are led around a point can't be moved along x or y as well";
+                self.fault(format!("{path}.rotation"), message, "leave one of the two out");
+            }
+        } else if !straight {
+            self.fault(
+                path,
+                "the constraint leaves both components free, so it does nothing",
+                "add `fixed = \"x\"` or `velocity = { x = \"1 m/s\" }`",
+            );
+        }
+    }
+
+    /// Nodes begin where they are: a displacement must begin with zero.
+    fn begins_with_zero(&mut self, path: String, drive: &Drive) {
+        match drive {
+            Drive::Constant(value) if *value != 0.0 && value.is_finite() => {
+                let message = "a displacement that is the same at all times would move the nodes at once";
+                self.fault(path, message, "name a curve that begins with 0, or use `fixed`");
+            }
+            Drive::Constant(_) => {}
+            Drive::Curve(name) => {
+                let Some(curve) = self.model.curves.get(name) else { return };
+                let curve = Curve::new(curve);
+                let (begin, later) = (curve.value(0.0), curve.value(self.model.run.end));
+                if begin.is_finite() && begin.abs() > 1e-12 * later.abs() {
+                    let message = format!("curve `{}` begins with {begin} m, so it would move the nodes at once", excerpt(name));
+                    self.fault(path, message, "let it be 0 at time 0");
                 }
             }
         }

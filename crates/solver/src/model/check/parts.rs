@@ -5,7 +5,7 @@ use crate::block::stress_state::STRESS_STATES;
 use crate::element;
 use crate::model::describe::{ELEMENTS_MAX, suggestion};
 use crate::model::reference::{dimension_word, excerpt};
-use crate::model::{Model, Part, Shape};
+use crate::model::{Model, Part, Placement, Shape};
 use std::collections::BTreeSet;
 
 impl Check<'_> {
@@ -26,10 +26,10 @@ impl Check<'_> {
             self.stress_state(&path, part);
             self.part_motion(&path, part);
             self.shape(&path, part);
-            let count = element_count(model, &part.shape);
+            let count = element_count(model, part);
             if total <= ELEMENTS_MAX && total.saturating_add(count) > ELEMENTS_MAX {
                 self.fault(
-                    format!("{path}{}", elements_key(&part.shape)),
+                    format!("{path}.{}", size_key(&part.shape)),
                     format!("the model has more than {} million elements", ELEMENTS_MAX / 1_000_000),
                     "take fewer elements",
                 );
@@ -58,45 +58,45 @@ impl Check<'_> {
     }
 
     fn shape(&mut self, path: &str, part: &Part) {
-        match &part.shape {
-            Shape::Rectangle { corner, size, elements } => {
-                self.vector(&format!("{path}.rectangle.corner"), *corner);
-                self.vector(&format!("{path}.rectangle.size"), *size);
-                self.counts(&format!("{path}.rectangle.elements"), elements);
+        let Some((shape, key)) = part.shape.built_in() else {
+            if let Shape::Group { mesh, group } = &part.shape {
+                self.group(path, part, *mesh, group);
             }
-            Shape::Ring { centre, inner, outer, from, to, elements } => {
-                let path = format!("{path}.ring");
-                self.vector(&format!("{path}.centre"), *centre);
-                for (key, value) in [("inner", inner), ("outer", outer), ("from", from), ("to", to)] {
-                    self.number(&format!("{path}.{key}"), *value);
-                }
-                self.counts(&format!("{path}.elements"), elements);
-                if inner >= outer {
-                    self.fault(
-                        format!("{path}.inner"),
-                        format!("the inner radius {inner} m is not smaller than the outer radius {outer} m"),
-                        "swap or correct the radii",
-                    );
-                }
-                self.angles(&path, *from, *to);
+            if part.placement != Placement::default() {
+                let help = "place it in the mesh generator";
+                self.fault(format!("{path}.mesh"), "a group of a mesh file can't be mirrored, turned, moved or copied", help);
             }
-            Shape::Disk { centre, radius, elements } => {
-                self.vector(&format!("{path}.disk.centre"), *centre);
-                self.number(&format!("{path}.disk.radius"), *radius);
-                self.counts(&format!("{path}.disk.elements"), &[*elements]);
-            }
-            Shape::Group { mesh, group } => self.group(path, part, *mesh, group),
-        }
+            return;
+        };
+        let key = format!("{path}.{key}");
+        shape.check(&mut CheckOf { check: self, path: &key });
+        let what = if shape.nodes_per_element() == 3 { "it is made of triangles" } else { "it is made of quadrilaterals" };
+        self.takes(path, part, shape.nodes_per_element(), &key, what);
+        self.placement(path, &part.placement);
     }
 
-    fn angles(&mut self, path: &str, from: f64, to: f64) {
-        let degrees = |angle: f64| (angle.to_degrees() * 1e9).round() / 1e9;
-        if to <= from {
-            let message = format!("the ring ends at {} deg, not after its beginning at {} deg", degrees(to), degrees(from));
-            self.fault(format!("{path}.to"), message, "it runs counter-clockwise: add \"360 deg\" to `to`, or swap the two");
-        } else if to - from > std::f64::consts::TAU + 1e-9 {
-            let message = format!("the ring runs over {} deg, more than a full turn", degrees(to - from));
-            self.fault(format!("{path}.to"), message, "let `to` exceed `from` by at most 360 deg");
+    fn placement(&mut self, path: &str, placement: &Placement) {
+        if let Some(mirror) = &placement.mirror {
+            self.vector(&format!("{path}.mirror.point"), mirror.point);
+            self.direction(&format!("{path}.mirror.normal"), mirror.normal);
+        }
+        self.number(&format!("{path}.rotation.angle"), placement.rotation);
+        self.vector(&format!("{path}.rotation.point"), placement.rotation_point);
+        self.vector(&format!("{path}.translation"), placement.translation);
+        let Some(copies) = &placement.copies else { return };
+        let path = format!("{path}.copies");
+        self.counts(&format!("{path}.count"), &[copies.count]);
+        self.vector(&format!("{path}.translation"), copies.translation);
+        self.number(&format!("{path}.angle"), copies.angle);
+        self.vector(&format!("{path}.point"), copies.point);
+        let turns = |k: usize| k as f64 * copies.angle / std::f64::consts::TAU;
+        let full = |k: &usize| (turns(*k) - turns(*k).round()).abs() < 1e-9;
+        // Without angle, or after a full turn, a body without translation lies on the first one.
+        if copies.translation == [0.0; 2]
+            && let Some(k) = (1..copies.count.min(10_000)).find(full)
+        {
+            let message = format!("bodies 1 and {} of the copies lie on each other", k + 1);
+            self.fault(format!("{path}.count"), message, "take fewer copies, another angle, or a translation");
         }
     }
 
@@ -150,7 +150,8 @@ impl Check<'_> {
         }
         let known: Vec<&str> = element::registry().iter().filter(|kind| kind.nodes == nodes).map(|kind| kind.name).collect();
         if known.is_empty() {
-            let help = "let the mesh generator make quadrilaterals only (Gmsh: Recombine Surface)";
+            let help =
+                if path.ends_with(".group") { "let the mesh generator make quadrilaterals only (Gmsh: Recombine Surface)" } else { "" };
             self.fault(path, format!("{has}, but no element has {nodes} nodes"), help);
         } else if nodes == 3 {
             let message = format!("{has}, but `{}` is no element of three nodes", excerpt(&part.element_triangles));
@@ -171,24 +172,65 @@ impl Check<'_> {
     }
 }
 
-/// Number of elements; a bound for a disk.
-fn element_count(model: &Model, shape: &Shape) -> u128 {
-    match shape {
-        Shape::Rectangle { elements, .. } | Shape::Ring { elements, .. } => (elements[0] as u128).saturating_mul(elements[1] as u128),
-        Shape::Disk { elements, .. } => (*elements as u128).saturating_mul(*elements as u128).saturating_mul(3),
-        Shape::Group { mesh, group } => {
+/// Number of elements; about, where a shape can't tell it.
+fn element_count(model: &Model, part: &Part) -> u128 {
+    match (&part.shape, part.count()) {
+        (_, Some(count)) => count.elements as u128,
+        (Shape::Group { mesh, group }, None) => {
             let found =
                 model.meshes.get(*mesh).and_then(|imported| imported.groups.iter().find(|it| it.name == *group && it.dimension == 2));
             found.map_or(0, |it| it.cells.len() as u128)
         }
+        _ => 0,
     }
 }
 
-fn elements_key(shape: &Shape) -> &'static str {
-    match shape {
-        Shape::Rectangle { .. } => ".rectangle.elements",
-        Shape::Ring { .. } => ".ring.elements",
-        Shape::Disk { .. } => ".disk.elements",
-        Shape::Group { .. } => ".mesh.group",
+/// Path, from the part on, of what decides how many elements there are.
+fn size_key(shape: &Shape) -> String {
+    shape.built_in().map_or("mesh.group".to_string(), |(shape, key)| format!("{key}.{}", shape.size_key()))
+}
+
+/// Checks the values of a shape; paths are those of its table.
+pub(crate) struct CheckOf<'c, 'm> {
+    check: &'c mut Check<'m>,
+    path: &'c str,
+}
+
+impl CheckOf<'_, '_> {
+    fn at(&self, key: &str) -> String {
+        if key.is_empty() { self.path.to_string() } else { format!("{}.{key}", self.path) }
+    }
+
+    /// A fault at a key.
+    pub(crate) fn fault(&mut self, key: &str, message: impl Into<String>, help: impl Into<String>) {
+        self.check.fault(self.at(key), message, help);
+    }
+
+    /// A number against the range of its key.
+    pub(crate) fn number(&mut self, key: &str, value: f64) {
+        self.check.number(&self.at(key), value);
+    }
+
+    /// Numbers against the range of their key.
+    pub(crate) fn numbers(&mut self, key: &str, values: &[f64]) {
+        values.iter().enumerate().for_each(|(k, &value)| self.check.number(&format!("{}[{k}]", self.at(key)), value));
+    }
+
+    /// A vector against the range of its key.
+    pub(crate) fn vector(&mut self, key: &str, value: [f64; 2]) {
+        self.check.vector(&self.at(key), value);
+    }
+
+    /// Points; whether all are finite.
+    pub(crate) fn points(&mut self, key: &str, points: &[[f64; 2]]) -> bool {
+        for (k, &point) in points.iter().enumerate() {
+            self.check.vector(&format!("{}[{k}]", self.at(key)), point);
+        }
+        points.iter().flatten().all(|x| x.is_finite())
+    }
+
+    /// Whole numbers that must be at least one.
+    pub(crate) fn counts(&mut self, key: &str, values: &[usize]) {
+        self.check.counts(&self.at(key), values);
     }
 }

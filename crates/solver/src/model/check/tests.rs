@@ -1,9 +1,10 @@
 //! Models made by code, each with one fault.
 
 use super::*;
+use crate::load::curve::sine::Sine;
 use crate::model::{
-    Constraint, Contact, ContactLaw, Curve, Drive, Formulation, Friction, ImportedMesh, Load, Material, MeshGroup, Motion, Obstacle,
-    ObstacleShape, Partners, Penalty, Symmetry,
+    Constraint, Contact, ContactLaw, Curve, CurveShape, Drive, Formulation, Friction, Image, ImportedMesh, Join, Load, Material, MeshGroup,
+    Motion, NonReflecting, Obstacle, ObstacleShape, Partners, Penalty, Ring, Rotation, Symmetry,
 };
 use std::sync::Arc;
 
@@ -17,7 +18,15 @@ fn sound() -> Model {
         positions: vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]],
         groups: vec![group("body", 2, vec![vec![0, 1, 2, 3]]), group("upper", 1, vec![vec![2, 3]])],
     };
-    let ring = Shape::Ring { centre: [0.0; 2], inner: 1.0, outer: 2.0, from: 0.0, to: std::f64::consts::PI, elements: [1, 8] };
+    let ring = Shape::Ring(Ring {
+        centre: [0.0; 2],
+        inner: 1.0,
+        outer: 2.0,
+        from: 0.0,
+        to: std::f64::consts::PI,
+        elements: [1, 8],
+        ..Ring::default()
+    });
     let mut model = Model { name: "test".into(), meshes: vec![Arc::new(mesh)], ..Model::default() };
     model.run.end = 1.0;
     model
@@ -27,12 +36,20 @@ fn sound() -> Model {
     model.contacts = vec![Contact::between("hit", "ring.outer", "upper")];
     model.obstacles = vec![Obstacle::wall("wall", [0.0; 2], [1.0, 0.0])];
     let times = vec![0.0, 1.0];
-    model.curves.insert("ramp".into(), Curve { values: times.clone(), times, dimension: None });
+    model.curves.insert("ramp".into(), Curve::table(times.clone(), times));
     model.symmetries = vec![Symmetry { normal: [1.0, 0.0], ..Symmetry::default() }];
-    model.constraints = vec![Constraint { on: "upper".into(), velocity: [Some(0.0.into()), None] }];
-    model.loads = vec![Load::Gravity { parts: vec![], acceleration: [0.0, -9.81] }];
+    model.constraints = vec![Constraint { on: "upper".into(), velocity: [Some(0.0.into()), None], ..Constraint::default() }];
+    model.loads = vec![Load::Gravity { parts: vec![], acceleration: [0.0, -9.81], curve: None }];
     model.probes = vec![Probe { name: "A".into(), at: ProbeAt::Point { part: "ring".into(), point: [0.0; 2] } }];
     model
+}
+
+/// Times and values of the sound model's curve.
+fn points(model: &mut Model) -> [&mut Vec<f64>; 2] {
+    match &mut model.curves.get_mut("ramp").expect("ramp").shape {
+        CurveShape::Table { times, values, .. } => [times, values],
+        _ => unreachable!("it has points"),
+    }
 }
 
 /// Friction of the sound model's contact.
@@ -62,14 +79,17 @@ fn a_sound_model_has_no_fault() {
 fn a_number_that_is_not_finite_is_found_wherever_it_is() {
     type Place = fn(&mut Model) -> &mut f64;
     fn ring(model: &mut Model, which: usize) -> &mut f64 {
-        let Shape::Ring { centre, inner, outer, from, to, .. } = &mut model.parts[0].shape else { unreachable!("part 0 is the ring") };
+        let Shape::Ring(Ring { centre, inner, outer, from, to, .. }) = &mut model.parts[0].shape else {
+            unreachable!("part 0 is the ring")
+        };
         [&mut centre[1], inner, outer, from, to].into_iter().nth(which).expect("five numbers")
     }
-    let places: [(&str, Place); 30] = [
+    let places: [(&str, Place); 31] = [
         ("run.end", |m| &mut m.run.end),
         ("run.safety", |m| &mut m.run.safety),
         ("run.energy_limit", |m| &mut m.run.energy_limit),
         ("run.step_limit", |m| m.run.step_limit.insert(0.0)),
+        ("run.time_step", |m| m.run.time_step.insert(0.0)),
         ("material.steel.young", |m| m.materials.get_mut("steel").and_then(|it| it.parameters.get_mut("young")).expect("young")),
         ("part[0].velocity[1]", |m| &mut m.parts[0].velocity[1]),
         ("part[0].ring.centre[1]", |m| ring(m, 0)),
@@ -85,7 +105,7 @@ fn a_number_that_is_not_finite_is_found_wherever_it_is() {
         }),
         ("load[0].gravity[0]", |m| match &mut m.loads[0] {
             Load::Gravity { acceleration, .. } => &mut acceleration[0],
-            Load::Damping { .. } => unreachable!("it is gravity"),
+            _ => unreachable!("it is gravity"),
         }),
         ("part[0].spin", |m| &mut m.parts[0].spin),
         ("contact[0].damping", |m| &mut m.contacts[0].interface.damping),
@@ -105,8 +125,8 @@ fn a_number_that_is_not_finite_is_found_wherever_it_is() {
             m.obstacles[0].mass.insert(1.0)
         }),
         ("obstacle[0].velocity[0]", |m| &mut m.obstacles[0].velocity[0]),
-        ("curve.ramp.time[1]", |m| &mut m.curves.get_mut("ramp").expect("ramp").times[1]),
-        ("curve.ramp.value[0]", |m| &mut m.curves.get_mut("ramp").expect("ramp").values[0]),
+        ("curve.ramp.time[1]", |m| &mut points(m)[0][1]),
+        ("curve.ramp.value[0]", |m| &mut points(m)[1][0]),
         ("probe[0].point[0]", |m| match &mut m.probes[0].at {
             ProbeAt::Point { point, .. } => &mut point[0],
             _ => unreachable!("the probe is at a point"),
@@ -134,7 +154,7 @@ fn a_number_that_is_not_finite_is_found_wherever_it_is() {
 fn names_mean_parts_before_groups_before_sides() {
     let mut model = sound();
     assert_eq!(model.reference("ring", None), Ok(Reference::Part(0)));
-    assert_eq!(model.reference("ring.start", Some(1)), Ok(Reference::Side { part: 0, side: "start" }));
+    assert_eq!(model.reference("ring.start", Some(1)), Ok(Reference::Side { part: 0, side: 2 }));
     assert_eq!(model.reference("upper", Some(1)), Ok(Reference::Group { mesh: 0, group: 1 }));
     model.parts[1].name = "upper".into();
     assert_eq!(model.reference("upper", Some(1)), Ok(Reference::Part(1)));
@@ -171,4 +191,67 @@ fn faults_that_only_code_can_make_are_found() {
     assert_eq!(paths(|model| friction(model).dynamic = Some(0.1)), ["contact[0].friction_dynamic"]);
     let empty = |model: &mut Model| drop(model.curves.insert("empty".into(), Curve::default()));
     assert_eq!(paths(empty), ["curve.empty.time"]);
+    let shaped = |shape: CurveShape| paths(|model| drop(model.curves.insert("c".into(), Curve { shape, dimension: None })));
+    let sine = Sine { amplitude: 1.0, frequency: 2.0, phase: 0.0, offset: 0.0 };
+    assert_eq!(shaped(CurveShape::Sine(sine)), Vec::<String>::new());
+    assert_eq!(
+        shaped(CurveShape::Sine(Sine { frequency: 0.0, offset: f64::NAN, ..sine })),
+        ["curve.c.sine.frequency", "curve.c.sine.offset"]
+    );
+    for (text, sound) in [("sqrt(t)", true), ("1/(1 - t)", false), ("ln(t)", false), ("t +", false), ("exp(1e4*t)", false)] {
+        let expected: &[&str] = if sound { &[] } else { &["curve.c.expression"] };
+        assert_eq!(shaped(CurveShape::Expression(text.into())), expected, "{text}");
+    }
+}
+
+#[test]
+fn loads_and_joins_that_make_no_sense_are_found() {
+    let load = |load: Load| paths(|model| model.loads = vec![load]);
+    let curve = |name: &str| Some(name.to_string());
+    assert_eq!(load(Load::Force { on: "upper".into(), force: [1.0, f64::NAN], curve: curve("ramp") }), ["load[0].force[1]"]);
+    assert_eq!(load(Load::Force { on: "ring".into(), force: [1.0, 0.0], curve: None }), ["load[0].on"]);
+    assert_eq!(load(Load::Pressure { on: "body".into(), pressure: 1.0, curve: curve("rmap") }), ["load[0].on", "load[0].curve"]);
+    let spin = Load::Centrifugal { parts: vec![], centre: [f64::INFINITY, 0.0], speed: f64::NAN, curve: None };
+    assert_eq!(load(spin), ["load[0].centre[0]", "load[0].centrifugal"]);
+    let quiet = |names: &[&str]| paths(|model| model.non_reflecting = names.iter().map(|on| NonReflecting { on: (*on).into() }).collect());
+    assert_eq!(quiet(&["ring.outer", "upper"]), Vec::<String>::new());
+    assert_eq!(quiet(&["upper", "body", "upper"]), ["non_reflecting[1].on", "non_reflecting[2].on"]);
+    let join = |between: [&str; 2], image: Image, tolerance: Option<f64>| {
+        paths(|model| model.joins = vec![Join { between: between.map(Into::into), image, tolerance }])
+    };
+    assert_eq!(join(["ring.start", "upper"], Image::Same, None), Vec::<String>::new());
+    assert_eq!(
+        join(["ring.start", "ring.start"], Image::Translated([0.0; 2]), Some(0.0)),
+        ["join[0].translation", "join[0].tolerance", "join[0].between"]
+    );
+    let turned = Image::Turned { centre: [0.0; 2], angle: f64::NAN };
+    assert_eq!(join(["ring.start", "ring.ned"], turned, None), ["join[0].between[1]", "join[0].rotation"]);
+}
+
+#[test]
+fn a_component_is_prescribed_in_one_way_and_a_displacement_begins_with_zero() {
+    let constraint = |change: fn(&mut Constraint)| paths(|model| change(&mut model.constraints[0]));
+    let ramp = || Some(Drive::Curve("ramp".into()));
+    assert_eq!(constraint(|it| it.acceleration[1] = Some(3.0.into())), Vec::<String>::new());
+    assert_eq!(constraint(|it| it.acceleration[0] = Some(3.0.into())), ["constraint[0].acceleration.x"]);
+    assert_eq!(constraint(|it| it.displacement[1] = Some(3.0.into())), ["constraint[0].displacement.y"]);
+    assert_eq!(constraint(|it| it.displacement[1] = Some(f64::NAN.into())), ["constraint[0].displacement.y"]);
+    let begin = |value: f64| {
+        paths(|model| {
+            points(model)[1][0] = value;
+            model.constraints[0].displacement[1] = ramp();
+        })
+    };
+    assert_eq!(begin(0.0), Vec::<String>::new());
+    assert_eq!(begin(0.1), ["constraint[0].displacement.y"]);
+    let turn = |speed: Drive| Some(Rotation { centre: [0.0; 2], speed });
+    let rotation = |speed: f64, beside: bool| {
+        paths(|model| {
+            model.constraints[0].rotation = turn(speed.into());
+            model.constraints[0].velocity[0].take_if(|_| !beside);
+        })
+    };
+    assert_eq!(rotation(3.0, false), Vec::<String>::new());
+    assert_eq!(rotation(3.0, true), ["constraint[0].rotation"]);
+    assert_eq!(rotation(f64::INFINITY, false), ["constraint[0].rotation.speed"]);
 }

@@ -142,7 +142,7 @@ static INTERFACE: Group = Group {
             "damping",
             Quantity(Dimension::NONE, NotNegative),
             Default("0"),
-            "Viscous damping of closed contacts, as a fraction of the critical one.",
+            "Viscous damping of closed contacts, as a fraction of the critical one. It also resists rolling: what comes in is slowed down, and what goes out is not pushed back as much.",
         ),
         key("friction", Quantity(Dimension::NONE, NotNegative), Optional("no friction"), "Coefficient µ_s of Coulomb friction, at rest."),
         key(

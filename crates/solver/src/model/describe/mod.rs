@@ -101,14 +101,18 @@ pub enum Kind {
     Vector(Dimension, Range),
     /// A list of at least so many quantities.
     Quantities(Dimension, Range, usize),
+    /// A quantity of whichever dimension.
+    Value,
     /// A list of at least one quantity, all of one dimension, whichever it is.
     Values,
     /// A list of at least so many points.
     Points(usize),
-    /// A velocity (or angular velocity) or the name of a curve: part of the next three.
+    /// A list of such lists.
+    Outlines(usize),
+    /// A quantity (angular velocity where it is a rate) or the name of a curve; also part of the next three.
     Drive(Dimension),
-    /// A table with `x`, `y` or both: prescribed velocities.
-    Velocities,
+    /// A table with `x`, `y` or both: such quantities by component.
+    Components(Dimension),
     /// A table with some of `x`, `y` and `rotation`: prescribed velocities, or `"free"`.
     Motion,
     /// `true`, `false`, or such a table.
@@ -192,7 +196,7 @@ pub struct More {
     pub keys: fn(&str) -> Option<Vec<Key>>,
 }
 
-const fn key(name: &'static str, kind: Kind, need: Need, doc: &'static str) -> Key {
+pub(crate) const fn key(name: &'static str, kind: Kind, need: Need, doc: &'static str) -> Key {
     Key { name, kind, need, doc }
 }
 
@@ -227,12 +231,12 @@ impl Key {
             | Kind::Angle(dimension, range)
             | Kind::Vector(dimension, range)
             | Kind::Quantities(dimension, range, _) => Some((dimension, range)),
-            Kind::Drive(dimension) => Some((dimension, Range::Finite)),
-            Kind::Velocities => Some((Dimension::VELOCITY, Range::Finite)),
-            Kind::Points(_) => Some((Dimension::LENGTH, Range::Finite)),
+            Kind::Drive(dimension) | Kind::Components(dimension) => Some((dimension, Range::Finite)),
+            Kind::Points(_) | Kind::Outlines(_) => Some((Dimension::LENGTH, Range::Finite)),
             Kind::Stiffness(range) => Some((Dimension::PRESSURE, range)),
             Kind::Cadence => Some((Dimension::TIME, Range::Positive)),
-            Kind::Values
+            Kind::Value
+            | Kind::Values
             | Kind::Motion
             | Kind::Rigid
             | Kind::Integer(_)

@@ -1,10 +1,11 @@
 //! The sections of the model file but those of contacts and obstacles: their keys, and where the names come from that a key chooses from.
 
-use super::Kind::{Angle, Choice, Flag, Integer, Integers, Name, Quantities, Quantity, Reference, References, Table, Text, Vector};
+use super::Kind::{Angle, Choice, Flag, Integer, Name, Quantities, Quantity, Reference, References, Table, Text, Vector};
 use super::Need::{self, Default, Optional, Required};
 use super::contact::{CONTACT, OBSTACLE};
 use super::{Form, Key, Kind, More, Rule, Section, key};
 use crate::block::stress_state::STRESS_STATES;
+use crate::mesh::shapes::SHAPES;
 use crate::quantity::Range::{Finite, NotNegative, Positive, UpTo};
 use crate::quantity::{Dimension, Parameter};
 use crate::{element, material, output};
@@ -23,7 +24,8 @@ pub static TOP: Section = Section {
 };
 
 /// Every section, in the order of the documentation.
-pub static SECTIONS: &[&Section] = &[&RUN, &MATERIAL, &PART, &CONTACT, &OBSTACLE, &SYMMETRY, &CONSTRAINT, &LOAD, &CURVE, &PROBE, &OUTPUT];
+pub static SECTIONS: &[&Section] =
+    &[&RUN, &MATERIAL, &PART, &CONTACT, &OBSTACLE, &SYMMETRY, &CONSTRAINT, &JOIN, &LOAD, &NON_REFLECTING, &CURVE, &PROBE, &OUTPUT];
 
 /// Keys that people know from elsewhere or from before, and what stands for them now.
 pub static MOVED: &[(&str, &str)] = &[("wall", "walls are obstacles now: [[obstacle]] with plane = { point, normal }")];
@@ -48,6 +50,12 @@ static RUN: Section = Section {
             Optional("a thousandth of the first stable step"),
             "Time step below which the run stops.",
         ),
+        key(
+            "time_step",
+            Quantity(Dimension::TIME, Positive),
+            Optional("what the elements need"),
+            "Largest time step. A model of rigid parts alone takes just this one, and without it the step that their elements would need if they were not rigid.",
+        ),
         key("max_steps", Integer(1), Optional("no limit"), "Largest number of steps."),
         key(
             "bulk_viscosity",
@@ -71,7 +79,7 @@ static MATERIAL: Section = Section {
 
 static PART: Section = Section {
     name: "part",
-    doc: "A body of one material and one kind of element. Exactly one of `rectangle`, `ring`, `disk` and `mesh` says where its elements come from.",
+    doc: "A body of one material, and how it moves at the start. A shape, or a mesh file, says where its elements come from.",
     form: Form::Repeated,
     required: true,
     keys: &[
@@ -99,72 +107,51 @@ static PART: Section = Section {
             Default("false"),
             "Whether the part is rigid, free to move; or how it moves: `x` and `y` of its centre of mass, `rotation` about it. What is left out is free.",
         ),
-        key("rectangle", Table(&RECTANGLE), Optional("another shape"), "An axis-parallel rectangle."),
-        key("ring", Table(&RING), Optional("another shape"), "A ring or a sector of one."),
-        key("disk", Table(&DISK), Optional("another shape"), "A full disk."),
-        key("mesh", Table(&MESH), Optional("another shape"), "A group of a mesh file."),
+        key("mirror", Table(&MIRROR), Optional("not mirrored"), "A line that the shape is mirrored on, before it is turned."),
+        key("rotation", Table(&ROTATION), Optional("not turned"), "An angle by which the shape is turned, before it is moved."),
+        key("translation", Vector(Dimension::LENGTH, Finite), Default("[0, 0]"), "How far the shape is moved."),
+        key("copies", Table(&COPIES), Optional("one body"), "More bodies of the same shape, in a row or around a point."),
     ],
-    rules: &[Rule::OneOf(&["rectangle", "ring", "disk", "mesh"])],
-    ..Section::EMPTY
-};
-
-static RECTANGLE: Section = Section {
-    name: "rectangle",
-    doc: "An axis-parallel rectangle; its sides are `left`, `right`, `bottom` and `top`.",
-    form: Form::Inline,
-    required: false,
-    keys: &[
-        key("corner", Vector(Dimension::LENGTH, Finite), Required, "Lower left corner."),
-        key("size", Vector(Dimension::LENGTH, Positive), Required, "Width and height."),
-        key("elements", Integers(2, 1), Required, "Elements along x and along y."),
+    groups: &[&SHAPES],
+    rules: &[
+        Rule::NotBoth("mesh", "mirror"),
+        Rule::NotBoth("mesh", "rotation"),
+        Rule::NotBoth("mesh", "translation"),
+        Rule::NotBoth("mesh", "copies"),
     ],
     ..Section::EMPTY
 };
 
-static RING: Section = Section {
-    name: "ring",
-    doc: "A ring, or a sector of one, counter-clockwise from `from` to `to`; its sides are `inner` and `outer` and, for a sector, `start` and `end`.",
-    form: Form::Inline,
-    required: false,
+static MIRROR: Section = Section {
+    name: "mirror",
+    doc: "The shape is mirrored on a line.",
     keys: &[
-        key("centre", Vector(Dimension::LENGTH, Finite), Required, "Centre."),
-        key("inner", Quantity(Dimension::LENGTH, Positive), Required, "Inner radius."),
-        key("outer", Quantity(Dimension::LENGTH, Positive), Required, "Outer radius."),
-        key("from", Angle(Dimension::NONE, Finite), Default("0"), "Angle at which it begins, counter-clockwise from the x axis."),
-        key(
-            "to",
-            Angle(Dimension::NONE, Finite),
-            Default("\"360 deg\""),
-            "Angle at which it ends: more than `from`, by at most a full turn.",
-        ),
-        key("elements", Integers(2, 1), Required, "Elements through the wall and around."),
+        key("normal", Vector(Dimension::NONE, Finite), Required, "Normal of the line; any length but zero."),
+        key("point", Vector(Dimension::LENGTH, Finite), Default("[0, 0]"), "A point of the line."),
     ],
     ..Section::EMPTY
 };
 
-static DISK: Section = Section {
-    name: "disk",
-    doc: "A full disk; its side is `outer`.",
-    form: Form::Inline,
-    required: false,
+static ROTATION: Section = Section {
+    name: "rotation",
+    doc: "The shape is turned about a point.",
     keys: &[
-        key("centre", Vector(Dimension::LENGTH, Finite), Required, "Centre."),
-        key("radius", Quantity(Dimension::LENGTH, Positive), Required, "Radius."),
-        key("elements", Integer(1), Required, "Elements around a quarter of the circumference."),
+        key("angle", Angle(Dimension::NONE, Finite), Required, "Angle, counter-clockwise."),
+        key("point", Vector(Dimension::LENGTH, Finite), Default("[0, 0]"), "The point."),
     ],
     ..Section::EMPTY
 };
 
-static MESH: Section = Section {
-    name: "mesh",
-    doc: "A group of a mesh file (Gmsh `.msh` 2.2 or 4.1). Its other groups can be named in contacts, constraints and probes.",
-    form: Form::Inline,
-    required: false,
+static COPIES: Section = Section {
+    name: "copies",
+    doc: "The part consists of several bodies of one shape, each turned and moved from the one before. Sides are those of all of them.",
     keys: &[
-        key("file", Text, Required, "Path of the file, from the model file's folder."),
-        key("group", Text, Required, "Name of a two-dimensional physical group."),
-        key("scale", Quantity(Dimension::LENGTH, Positive), Default("\"1 m\""), "Length of one unit of the file."),
+        key("count", Integer(1), Required, "Number of bodies in all."),
+        key("translation", Vector(Dimension::LENGTH, Finite), Default("[0, 0]"), "How far each is moved."),
+        key("angle", Angle(Dimension::NONE, Finite), Default("0"), "Angle by which each is turned, counter-clockwise."),
+        key("point", Vector(Dimension::LENGTH, Finite), Default("[0, 0]"), "Point about which they are turned."),
     ],
+    rules: &[Rule::SomeOf(&["translation", "angle"])],
     ..Section::EMPTY
 };
 
@@ -191,49 +178,209 @@ static CONSTRAINT: Section = Section {
         key("fixed", Kind::Choices(|| vec!["x", "y"]), Optional("none"), "Components that don't move."),
         key(
             "velocity",
-            Kind::Velocities,
+            Kind::Components(Dimension::VELOCITY),
             Optional("none"),
             "Prescribed velocity of components: a number or a curve, such as `{ x = \"1 m/s\", y = \"ramp\" }`.",
         ),
+        key(
+            "displacement",
+            Kind::Components(Dimension::LENGTH),
+            Optional("none"),
+            "Prescribed displacement of components from the initial position: curves that begin with 0.",
+        ),
+        key(
+            "acceleration",
+            Kind::Components(Dimension::ACCELERATION),
+            Optional("none"),
+            "Prescribed acceleration of components, from the initial velocity on.",
+        ),
+        key("rotation", Table(&TURN_OF_NODES), Optional("none"), "Leads the nodes around a point."),
     ],
-    rules: &[Rule::SomeOf(&["fixed", "velocity"])],
+    rules: &[
+        Rule::SomeOf(&["fixed", "velocity", "displacement", "acceleration", "rotation"]),
+        Rule::NotBoth("rotation", "fixed"),
+        Rule::NotBoth("rotation", "velocity"),
+        Rule::NotBoth("rotation", "displacement"),
+        Rule::NotBoth("rotation", "acceleration"),
+    ],
+    ..Section::EMPTY
+};
+
+static TURN_OF_NODES: Section = Section {
+    name: "rotation",
+    doc: "Rotation of nodes about a fixed point, on exact circles.",
+    form: Form::Inline,
+    required: false,
+    keys: &[
+        key("speed", Kind::Drive(Dimension::RATE), Required, "Angular velocity, counter-clockwise: a number or a curve."),
+        key("centre", Vector(Dimension::LENGTH, Finite), Default("[0, 0]"), "The point."),
+    ],
     ..Section::EMPTY
 };
 
 static LOAD: Section = Section {
     name: "load",
-    doc: "A load on some parts.",
+    doc: "What acts on parts, sets of nodes or surfaces from outside. With `curve` a load is multiplied by the curve's values, which must be pure numbers.",
     form: Form::Repeated,
     required: false,
     keys: &[
         key(
             "gravity",
             Vector(Dimension::ACCELERATION, Finite),
-            Optional("`damping`"),
-            "Uniform acceleration, such as `[0, \"-9.81 m/s^2\"]`.",
+            Optional("another load"),
+            "Uniform acceleration of parts, such as `[0, \"-9.81 m/s^2\"]`.",
+        ),
+        key(
+            "centrifugal",
+            Angle(Dimension::RATE, Finite),
+            Optional("another load"),
+            "Angular velocity of a frame in which the model is seen: its parts feel the acceleration centrifugal^2 * (x - centre), and no Coriolis force, so they should move slowly in it.",
+        ),
+        key(
+            "centre",
+            Vector(Dimension::LENGTH, Finite),
+            Optional("[0, 0]"),
+            "The point about which the frame turns; an axisymmetric model turns about its axis.",
+        ),
+        key(
+            "force",
+            Vector(Dimension::FORCE_PER_LENGTH, Finite),
+            Optional("another load"),
+            "Force on a set in all, per metre of depth (of an axisymmetric model in N over the whole circumference): shared by length over a side or a line group on the outside, equally over other groups.",
+        ),
+        key(
+            "pressure",
+            Quantity(Dimension::PRESSURE, Finite),
+            Optional("another load"),
+            "Pressure on a surface, always against its current normal and on its current length; negative pulls.",
         ),
         key(
             "damping",
             Quantity(Dimension::RATE, Positive),
-            Optional("`gravity`"),
-            "Rate of a force -rate * mass * velocity: what moves slowly comes to rest.",
+            Optional("another load"),
+            "Rate of a force -rate * mass * velocity on parts: what moves slowly comes to rest.",
+        ),
+        key(
+            "on",
+            Reference,
+            Optional("only with `force` and `pressure`"),
+            "Where it acts: a side such as `plate.top`, a group of a mesh file; of a pressure also a part, its whole outside.",
+        ),
+        key("parts", References(None), Optional("all parts"), "Parts that it acts on."),
+        key(
+            "curve",
+            Reference,
+            Optional("constant"),
+            "Name of a curve by whose value it is multiplied (the angular velocity of `centrifugal`).",
         ),
         key("from", Quantity(Dimension::TIME, NotNegative), Optional("the start"), "Time at which the damping begins."),
         key("until", Quantity(Dimension::TIME, Positive), Optional("the end"), "Time at which it ends."),
-        key("parts", References(None), Optional("all parts"), "Parts that it acts on."),
     ],
-    rules: &[Rule::OneOf(&["gravity", "damping"]), Rule::Needs("from", "damping"), Rule::Needs("until", "damping")],
+    rules: &[
+        Rule::OneOf(&["gravity", "centrifugal", "force", "pressure", "damping"]),
+        Rule::Needs("centre", "centrifugal"),
+        Rule::Needs("force", "on"),
+        Rule::Needs("pressure", "on"),
+        Rule::NotBoth("on", "gravity"),
+        Rule::NotBoth("on", "centrifugal"),
+        Rule::NotBoth("on", "damping"),
+        Rule::NotBoth("parts", "force"),
+        Rule::NotBoth("parts", "pressure"),
+        Rule::NotBoth("curve", "damping"),
+        Rule::Needs("from", "damping"),
+        Rule::Needs("until", "damping"),
+    ],
+    ..Section::EMPTY
+};
+
+static NON_REFLECTING: Section = Section {
+    name: "non_reflecting",
+    doc: "A surface that takes waves up as if the body went on behind it, by dashpots for plane waves across it: what meets it at an angle is reflected in part. It doesn't hold the body in place.",
+    form: Form::Repeated,
+    required: false,
+    keys: &[key("on", Reference, Required, "A side such as `soil.bottom`, a line group of a mesh file, or a part, its whole outside.")],
+    ..Section::EMPTY
+};
+
+static JOIN: Section = Section {
+    name: "join",
+    doc: "Nodes of two sets that move as one: tied where the sets coincide, periodic where the second set is the image of the first by `translation` or `rotation`. Each node of the first set has its partner in the second one, and of images also the other way round. A tied contact joins meshes that differ.",
+    form: Form::Repeated,
+    required: false,
+    keys: &[
+        key("between", References(Some(2)), Required, "The two sets: each a part, a side such as `plate.left`, or a group of a mesh file."),
+        key(
+            "translation",
+            Vector(Dimension::LENGTH, Finite),
+            Optional("none"),
+            "Leads from the first set to the second: both have the same velocity.",
+        ),
+        key(
+            "rotation",
+            Angle(Dimension::NONE, Finite),
+            Optional("none"),
+            "Leads from the first set to the second, counter-clockwise: the velocity of the second is that of the first, turned.",
+        ),
+        key("centre", Vector(Dimension::LENGTH, Finite), Optional("[0, 0]"), "Centre of the rotation."),
+        key(
+            "tolerance",
+            Quantity(Dimension::LENGTH, Positive),
+            Optional("1e-6 of the model's size"),
+            "Distance within which nodes are partners.",
+        ),
+    ],
+    rules: &[Rule::NotBoth("translation", "rotation"), Rule::Needs("centre", "rotation")],
     ..Section::EMPTY
 };
 
 static CURVE: Section = Section {
     name: "curve",
-    doc: "A function of time, named where a velocity is prescribed: linear between its points, constant before the first and after the last. The name begins with a letter.",
+    doc: "A function of time, named where something follows it: by points (`time` and `value`; constant before the first and after the last), a `sine`, or a formula (`expression`). The name begins with a letter.",
     form: Form::Named,
     required: false,
     keys: &[
-        key("time", Kind::Quantities(Dimension::TIME, Finite, 1), Required, "Times, ascending."),
-        key("value", Kind::Values, Required, "Values, as many: of one dimension, or bare numbers in the SI unit of what uses the curve."),
+        key("time", Kind::Quantities(Dimension::TIME, Finite, 1), Optional("`sine` or `expression`"), "Times, ascending."),
+        key(
+            "value",
+            Kind::Values,
+            Optional("`sine` or `expression`"),
+            "Values, as many: of one dimension, or bare numbers in the SI unit of what uses the curve.",
+        ),
+        key(
+            "between",
+            Choice(|| vec!["lines", "smooth_steps"]),
+            Default("\"lines\""),
+            "What leads from point to point: straight lines, or steps without velocity and acceleration at their ends.",
+        ),
+        key("sine", Table(&SINE), Optional("points or `expression`"), "A wave."),
+        key(
+            "expression",
+            Text,
+            Optional("points or `sine`"),
+            "A formula of the time `t` in s, such as `\"2*sin(3*t) + exp(-t)\"`, in the SI unit of what uses the curve: numbers, `+ - * / ^`, parentheses, `pi`, `sin`, `cos`, `exp`, `ln`, `sqrt`, `abs`, `min`, `max`, and `step(x)`, which is 0 for x < 0, else 1.",
+        ),
+    ],
+    rules: &[
+        Rule::OneOf(&["value", "sine", "expression"]),
+        Rule::Needs("value", "time"),
+        Rule::NotBoth("time", "sine"),
+        Rule::NotBoth("time", "expression"),
+        Rule::NotBoth("between", "sine"),
+        Rule::NotBoth("between", "expression"),
+    ],
+    ..Section::EMPTY
+};
+
+static SINE: Section = Section {
+    name: "sine",
+    doc: "offset + amplitude * sin(2 pi frequency t + phase).",
+    form: Form::Inline,
+    required: false,
+    keys: &[
+        key("amplitude", Kind::Value, Required, "Height of the wave: a quantity, or a bare number in the SI unit of what uses the curve."),
+        key("frequency", Quantity(Dimension::RATE, Positive), Required, "Waves per time."),
+        key("phase", Angle(Dimension::NONE, Finite), Default("0"), "Angle at time zero."),
+        key("offset", Kind::Value, Default("0"), "Mean value, of the same dimension."),
     ],
     ..Section::EMPTY
 };

@@ -1,0 +1,186 @@
+//! What springs act on, and how: nodes and rigid bodies with their velocities and mobilities, and the rows of every spring on them.
+//!
+//! Springs and the state of the step come from [`super::Springs`]; links and arms, island by island, go to [`super::relax`]. Velocities are counted from those that there are
+//! without springs: what a force changes is then exact to its own last digits, however fast the bodies move.
+
+use super::{End, Mover, Movers, Spring, Tangential, Update, Vector, tangent};
+use crate::load::join;
+use std::ops::Range;
+
+/// A node or rigid body that springs act on.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Movable {
+    pub(super) at: u32,
+    /// x, y and, of a rigid body, angular.
+    velocity_old: [f64; 3],
+    /// v^{n+½} without springs.
+    velocity_free: [f64; 3],
+    mobility: Mobility,
+    /// Centre of a rigid body; `None`: a node.
+    centre: Option<Vector>,
+}
+
+/// Change of velocity per force: xx, xy, yy and, of a rigid body, angular.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Mobility(pub(super) [f64; 4]);
+
+impl Mobility {
+    #[inline]
+    pub(super) fn response(&self, row: [f64; 3]) -> [f64; 3] {
+        let [xx, xy, yy, spin] = self.0;
+        [xx * row[0] + xy * row[1], xy * row[0] + yy * row[1], spin * row[2]]
+    }
+}
+
+impl Movable {
+    /// One of which only the number is known.
+    pub(super) fn unknown(at: u32) -> Self {
+        Self { at, ..Self::default() }
+    }
+
+    /// The node or (from `nodes` on) rigid body `at` at the beginning of the solution.
+    pub(super) fn new<M: Movers>(at: u32, nodes: usize, update: &Update<'_, M>) -> Self {
+        let mean_step = 0.5 * (update.time_steps[0] + update.time_steps[1]);
+        let node = at as usize;
+        if node >= nodes {
+            let body = update.bodies.state(node - nodes);
+            let [x, y, spin] = body.inverse_mass.map(|inverse| mean_step * inverse);
+            let (velocity_old, velocity_free) = (body.velocity_old, body.velocity_free);
+            return Self { at, velocity_old, velocity_free, mobility: Mobility([x, 0.0, y, spin]), centre: Some(body.centre) };
+        }
+        let Mover { velocity_old: [ox, oy], velocity: [vx, vy], mobility: [xx, xy, yy] } = update.nodes.mover(node);
+        Self { at, velocity_old: [ox, oy, 0.0], velocity_free: [vx, vy, 0.0], mobility: Mobility([xx, xy, yy, 0.0]), centre: None }
+    }
+
+    /// Whether forces move it at all.
+    #[inline]
+    pub(super) fn moves(&self) -> bool {
+        self.mobility != Mobility::default()
+    }
+
+    /// A row of force `row` at an end, with its moment on a rigid body; of the image of a node as its leader feels it.
+    #[inline]
+    fn row(&self, mut row: Vector, end: &End) -> [f64; 3] {
+        let point = end.point;
+        if let Some(turn) = end.image {
+            row = join::back(turn, row);
+        }
+        let moment = self.centre.map_or(0.0, |centre| (point[0] - centre[0]) * row[1] - (point[1] - centre[1]) * row[0]);
+        [row[0], row[1], moment]
+    }
+}
+
+/// A node or rigid body of an island, as the springs move it.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Slot {
+    /// What the springs have added to the velocity.
+    pub(super) change: [f64; 3],
+    pub(super) mobility: Mobility,
+    pub(super) is_body: bool,
+}
+
+/// A spring's row of the gap on something that moves.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Arm {
+    pub(super) slot: u32,
+    pub(super) row: [f64; 3],
+}
+
+/// A spring while it is solved.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Link {
+    /// Number of the spring.
+    pub(super) spring: u32,
+    /// Its arms in the island.
+    pub(super) first: u32,
+    pub(super) count: u32,
+    /// Change of g^{n+½} per normal force.
+    pub(super) compliance: f64,
+    /// Change of the slip rate per friction.
+    pub(super) slip_compliance: f64,
+    pub(super) gap_old: f64,
+    /// g^{n+½} without any force.
+    pub(super) gap_free: f64,
+    pub(super) rate_old: f64,
+    pub(super) rate_free: f64,
+    pub(super) slip_rate_old: f64,
+    pub(super) slip_rate_free: f64,
+    pub(super) force: f64,
+    pub(super) friction: f64,
+    /// Compliances of normal force and friction beyond the spring's own, and the forces at which they change nothing; see [`super::relax`].
+    pub(super) lent: [f64; 2],
+    pub(super) centre: [f64; 2],
+    /// Elastic slip at n + ½.
+    pub(super) slip_new: f64,
+    pub(super) slides: bool,
+    /// ġ^{n+½} and ṡ^{n+½} of the solution.
+    pub(super) rates: [f64; 2],
+}
+
+impl Link {
+    #[inline]
+    pub(super) fn arms(&self) -> Range<usize> {
+        self.first as usize..(self.first + self.count) as usize
+    }
+}
+
+/// Ends of springs, and what is at them.
+#[derive(Clone, Copy)]
+pub(super) struct Joints<'a> {
+    pub(super) list: &'a [Spring],
+    pub(super) ends: &'a [End],
+    /// Movable of each end.
+    pub(super) places: &'a [u32],
+    pub(super) movables: &'a [Movable],
+    /// Slot of each movable in its island.
+    pub(super) slots: &'a [u32],
+    pub(super) time_steps: [f64; 2],
+}
+
+impl Joints<'_> {
+    /// The link of a spring; its arms fill `arms` and `slips` from `first` on, its slots `slots`.
+    pub(super) fn link(
+        &self,
+        number: u32,
+        tangential: Tangential,
+        first: u32,
+        arms: &mut [Arm],
+        slips: &mut [[f64; 3]],
+        slots: &mut [Slot],
+    ) -> Link {
+        let spring = &self.list[number as usize];
+        let [before, after] = self.time_steps;
+        let t = tangent(spring.normal);
+        let has_slip = !matches!(tangential, Tangential::Free);
+        let mut link = Link { spring: number, first, ..Link::default() };
+        for k in spring.ends() {
+            let (end, place) = (&self.ends[k], self.places[k] as usize);
+            let movable = &self.movables[place];
+            let row = movable.row(end.gap_row(spring.normal), end);
+            let slip_row = if has_slip { movable.row(end.slip_row(t), end) } else { [0.0; 3] };
+            link.rate_old += dot(row, movable.velocity_old);
+            link.rate_free += dot(row, movable.velocity_free);
+            link.slip_rate_old += dot(slip_row, movable.velocity_old);
+            link.slip_rate_free += dot(slip_row, movable.velocity_free);
+            if !movable.moves() {
+                continue;
+            }
+            let slot = self.slots[place];
+            link.compliance += 0.5 * after * dot(row, movable.mobility.response(row));
+            slots[slot as usize] = Slot { change: [0.0; 3], mobility: movable.mobility, is_body: movable.centre.is_some() };
+            let arm = (first + link.count) as usize;
+            arms[arm] = Arm { slot, row };
+            slips[arm] = slip_row;
+            link.slip_compliance += dot(slip_row, movable.mobility.response(slip_row));
+            link.count += 1;
+        }
+        link.gap_old = spring.gap - 0.5 * before * link.rate_old;
+        link.gap_free = spring.gap + 0.5 * after * link.rate_free;
+        link
+    }
+}
+
+#[inline]
+pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}

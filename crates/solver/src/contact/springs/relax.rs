@@ -1,0 +1,336 @@
+//! The springs of an island, relaxed until they agree: Gauss-Seidel over the springs in their order, normal force and friction in turn.
+//!
+//! Links and arms come from [`super::link`], predictions from [`super::newton`] where sweeps are slow; only a sweep that changes nothing ends the solution. For linear springs the
+//! matrix (2/k on the diagonal plus compliances) is symmetric and positive definite, so sweeps converge; how fast depends on how much stiffer the springs are than the nodes between them.
+
+use super::friction::{self, Stick};
+use super::link::{Arm, Link, Slot, dot};
+use super::newton::Newton;
+use super::{Closing, Spring, Tangential, Terms};
+use crate::contact::law;
+
+/// An island is solved when a sweep changes no force by more than this fraction of the island's largest.
+pub(super) const TOLERANCE: f64 = 1e-12;
+/// Sweeps after which the forces are taken as they are.
+pub(super) const SWEEPS: usize = 500;
+/// Sweeps that a prediction is worth: if more are to be expected, it is made.
+const WORTH: f64 = 8.0;
+/// Predictions in a row; the sweeps between those that follow double each time.
+const EAGER: usize = 16;
+/// Compliance that constraints get while they are sought, as a fraction of that of what they act on.
+const LENT: f64 = 1e-7;
+
+/// Springs that share what they move.
+pub(super) struct Island<'a> {
+    pub(super) links: &'a mut [Link],
+    pub(super) arms: &'a [Arm],
+    /// Rows of the slip, as `arms`; zero of springs that do not care.
+    pub(super) slips: &'a [[f64; 3]],
+    pub(super) slots: &'a mut [Slot],
+    pub(super) list: &'a [Spring],
+    /// Terms of each spring of the list.
+    pub(super) terms_of: &'a [u32],
+    pub(super) terms: &'a [Terms],
+    pub(super) time_steps: [f64; 2],
+}
+
+/// What a sweep did, N/m.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Change {
+    /// Largest change of a force.
+    pub(super) change: f64,
+    /// Largest force.
+    pub(super) largest: f64,
+}
+
+impl Change {
+    #[inline]
+    fn see(&mut self, step: f64, force: f64) {
+        self.change = self.change.max(step.abs());
+        self.largest = self.largest.max(force.abs());
+    }
+
+    fn is_small(self) -> bool {
+        self.change <= TOLERANCE * self.largest
+    }
+
+    /// Sweeps that are still to be expected where the last one changed `before`.
+    fn sweeps_left(self, before: f64) -> f64 {
+        let rate = self.change / before;
+        if rate < 1.0 { (TOLERANCE * self.largest / self.change).ln() / rate.ln() } else { f64::INFINITY }
+    }
+}
+
+/// What a solution took.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Effort {
+    /// Most sweeps over an island.
+    pub(super) sweeps: usize,
+    /// Whether the forces still changed after the last sweep that is allowed.
+    pub(super) unsolved: bool,
+}
+
+/// How a solution goes.
+#[derive(Clone, Copy)]
+struct Pace {
+    sweeps: usize,
+    predictions: usize,
+    /// Sweeps before a prediction.
+    patience: usize,
+    /// Fraction of its steps that are made.
+    fraction: f64,
+    /// Least change of a sweep over all springs.
+    best: f64,
+}
+
+impl Default for Pace {
+    fn default() -> Self {
+        Self { sweeps: 0, predictions: 0, patience: 1, fraction: 1.0, best: f64::INFINITY }
+    }
+}
+
+impl Pace {
+    /// After a sweep over all springs that changed so much: predictions that lead nowhere are followed by shorter steps, which ends running in circles.
+    fn judge(&mut self, change: f64) {
+        self.fraction = if change < 0.7 * self.best { 1.0 } else { (0.6 * self.fraction).max(0.1) };
+        self.best = self.best.min(change);
+        if self.predictions >= EAGER {
+            self.patience *= 2;
+        }
+    }
+
+    fn effort(self) -> Effort {
+        Effort { sweeps: self.sweeps.min(SWEEPS), unsolved: self.sweeps >= SWEEPS }
+    }
+}
+
+impl Effort {
+    pub(super) fn join(&mut self, other: Self) {
+        self.sweeps = self.sweeps.max(other.sweeps);
+        self.unsolved |= other.unsolved;
+    }
+}
+
+impl Island<'_> {
+    /// Finds the forces; `newton` and `live` are memory to work in.
+    pub(super) fn solve(&mut self, newton: &mut Newton, live: &mut Vec<u32>) -> Effort {
+        // All springs, then those that push until they agree, then all again: open ones are only looked at.
+        let mut all = self.sweep_all();
+        let mut pace = Pace { sweeps: 1, ..Pace::default() };
+        // A spring alone without friction is solved by its law.
+        if self.links.len() == 1 && matches!(self.terms_of(0).tangential, Tangential::Free) {
+            return pace.effort();
+        }
+        loop {
+            while !all.is_small() {
+                if pace.sweeps >= SWEEPS {
+                    return pace.effort();
+                }
+                self.relax_live(live, all.change, newton, &mut pace);
+                all = self.sweep_all();
+                pace.sweeps += 1;
+            }
+            // With what was lent to constraints they hold where nothing is left of it.
+            if pace.predictions == 0 || !self.centre() {
+                return pace.effort();
+            }
+            all = self.sweep_all();
+            pace.sweeps += 1;
+            pace.best = f64::INFINITY;
+            if all.is_small() {
+                return pace.effort();
+            }
+        }
+    }
+
+    /// Sweeps over the springs that push, until nothing changes or a prediction has been made; `before` is the change of the sweep before.
+    fn relax_live(&mut self, live: &mut Vec<u32>, before: f64, newton: &mut Newton, pace: &mut Pace) {
+        live.clear();
+        live.extend(
+            (0..self.links.len() as u32).filter(|&i| self.links[i as usize].force != 0.0 || self.links[i as usize].friction != 0.0),
+        );
+        pace.judge(before);
+        let mut last = before;
+        for sweep in 1.. {
+            let now = self.sweep_live(live);
+            pace.sweeps += 1;
+            if now.is_small() || pace.sweeps >= SWEEPS {
+                return;
+            }
+            if sweep >= pace.patience && now.sweeps_left(last) > WORTH {
+                if pace.predictions == 0 {
+                    self.soften();
+                }
+                pace.predictions += 1;
+                newton.predict(self, pace.fraction);
+                return;
+            }
+            last = now.change;
+        }
+    }
+
+    /// Lends constraints a little compliance about the forces that they have: more constraints than ways to move contradict each other until the right ones are found.
+    fn soften(&mut self) {
+        for i in 0..self.links.len() {
+            if !self.terms_of(i).law.is_elastic() {
+                let link = &mut self.links[i];
+                link.lent = [LENT * link.compliance, LENT * link.slip_compliance];
+                link.centre = [link.force, link.friction];
+            }
+        }
+    }
+
+    /// Makes the forces that there are those about which constraints give way; `false`: there are no constraints.
+    fn centre(&mut self) -> bool {
+        let mut any = false;
+        for link in self.links.iter_mut().filter(|link| link.lent != [0.0; 2]) {
+            any = true;
+            link.centre = [link.force, link.friction];
+        }
+        any
+    }
+
+    fn sweep_all(&mut self) -> Change {
+        let mut change = Change::default();
+        (0..self.links.len()).for_each(|i| self.relax(i, &mut change));
+        change
+    }
+
+    fn sweep_live(&mut self, live: &[u32]) -> Change {
+        let mut change = Change::default();
+        live.iter().for_each(|&i| self.relax(i as usize, &mut change));
+        change
+    }
+
+    /// What acts in a spring.
+    #[inline]
+    pub(super) fn terms_of(&self, i: usize) -> &Terms {
+        &self.terms[self.terms_of[self.links[i].spring as usize] as usize]
+    }
+
+    /// Gives a spring the forces that its law and friction want as the others are.
+    #[inline]
+    fn relax(&mut self, i: usize, sum: &mut Change) {
+        let free = self.gap_without(i);
+        let force = self.normal_force(i, free);
+        let step = force - self.links[i].force;
+        if step != 0.0 {
+            self.push(i, step, 0.0);
+            // The very force that was found, not the sum of its changes.
+            self.links[i].force = force;
+        }
+        sum.see(step, force);
+        let friction_old = self.links[i].friction;
+        let friction = match self.terms_of(i).tangential {
+            Tangential::Free => return,
+            Tangential::Friction(_) if force == 0.0 && friction_old == 0.0 => return,
+            Tangential::Friction(_) => {
+                let found = self.slide(i);
+                (self.links[i].slip_new, self.links[i].slides) = (found.slip, found.slides);
+                found.friction
+            }
+            Tangential::Tied => self.tie(i),
+        };
+        let step = friction - friction_old;
+        if step != 0.0 {
+            self.push(i, 0.0, step);
+            self.links[i].friction = friction;
+        }
+        sum.see(step, friction);
+    }
+
+    /// g^{n+½} of a spring without its own force.
+    #[inline]
+    pub(super) fn gap_without(&self, i: usize) -> f64 {
+        let link = &self.links[i];
+        link.gap_free + 0.5 * self.time_steps[1] * self.gap_rate(i) - link.compliance * link.force
+    }
+
+    /// What the springs add to the rate of a gap.
+    #[inline]
+    fn gap_rate(&self, i: usize) -> f64 {
+        self.arms[self.links[i].arms()].iter().map(|arm| dot(arm.row, self.slots[arm.slot as usize].change)).sum()
+    }
+
+    /// Normal force by the law where the gap without it is `free`.
+    #[inline]
+    pub(super) fn normal_force(&self, i: usize, free: f64) -> f64 {
+        let (link, terms) = (&self.links[i], self.terms_of(i));
+        let spring = &self.list[link.spring as usize];
+        let closing =
+            Closing { spring, old: link.gap_old, free: free - link.lent[0] * link.centre[0], compliance: link.compliance + link.lent[0] };
+        if terms.damping > 0.0 {
+            law::damped(terms.law.as_ref(), &closing, terms.damping, link.rate_old, self.time_steps)
+        } else {
+            terms.law.force(&closing, self.time_steps)
+        }
+    }
+
+    /// What the springs add to the slip rate.
+    fn slip_rate(&self, i: usize) -> f64 {
+        let arms = self.links[i].arms();
+        self.arms[arms.clone()].iter().zip(&self.slips[arms]).map(|(arm, row)| dot(*row, self.slots[arm.slot as usize].change)).sum()
+    }
+
+    /// What friction can do at a spring.
+    pub(super) fn stick(&self, i: usize) -> Stick {
+        let link = &self.links[i];
+        Stick {
+            old: link.slip_rate_old,
+            free: link.slip_rate_free + self.slip_rate(i) - link.slip_compliance * link.friction - link.lent[1] * link.centre[1],
+            compliance: link.slip_compliance + link.lent[1],
+            stiffness: self.terms_of(i).law.slip_stiffness(&self.list[link.spring as usize]),
+            time_steps: self.time_steps,
+        }
+    }
+
+    /// Most friction with the normal force `force`.
+    pub(super) fn limit(&self, i: usize, force: f64) -> f64 {
+        let link = &self.links[i];
+        match self.terms_of(i).tangential {
+            Tangential::Friction(law) => law.limit(force, self.list[link.spring as usize].area, link.slip_rate_old),
+            _ => 0.0,
+        }
+    }
+
+    pub(super) fn slide(&self, i: usize) -> friction::Slid {
+        let link = &self.links[i];
+        friction::slide(&self.stick(i), self.list[link.spring as usize].slip, self.limit(i, link.force))
+    }
+
+    pub(super) fn tie(&self, i: usize) -> f64 {
+        friction::tie(&self.stick(i), self.list[self.links[i].spring as usize].slip)
+    }
+
+    /// Adds to the forces of a spring: the velocities at its ends follow.
+    #[inline]
+    pub(super) fn push(&mut self, i: usize, force: f64, friction: f64) {
+        let link = &mut self.links[i];
+        link.force += force;
+        link.friction += friction;
+        for k in link.arms() {
+            let arm = &self.arms[k];
+            let slot = &mut self.slots[arm.slot as usize];
+            let mut row = arm.row.map(|row| row * force);
+            if friction != 0.0 {
+                for (row, slip) in row.iter_mut().zip(self.slips[k]) {
+                    *row += slip * friction;
+                }
+            }
+            let response = slot.mobility.response(row);
+            for (change, response) in slot.change.iter_mut().zip(response) {
+                *change += response;
+            }
+        }
+    }
+
+    /// Keeps the rates that the solution leads to.
+    pub(super) fn settle(&mut self) {
+        for i in 0..self.links.len() {
+            let slips = !matches!(self.terms_of(i).tangential, Tangential::Free);
+            let rate = self.links[i].rate_free + self.gap_rate(i);
+            let slip_rate = if slips { self.links[i].slip_rate_free + self.slip_rate(i) } else { 0.0 };
+            self.links[i].rates = [rate, slip_rate];
+        }
+    }
+}

@@ -1,0 +1,129 @@
+//! Forces on mass: gravity, and the centrifugal force of a frame that turns.
+//!
+//! gravity:      f = m g c(t)
+//! centrifugal:  f = m ω² (x − p),  ω = ω₀ c(t),  with the current position x
+//!
+//! with a factor c(t) of a curve. A body of revolution turns about its axis: m ω² x along x alone. The centrifugal force is that of a frame that turns with ω about p, in which a part at rest is seen; velocities are those seen in the
+//! frame, and are meant to be small: there is no Coriolis force, and none of ω̇. Each part gives its share of a node's mass. Works are external.
+
+use super::curve::Curves;
+use crate::mesh::Mesh;
+use crate::model::{Load, Model};
+
+type Vector = [f64; 2];
+
+/// The forces on mass of a model.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct BodyForces {
+    loads: Vec<Acting>,
+    /// Acceleration of every node now, m/s²; empty when the model has no such load.
+    now: Vec<Vector>,
+}
+
+/// One load.
+#[derive(Clone, Debug, PartialEq)]
+struct Acting {
+    field: Field,
+    /// Curve of the factor.
+    curve: Option<usize>,
+    /// c now.
+    factor: f64,
+    /// Share of the load's parts in the mass of each node.
+    shares: Vec<f64>,
+    /// Whether it acts on all parts, and so on free obstacles too.
+    everywhere: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Field {
+    Uniform(Vector),
+    Centrifugal {
+        centre: Vector,
+        speed: f64,
+    },
+    /// About the axis of a body of revolution.
+    Axial {
+        speed: f64,
+    },
+}
+
+impl Field {
+    fn at(self, factor: f64, x: Vector) -> Vector {
+        match self {
+            Self::Uniform(acceleration) => acceleration.map(|component| factor * component),
+            Self::Axial { speed } => [(factor * speed).powi(2) * x[0], 0.0],
+            Self::Centrifugal { centre, speed } => [0, 1].map(|d| (factor * speed).powi(2) * (x[d] - centre[d])),
+        }
+    }
+}
+
+impl BodyForces {
+    /// `part_mass` lists the nodes of each part with the part's mass on them (kg/m), `mass` the whole mass of each node, all in their initial positions.
+    #[must_use]
+    pub fn new(model: &Model, mesh: &Mesh<2>, curves: &Curves, mass: &[f64], part_mass: &[Vec<(u32, f64)>]) -> Self {
+        let load = |load: &Load| {
+            let (parts, curve, field) = match load {
+                Load::Gravity { parts, acceleration, curve } => (parts, curve, Field::Uniform(*acceleration)),
+                Load::Centrifugal { parts, speed, curve, .. } if model.is_axisymmetric() => (parts, curve, Field::Axial { speed: *speed }),
+                Load::Centrifugal { parts, centre, speed, curve } => (parts, curve, Field::Centrifugal { centre: *centre, speed: *speed }),
+                Load::Damping { .. } | Load::Force { .. } | Load::Pressure { .. } => return None,
+            };
+            let mut shares = vec![0.0; mesh.positions.len()];
+            for (part, masses) in mesh.parts.iter().zip(part_mass) {
+                if parts.is_empty() || parts.contains(&part.name) {
+                    for &(node, share) in masses {
+                        shares[node as usize] += share / mass[node as usize];
+                    }
+                }
+            }
+            let curve = curve.as_ref().and_then(|name| curves.find(name));
+            Some(Acting { field, curve, factor: 1.0, shares, everywhere: parts.is_empty() })
+        };
+        let mut forces = Self { loads: model.loads.iter().filter_map(load).collect(), now: Vec::new() };
+        forces.prepare(curves, [0.0; 2], &mesh.positions);
+        forces
+    }
+
+    /// Whether the model has no such load.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.loads.is_empty()
+    }
+
+    /// Whether they change with time or place.
+    #[must_use]
+    pub fn varies(&self) -> bool {
+        self.loads.iter().any(|load| load.curve.is_some() || !matches!(load.field, Field::Uniform(_)))
+    }
+
+    /// Takes their means between two times (s) at these positions (m).
+    pub fn prepare(&mut self, curves: &Curves, [from, to]: [f64; 2], positions: &[Vector]) {
+        let nodes = self.loads.first().map_or(0, |load| load.shares.len());
+        self.now.clear();
+        self.now.resize(nodes, [0.0; 2]);
+        for load in &mut self.loads {
+            load.factor = load.curve.map_or(1.0, |curve| curves.curve(curve).mean(from, to));
+            for ((sum, &share), x) in self.now.iter_mut().zip(&load.shares).zip(positions) {
+                if share > 0.0 {
+                    let acceleration = load.field.at(load.factor, *x);
+                    *sum = [sum[0] + acceleration[0] * share, sum[1] + acceleration[1] * share];
+                }
+            }
+        }
+    }
+
+    /// Acceleration of every node now, m/s²; empty when the model has no such load.
+    #[must_use]
+    pub fn accelerations(&self) -> &[Vector] {
+        &self.now
+    }
+
+    /// Acceleration now at a point of a free obstacle, m/s².
+    #[must_use]
+    pub fn everywhere(&self, x: Vector) -> Vector {
+        self.loads.iter().filter(|load| load.everywhere).fold([0.0; 2], |sum, load| {
+            let acceleration = load.field.at(load.factor, x);
+            [sum[0] + acceleration[0], sum[1] + acceleration[1]]
+        })
+    }
+}

@@ -1,0 +1,283 @@
+//! Nodes that move as one: tied where two sets coincide, periodic where one set is the image of the other by a translation or a rotation.
+//!
+//! Joined nodes form groups. Each member's velocity is that of the group's leader, turned: v_i = R_i v. With this the update of the group is that of one node
+//!
+//! M v^{n+½} = M v^{n−½} + ½ (dt^{n−1} + dt^n) Σ R_iᵀ f_i,   M = Σ m_i
+//!
+//! so a join does no work. A node that is its own image by a rotation (the tip of a sector) can't move; it is held.
+
+use crate::error::Fault;
+use crate::mesh::Mesh;
+use crate::model::{Image, Join, Model};
+use crate::rigid::cos_sin;
+
+type Vector = [f64; 2];
+
+/// Cosine and sine of a rotation.
+pub type Turn = [f64; 2];
+const NONE: u32 = u32::MAX;
+/// No rotation.
+const STRAIGHT: Turn = [1.0, 0.0];
+/// Distance at which nodes still coincide, fraction of the model's size.
+const TOLERANCE: f64 = 1e-6;
+/// At most so many nodes without a partner are told one by one.
+const TOLD: usize = 20;
+
+/// The groups of a model.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Joins {
+    /// Group and place in it of each node; empty without joins.
+    of_node: Vec<(u32, u32)>,
+    groups: Vec<Group>,
+    /// Whether some set is the image of another at another place: then momenta are not kept.
+    periodic: bool,
+}
+
+/// Nodes that move as one.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Group {
+    /// The leader first, without rotation.
+    pub members: Vec<Member>,
+    /// Whether a rotation leads it to itself: then it can't move.
+    pub fixed: bool,
+}
+
+/// A node of a group.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Member {
+    /// The node.
+    pub node: u32,
+    /// R.
+    pub turn: Turn,
+}
+
+/// The second node moves like the first one, turned.
+struct Link {
+    nodes: [u32; 2],
+    turn: Turn,
+}
+
+impl Joins {
+    /// Of a model.
+    ///
+    /// # Errors
+    /// Sets of nothing, nodes without a partner.
+    pub fn new(model: &Model, mesh: &Mesh<2>) -> Result<Self, Vec<Fault>> {
+        let (mut links, mut faults) = (Vec::new(), Vec::new());
+        for (i, join) in model.joins.iter().enumerate() {
+            link(&format!("join[{i}]"), join, mesh, &mut links, &mut faults);
+        }
+        if !faults.is_empty() {
+            return Err(faults);
+        }
+        let periodic = model.joins.iter().any(|join| join.image != Image::Same);
+        Ok(if links.is_empty() { Self::default() } else { Self { periodic, ..Self::of(&links, mesh.positions.len()) } })
+    }
+
+    /// The groups that links make of so many nodes.
+    fn of(links: &[Link], nodes: usize) -> Self {
+        let mut beside = vec![Vec::new(); nodes];
+        for Link { nodes: [a, b], turn } in links {
+            beside[*a as usize].push((*b, *turn));
+            beside[*b as usize].push((*a, [turn[0], -turn[1]]));
+        }
+        let mut joins = Self { of_node: vec![(NONE, 0); nodes], ..Self::default() };
+        for first in 0..nodes as u32 {
+            if beside[first as usize].is_empty() || joins.of_node[first as usize].0 != NONE {
+                continue;
+            }
+            let number = joins.groups.len() as u32;
+            let mut group = Group { members: vec![Member { node: first, turn: STRAIGHT }], fixed: false };
+            joins.of_node[first as usize] = (number, 0);
+            let mut next = 0;
+            while let Some(&Member { node, turn }) = group.members.get(next) {
+                next += 1;
+                for &(other, step) in &beside[node as usize] {
+                    let [cos, sin] = [step[0] * turn[0] - step[1] * turn[1], step[1] * turn[0] + step[0] * turn[1]];
+                    let (known, place) = joins.of_node[other as usize];
+                    if known == NONE {
+                        joins.of_node[other as usize] = (number, group.members.len() as u32);
+                        group.members.push(Member { node: other, turn: [cos, sin] });
+                    } else {
+                        let [known_cos, known_sin] = group.members[place as usize].turn;
+                        group.fixed |= (cos - known_cos).abs().max((sin - known_sin).abs()) > 1e-9;
+                    }
+                }
+            }
+            joins.groups.push(group);
+        }
+        joins
+    }
+
+    /// Whether the model has none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.groups.is_empty()
+    }
+
+    /// Whether some set is the image of another at another place.
+    #[must_use]
+    pub fn is_periodic(&self) -> bool {
+        self.periodic
+    }
+
+    /// All groups.
+    #[must_use]
+    pub fn groups(&self) -> &[Group] {
+        &self.groups
+    }
+
+    /// Group of a node, and its member that the node is.
+    #[inline]
+    #[must_use]
+    pub fn of_node(&self, node: u32) -> Option<(&Group, &Member)> {
+        let &(group, place) = self.of_node.get(node as usize)?;
+        let group = self.groups.get(group as usize)?;
+        Some((group, &group.members[place as usize]))
+    }
+
+    /// The node that moves in the stead of `node`, and the rotation from its motion to that of `node`.
+    #[must_use]
+    pub fn leader(&self, node: u32) -> (u32, Turn) {
+        self.of_node(node).map_or((node, STRAIGHT), |(group, member)| (group.members[0].node, member.turn))
+    }
+
+    /// Gives each group the mean velocity of its members by mass (kg/m); fixed ones rest.
+    pub fn begin(&self, mass: &[f64], velocities: &mut [Vector]) {
+        for group in &self.groups {
+            let (mut sum, mut whole) = ([0.0; 2], 0.0);
+            for member in &group.members {
+                let (m, v) = (mass[member.node as usize], back(member.turn, velocities[member.node as usize]));
+                sum = [sum[0] + m * v[0], sum[1] + m * v[1]];
+                whole += m;
+            }
+            group.lead(if group.fixed { [0.0; 2] } else { sum.map(|p| p / whole) }, velocities);
+        }
+    }
+}
+
+impl Group {
+    /// Gives all members the velocity of the leader.
+    pub fn lead(&self, velocity: Vector, velocities: &mut [Vector]) {
+        for member in &self.members {
+            velocities[member.node as usize] = turned(member.turn, velocity);
+        }
+    }
+
+    /// Σ R_iᵀ f_i of what each member's node has.
+    pub fn sum(&self, of: impl Fn(usize) -> Vector) -> Vector {
+        self.members.iter().fold([0.0; 2], |sum, member| {
+            let force = back(member.turn, of(member.node as usize));
+            [sum[0] + force[0], sum[1] + force[1]]
+        })
+    }
+}
+
+/// R v.
+#[inline]
+#[must_use]
+pub fn turned([cos, sin]: Turn, v: Vector) -> Vector {
+    if sin == 0.0 && cos == 1.0 { v } else { [cos * v[0] - sin * v[1], sin * v[0] + cos * v[1]] }
+}
+
+/// Rᵀ v.
+#[inline]
+#[must_use]
+pub fn back([cos, sin]: Turn, v: Vector) -> Vector {
+    turned([cos, -sin], v)
+}
+
+/// Finds the partner of each node of the first set in the second one; of images also the other way round.
+fn link(path: &str, join: &Join, mesh: &Mesh<2>, links: &mut Vec<Link>, faults: &mut Vec<Fault>) {
+    let mut sets = Vec::new();
+    for (side, name) in join.between.iter().enumerate() {
+        match mesh.nodes(name).filter(|nodes| !nodes.is_empty()) {
+            Some(nodes) => sets.push(nodes),
+            None => faults.push(Fault::new(
+                format!("{path}.between[{side}]"),
+                format!("there is nothing called \"{name}\""),
+                "name a part, a side as part.side, or a group",
+            )),
+        }
+    }
+    let [first, second] = &sets[..] else { return };
+    let (turn, image): (Turn, Box<dyn Fn(Vector) -> Vector>) = match join.image {
+        Image::Same => (STRAIGHT, Box::new(|x| x)),
+        Image::Translated([dx, dy]) => (STRAIGHT, Box::new(move |[x, y]| [x + dx, y + dy])),
+        Image::Turned { centre, angle } => {
+            let turn = cos_sin(angle);
+            let around = move |x: Vector| {
+                let [a, b] = turned(turn, [x[0] - centre[0], x[1] - centre[1]]);
+                [centre[0] + a, centre[1] + b]
+            };
+            (turn, Box::new(around))
+        }
+    };
+    let size = mesh.positions.iter().flatten().fold(0.0f64, |size, x| size.max(x.abs()));
+    let tolerance = join.tolerance.unwrap_or(TOLERANCE * size);
+    let place = |node: u32| mesh.positions[node as usize];
+    let pairs = partners(first.iter().map(|&node| (node, image(place(node)))), second.iter().map(|&node| (node, place(node))), tolerance);
+    let mut lonely: Vec<Lonely> = pairs.iter().filter(|pair| pair.partner.is_none()).map(|pair| Lonely { pair: *pair, side: 0 }).collect();
+    if join.image != Image::Same {
+        let other =
+            partners(second.iter().map(|&node| (node, place(node))), first.iter().map(|&node| (node, image(place(node)))), tolerance);
+        lonely.extend(other.into_iter().filter(|pair| pair.partner.is_none()).map(|pair| Lonely { pair, side: 1 }));
+    }
+    tell(path, join, &lonely, mesh, faults);
+    let moves = |pair: &Pair| pair.partner.is_some_and(|partner| partner != pair.node || turn != STRAIGHT);
+    links.extend(pairs.iter().filter(|pair| moves(pair)).map(|pair| Link { nodes: [pair.node, pair.partner.unwrap_or(pair.node)], turn }));
+}
+
+/// A node and its partner within the tolerance.
+#[derive(Clone, Copy)]
+struct Pair {
+    node: u32,
+    partner: Option<u32>,
+    /// To the nearest node of the other set that was looked at, m.
+    distance: f64,
+}
+
+/// A node of one of the sets without a partner.
+struct Lonely {
+    pair: Pair,
+    side: usize,
+}
+
+fn partners(nodes: impl Iterator<Item = (u32, Vector)>, others: impl Iterator<Item = (u32, Vector)>, tolerance: f64) -> Vec<Pair> {
+    let mut sorted: Vec<(u32, Vector)> = others.collect();
+    sorted.sort_by(|(_, a), (_, b)| a[0].total_cmp(&b[0]));
+    let nearest = |x: Vector, among: &[(u32, Vector)]| {
+        let distance = |&(node, y): &(u32, Vector)| (((y[0] - x[0]).powi(2) + (y[1] - x[1]).powi(2)).sqrt(), node);
+        among.iter().map(distance).min_by(|a, b| a.0.total_cmp(&b.0))
+    };
+    nodes
+        .map(|(node, x)| {
+            let window =
+                sorted.partition_point(|(_, y)| y[0] < x[0] - tolerance)..sorted.partition_point(|(_, y)| y[0] <= x[0] + tolerance);
+            match nearest(x, &sorted[window]) {
+                Some((distance, partner)) if distance <= tolerance => Pair { node, partner: Some(partner), distance },
+                _ => Pair { node, partner: None, distance: nearest(x, &sorted).map_or(f64::INFINITY, |(distance, _)| distance) },
+            }
+        })
+        .collect()
+}
+
+fn tell(path: &str, join: &Join, lonely: &[Lonely], mesh: &Mesh<2>, faults: &mut Vec<Fault>) {
+    for Lonely { pair, side } in lonely.iter().take(TOLD) {
+        let [x, y] = mesh.positions[pair.node as usize];
+        let (own, other) = (&join.between[*side], &join.between[1 - side]);
+        let what = if join.image == Image::Same { "" } else { " of the image" };
+        let message = format!(
+            "the node at ({x:.6e}, {y:.6e}) m of \"{own}\" has no partner in \"{other}\": the nearest node{what} is {:.3e} m away",
+            pair.distance
+        );
+        faults.push(Fault::new(
+            format!("{path}.between"),
+            message,
+            "mesh the two alike, or give a larger `tolerance`; a tied contact joins meshes that differ",
+        ));
+    }
+    if lonely.len() > TOLD {
+        faults.push(Fault::new(format!("{path}.between"), format!("and {} more nodes without a partner", lonely.len() - TOLD), ""));
+    }
+}

@@ -1,0 +1,99 @@
+//! Boundaries that reflect nothing: dashpots on a surface that take a plane wave up as if the body went on (Lysmer and Kuhlemeyer, J. Eng. Mech. Div. ASCE
+//! 95 (1969) 859-877).
+//!
+//! traction t = −ρ c_p (v·n) n − ρ c_s (v − (v·n) n),   c_p² = (K + 4µ/3)/ρ,   c_s² = µ/ρ
+//!
+//! on the tributary length of each node, normals and lengths as they are at the start. With C the sum over a node's segments, the force −C v̄ acts on the mean
+//! velocity of the update, v̄ = ½ (v^{n−½} + v^{n+½}): it only takes energy, whatever the step, and shortens none. A node gives way to an impulse J by
+//! (m + ½ Δt C)⁻¹ J with Δt = ½ (dt^{n−1} + dt^n).
+
+use super::tributary::Depth;
+use crate::error::Fault;
+use crate::mesh::Mesh;
+use crate::mesh::surface::Surface;
+use crate::model::Model;
+
+/// A symmetric matrix: xx, xy, yy.
+pub type Matrix = [f64; 3];
+
+/// What is behind a segment of a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Behind {
+    /// Density, kg/m³.
+    pub density: f64,
+    /// Wave modulus and bulk modulus, Pa.
+    pub moduli: [f64; 2],
+}
+
+/// The dashpots of a model.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct NonReflecting {
+    /// C of every node, kg/(m s); empty when the model has no such boundary.
+    dashpots: Vec<Matrix>,
+}
+
+impl NonReflecting {
+    /// `behind` tells what is behind a segment, `is_mirror` which segments lie on a symmetry line: they are no boundary.
+    ///
+    /// # Errors
+    /// Names of nothing, or of what is no surface.
+    pub fn new(
+        model: &Model,
+        mesh: &Mesh<2>,
+        is_mirror: impl Fn([u32; 2]) -> bool,
+        behind: impl Fn([u32; 2]) -> Option<Behind>,
+    ) -> Result<Self, Vec<Fault>> {
+        let (mut result, mut faults, depth) = (Self::default(), Vec::new(), Depth::of(model));
+        for (i, boundary) in model.non_reflecting.iter().enumerate() {
+            result.dashpots.resize(mesh.positions.len(), [0.0; 3]);
+            match mesh.surface(&boundary.on, &is_mirror) {
+                Ok(surface) => result.add(&surface, mesh, depth, &behind),
+                Err(fault) => faults.push(Fault { path: format!("non_reflecting[{i}].on"), ..fault }),
+            }
+        }
+        if faults.is_empty() { Ok(result) } else { Err(faults) }
+    }
+
+    fn add(&mut self, surface: &Surface, mesh: &Mesh<2>, depth: Depth, behind: &impl Fn([u32; 2]) -> Option<Behind>) {
+        for &segment in &surface.segments {
+            let Some(Behind { density, moduli: [wave, bulk] }) = behind(segment) else { continue };
+            let [a, b] = segment.map(|node| mesh.positions[node as usize]);
+            let length = ((b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2)).sqrt();
+            let [x, y] = [(b[0] - a[0]) / length, (b[1] - a[1]) / length];
+            let (along, across) = ((density * 0.75 * (wave - bulk)).max(0.0).sqrt(), (density * wave).sqrt());
+            let matrix = [across * y * y + along * x * x, (along - across) * x * y, across * x * x + along * y * y];
+            for (node, share) in segment.into_iter().zip(depth.shares([a, b])) {
+                let sum = &mut self.dashpots[node as usize];
+                *sum = std::array::from_fn(|k| sum[k] + share * matrix[k]);
+            }
+        }
+    }
+
+    /// Whether the model has no such boundary.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.dashpots.is_empty()
+    }
+
+    /// C of a node, kg/(m s); `None` without.
+    #[inline]
+    #[must_use]
+    pub fn of(&self, node: usize) -> Option<Matrix> {
+        self.dashpots.get(node).copied().filter(|matrix| *matrix != [0.0; 3])
+    }
+}
+
+/// Matrix times vector.
+#[inline]
+#[must_use]
+pub fn times([xx, xy, yy]: Matrix, [x, y]: [f64; 2]) -> [f64; 2] {
+    [xx * x + xy * y, xy * x + yy * y]
+}
+
+/// Inverse of a positive definite matrix.
+#[inline]
+#[must_use]
+pub fn inverse([xx, xy, yy]: Matrix) -> Matrix {
+    let determinant = xx * yy - xy * xy;
+    [yy / determinant, -xy / determinant, xx / determinant]
+}

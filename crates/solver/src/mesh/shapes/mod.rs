@@ -1,0 +1,423 @@
+//! Built-in shapes, one a file: parameters, keys of the model file, mesh, named sides.
+//!
+//! Values come from the model file or from code; bodies go to the mesh builder. To add a shape: one file with `KEY` and `impl BuiltIn`, and its
+//! line in `shapes!`; the model's [`Shape`], the keys, the manual and the contract tests below follow from there.
+
+mod coons;
+mod delaunay;
+mod numbers;
+
+pub(super) use numbers::{cos_sin, quarters};
+pub use quadrilateral::Edge;
+
+use crate::model::check::CheckOf;
+use crate::model::describe::{Form, Group, Key, Kind, Need, Rule, Section, key};
+use crate::quantity::Dimension;
+use crate::quantity::Range::Positive;
+use numbers::Steps;
+
+/// The mesh of one body: nodes, elements, and named sides.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Body {
+    /// Node positions, m.
+    pub positions: Vec<[f64; 2]>,
+    /// Quadrilaterals, counter-clockwise.
+    pub quads: Vec<[u32; 4]>,
+    /// Triangles, counter-clockwise; elements are numbered after the quadrilaterals.
+    pub triangles: Vec<[u32; 3]>,
+    /// Named sides as segments with the body on their right.
+    pub sides: Vec<(String, Vec<[u32; 2]>)>,
+}
+
+impl Body {
+    /// Nodes of each element.
+    pub fn cells(&self) -> impl Iterator<Item = &[u32]> {
+        self.quads.iter().map(<[u32; 4]>::as_slice).chain(self.triangles.iter().map(<[u32; 3]>::as_slice))
+    }
+}
+
+/// How large a mesh will be. Node numbers are 32 bits wide, so a model asks before it meshes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Count {
+    /// Nodes (saturating at `usize::MAX`).
+    pub nodes: usize,
+    /// Elements (saturating).
+    pub elements: usize,
+    /// Whether these are the numbers, or about these.
+    pub exact: bool,
+}
+
+impl Count {
+    /// Of a lattice of so many elements; `closed`: its second direction leads back to where it began.
+    fn of_lattice([a, b]: [usize; 2], closed: bool) -> Self {
+        let nodes = a.saturating_add(1).saturating_mul(b.saturating_add(usize::from(!closed)));
+        Self { nodes, elements: a.saturating_mul(b), exact: true }
+    }
+
+    /// So many of these bodies.
+    pub(crate) fn times(self, copies: usize) -> Self {
+        Self { nodes: self.nodes.saturating_mul(copies), elements: self.elements.saturating_mul(copies), ..self }
+    }
+}
+
+/// What keeps a shape from being meshed, and at which of its keys (empty: the shape as a whole).
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Wrong {
+    pub(crate) key: &'static str,
+    pub(crate) message: String,
+    pub(crate) help: String,
+}
+
+impl Wrong {
+    fn new(key: &'static str, message: impl Into<String>, help: impl Into<String>) -> Self {
+        Self { key, message: message.into(), help: help.into() }
+    }
+}
+
+/// The values of a table of the model file. What is not sound has become NaN or the largest count, or is empty: its fault is told already.
+pub trait Values {
+    /// Whether the table has the key.
+    fn has(&self, key: &str) -> bool;
+    /// A number, SI.
+    fn number(&self, key: &str) -> f64;
+    /// Two numbers, SI.
+    fn vector(&self, key: &str) -> [f64; 2];
+    /// Numbers, SI.
+    fn numbers(&self, key: &str) -> Vec<f64>;
+    /// Points, m.
+    fn points(&self, key: &str) -> Vec<[f64; 2]>;
+    /// Lists of points, m.
+    fn outlines(&self, key: &str) -> Vec<Vec<[f64; 2]>>;
+    /// A whole number.
+    fn count(&self, key: &str) -> usize;
+    /// Two whole numbers.
+    fn counts(&self, key: &str) -> [usize; 2];
+    /// Whether a flag is up.
+    fn flag(&self, key: &str) -> bool;
+}
+
+/// A shape that makes its own mesh.
+pub(crate) trait BuiltIn {
+    /// From its table in the model file.
+    fn read(values: &dyn Values) -> Self
+    where
+        Self: Sized;
+    /// Tells all faults that need no mesh; ranges of numbers are those of the keys.
+    fn check(&self, check: &mut CheckOf<'_, '_>);
+    /// Names of the sides that [`BuiltIn::body`] makes.
+    fn sides(&self) -> Vec<String>;
+    /// What [`BuiltIn::body`] will make, without making it.
+    fn count(&self) -> Count;
+    /// The key that decides how many elements there are.
+    fn size_key(&self) -> &'static str {
+        ELEMENTS
+    }
+    /// Nodes per element of what it makes.
+    fn nodes_per_element(&self) -> usize {
+        4
+    }
+    /// The mesh.
+    fn body(&self) -> Result<Body, Wrong>;
+    /// Shapes for the contract tests, with their areas (m²); the larger `n`, the finer.
+    #[cfg(test)]
+    fn examples(n: usize) -> Vec<(Self, f64)>
+    where
+        Self: Sized;
+}
+
+/// The registry: one line per shape.
+macro_rules! shapes {
+    ($($module:ident: $shape:ident),* $(,)?) => {
+        $(mod $module; pub use $module::$shape;)*
+
+        /// Where the elements of a part come from. Angles in radians, lengths in metres.
+        #[derive(Clone, Debug, PartialEq)]
+        pub enum Shape {
+            $(#[doc = concat!("See [`", stringify!($shape), "`].")] $shape($shape),)*
+            /// A group of an imported mesh.
+            Group {
+                /// Index into [`crate::model::Model::meshes`].
+                mesh: usize,
+                /// Name of a two-dimensional group.
+                group: String,
+            },
+        }
+
+        $(impl From<$shape> for Shape {
+            fn from(shape: $shape) -> Self {
+                Self::$shape(shape)
+            }
+        })*
+
+        impl Shape {
+            /// The built-in shape, and the key of a part that has its table; `None` for a group of an imported mesh.
+            pub(crate) fn built_in(&self) -> Option<(&dyn BuiltIn, &'static str)> {
+                match self {
+                    $(Self::$shape(shape) => Some((shape, $module::KEY.name)),)*
+                    Self::Group { .. } => None,
+                }
+            }
+
+            /// The built-in shape that a key of a part stands for.
+            #[must_use]
+            pub fn read(name: &str, values: &dyn Values) -> Option<Self> {
+                $(if name == $module::KEY.name {
+                    return Some($shape::read(values).into());
+                })*
+                None
+            }
+
+            #[cfg(test)]
+            fn examples(n: usize) -> Vec<(Self, f64)> {
+                let mut all = Vec::new();
+                $(all.extend($shape::examples(n).into_iter().map(|(shape, area)| (Self::from(shape), area)));)*
+                all
+            }
+        }
+
+        /// The keys of a part of which exactly one says where its elements come from.
+        pub(crate) static SHAPES: Group = Group {
+            title: "Shapes",
+            doc: "Where the elements of a part come from.",
+            keys: &[$($module::KEY,)* MESH],
+            rules: &[Rule::OneOf(&[$($module::KEY.name,)* MESH.name])],
+        };
+    };
+}
+
+shapes!(
+    rectangle: Rectangle,
+    ring: Ring,
+    disk: Disk,
+    trapezoid: Trapezoid,
+    quadrilateral: Quadrilateral,
+    polygon: Polygon,
+    path: Path,
+);
+
+impl Shape {
+    /// Names of the sides that `part.side` can mean.
+    #[must_use]
+    pub fn sides(&self) -> Vec<String> {
+        self.built_in().map_or(Vec::new(), |(shape, _)| shape.sides())
+    }
+
+    /// How large the mesh of a built-in shape will be; `None` for a group of an imported mesh.
+    #[must_use]
+    pub fn count(&self) -> Option<Count> {
+        self.built_in().map(|(shape, _)| shape.count())
+    }
+}
+
+/// The key that decides how many elements most shapes have.
+const ELEMENTS: &str = "elements";
+
+/// Geometric growth of the elements.
+const GRADING: Key = key(
+    "grading",
+    Kind::Vector(Dimension::NONE, Positive),
+    Need::Default("[1, 1]"),
+    "Length of the last element over that of the first, in the directions of `elements`; they grow by equal factors.",
+);
+
+const fn shape_key(name: &'static str, section: &'static Section, doc: &'static str) -> Key {
+    key(name, Kind::Table(section), Need::Optional("another shape"), doc)
+}
+
+const MESH: Key = shape_key("mesh", &MESH_SECTION, "A group of a mesh file.");
+
+static MESH_SECTION: Section = Section {
+    name: "mesh",
+    doc: "A group of a mesh file (Gmsh `.msh` 2.2 or 4.1), triangles too. Its other groups can be named in contacts, constraints and probes.",
+    form: Form::Inline,
+    required: false,
+    keys: &[
+        key("file", Kind::Text, Need::Required, "Path of the file, from the model file's folder."),
+        key("group", Kind::Text, Need::Required, "Name of a two-dimensional physical group."),
+        key("scale", Kind::Quantity(Dimension::LENGTH, Positive), Need::Default("\"1 m\""), "Length of one unit of the file."),
+    ],
+    ..Section::EMPTY
+};
+
+/// A body of `elements` quadrilaterals between the points `at(i, j)`, of which those with i + 1 lie on the right of those with j + 1.
+/// `closed`: the last row is the first. Nodes run along i first. Sides at the lowest and highest i, then at the lowest and highest j.
+fn lattice(elements: [usize; 2], closed: bool, sides: [&str; 4], at: impl Fn(usize, usize) -> [f64; 2]) -> Body {
+    let [nx, ny] = elements;
+    let row = nx + 1;
+    let rows = if closed { ny } else { ny + 1 };
+    let number = |i: usize, j: usize| node(if closed && j == ny { i } else { j * row + i });
+    let mut body = Body::default();
+    for j in 0..rows {
+        body.positions.extend((0..=nx).map(|i| at(i, j)));
+    }
+    for j in 0..ny {
+        body.quads.extend((0..nx).map(|i| [number(i, j), number(i + 1, j), number(i + 1, j + 1), number(i, j + 1)]));
+    }
+    let mut side = |name: &str, segments| body.sides.push((name.to_string(), segments));
+    side(sides[0], (0..ny).map(|j| [number(0, j), number(0, j + 1)]).collect());
+    side(sides[1], (0..ny).rev().map(|j| [number(nx, j + 1), number(nx, j)]).collect());
+    if !closed {
+        side(sides[2], (0..nx).rev().map(|i| [number(i + 1, 0), number(i, 0)]).collect());
+        side(sides[3], (0..nx).map(|i| [number(i, ny), number(i + 1, ny)]).collect());
+    }
+    body
+}
+
+/// Where a body of quadrilaterals folds over: the first element with a corner that does not turn counter-clockwise, and the place.
+fn fold(body: &Body) -> Option<(usize, [f64; 2])> {
+    let turns = |quad: &[u32; 4], k: usize| {
+        let x = |k: usize| body.positions[quad[k % 4] as usize];
+        numbers::cross(numbers::minus(x(k + 1), x(k)), numbers::minus(x(k + 3), x(k))) > 0.0
+    };
+    let (element, quad) = body.quads.iter().enumerate().find(|(_, quad)| !(0..4).all(|k| turns(quad, k)))?;
+    Some((element, body.positions[quad[0] as usize]))
+}
+
+/// A body of quadrilaterals that must not fold; `help` says what to do about it.
+fn unfolded(body: Body, help: &str) -> Result<Body, Wrong> {
+    match fold(&body) {
+        None => Ok(body),
+        Some((element, [x, y])) => Err(Wrong::new("", format!("the mesh folds over at ({x:.6e}, {y:.6e}) m, in element {element}"), help)),
+    }
+}
+
+fn node(index: usize) -> u32 {
+    u32::try_from(index).expect("the model has limited the number of nodes to 32 bits (Shape::count)")
+}
+
+#[cfg(test)]
+pub(crate) fn rectangle(corner: [f64; 2], size: [f64; 2], elements: [usize; 2]) -> Body {
+    Rectangle { corner, size, elements, ..Rectangle::default() }.body().expect("a rectangle never fails")
+}
+
+#[cfg(test)]
+pub(crate) fn ring(centre: [f64; 2], inner: f64, outer: f64, from: f64, to: f64, elements: [usize; 2]) -> Body {
+    Ring { centre, inner, outer, from, to, elements, ..Ring::default() }.body().expect("a ring never fails")
+}
+
+#[cfg(test)]
+pub(crate) fn disk(centre: [f64; 2], radius: f64, elements: usize) -> Body {
+    Disk { centre, radius, elements }.body().expect("a disk never fails")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::surface::exterior;
+
+    pub(super) fn minus(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+        numbers::minus(a, b)
+    }
+    pub(super) fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {
+        numbers::cross(a, b)
+    }
+
+    fn jacobians(body: &Body) -> impl Iterator<Item = f64> + '_ {
+        body.cells().flat_map(|cell| {
+            let x: Vec<[f64; 2]> = cell.iter().map(|&n| body.positions[n as usize]).collect();
+            let n = x.len();
+            (0..n).map(move |k| cross(minus(x[(k + 1) % n], x[k]), minus(x[(k + n - 1) % n], x[k])))
+        })
+    }
+
+    /// Area, ∫x², ∫y² and ∫xy, exact for the polygons (triangle formula).
+    pub(super) fn moments(body: &Body) -> [f64; 4] {
+        let mut sum = [0.0; 4];
+        for cell in body.cells() {
+            for t in 1..cell.len() - 1 {
+                let [p, q, r] = [0, t, t + 1].map(|k| body.positions[cell[k] as usize]);
+                let area = 0.5 * cross(minus(q, p), minus(r, p));
+                let product = |i: usize, j: usize| {
+                    let (s, t) = (p[i] + q[i] + r[i], p[j] + q[j] + r[j]);
+                    area / 12.0 * (s * t + p[i] * p[j] + q[i] * q[j] + r[i] * r[j])
+                };
+                let more = [area, product(0, 0), product(1, 1), product(0, 1)];
+                for (s, m) in sum.iter_mut().zip(more) {
+                    *s += m;
+                }
+            }
+        }
+        sum
+    }
+
+    pub(super) fn is_its_mirror_image(body: &Body) {
+        let mut ours = body.positions.clone();
+        let mut mirrored: Vec<_> = ours.iter().map(|&[x, y]| [x, 0.0 - y]).collect();
+        let order = |a: &[f64; 2], b: &[f64; 2]| a.partial_cmp(b).unwrap();
+        ours.sort_by(order);
+        mirrored.sort_by(order);
+        assert_eq!(ours, mirrored);
+    }
+
+    fn body(shape: &Shape) -> Body {
+        let made = shape.built_in().unwrap().0.body();
+        made.unwrap_or_else(|wrong| panic!("{shape:?}: {wrong:?}"))
+    }
+
+    fn every_shape() -> Vec<Shape> {
+        [2, 3, 4, 7, 12, 33].iter().flat_map(|&n| Shape::examples(n)).map(|(shape, _)| shape).collect()
+    }
+
+    #[test]
+    fn every_corner_of_every_shape_has_a_positive_jacobian() {
+        for shape in every_shape() {
+            let body = body(&shape);
+            assert!(body.cells().count() > 0);
+            assert!(jacobians(&body).all(|j| j > 0.0), "{shape:?}");
+            assert!(body.cells().all(|cell| cell.len() == shape.built_in().unwrap().0.nodes_per_element()));
+        }
+    }
+
+    #[test]
+    fn the_sides_of_every_shape_cover_its_outside_with_the_body_on_the_right_and_have_the_promised_names_and_counts() {
+        for shape in every_shape() {
+            let body = body(&shape);
+            let mut of_sides: Vec<_> = body.sides.iter().flat_map(|(_, segments)| segments.iter().copied()).collect();
+            let mut of_cells = exterior(body.cells()).unwrap();
+            of_sides.sort_unstable();
+            of_sides.dedup(); // a side may be a part of another
+            of_cells.sort_unstable();
+            assert_eq!(of_sides, of_cells, "{shape:?}");
+            for (name, segments) in &body.sides {
+                assert!(segments.windows(2).all(|pair| pair[0][1] == pair[1][0]), "the segments of {name} follow each other: {shape:?}");
+            }
+            let names: Vec<_> = body.sides.iter().map(|side| side.0.clone()).collect();
+            assert_eq!(names, shape.sides());
+            let (count, made) = (shape.count().unwrap(), [body.positions.len(), body.cells().count()]);
+            if count.exact {
+                assert_eq!([count.nodes, count.elements], made, "{shape:?}");
+            } else {
+                let about = |count: usize, made: usize| made <= 2 * count && count <= 10 * made;
+                assert!(about(count.nodes, made[0]) && about(count.elements, made[1]), "{count:?} {made:?} {shape:?}");
+            }
+            let mut used: Vec<u32> = body.cells().flatten().copied().collect();
+            used.sort_unstable();
+            used.dedup();
+            assert_eq!(used.len(), body.positions.len(), "every node is used");
+        }
+    }
+
+    #[test]
+    fn the_area_of_every_shape_is_exact_or_converges_with_the_square_of_the_element_size() {
+        let errors =
+            |n| -> Vec<f64> { Shape::examples(n).iter().map(|(shape, area)| (moments(&body(shape))[0] / area - 1.0).abs()).collect() };
+        for ((coarse, fine), (shape, _)) in errors(12).into_iter().zip(errors(24)).zip(Shape::examples(24)) {
+            assert!(fine < 1e-12 || (fine < 0.02 && (3.0..5.5).contains(&(coarse / fine))), "{coarse} {fine} {shape:?}");
+        }
+    }
+
+    #[test]
+    fn a_group_of_a_file_is_no_built_in_shape() {
+        let group = Shape::Group { mesh: 0, group: "tube".into() };
+        assert_eq!((group.built_in().is_none(), group.sides().len(), group.count()), (true, 0, None));
+    }
+
+    #[test]
+    fn the_sides_of_a_rectangle_lie_where_their_names_say() {
+        let body = rectangle([1.0, 2.0], [3.0, 0.5], [6, 2]);
+        for (name, d, value) in [("left", 0, 1.0), ("right", 0, 4.0), ("bottom", 1, 2.0), ("top", 1, 2.5)] {
+            let side = &body.sides.iter().find(|s| s.0 == name).unwrap().1;
+            assert!(side.iter().flatten().all(|&n| body.positions[n as usize][d] == value), "{name}");
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! Faults of loads, boundaries that reflect nothing, and joins.
+
+use super::Check;
+use crate::model::reference::{Reference, excerpt};
+use crate::model::{Drive, Image, Load};
+use crate::quantity::{Dimension, Range};
+
+impl Check<'_> {
+    pub(super) fn loads(&mut self) {
+        let model = self.model;
+        for (index, load) in model.loads.iter().enumerate() {
+            let path = format!("load[{index}]");
+            match load {
+                Load::Gravity { parts, acceleration, curve } => {
+                    self.part_list(&format!("{path}.parts"), parts);
+                    self.vector(&format!("{path}.gravity"), *acceleration);
+                    self.factor(&path, curve);
+                }
+                Load::Centrifugal { parts, centre, speed, curve } => {
+                    self.part_list(&format!("{path}.parts"), parts);
+                    self.vector(&format!("{path}.centre"), *centre);
+                    self.number(&format!("{path}.centrifugal"), *speed);
+                    if model.is_axisymmetric() && *centre != [0.0; 2] {
+                        let message = "an axisymmetric model turns about its axis, x = 0";
+                        self.fault(format!("{path}.centre"), message, "leave `centre` out");
+                    }
+                    self.factor(&path, curve);
+                }
+                Load::Force { on, force, curve } => {
+                    if let Some(Reference::Part(_)) = self.reference(&format!("{path}.on"), on, None) {
+                        let message = format!("`{}` is a part, but a force acts on a set of its nodes", excerpt(on));
+                        self.fault(format!("{path}.on"), message, "name a side as part.side or a group; `gravity` acts on whole parts");
+                    }
+                    self.vector(&format!("{path}.force"), *force);
+                    self.factor(&path, curve);
+                }
+                Load::Pressure { on, pressure, curve } => {
+                    self.reference(&format!("{path}.on"), on, Some(1));
+                    self.number(&format!("{path}.pressure"), *pressure);
+                    self.factor(&path, curve);
+                }
+                Load::Damping { parts, rate, active } => {
+                    self.part_list(&format!("{path}.parts"), parts);
+                    self.number(&format!("{path}.damping"), *rate);
+                    self.window(&path, ["from", "until"], *active);
+                }
+            }
+        }
+    }
+
+    /// A curve by which a load is multiplied.
+    fn factor(&mut self, path: &str, curve: &Option<String>) {
+        if let Some(name) = curve {
+            self.drive(&format!("{path}.curve"), &Drive::Curve(name.clone()), Dimension::NONE);
+        }
+    }
+
+    pub(super) fn non_reflecting(&mut self) {
+        let model = self.model;
+        for (index, boundary) in model.non_reflecting.iter().enumerate() {
+            let path = format!("non_reflecting[{index}].on");
+            if let Some(Reference::Part(part) | Reference::Side { part, .. }) = self.reference(&path, &boundary.on, Some(1))
+                && model.parts[part].rigid.is_some()
+            {
+                let message = format!("part `{}` is rigid, so no waves meet this boundary", excerpt(&model.parts[part].name));
+                self.fault(path.as_str(), message, "name a surface of a part that deforms");
+            }
+            if let Some(first) = model.non_reflecting[..index].iter().position(|it| it.on == boundary.on) {
+                let message = format!("`{}` reflects nothing by non_reflecting[{first}] already", excerpt(&boundary.on));
+                self.fault(path, message, "name it once");
+            }
+        }
+    }
+
+    pub(super) fn joins(&mut self) {
+        let model = self.model;
+        for (index, join) in model.joins.iter().enumerate() {
+            let path = format!("join[{index}]");
+            for (side, name) in join.between.iter().enumerate() {
+                if let Some(Reference::Part(part) | Reference::Side { part, .. }) =
+                    self.reference(&format!("{path}.between[{side}]"), name, None)
+                    && model.parts[part].rigid.is_some()
+                {
+                    let message = format!("part `{}` is rigid, so its nodes can't be joined one by one", excerpt(&model.parts[part].name));
+                    self.fault(format!("{path}.between[{side}]"), message, "a tied contact binds others to rigid parts");
+                }
+            }
+            match join.image {
+                Image::Same => {}
+                Image::Translated(by) => {
+                    self.vector(&format!("{path}.translation"), by);
+                    if by == [0.0; 2] {
+                        self.fault(format!("{path}.translation"), "the translation is zero", "leave it out where the sets coincide");
+                    }
+                }
+                Image::Turned { centre, angle } => {
+                    self.vector(&format!("{path}.centre"), centre);
+                    self.number(&format!("{path}.rotation"), angle);
+                    if angle == 0.0 {
+                        self.fault(format!("{path}.rotation"), "the rotation is zero", "leave it out where the sets coincide");
+                    }
+                }
+            }
+            if let Some(tolerance) = join.tolerance {
+                self.within(&format!("{path}.tolerance"), tolerance, Dimension::LENGTH, Range::Positive);
+            }
+            if join.between[0] == join.between[1] {
+                let message = format!("`{}` is joined to itself", excerpt(&join.between[0]));
+                self.fault(format!("{path}.between"), message, "name two sets");
+            }
+        }
+    }
+}

@@ -127,7 +127,6 @@ fn transcendental_functions_are_accurate() {
         assert!((math::ln(x) - x.ln()).abs() <= 4e-16 * x.ln().abs().max(1e-3) + 1e-18, "ln {x}");
         let y = x - 10.0;
         assert!((math::exp(y) / y.exp() - 1.0).abs() <= 5e-16, "exp {y}");
-        assert!((math::pow(x, 0.3 * y) / x.powf(0.3 * y) - 1.0).abs() <= 1e-15 * (1.0 + (y * x.ln()).abs()), "pow {x} {y}");
         // The reference cancels: the less, the better.
         let tolerance = if y.abs() < 0.5 { 1e-15 + 4e-16 / y.abs() } else { 5e-15 };
         assert!(y == 0.0 || (math::exp_above_tangent(y) / (y.exp_m1() - y) - 1.0).abs() <= tolerance, "e^x - 1 - x {y}");

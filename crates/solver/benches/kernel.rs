@@ -11,7 +11,7 @@ use std::time::Instant;
 /// Laws that every element is measured with; the others with `quad4` in cache.
 const FEW: [&str; 3] = ["elastic", "j2", "neo_hookean"];
 
-/// Parameters of any law: steel that flows at once and hardens strongly.
+/// Parameters of any law: steel that flows at once and hardens strongly; rubbers and orthotropic bodies of its stiffness.
 const NUMBERS: &[(&str, f64)] = &[
     ("density", 7800.0),
     ("young", 2e11),

@@ -12,7 +12,12 @@ const TIMES: [f64; 2] = [0.02, 1.5];
 fn rubber(ratios: &[f64], times: &[f64]) -> Material {
     let parameters = [("density", DENSITY), ("young", YOUNG), ("poisson", 0.3)].map(|(name, value)| (name.to_string(), value));
     let lists = [("shear_ratio", ratios), ("relaxation_time", times)].map(|(name, list)| (name.to_string(), list.to_vec()));
-    Material { law: "viscoelastic".into(), parameters: parameters.into_iter().collect(), lists: lists.into_iter().collect() }
+    Material {
+        law: "viscoelastic".into(),
+        parameters: parameters.into_iter().collect(),
+        lists: lists.into_iter().collect(),
+        ..Material::default()
+    }
 }
 
 fn law(ratios: &[f64], times: &[f64]) -> Viscoelastic {

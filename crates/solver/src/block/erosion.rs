@@ -113,10 +113,7 @@ where
     pub(super) fn least_determinant(&self, element: usize, positions: &[[f64; D]]) -> f64 {
         let (batch, lane) = (element / BATCH, element % BATCH);
         let x: [[f64; D]; N] = std::array::from_fn(|a| positions[self.nodes.row(batch * N + a)[lane] as usize]);
-        E::gradients(&x)
-            .iter()
-            .map(|jacobian| Dim::<D>::determinant(jacobian))
-            .fold(f64::INFINITY, |least, own| if own < least { own } else { least })
+        E::gradients(&x).iter().map(Dim::<D>::determinant).fold(f64::INFINITY, |least, own| if own < least { own } else { least })
     }
 
     pub(super) fn take_out(&mut self, elements: &[u32]) -> Vec<f64> {

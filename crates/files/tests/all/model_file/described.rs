@@ -208,7 +208,7 @@ fn every_key_refuses_every_bad_value_at_its_place() {
             let path = section_path(section);
             count += try_all(key, &format!("{path}.{}", key.name), &[]);
             if let Kind::Table(inner) = key.kind {
-                if section.form == Form::Named {
+                if matches!(section.form, Form::Named | Form::Single) {
                     for key in inner.all_keys() {
                         count += try_all(key, &format!("{path}.{}.{}", inner.name, key.name), &[]);
                     }

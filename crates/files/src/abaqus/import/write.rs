@@ -4,6 +4,7 @@ use super::material::{Material, Section};
 use super::report::Outcome::{Ignored, Used};
 use super::units::number;
 use super::{Importer, MESH_NAME};
+use crate::abaqus::element_kind::ElementKind;
 use crate::abaqus::text::{folded, shown};
 use embate_solver::error::Fault;
 use embate_solver::quantity::Dimension;
@@ -178,18 +179,24 @@ impl Importer<'_> {
             elements,
             nodes,
         };
+        let element = self.element(&part, &kinds);
+        Ok(Part { element, ..part })
+    }
+
+    /// The element of the quadrilaterals of a part, if it is not the usual one; what differs is noted.
+    fn element(&mut self, part: &Part, kinds: &BTreeMap<&str, &'static ElementKind>) -> Option<&'static str> {
+        let known = |name: &str| embate_solver::element::registry().iter().any(|kind| kind.name == name);
         let mut quads = kinds.values().filter(|kind| kind.nodes == 4);
         let first = quads.next().copied();
         for other in quads {
             self.approximated(
-                section.at,
+                part.at,
                 &format!("part {}: {} are computed as the others, {}", part.name, other.name, first.map_or("", |it| it.name)),
             );
         }
-        for kind in kinds.values().filter(|kind| !kind.differs.is_empty()) {
-            self.approximated(section.at, &format!("part {}: {}: {}", part.name, kind.name, kind.differs));
+        for kind in kinds.values().filter(|kind| !kind.differs.is_empty() && known(kind.element)) {
+            self.approximated(part.at, &format!("part {}: {}: {}", part.name, kind.name, kind.differs));
         }
-        let known = |name: &str| embate_solver::element::registry().iter().any(|kind| kind.name == name);
         if let Some(kind) = first
             && !known(kind.element)
         {
@@ -197,10 +204,9 @@ impl Importer<'_> {
                 "part {}: {} are computed as quad4, with full integration and mean dilatation: stiffer and without hourglass modes",
                 part.name, kind.name
             );
-            self.approximated(section.at, &text);
+            self.approximated(part.at, &text);
         }
-        let element = first.map(|kind| kind.element).filter(|name| known(name) && *name != "quad4");
-        Ok(Part { element, ..part })
+        first.map(|kind| kind.element).filter(|name| known(name) && *name != "quad4")
     }
 
     fn write_materials(&mut self, w: &mut Writing) -> Result<(), Fault> {

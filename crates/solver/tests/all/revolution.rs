@@ -59,12 +59,12 @@ fn is_uniform(pressures: &[f64], what: &str) {
     assert!(pressures.iter().all(|p| (p / mean - 1.0).abs() < 1e-9), "{what}: {pressures:?}");
 }
 
+/// Laws with which a uniform gap is a uniform pressure: not a stiffness per node, which a node at the rim has whole.
 fn interfaces() -> Vec<(&'static str, Interface)> {
     let table = ContactLaw::PressureGap { gaps: vec![-1e-4, 0.0], pressures: vec![1e8, 0.0] };
     vec![
         ("automatic", Interface::default()),
         ("time step", Penalty::Automatic { scale: 1.0, source: PenaltySource::TimeStep }.into()),
-        ("per node", Penalty::PerNode(2e9).into()),
         ("pressure", Penalty::Pressure(1e12).into()),
         ("table", Interface { law: table, ..Interface::default() }),
         ("multiplier", Interface { law: ContactLaw::Multiplier, ..Interface::default() }),
@@ -97,15 +97,13 @@ fn rods_meet_with_the_force_and_time_of_the_closed_form() {
 fn every_node_of_equal_meshes_has_the_same_pressure_and_the_axis_too() {
     for formulation in [Formulation::DoublePass, Formulation::SinglePass { slave: 0 }, Formulation::Segment] {
         for (name, interface) in interfaces() {
-            if name == "per node" && formulation == Formulation::Segment {
-                continue;
-            }
             let mut simulation = simulation(&rods(formulation, interface, [4, 4], 1.0));
             simulation.advance(1e-4, u64::MAX).unwrap();
             is_uniform(&pressures(&simulation, &[4, 4]), &format!("{formulation:?} {name}"));
         }
     }
-    for (name, interface) in interfaces() {
+    // At a plane a node at the rim has the length of the side wall as well: only a multiplier does not feel it.
+    for (name, interface) in interfaces().into_iter().filter(|(name, _)| *name == "multiplier") {
         let mut model = rods(Formulation::DoublePass, Interface::default(), [4, 4], 1.0);
         model.contacts.clear();
         model.parts.truncate(1);
@@ -240,7 +238,8 @@ fn what_a_body_of_revolution_cannot_do_is_told() {
         motion,
         ..Obstacle::fixed("ball", ObstacleShape::Circle { centre: [0.0, 0.5], radius: 0.1, hollow: false })
     };
-    let cases: [(&str, &dyn Fn(&mut Model)); 8] = [
+    type Change<'a> = &'a dyn Fn(&mut Model);
+    let cases: [(&str, Change<'_>); 8] = [
         ("load[0].gravity[0]", &|m| m.loads.push(Load::Gravity { parts: vec![], acceleration: [1.0, 0.0], curve: None })),
         ("part[0].spin", &|m| m.parts[0].spin = 1.0),
         ("contact[0].formulation", &|m| m.contacts[0].formulation = Formulation::Pinball),

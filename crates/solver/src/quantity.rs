@@ -42,6 +42,8 @@ impl Dimension {
     pub const SLOWNESS: Self = Self::new(0, -1, 1);
     /// Pa s/m: shear stress per slip rate.
     pub const VISCOSITY_PER_LENGTH: Self = Self::new(1, -2, -1);
+    /// Pa s = N s/m/m: force per velocity and metre of depth.
+    pub const VISCOSITY: Self = Self::new(1, -1, -1);
     /// N/m = kg/s²: force per metre of depth.
     pub const FORCE_PER_LENGTH: Self = Self::new(1, 0, -2);
     /// kg/m: mass per metre of depth.
@@ -57,6 +59,7 @@ impl Dimension {
             Self::PRESSURE => return "Pa".into(),
             Self::PRESSURE_PER_LENGTH => return "Pa/m".into(),
             Self::VISCOSITY_PER_LENGTH => return "Pa s/m".into(),
+            Self::VISCOSITY => return "Pa s".into(),
             Self::FORCE_PER_LENGTH => return "N/m".into(),
             _ => {}
         }

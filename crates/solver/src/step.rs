@@ -6,6 +6,7 @@
 mod nodes;
 
 use crate::assembly::Assembly;
+use crate::block::spring::together;
 use crate::block::{Block, Motion, Report};
 use crate::contact::obstacle::OutlineShape;
 use crate::contact::springs::{Lost, Springs, Terms, Update};
@@ -81,6 +82,8 @@ pub struct System {
     pub(crate) body_parts: Vec<(usize, usize)>,
     /// Whether each block is a rigid part: then it is not strained.
     pub(crate) rigid: Vec<bool>,
+    /// Whether the last block is one of springs, beyond those of the mesh.
+    pub(crate) has_springs: bool,
     /// Shapes of the obstacles, for pictures.
     pub(crate) outlines: Vec<OutlineShape>,
     /// What contacts leave on the surfaces.
@@ -227,7 +230,15 @@ impl System {
             }
             rest = others;
         }
-        self.reports.iter().fold(Report::NOTHING, |sum, &report| sum.join(report))
+        let fold = |reports: &[Report]| reports.iter().fold(Report::NOTHING, |sum, &report| sum.join(report));
+        match self.reports.split_last() {
+            Some((springs, elements)) if self.has_springs => {
+                let elements = fold(elements);
+                let time_step_squared = together(elements.time_step_squared, springs.time_step_squared);
+                Report { time_step_squared, ..elements.join(*springs) }
+            }
+            _ => fold(&self.reports),
+        }
     }
 
     /// The next step: the elements' bound (which is that of the nodes in contact too, see [`crate::contact::springs`]), the largest one of the model, growth, and the end.

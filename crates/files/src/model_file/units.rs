@@ -366,6 +366,7 @@ pub(super) fn quantity(dimension: Dimension) -> &'static str {
         Dimension::RATE => "rate",
         Dimension::SLOWNESS => "inverse velocity",
         Dimension::VISCOSITY_PER_LENGTH => "pressure per velocity",
+        Dimension::VISCOSITY => "viscosity",
         Dimension::MASS_PER_LENGTH => "mass per length",
         Dimension::INERTIA_PER_LENGTH => "moment of inertia per length",
         _ => "another dimension",

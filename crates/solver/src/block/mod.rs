@@ -10,6 +10,7 @@ mod elements;
 mod forces;
 mod make;
 mod nodal;
+pub(crate) mod spring;
 mod strain;
 pub mod stress_state;
 mod strip;

@@ -11,6 +11,7 @@ mod blocks;
 mod certificate;
 mod conditions;
 mod contact;
+mod discrete;
 mod elements;
 mod ends;
 mod formulations;

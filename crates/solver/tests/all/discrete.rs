@@ -99,8 +99,8 @@ fn a_curve_of_force_over_elongation_is_followed_and_stored() {
     let mut most = 0.0f64;
     let simulation = run(&model, 0.6, |_, u| most = most.max(u));
     // 2 (½ 50 0.01² + 0.5 d + ½ 500 d²) = ½ 2 0.2², d beyond 10 mm.
-    let (energy, at_corner) = (0.02, 25.0 * 1e-4);
-    let d = (-0.5 + (0.25 + 1000.0 * (energy - at_corner) as f64).sqrt()) / 500.0;
+    let (energy, at_corner): (f64, f64) = (0.02, 25.0 * 1e-4);
+    let d = (-0.5 + (0.25 + 1000.0 * (energy - at_corner)).sqrt()) / 500.0;
     println!("{most} for {}", 0.01 + d);
     assert!((most / (0.01 + d) - 1.0).abs() < 1e-2 && simulation.ledger().drift() < 1e-2);
 }

@@ -2,6 +2,7 @@
 
 mod again;
 mod bodies;
+mod discrete;
 mod failure;
 mod mass;
 mod obstacles;
@@ -10,6 +11,7 @@ mod start;
 pub(crate) use again::{Lent, Origin};
 
 use crate::assembly::Assembly;
+use crate::block::spring::SpringBlock;
 use crate::block::{Block, BlockInput, Motion, Report, make};
 use crate::contact::formulation::{self, Setup, Side};
 use crate::contact::law::{self, Law};
@@ -89,9 +91,11 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
     if blocks.len() < builder.mesh.groups.len() {
         return Err(builder.faults);
     }
-    let part_mass_true = part_masses(&builder.mesh, &blocks);
+    let mut part_mass_true = part_masses(&builder.mesh, &blocks);
+    builder.point_masses(&mut part_mass_true);
     let mass_added = builder.scale_mass(&mut blocks, level);
-    let part_mass = part_masses(&builder.mesh, &blocks);
+    let mut part_mass = part_masses(&builder.mesh, &blocks);
+    builder.point_masses(&mut part_mass);
     for &(node, share) in part_mass.iter().flatten() {
         builder.mass[node as usize] += share;
     }
@@ -104,6 +108,7 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
     let mut velocities = builder.velocities(&part_mass);
     builder.rigid_parts(&part_mass);
     builder.find_elements_under_surfaces(&mut blocks, level);
+    let springs = builder.springs();
     let (forces, boundary) = builder.loads();
     let mut contacts = builder.contacts();
     contacts.extend(builder.obstacles());
@@ -120,8 +125,10 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
     } = builder;
     let origin = || Origin { model: model.clone(), under, moduli, time_step, positions: positions.clone() };
     let erosion = criteria.iter().any(|criteria| !criteria.is_empty()).then(|| Box::new(Erosion::new(criteria, origin())));
-    let inputs: Vec<(&dyn Block<2>, usize, &[u32])> =
+    let mut inputs: Vec<(&dyn Block<2>, usize, &[u32])> =
         blocks.iter().zip(&mesh.groups).map(|(block, group)| (block.as_ref(), group.nodes_per_element, &group.connectivity[..])).collect();
+    let pairs = springs.as_ref().map(SpringBlock::connectivity);
+    inputs.extend(springs.iter().zip(&pairs).map(|(springs, pairs)| (springs as &dyn Block<2>, 2, &pairs[..])));
     let nodes = positions.len();
     let assembly = Assembly::new(nodes, &inputs);
     velocities.resize(nodes, [0.0; 2]);
@@ -133,9 +140,12 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
     let (step, largest) = (run.step_limit.unwrap_or(0.0), run.time_step.unwrap_or(f64::INFINITY));
     let limits = Limits { end: run.end, safety: run.safety, energy: run.energy_limit, step, largest };
     let elements: usize = blocks.iter().map(|block| block.elements()).sum();
+    let has_springs = springs.is_some();
+    blocks.extend(springs.map(|springs| Box::new(springs) as Box<dyn Block<2>>));
     Ok(System {
         corners: vec![Batch::default(); assembly.corner_batches],
-        rigid: mesh.groups.iter().map(|group| model.parts[group.part].rigid.is_some()).collect(),
+        rigid: mesh.groups.iter().map(|group| model.parts[group.part].rigid.is_some()).chain(has_springs.then_some(false)).collect(),
+        has_springs,
         positions_old: positions.clone(),
         positions,
         velocities_old: velocities.clone(),

@@ -23,7 +23,8 @@ impl System {
                 return format!("element {user} of part \"{}\" ({x:.6e}, {y:.6e})", self.mesh.parts[group.part].name);
             }
         }
-        "an element".into()
+        let what = if self.has_springs { "springs and the elements that they hold" } else { "an element" };
+        what.into()
     }
 
     pub(crate) fn centre(&self, nodes: &[u32]) -> [f64; 2] {

@@ -56,7 +56,7 @@ pub struct Body {
     pub of_elements: bool,
     /// Nodes that move with it.
     pub members: Vec<Member>,
-    /// Those of `members` where elements pull that are not rigid.
+    /// Those of `members` where elements or springs pull that are not rigid, ascending.
     pub shared: Vec<u32>,
     /// Forces of such elements and their moment.
     pub internal: [f64; 3],
@@ -325,6 +325,18 @@ impl Bodies {
     #[must_use]
     pub fn of_node(&self, node: u32) -> Option<usize> {
         self.of_node.get(node as usize).filter(|&&body| body != u32::MAX).map(|&body| body as usize)
+    }
+
+    /// Notes that something that is not rigid pulls at these nodes, so that their bodies feel it.
+    pub fn share(&mut self, nodes: &[u32]) {
+        for &node in nodes {
+            if let Some(body) = self.of_node(node) {
+                let shared = &mut self.list[body].shared;
+                if let Err(at) = shared.binary_search(&node) {
+                    shared.insert(at, node);
+                }
+            }
+        }
     }
 
     /// State of a body.

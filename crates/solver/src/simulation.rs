@@ -451,7 +451,7 @@ impl Simulation {
     pub fn summary(&self) -> Summary {
         let system = &self.system;
         Summary {
-            elements: system.blocks.iter().map(|block| block.elements()).sum(),
+            elements: system.mesh.groups.iter().map(|group| group.elements()).sum(),
             nodes: system.mesh.positions.len(),
             steps: system.step,
             time_end: system.time,

@@ -8,6 +8,7 @@ mod nodes;
 pub(crate) mod relaxation;
 
 use crate::assembly::Assembly;
+use crate::block::spring::together;
 use crate::block::{Block, Motion, Report};
 use crate::contact::obstacle::OutlineShape;
 use crate::contact::springs::{Lost, Springs, Terms, Update};
@@ -85,6 +86,8 @@ pub struct System {
     pub(crate) body_parts: Vec<(usize, usize)>,
     /// Whether each block is a rigid part: then it is not strained.
     pub(crate) rigid: Vec<bool>,
+    /// Whether the last block is one of springs, beyond those of the mesh.
+    pub(crate) has_springs: bool,
     /// Shapes of the obstacles, for pictures.
     pub(crate) outlines: Vec<OutlineShape>,
     /// What contacts leave on the surfaces.
@@ -247,7 +250,20 @@ impl System {
             }
             rest = others;
         }
-        self.reports.iter().fold(Report::NOTHING, |sum, &report| sum.join(report))
+        self.joined_reports()
+    }
+
+    /// What all blocks told, with the step that is stable for elements and springs together.
+    fn joined_reports(&self) -> Report {
+        let fold = |reports: &[Report]| reports.iter().fold(Report::NOTHING, |sum, &report| sum.join(report));
+        match self.reports.split_last() {
+            Some((springs, elements)) if self.has_springs => {
+                let elements = fold(elements);
+                let time_step_squared = together(elements.time_step_squared, springs.time_step_squared);
+                Report { time_step_squared, ..elements.join(*springs) }
+            }
+            _ => fold(&self.reports),
+        }
     }
 
     /// The next step: the elements' bound (which is that of the nodes in contact too, see [`crate::contact::springs`]), the largest one of the model, growth, and the end.

@@ -366,6 +366,7 @@ pub(super) fn quantity(dimension: Dimension) -> &'static str {
         Dimension::RATE => "rate",
         Dimension::SLOWNESS => "inverse velocity",
         Dimension::VISCOSITY_PER_LENGTH => "pressure per velocity",
+        Dimension::VISCOSITY => "viscosity",
         Dimension::MASS_PER_LENGTH => "mass per length",
         Dimension::FORCE_PER_LENGTH => "force per length",
         Dimension::MASS => "mass",

@@ -11,6 +11,7 @@ mod erosion;
 mod forces;
 mod make;
 mod nodal;
+pub(crate) mod spring;
 mod strain;
 pub mod stress_state;
 mod strip;

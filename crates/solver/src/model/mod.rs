@@ -4,9 +4,11 @@
 
 pub mod check;
 pub mod describe;
+mod discrete;
 mod load;
 pub mod reference;
 
+pub use discrete::{PointMass, Spring};
 pub use load::{Constraint, Image, Join, Load, NonReflecting, Rotation, Symmetry};
 
 use crate::block::stress_state::STRESS_STATES;
@@ -50,6 +52,10 @@ pub struct Model {
     pub non_reflecting: Vec<NonReflecting>,
     /// `[[join]]`.
     pub joins: Vec<Join>,
+    /// `[[spring]]`.
+    pub springs: Vec<Spring>,
+    /// `[[point_mass]]`.
+    pub point_masses: Vec<PointMass>,
     /// `[[probe]]`.
     pub probes: Vec<Probe>,
     /// `[output]`.

@@ -37,7 +37,7 @@ impl Erosion {
     }
 
     pub(crate) fn is_gone(&self, block: usize) -> bool {
-        self.gone[block]
+        self.gone.get(block).is_some_and(|&gone| gone)
     }
 
     /// Books the contact springs that surfaces took with them, if they changed in this step; `stored`: what springs of the new ones store, J/m.
@@ -61,7 +61,7 @@ impl System {
                 self.take_out(of_block, &mut erosion);
             }
             self.renew_surfaces(&mut erosion);
-            self.reports.iter().fold(Report::NOTHING, |sum, &report| sum.join(report))
+            self.joined_reports()
         };
         self.erosion = Some(erosion);
         elements

@@ -13,6 +13,7 @@ mod certificate;
 mod chaboche;
 mod conditions;
 mod contact;
+mod discrete;
 mod elements;
 mod ends;
 mod erosion;

@@ -4,6 +4,7 @@
 //! noted already, and faults that only follow from it are not shown. Contacts and obstacles are in `contact.rs`, what moves in `motion.rs`, loads in `load.rs`.
 
 mod contact;
+mod discrete;
 mod load;
 mod motion;
 
@@ -44,6 +45,8 @@ pub(super) fn model(document: &Document, name: &str, folder: &Path, faults: &mut
     model.loads = document.section("load").iter().map(|record| load::load(record, faults)).collect();
     model.non_reflecting = document.section("non_reflecting").iter().map(load::non_reflecting).collect();
     model.joins = document.section("join").iter().map(|record| load::join(record, faults)).collect();
+    model.springs = document.section("spring").iter().map(|record| discrete::spring(record, faults)).collect();
+    model.point_masses = document.section("point_mass").iter().map(|record| discrete::point_mass(record, faults)).collect();
     model.probes = document.section("probe").iter().map(|record| probe(record, faults)).collect();
     model.output = output(&document.single("output"));
     name_the_nameless(&mut model);

@@ -67,6 +67,13 @@ on = "ball.outer"
 between = ["tube.start", "tube.end"]
 rotation = "180 deg"
 centre = [0, 0.1]
+[[spring]]
+between = ["tube.start", "ball.outer"]
+elongation = [0, "1 mm"]
+force = [0, "5 N/m"]
+[[point_mass]]
+on = "ball"
+mass = "2 kg/m"
 "#;
 
 /// Reads a text with all its lines numbered from 1.

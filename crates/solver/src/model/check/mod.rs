@@ -4,6 +4,7 @@
 //! are returned at once, each with the path of its key. Parts are in `parts.rs`, contacts in `contact.rs`, what moves in `motion.rs`, loads and joins in `load.rs`.
 
 mod contact;
+mod discrete;
 mod load;
 mod motion;
 mod parts;
@@ -41,6 +42,8 @@ impl Model {
         check.joins();
         check.loads();
         check.non_reflecting();
+        check.springs();
+        check.point_masses();
         check.probes();
         check.output();
         check.faults

@@ -5,6 +5,7 @@
 //! iteration. A new key is one line there and its use in the builder of `embate-files`.
 
 mod contact;
+mod discrete;
 mod sections;
 
 pub use sections::{ELEMENTS_MAX, MOVED, SECTIONS, TOP};

@@ -3,6 +3,7 @@
 use super::Kind::{Angle, Choice, Flag, Integer, Name, Quantities, Quantity, Reference, References, Table, Text, Vector};
 use super::Need::{self, Default, Optional, Required};
 use super::contact::{CONTACT, OBSTACLE};
+use super::discrete::{POINT_MASS, SPRING};
 use super::{Form, Key, Kind, More, Rule, Section, key};
 use crate::block::stress_state::STRESS_STATES;
 use crate::failure::CRITERIA;
@@ -25,8 +26,23 @@ pub static TOP: Section = Section {
 };
 
 /// Every section, in the order of the documentation.
-pub static SECTIONS: &[&Section] =
-    &[&RUN, &MATERIAL, &PART, &CONTACT, &OBSTACLE, &SYMMETRY, &CONSTRAINT, &JOIN, &LOAD, &NON_REFLECTING, &CURVE, &PROBE, &OUTPUT];
+pub static SECTIONS: &[&Section] = &[
+    &RUN,
+    &MATERIAL,
+    &PART,
+    &CONTACT,
+    &OBSTACLE,
+    &SYMMETRY,
+    &CONSTRAINT,
+    &JOIN,
+    &LOAD,
+    &NON_REFLECTING,
+    &SPRING,
+    &POINT_MASS,
+    &CURVE,
+    &PROBE,
+    &OUTPUT,
+];
 
 /// Keys that people know from elsewhere or from before, and what stands for them now.
 pub static MOVED: &[(&str, &str)] = &[("wall", "walls are obstacles now: [[obstacle]] with plane = { point, normal }")];

@@ -1,0 +1,62 @@
+//! Keys of springs and point masses.
+
+use super::Kind::{Quantities, Quantity, Reference, References};
+use super::Need::{Default, Optional, Required};
+use super::{Form, Rule, Section, key};
+use crate::quantity::Dimension;
+use crate::quantity::Range::{Finite, NotNegative, Positive};
+
+pub(super) static SPRING: Section = Section {
+    name: "spring",
+    doc: "Springs and dampers between two sets of nodes: each node of the larger set with the nearest one of the other. Numbers are those of each, per metre of depth (of an axisymmetric model over the whole circumference). Their energy is counted with that of the elements.",
+    form: Form::Repeated,
+    required: false,
+    keys: &[
+        key("between", References(Some(2)), Required, "The two sets: each a part, a side such as `plate.left`, or a group of a mesh file."),
+        key(
+            "stiffness",
+            Quantity(Dimension::PRESSURE, Positive),
+            Optional("no spring, or `force`"),
+            "Force per elongation, such as `\"1e6 N/m/m\"`.",
+        ),
+        key("elongation", Quantities(Dimension::LENGTH, Finite, 2), Optional("with `force`"), "Elongations, ascending."),
+        key(
+            "force",
+            Quantities(Dimension::FORCE_PER_LENGTH, Finite, 2),
+            Optional("`stiffness`"),
+            "Force at each elongation; constant before the first and after the last.",
+        ),
+        key("damping", Quantity(Dimension::VISCOSITY, NotNegative), Default("0"), "Force per rate of elongation."),
+        key("length", Quantity(Dimension::LENGTH, NotNegative), Optional("that at the start"), "Length without force."),
+        key(
+            "strength",
+            Quantity(Dimension::FORCE_PER_LENGTH, Positive),
+            Optional("it never breaks"),
+            "Force of the spring, pulling or pushing, above which it breaks with its damper; its energy counts as dissipated.",
+        ),
+    ],
+    rules: &[
+        Rule::SomeOf(&["stiffness", "force", "damping"]),
+        Rule::NotBoth("stiffness", "force"),
+        Rule::Needs("force", "elongation"),
+        Rule::Needs("elongation", "force"),
+    ],
+    ..Section::EMPTY
+};
+
+pub(super) static POINT_MASS: Section = Section {
+    name: "point_mass",
+    doc: "Mass without volume on nodes: it belongs to their part, falls with it, and makes rigid parts heavier.",
+    form: Form::Repeated,
+    required: false,
+    keys: &[
+        key("on", Reference, Required, "A part, a side such as `plate.top`, or a group of a mesh file."),
+        key(
+            "mass",
+            Quantity(Dimension::MASS_PER_LENGTH, Positive),
+            Required,
+            "Mass in all per metre of depth (of an axisymmetric model over the whole circumference), shared equally by the nodes.",
+        ),
+    ],
+    ..Section::EMPTY
+};

@@ -23,6 +23,8 @@ enum What {
     StressStates,
     /// Material laws
     Materials,
+    /// Criteria of failure
+    Failure,
     /// Global contact searches
     Searches,
     /// Contact formulations
@@ -45,6 +47,7 @@ impl What {
             Self::Elements => elements(),
             Self::StressStates => stress_states(),
             Self::Materials => materials(),
+            Self::Failure => failure(),
             Self::Searches => searches(),
             Self::Formulations => formulations(),
             Self::Laws => laws(),
@@ -57,6 +60,16 @@ fn elements() -> String {
     let mut text = String::from("Elements (part.element)\n");
     for kind in element::registry() {
         entry(&mut text, kind.name, &format!("{} ({} nodes)", kind.doc, kind.nodes), kind.source);
+    }
+    text
+}
+
+fn failure() -> String {
+    let mut text = String::from("Criteria of failure (material.failure)\n");
+    for kind in embate_solver::failure::CRITERIA {
+        let unit = kind.limit.dimension.unit();
+        let unit = if unit.is_empty() { String::new() } else { format!(" In {unit}.") };
+        entry(&mut text, kind.limit.name, &format!("{}{unit}", kind.limit.doc), "");
     }
     text
 }
@@ -128,12 +141,17 @@ fn entry(text: &mut String, name: &str, doc: &str, source: &str) {
 
 /// A row of a parameter table; `without` says what a parameter without a default value is.
 fn parameter_row(parameter: &Parameter, without: &str) -> Vec<String> {
-    let default = parameter.default.map_or(without.to_string(), |value| format!("default {value}"));
+    let default = match (parameter.default, parameter.list) {
+        (None, _) => without.to_string(),
+        (Some(_), 1..) => "default: none".to_string(),
+        (Some(value), 0) => format!("default {value}"),
+    };
+    let many = if parameter.list > 0 { format!(", up to {} values", parameter.list) } else { String::new() };
     vec![
         parameter.name.to_string(),
         parameter.symbol.to_string(),
         unit(parameter.dimension.unit()),
-        parameter.range.to_string(),
+        format!("{}{many}", parameter.range),
         default,
         parameter.doc.to_string(),
     ]

@@ -1,9 +1,11 @@
 //! The program `embate`: reads the command line, calls the libraries, turns their errors into messages and exit codes.
 //!
-//! One file per command. Exit codes: 0 done, 1 a run failed (or a bug), 2 bad input or command line, 130 stopped by Ctrl-C.
+//! One file per command. Exit codes: 0 done, 1 a run failed (or a bug), 2 bad input or command line,
+//! 3 imported but not all of it acts, 130 stopped by Ctrl-C.
 
 mod check;
 mod cpu;
+mod import;
 mod input;
 mod interrupt;
 mod list;
@@ -36,6 +38,8 @@ enum Command {
     List(list::Arguments),
     /// Make a folder with a commented model to start from
     New(new::Arguments),
+    /// Make a model from a deck of Abaqus or CalculiX (.inp), with a report of what became of each keyword
+    Import(import::Arguments),
     /// Run the verification cases and compare with known values
     Verify(verify::Arguments),
     /// Print the JSON schema of the model file (for completion in editors)
@@ -49,6 +53,8 @@ enum Failure {
     Input(String),
     /// A run failed, or its results could not be written.
     Run(String),
+    /// A deck was imported, but not all of it acts in the model.
+    Incomplete(String),
     /// The user stopped a run.
     Interrupted,
 }
@@ -58,6 +64,7 @@ impl Failure {
         match self {
             Self::Run(_) => 1,
             Self::Input(_) => 2,
+            Self::Incomplete(_) => 3,
             Self::Interrupted => 130,
         }
     }
@@ -73,7 +80,7 @@ fn main() -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            if let Failure::Input(text) | Failure::Run(text) = &failure {
+            if let Failure::Input(text) | Failure::Run(text) | Failure::Incomplete(text) = &failure {
                 terminal::complain(text);
             }
             ExitCode::from(failure.code())
@@ -87,6 +94,7 @@ fn obey(command: &Command) -> Result<(), Failure> {
         Command::Check(arguments) => check::check(arguments),
         Command::List(arguments) => list::list(arguments),
         Command::New(arguments) => new::new(arguments),
+        Command::Import(arguments) => import::import(arguments),
         Command::Verify(arguments) => verify::verify(arguments),
         Command::Schema => schema::schema(),
     }

@@ -76,7 +76,7 @@ impl VtuWriter {
     }
 
     /// The bytes of a `.vtu` file: points with z = 0, plane vectors with a third component 0, the fields named in `include`
-    /// (empty: all), `part` for each cell, and the time as the field datum `TimeValue`, which ParaView shows.
+    /// (empty: all), `part` for each cell, `vtkGhostType` where cells may be gone, and the time as the field datum `TimeValue`, which ParaView shows.
     ///
     /// # Errors
     /// [`VtuError`] when a field or a cell does not fit.
@@ -97,6 +97,11 @@ impl VtuWriter {
                 Location::Cell => (&mut at_cells, self.cell_count),
             };
             list.push(field_array(field, count)?);
+        }
+        // ParaView does not show cells of this type.
+        if let Some(alive) = frame.fields.iter().find(|field| field.kind.name == "alive") {
+            let types: Vec<u8> = alive.values.iter().map(|&alive| if alive == 0.0 { HIDDEN_CELL } else { 0 }).collect();
+            at_cells.push(Array { attributes: "type=\"UInt8\" Name=\"vtkGhostType\"".into(), bytes: zlib_blocks(&types) });
         }
         let sections = [
             ("PointData", at_nodes.iter().collect()),
@@ -189,6 +194,9 @@ fn append_sections(sections: &[(&str, Vec<&Array>)]) -> (String, Vec<u8>) {
 
 /// VTK's number of a line of two points.
 const VTK_LINE: u8 = 3;
+
+/// VTK's mark of cells that are not shown (`vtkDataSetAttributes::HIDDENCELL`).
+const HIDDEN_CELL: u8 = 32;
 
 /// VTK's number of a cell shape.
 fn vtk_cell_type(kind: CellKind) -> u8 {

@@ -17,6 +17,11 @@ impl Indices {
         Self { rows: rows.into_boxed_slice(), bound }
     }
 
+    /// Makes lane `to` of row `to_row` a copy of lane `from` of row `from_row`.
+    pub fn copy_lane(&mut self, [from_row, from]: [usize; 2], [to_row, to]: [usize; 2]) {
+        self.rows[to_row][to] = self.rows[from_row][from];
+    }
+
     /// One more than the largest index: the shortest list of points that may be gathered from.
     #[must_use]
     pub fn bound(&self) -> usize {

@@ -1,4 +1,4 @@
-//! Every instruction set of this machine against the scalar reference, to the bit; `ln`, `exp`, `cbrt` against the platform's.
+//! Every instruction set of this machine against the scalar reference, to the bit; `ln`, `exp`, `pow`, `cbrt` against the platform's.
 
 use crate::*;
 
@@ -23,7 +23,7 @@ impl Kernel for EveryOperation<'_> {
     fn run<L: Lane>(self) -> Vec<u64> {
         let mut results = Vec::new();
         for (a, b) in self.0.iter().zip(self.1) {
-            let mut out = [Batch::default(); 13];
+            let mut out = [Batch::default(); 15];
             let mut outside = 0;
             for at in (0..BATCH).step_by(L::WIDTH) {
                 let (x, y) = (L::load(a, at), L::load(b, at));
@@ -44,6 +44,8 @@ impl Kernel for EveryOperation<'_> {
                     math::ln(positive),
                     math::exp(y),
                     math::cbrt(positive),
+                    math::pow(positive, y.abs()),
+                    math::exp_above_tangent(y),
                 ];
                 for (value, slot) in all.into_iter().zip(&mut out) {
                     value.store(slot, at);
@@ -125,11 +127,29 @@ fn transcendental_functions_are_accurate() {
         assert!((math::ln(x) - x.ln()).abs() <= 4e-16 * x.ln().abs().max(1e-3) + 1e-18, "ln {x}");
         let y = x - 10.0;
         assert!((math::exp(y) / y.exp() - 1.0).abs() <= 5e-16, "exp {y}");
+        // The reference cancels: the less, the better.
+        let tolerance = if y.abs() < 0.5 { 1e-15 + 4e-16 / y.abs() } else { 5e-15 };
+        assert!(y == 0.0 || (math::exp_above_tangent(y) / (y.exp_m1() - y) - 1.0).abs() <= tolerance, "e^x - 1 - x {y}");
         assert!((math::cbrt(x) / x.cbrt() - 1.0).abs() <= 5e-16, "cbrt {x}");
     }
     assert_eq!(math::ln(1.0f64).to_bits(), 0.0f64.to_bits());
     assert_eq!(math::exp(0.0f64), 1.0);
     assert_eq!(math::cbrt(1.0f64), 1.0);
+    assert_eq!((math::exp_above_tangent(0.0f64), math::exp_above_tangent(1e-30f64)), (0.0, 0.5 * (1e-30f64 * 1e-30)));
+}
+
+#[test]
+fn powers_are_accurate_and_those_of_zero_are_zero() {
+    for i in 0..4000 {
+        let x = 10f64.powf(0.005 * f64::from(i) - 15.0);
+        for y in [0.01, 0.2, 1.0 / 3.0, 1.0, 2.5, 8.0] {
+            let expected = x.powf(y);
+            let limit = 5e-16 * (1.0 + (y * x.ln()).abs());
+            assert!((math::pow(x, y) / expected - 1.0).abs() <= limit, "{x} to the power of {y}");
+        }
+    }
+    assert_eq!(math::pow(0.0f64, 0.2), 0.0);
+    assert_eq!(math::pow(1.0f64, 0.2), 1.0);
 }
 
 #[test]

@@ -1,9 +1,14 @@
 //! From a model to a [`System`]: mesh, blocks, masses, contacts, obstacles, rigid bodies, conditions. All faults are collected before anything runs.
 
+mod again;
 mod bodies;
+mod failure;
+mod mass;
 mod mirrors;
 mod obstacles;
 mod start;
+
+pub(crate) use again::{Lent, Origin};
 
 use crate::assembly::Assembly;
 use crate::block::{Block, BlockInput, Motion, Report, make};
@@ -16,7 +21,7 @@ use crate::contact::search::SearchKind;
 use crate::contact::springs::friction::Friction;
 use crate::contact::springs::{Springs, Tangential, Terms};
 use crate::contact::traces::Traces;
-use crate::contact::{self, Contact, ContactKind, search};
+use crate::contact::{self, Contact, ContactKind, Formulation, search};
 use crate::element::ElementOptions;
 use crate::energy::{Ledger, Sums};
 use crate::error::Fault;
@@ -27,10 +32,13 @@ use crate::load::damping::Damping;
 use crate::load::force::Forces;
 use crate::load::join::Joins;
 use crate::load::non_reflecting::{Behind, NonReflecting};
+use crate::load::tributary::Depth;
 use crate::mesh::surface::{NONE, Surface};
 use crate::mesh::{ElementGroup, Mesh};
 use crate::model::{self, ContactLaw, Interface, Model, Partners, Penalty, PenaltySource, Symmetry};
 use crate::rigid::Bodies;
+use crate::step::erosion::Erosion;
+use crate::step::relaxation::Relaxation;
 use crate::step::{CHUNK, Governor, Limits, System};
 use embate_lanes::{Batch, Level};
 use std::cell::RefCell;
@@ -71,6 +79,8 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         bodies: Bodies::default(),
         terms: Vec::new(),
         outlines: Vec::new(),
+        made: BTreeMap::new(),
+        again: false,
         mesh,
     };
     let initial_penetrations = builder.part_at_start();
@@ -81,12 +91,18 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
     if blocks.len() < builder.mesh.groups.len() {
         return Err(builder.faults);
     }
+    let part_mass_true = part_masses(&builder.mesh, &blocks);
+    let mass_added = builder.scale_mass(&mut blocks, level);
     let part_mass = part_masses(&builder.mesh, &blocks);
     for &(node, share) in part_mass.iter().flatten() {
         builder.mass[node as usize] += share;
     }
-    let body_forces = BodyForces::new(model, &builder.mesh, &builder.curves, &builder.mass, &part_mass);
-    let damping = Damping::new(model, &builder.mesh, &builder.mass, &part_mass);
+    // What is added to resist motion weighs nothing.
+    let body_forces = BodyForces::new(model, &builder.mesh, &builder.curves, &builder.mass, &part_mass_true);
+    let mut damping = Damping::new(model, &builder.mesh, &builder.mass, &part_mass);
+    if model.run.relaxation.is_some() {
+        damping.relax(0.0);
+    }
     let mut velocities = builder.velocities(&part_mass);
     builder.rigid_parts(&part_mass);
     builder.find_elements_under_surfaces(&mut blocks, level);
@@ -97,7 +113,15 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         return Err(builder.faults);
     }
     builder.bodies.weigh(&body_forces, &builder.mass);
-    let Builder { mesh, constraints, joins, curves, positions, mass, body_parts, bodies, terms, outlines, .. } = builder;
+    let criteria = builder.criteria(&blocks);
+    if !builder.faults.is_empty() {
+        return Err(builder.faults);
+    }
+    let Builder {
+        mesh, constraints, joins, curves, positions, mass, body_parts, bodies, terms, outlines, under, moduli, time_step, ..
+    } = builder;
+    let origin = || Origin { model: model.clone(), under, moduli, time_step, positions: positions.clone() };
+    let erosion = criteria.iter().any(|criteria| !criteria.is_empty()).then(|| Box::new(Erosion::new(criteria, origin())));
     let inputs: Vec<(&dyn Block<2>, usize, &[u32])> =
         blocks.iter().zip(&mesh.groups).map(|(block, group)| (block.as_ref(), group.nodes_per_element, &group.connectivity[..])).collect();
     let nodes = positions.len();
@@ -106,7 +130,7 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
     // A symmetry line is no surface: pressures count the length on the model's side.
     let outside =
         mesh.outside_without(&[], |segment| contacts.is_empty() || constraints.is_mirror(segment)).map_err(|fault| vec![fault])?;
-    let traces = Traces::new(outside, &mesh.positions);
+    let traces = Traces::new(outside, &mesh.positions, Depth::of(model));
     let run = &model.run;
     let (step, largest) = (run.step_limit.unwrap_or(0.0), run.time_step.unwrap_or(f64::INFINITY));
     let limits = Limits { end: run.end, safety: run.safety, energy: run.energy_limit, step, largest };
@@ -126,6 +150,9 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         ledger: Ledger::default(),
         penetration_max: 0.0,
         initial_penetrations,
+        erosion,
+        mass_added,
+        relaxation: run.relaxation.map(|relaxation| Relaxation::new(relaxation, nodes)),
         step: 0,
         time: 0.0,
         time_step_old: 0.0,
@@ -151,6 +178,7 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         constraints,
         limits,
         level,
+        of_revolution: model.is_axisymmetric(),
     })
 }
 
@@ -216,10 +244,14 @@ struct Builder<'a> {
     /// What acts in contacts, ties and obstacles, as they are made.
     terms: Vec<Terms>,
     outlines: Vec<OutlineShape>,
+    /// Rigid bodies of the obstacles by name, where they are there already.
+    made: BTreeMap<String, usize>,
+    /// Whether contacts are made again, of changed surfaces.
+    again: bool,
 }
 
 /// The element behind an edge.
-struct Under {
+pub(crate) struct Under {
     /// The edge as an outside segment.
     nodes: [u32; 2],
     /// L / A: one over the height of the element, 1/m.
@@ -326,12 +358,12 @@ impl Builder<'_> {
         let (surface, positions, source) = (&target.surface, &self.mesh.positions, source_of(interface));
         let modulus = |under: &Under| self.moduli[under.group as usize][usize::from(source == PenaltySource::BulkModulus)] * under.flatness;
         let mut segments: Vec<f64> = surface.segments.iter().map(|&segment| self.under(segment).map_or(0.0, modulus)).collect();
-        let mut nodes = contact::node_stiffness(surface, &segments, positions);
+        let mut nodes = contact::tributaries(surface, &segments, positions, Depth::of(self.model));
         if source == PenaltySource::TimeStep {
-            for (&node, (length, stiffness)) in surface.nodes.iter().zip(&mut nodes) {
-                *stiffness = law::penalty::of_time_step(self.mass[node as usize], self.time_step, *length);
+            for (&node, own) in surface.nodes.iter().zip(&mut nodes) {
+                own.stiffness = law::penalty::of_time_step(self.mass[node as usize], self.time_step, own.area);
             }
-            let of = |node: u32| surface.nodes.binary_search(&node).map_or(0.0, |at| nodes[at].1);
+            let of = |node: u32| surface.nodes.binary_search(&node).map_or(0.0, |at| nodes[at].stiffness);
             segments = surface.segments.iter().map(|&[a, b]| 0.5 * (of(a) + of(b))).collect();
         }
         let cell = |&segment: &[u32; 2]| {
@@ -388,6 +420,12 @@ impl Builder<'_> {
 
     /// A contact; faults have paths relative to it.
     fn contact(&mut self, contact: &model::Contact) -> Result<Contact, Vec<Fault>> {
+        let (formulation, terms) = self.formulation(contact)?;
+        Ok(Contact::new(contact.name.clone(), ContactKind::Contact, formulation, terms, contact.interface.active))
+    }
+
+    /// What makes the springs of a contact, and the number of the terms that they follow.
+    fn formulation(&mut self, contact: &model::Contact) -> Result<(Box<dyn Formulation>, usize), Vec<Fault>> {
         let terms = self.add_terms(terms_of(&contact.interface));
         let tie_terms = if contact.tied.is_some() { self.add_terms(terms_of_ties(&contact.interface)) } else { terms };
         let mirror_terms = self.add_terms(mirrors::terms_of_mirrors(&contact.interface));
@@ -406,16 +444,18 @@ impl Builder<'_> {
             sides,
             bodies: &self.body_of_node,
             positions: &self.mesh.positions,
+            depth: Depth::of(self.model),
             law: &|| law_of(&contact.interface),
             passes: (kind.passes)(contact),
             tie_terms,
             search: &|| (search.make)(),
+            again: self.again,
         };
         let mut made = (kind.make)(setup).map_err(|fault| vec![fault])?;
         if !mirrors.is_empty() {
             made = Box::new(Mirrored::new(made, mirrors, mirror_terms));
         }
-        Ok(Contact::new(contact.name.clone(), ContactKind::Contact, made, terms, contact.interface.active))
+        Ok((made, terms))
     }
 
     /// The surfaces of a contact: two, or one that meets itself. Faults have paths relative to the contact.

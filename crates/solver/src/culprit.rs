@@ -16,7 +16,8 @@ impl System {
     fn element_with_step(&self, squared: f64) -> String {
         for (group, block) in self.mesh.groups.iter().zip(&self.blocks) {
             // NaN equals nothing, so a block whose step is NaN is found by its own failure to compare.
-            if let Some(element) = (0..block.elements()).find(|&element| block.time_step_squared(element).total_cmp(&squared).is_eq()) {
+            let governs = |&element: &usize| block.is_alive(element) && block.time_step_squared(element).total_cmp(&squared).is_eq();
+            if let Some(element) = (0..block.elements()).find(governs) {
                 let [x, y] = self.centre(group.cell(element));
                 let user = group.user_elements[element];
                 return format!("element {user} of part \"{}\" ({x:.6e}, {y:.6e})", self.mesh.parts[group.part].name);
@@ -25,7 +26,7 @@ impl System {
         "an element".into()
     }
 
-    fn centre(&self, nodes: &[u32]) -> [f64; 2] {
+    pub(crate) fn centre(&self, nodes: &[u32]) -> [f64; 2] {
         let n = nodes.len();
         let sum = nodes.iter().fold([0.0; 2], |s: [f64; 2], &node| {
             let x = self.positions[node as usize];
@@ -39,7 +40,7 @@ impl System {
         let mut worst = (f64::INFINITY, 0, 0);
         for (g, group) in self.mesh.groups.iter().enumerate() {
             let n = group.nodes_per_element;
-            for (element, cell) in group.cells().enumerate() {
+            for (element, cell) in group.cells().enumerate().filter(|(element, _)| group.is_alive(*element)) {
                 let x = |corner: usize| self.positions[cell[corner % n] as usize];
                 for c in 0..n {
                     let (a, b, d) = (x(c), x(c + 1), x(c + n - 1));

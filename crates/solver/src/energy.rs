@@ -110,6 +110,8 @@ pub struct Stores {
     pub contact_damping: f64,
     /// Lost by damping loads and into boundaries that reflect nothing so far.
     pub damping: f64,
+    /// Elastic energy that eroded elements had, and that of contact springs on the surfaces that went with them.
+    pub eroded: f64,
 }
 
 impl Stores {
@@ -125,6 +127,7 @@ impl Stores {
             + self.friction
             + self.contact_damping
             + self.damping
+            + self.eroded
     }
 }
 

@@ -9,6 +9,7 @@ pub mod model;
 pub mod mesh;
 pub mod material;
 pub mod element;
+pub mod failure;
 pub mod block;
 pub mod contact;
 pub mod load;

@@ -2,6 +2,7 @@
 //! Values only, no formats; goes to the writers of `embate-files`.
 
 use crate::contact::tracker::Certificate;
+use crate::material::Variable;
 
 /// Shape of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,12 +60,14 @@ pub enum Location {
 pub enum Needs {
     /// Nothing.
     Nothing,
-    /// A material that flows.
-    Plasticity,
+    /// A material with this history variable.
+    History(Variable),
     /// A contact or an obstacle.
     Contact,
     /// A contact or an obstacle with friction.
     Friction,
+    /// A material that fails.
+    Failure,
 }
 
 /// Description of a field: the same for all its frames.
@@ -156,8 +159,20 @@ const fn at_cells(
 pub static FIELDS: &[FieldKind] = &[
     at_nodes("displacement", VECTOR, "m", Needs::Nothing, "current minus initial position"),
     at_nodes("velocity", VECTOR, "m/s", Needs::Nothing, "velocity at the frame's time"),
-    at_nodes("contact_force", VECTOR, "N/m", Needs::Contact, "sum of the contact and obstacle forces on the node, per metre of depth"),
-    at_nodes("contact_pressure", &[], "Pa", Needs::Contact, "normal part of the contact force over the node's current length of surface"),
+    at_nodes(
+        "contact_force",
+        VECTOR,
+        "N/m",
+        Needs::Contact,
+        "sum of the contact and obstacle forces on the node, per metre of depth (of an axisymmetric model in N, all around)",
+    ),
+    at_nodes(
+        "contact_pressure",
+        &[],
+        "Pa",
+        Needs::Contact,
+        "normal part of the contact force over the node's current length (of an axisymmetric model area) of surface",
+    ),
     at_nodes("contact_shear", &[], "Pa", Needs::Friction, "tangential part, along the surface with the body on its right"),
     at_nodes(
         "contact_gap",
@@ -172,7 +187,28 @@ pub static FIELDS: &[FieldKind] = &[
     at_cells("stress", STRESS, "Pa", Needs::Nothing, "Cauchy stress, mean over the element's points"),
     at_cells("von_mises", &[], "Pa", Needs::Nothing, "equivalent stress √(3/2 s:s) of the mean stress"),
     at_cells("pressure", &[], "Pa", Needs::Nothing, "minus a third of the stress trace"),
-    at_cells("plastic_strain", &[], "", Needs::Plasticity, "equivalent plastic strain, mean over the element's points"),
+    at_cells(
+        "plastic_strain",
+        &[],
+        "",
+        Needs::History(Variable::PlasticStrain),
+        "equivalent plastic strain, mean over the element's points",
+    ),
+    at_cells(
+        "temperature",
+        &[],
+        "K",
+        Needs::History(Variable::Temperature),
+        "temperature, mean over the element's points; 0 where the material has none",
+    ),
+    at_cells("damage", &[], "", Needs::History(Variable::Damage), "damage, 1 at failure, mean over the element's points"),
+    at_cells(
+        "alive",
+        &[],
+        "",
+        Needs::Failure,
+        "1 where the element is there, 0 where it was eroded: then its other values are those when it failed",
+    ),
     at_cells("energy_density", &[], "J/m^3", Needs::Nothing, "stored elastic energy per initial volume"),
 ];
 
@@ -180,6 +216,32 @@ pub static FIELDS: &[FieldKind] = &[
 #[must_use]
 pub fn field_kind(name: &str) -> Option<&'static FieldKind> {
     FIELDS.iter().find(|kind| kind.name == name)
+}
+
+/// An element that was eroded.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Eroded {
+    /// Its part.
+    pub part: String,
+    /// Its number in the part.
+    pub element: usize,
+    /// Mean of its nodes when it failed, m.
+    pub at: [f64; 2],
+    /// When it failed, s.
+    pub time: f64,
+    /// By which criterion.
+    pub criterion: &'static str,
+}
+
+/// What erosion has done.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Erosion {
+    /// Eroded elements of each part: name and number.
+    pub elements: Vec<(String, usize)>,
+    /// Mass of nodes that have no element any more, kg/m.
+    pub mass_loose: f64,
+    /// The first element.
+    pub first: Eroded,
 }
 
 /// Result figures of a run, in the order in which they are written; see `docs/output.md` for the meaning of each.
@@ -209,6 +271,10 @@ pub struct Summary {
     pub penetration_max: f64,
     /// What was checked in all contacts between surfaces, and whether one was missed.
     pub contact: Certificate,
+    /// Mass that was added for longer steps, kg/m.
+    pub mass_added: f64,
+    /// What erosion has done; `None`: no element was eroded.
+    pub erosion: Option<Erosion>,
     /// Hash of positions and velocities at the end, hexadecimal.
     pub state_hash: String,
     /// Threads used.

@@ -42,12 +42,20 @@ impl Dimension {
     pub const SLOWNESS: Self = Self::new(0, -1, 1);
     /// Pa s/m: shear stress per slip rate.
     pub const VISCOSITY_PER_LENGTH: Self = Self::new(1, -2, -1);
+    /// N.
+    pub const FORCE: Self = Self::new(1, 1, -2);
+    /// kg.
+    pub const MASS: Self = Self::new(1, 0, 0);
     /// N/m = kg/s²: force per metre of depth.
     pub const FORCE_PER_LENGTH: Self = Self::new(1, 0, -2);
     /// kg/m: mass per metre of depth.
     pub const MASS_PER_LENGTH: Self = Self::new(1, -1, 0);
     /// kg m = kg m²/m: moment of inertia per metre of depth.
     pub const INERTIA_PER_LENGTH: Self = Self::new(1, 1, 0);
+    /// K.
+    pub const TEMPERATURE: Self = Self { temperature: 1, ..Self::NONE };
+    /// J/kg/K: heat per mass and temperature.
+    pub const SPECIFIC_HEAT: Self = Self { temperature: -1, ..Self::new(0, 2, -2) };
 
     /// The SI unit in plain text, `kg/m^3` for example; empty for a pure number.
     #[must_use]
@@ -56,8 +64,10 @@ impl Dimension {
             Self::NONE => return String::new(),
             Self::PRESSURE => return "Pa".into(),
             Self::PRESSURE_PER_LENGTH => return "Pa/m".into(),
+            Self::SPECIFIC_HEAT => return "J/kg/K".into(),
             Self::VISCOSITY_PER_LENGTH => return "Pa s/m".into(),
             Self::FORCE_PER_LENGTH => return "N/m".into(),
+            Self::FORCE => return "N".into(),
             _ => {}
         }
         let power = |(name, exponent): &(&str, i8)| match exponent.abs() {

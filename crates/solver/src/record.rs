@@ -13,7 +13,7 @@ use crate::step::{System, Vector};
 use std::cell::OnceCell;
 
 /// Columns of energies, after `energy.`.
-const ENERGIES: [&str; 11] = [
+const ENERGIES: [&str; 12] = [
     "kinetic",
     "internal",
     "plastic",
@@ -23,6 +23,7 @@ const ENERGIES: [&str; 11] = [
     "friction",
     "contact_damping",
     "damping",
+    "eroded",
     "external",
     "total",
 ];
@@ -45,7 +46,7 @@ struct Probe {
 
 impl Recorded {
     pub(crate) fn new(model: &Model, system: &System) -> Result<Self, Vec<Fault>> {
-        let has_plastic = system.blocks.iter().any(|block| block.has(Variable::PlasticStrain));
+        let has_failure = system.erosion.is_some();
         let has_contact = !system.contacts.is_empty();
         let has_friction = system.terms.iter().any(|terms| matches!(terms.tangential, Tangential::Friction(_)));
         let wanted = |kind: &&FieldKind| {
@@ -53,12 +54,14 @@ impl Recorded {
             let named = include.iter().any(|name| name == kind.name) || model.output.picture_field == kind.name;
             let sensible = match kind.needs {
                 Needs::Nothing => true,
-                Needs::Plasticity => has_plastic,
+                Needs::History(variable) => system.blocks.iter().any(|block| block.has(variable)),
                 Needs::Contact => has_contact,
                 Needs::Friction => has_friction,
+                Needs::Failure => has_failure,
             };
             // Pictures fall back on these two.
-            let pictured = model.output.pictures && (kind.name == "von_mises" || (kind.name == "plastic_strain" && has_plastic));
+            let pictured = model.output.pictures && (kind.name == "von_mises" || (kind.name == "plastic_strain" && sensible));
+            let pictured = pictured || (model.output.pictures && kind.name == "alive" && has_failure);
             named || pictured || (include.is_empty() && sensible)
         };
         let fields = FIELDS.iter().filter(wanted).collect();
@@ -110,6 +113,7 @@ impl Recorded {
             stores.friction,
             stores.contact_damping,
             stores.damping,
+            stores.eroded,
             external,
             stores.total() - external,
         ]);
@@ -201,6 +205,9 @@ fn values(name: &str, system: &System, surface: &OnSurface) -> Vec<f64> {
         "von_mises" => by_element(system, |state| [von_mises(&state.stress)]),
         "pressure" => by_element(system, |state| [-(state.stress[0] + state.stress[1] + state.stress[2]) / 3.0]),
         "plastic_strain" => by_element(system, |state| [state.variables[Variable::PlasticStrain as usize]]),
+        "temperature" => by_element(system, |state| [state.variables[Variable::Temperature as usize]]),
+        "damage" => by_element(system, |state| [state.variables[Variable::Damage as usize]]),
+        "alive" => alive(system),
         "energy_density" => by_element(system, |state| [state.energy_density]),
         _ => Vec::new(),
     }
@@ -217,16 +224,26 @@ fn by_node<const N: usize>(system: &System, value: impl Fn(usize) -> [f64; N]) -
 
 /// Values of every element, part by part in the user's order.
 fn by_element<const N: usize>(system: &System, value: impl Fn(&ElementState) -> [f64; N]) -> Vec<f64> {
+    by_number(system, |group, element| value(&system.blocks[group].state(element)))
+}
+
+/// 1 for elements that are there, 0 for eroded ones.
+fn alive(system: &System) -> Vec<f64> {
+    by_number(system, |group, element| [f64::from(u8::from(system.mesh.groups[group].is_alive(element)))])
+}
+
+/// Values of every element by group and number in it, part by part in the user's order.
+fn by_number<const N: usize>(system: &System, value: impl Fn(usize, usize) -> [f64; N]) -> Vec<f64> {
     let mut values = Vec::new();
     // Groups of a part follow each other and share its numbering.
     let (mut first, mut last) = (0, None);
-    for (group, block) in system.mesh.groups.iter().zip(&system.blocks) {
+    for (index, group) in system.mesh.groups.iter().enumerate() {
         if last != Some(group.part) {
             (first, last) = (values.len(), Some(group.part));
             values.resize(first + N * system.mesh.elements_of(group.part), 0.0);
         }
         for (element, &user) in group.user_elements.iter().enumerate() {
-            values[first + N * user as usize..][..N].copy_from_slice(&value(&block.state(element)));
+            values[first + N * user as usize..][..N].copy_from_slice(&value(index, element));
         }
     }
     values
@@ -305,6 +322,8 @@ pub(crate) fn state_hash(system: &System) -> String {
 pub(crate) struct Momentum {
     start: Moments,
     drift: [f64; 2],
+    /// Whether x is a radius: forces around the axis cancel, and only what goes along it is kept.
+    of_revolution: bool,
 }
 
 #[derive(Clone, Copy, Default)]
@@ -318,20 +337,24 @@ struct Moments {
 impl Momentum {
     /// `None` where something is held or driven, or loads act.
     pub(crate) fn new(system: &System) -> Option<Self> {
-        let isolated = system.bodies.iter().all(Body::is_free)
-            && system.constraints.is_empty()
+        let of_revolution = system.of_revolution;
+        let is_free = |body: &Body| if of_revolution { body.drives[1].is_none() } else { body.is_free() };
+        let is_held = if of_revolution { system.constraints.holds_more_than([1.0, 0.0]) } else { !system.constraints.is_empty() };
+        let isolated = system.bodies.iter().all(is_free)
+            && !is_held
             && system.body_forces.is_empty()
             && system.forces.is_empty()
             && system.boundary.is_empty()
             && !system.joins.is_periodic()
             && system.damping.is_empty();
         // Forces at time zero have acted half a step already; both momenta are kept by them as well.
-        isolated.then(|| Self { start: Moments::of(system), drift: [0.0; 2] })
+        isolated.then(|| Self { start: Moments::of(system), drift: [0.0; 2], of_revolution })
     }
 
     pub(crate) fn note(&mut self, system: &System) {
         let now = Moments::of(system);
-        let change = [now.linear[0] - self.start.linear[0], now.linear[1] - self.start.linear[1]];
+        let along_radius = if self.of_revolution { 0.0 } else { now.linear[0] - self.start.linear[0] };
+        let change = [along_radius, now.linear[1] - self.start.linear[1]];
         let linear = (change[0] * change[0] + change[1] * change[1]).sqrt();
         let angular = (now.angular - self.start.angular).abs();
         for (drift, (change, scales)) in
@@ -348,8 +371,9 @@ impl Momentum {
         self.drift[0]
     }
 
-    pub(crate) fn angular(&self) -> f64 {
-        self.drift[1]
+    /// `None` of bodies of revolution: there is none.
+    pub(crate) fn angular(&self) -> Option<f64> {
+        (!self.of_revolution).then_some(self.drift[1])
     }
 }
 
@@ -363,7 +387,9 @@ impl Moments {
             }
         }
         for body in system.bodies.iter() {
-            let [m, _, inertia] = body.mass;
+            // The free one: of a body of revolution that along the axis.
+            let [x, y, inertia] = body.mass;
+            let m = x.max(y);
             sum.add(m, &body.centre, &[body.velocity[0], body.velocity[1]]);
             let spin = inertia * body.velocity[2];
             sum.angular += spin;

@@ -7,7 +7,7 @@ use crate::contact::{Contact, ContactKind, search};
 use crate::error::{Error, Fault};
 use crate::mesh::PartMesh;
 use crate::model::{self, Cadence, Model};
-use crate::output::{Cells, Frame, Summary};
+use crate::output::{Cells, Eroded, Erosion, Frame, Summary};
 use crate::record::{Momentum, Recorded};
 use crate::step::{Governor, System};
 use embate_lanes::Level;
@@ -175,6 +175,11 @@ impl Simulation {
         simulation.momentum = Momentum::new(&simulation.system);
         simulation.shortest.note(&simulation.system);
         simulation.check_obstacles(model)?;
+        let [added, of] = simulation.system.mass_added;
+        if added != 0.0 {
+            let message = format!("mass scaling added {added:.6e} kg/m, {:.3} % of the mass of the deformable parts", 100.0 * added / of);
+            simulation.warnings.insert(message);
+        }
         if !simulation.system.initial_penetrations.is_empty() {
             simulation.warnings.insert("some nodes were inside other bodies at the start: `embate check` lists them".into());
         }
@@ -272,7 +277,7 @@ impl Simulation {
         let mut last_frame = None;
         loop {
             let time = self.system.time;
-            let over = time >= end || self.system.step >= self.max_steps;
+            let over = time >= self.system.limits.end || self.system.step >= self.max_steps;
             if (rows.due(time) || over) && time > last_row {
                 self.note_momentum();
                 observer.row(&self.history_row()).map_err(output)?;
@@ -378,6 +383,22 @@ impl Simulation {
                 warnings.push(format!("contact \"{}\": its ties bound no node", contact.name));
             }
         }
+        if let Some(Erosion { elements, first: Eroded { part, element, at: [x, y], time, criterion }, .. }) = self.erosion() {
+            let all: Vec<String> = elements.iter().map(|(part, count)| format!("{count} of part \"{part}\"")).collect();
+            warnings.push(format!(
+                "elements were eroded: {}; the first was element {element} of part \"{part}\" at ({x:.6e}, {y:.6e}) m, at {time:.6e} s by `{criterion}`",
+                all.join(", ")
+            ));
+        }
+        if let Some(relaxation) = &self.system.relaxation {
+            warnings.push(match relaxation.rest {
+                Some(time) => format!(
+                    "relaxation: at rest at {time:.6e} s, where the run ended; kinetic over internal energy {:.3e}",
+                    relaxation.ratio
+                ),
+                None => format!("relaxation: not at rest; kinetic over internal energy {:.3e}", relaxation.ratio),
+            });
+        }
         let unsolved = self.system.springs.unsolved;
         if unsolved > 0 {
             warnings
@@ -393,6 +414,16 @@ impl Simulation {
             warnings.push(format!("{} \"{}\" transmitted nothing in the whole run", contact.kind.name(), contact.name));
         }
         warnings
+    }
+
+    /// What erosion has done so far.
+    fn erosion(&self) -> Option<Erosion> {
+        let system = &self.system;
+        let erosion = system.erosion.as_ref()?;
+        let first = erosion.first.clone()?;
+        let of_part = |(part, &count): (&PartMesh, &usize)| (part.name.clone(), count);
+        let elements = system.mesh.parts.iter().zip(&erosion.by_part).filter(|(_, count)| **count > 0).map(of_part).collect();
+        Some(Erosion { elements, mass_loose: system.mass_loose(), first })
     }
 
     /// What was checked in all contacts so far.
@@ -429,9 +460,11 @@ impl Simulation {
             energy_drift: system.ledger.drift(),
             ledger_residual: system.ledger.residual(),
             momentum_drift_linear: self.momentum.as_ref().map(Momentum::linear),
-            momentum_drift_angular: self.momentum.as_ref().map(Momentum::angular),
+            momentum_drift_angular: self.momentum.as_ref().and_then(Momentum::angular),
             penetration_max: system.penetration_max,
             contact: self.certificate(),
+            erosion: self.erosion(),
+            mass_added: system.mass_added[0],
             state_hash: crate::record::state_hash(system),
             threads: self.threads,
             simd: system.level.name().to_string(),

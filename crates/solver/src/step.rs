@@ -3,7 +3,9 @@
 //! The state between two steps is x^n, v^{n+1/2} and the step dt^n that leads to x^{n+1}; forces have been evaluated at x^n. Everything that
 //! is shared by threads is cut in chunks that come from the mesh, and sums are joined in chunk order: the same bits for any number of threads.
 
+pub(crate) mod erosion;
 mod nodes;
+pub(crate) mod relaxation;
 
 use crate::assembly::Assembly;
 use crate::block::{Block, Motion, Report};
@@ -23,8 +25,10 @@ use crate::load::non_reflecting::NonReflecting;
 use crate::mesh::Mesh;
 use crate::rigid::{Acting, Bodies};
 use embate_lanes::{Batch, Level};
+use erosion::Erosion;
 use nodes::Nodes;
 use rayon::prelude::*;
+use relaxation::Relaxation;
 
 /// A vector of the plane.
 pub type Vector = [f64; 2];
@@ -99,6 +103,8 @@ pub struct System {
     pub(crate) limits: Limits,
     pub(crate) level: Level,
     pub(crate) parallel: bool,
+    /// Whether x is a radius.
+    pub(crate) of_revolution: bool,
 
     pub(crate) step: u64,
     pub(crate) time: f64,
@@ -125,6 +131,12 @@ pub struct System {
     pub(crate) penetration_max: f64,
     /// Penetrations of contacts at the start, one line each.
     pub(crate) initial_penetrations: Vec<String>,
+    /// What fails and what has failed; `None` where nothing can.
+    pub(crate) erosion: Option<Box<Erosion>>,
+    /// What brings everything to rest; `None`: nothing.
+    pub(crate) relaxation: Option<Relaxation>,
+    /// Mass that was added for longer steps, and the true mass of what it was added to, kg/m.
+    pub(crate) mass_added: [f64; 2],
 }
 
 /// What the velocity update of the system's nodes reads: its fields one by one, so that the new velocities can be written meanwhile.
@@ -160,12 +172,18 @@ impl System {
 
     /// Everything that follows from the positions x^n.
     fn respond(&mut self) -> Result<(), Error> {
-        let elements = self.strain_elements();
+        let mut elements = self.strain_elements();
+        if self.erosion.is_some() {
+            elements = self.erode(elements);
+        }
         let time_step = self.stable_step(&elements)?;
+        self.relax();
         self.load(time_step);
         self.push_apart(time_step);
         self.accelerate(time_step);
-        self.close_books(&elements)
+        self.close_books(&elements)?;
+        self.see_rest();
+        Ok(())
     }
 
     /// Forces and velocities at time zero: v^{1/2} = v⁰ + ½ dt⁰ a⁰.
@@ -220,9 +238,11 @@ impl System {
     fn strain_elements(&mut self) -> Report {
         let motion = Motion { positions: &self.positions, velocities: &self.velocities, time_step: self.time_step_old };
         let mut rest = &mut self.corners[..];
-        for ((block, report), rigid) in self.blocks.iter_mut().zip(&mut self.reports).zip(&self.rigid) {
+        for (index, ((block, report), rigid)) in self.blocks.iter_mut().zip(&mut self.reports).zip(&self.rigid).enumerate() {
             let (corners, others) = rest.split_at_mut(block.corner_batches());
-            if !rigid {
+            // With all elements gone there is nothing to strain.
+            let is_gone = self.erosion.as_ref().is_some_and(|erosion| erosion.is_gone(index));
+            if !rigid && !is_gone {
                 *report = block.advance(&motion, self.level, corners, self.parallel);
             }
             rest = others;
@@ -300,6 +320,9 @@ impl System {
         for contact in &mut self.contacts {
             contact.collect(&self.springs, &mut self.contact_forces, &mut self.bodies, &mut self.traces, time_step);
         }
+        if let Some(erosion) = &mut self.erosion {
+            erosion.close_springs(|| self.contacts.iter().map(|contact| contact.stored_before(&self.springs)).sum());
+        }
     }
 
     /// v^{n+1/2} = v^{n-1/2} + ½ (dt^n + dt^{n-1}) f^n / m, then prescribed motion; sums for the ledger.
@@ -348,6 +371,7 @@ impl System {
             hourglass: elements.hourglass,
             bulk_viscosity: elements.viscous,
             contact: springs,
+            eroded: self.erosion.as_ref().map_or(0.0, |erosion| erosion.energy),
             ..Stores::default()
         };
         if !(sum.kinetic_half.is_finite() && stores.total().is_finite()) {

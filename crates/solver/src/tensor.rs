@@ -4,6 +4,8 @@
 //! Code over lanes has no closures: the compiler gives a closure the instruction set of the machine's baseline, and every operation
 //! in it becomes a call (measured: ten times slower than scalar code). Loops over small arrays are unrolled instead.
 
+mod principal;
+
 use embate_lanes::{Batch, Lane};
 
 /// A symmetric second-order tensor whose components are lanes. The plane form keeps the out-of-plane normal component.
@@ -36,6 +38,15 @@ pub trait SymmetricTensor<L: Lane>: Copy {
     fn plus_zz(self, value: L) -> Self;
     /// Determinant.
     fn determinant(self) -> L;
+    /// Adjugate: T adj(T) = det(T) I; of a tensor of determinant one the inverse.
+    #[must_use]
+    fn adjugate(self) -> Self;
+    /// Components xx yy zz xy yz zx; zero where the dimension has none.
+    fn components(self) -> [L; 6];
+    /// From xx yy zz xy yz zx; what the dimension does not have is dropped.
+    fn from_components(components: [L; 6]) -> Self;
+    /// Eigenvalues λ_i, in no order, and projections n_i n_iᵀ onto their axes; any orthogonal axes where eigenvalues coincide.
+    fn principal(self) -> ([L; 3], [Self; 3]);
     /// Q T Qᵀ.
     #[must_use]
     fn rotated(self, rotation: &Self::Rotation) -> Self;
@@ -54,6 +65,14 @@ pub trait Turn<L: Lane>: Copy {
     const COMPONENTS: usize;
     /// No rotation.
     fn none() -> Self;
+    /// About the third axis, from cos θ and sin θ.
+    fn about_z(cos: L, sin: L) -> Self;
+    /// This rotation, then the `next`; mended so that it stays one over any number of steps.
+    #[must_use]
+    fn then(&self, next: &Self) -> Self;
+    /// The way back.
+    #[must_use]
+    fn inverse(&self) -> Self;
     /// Components from the batches `from[0..COMPONENTS]`, lanes from `at` on.
     fn load(from: &[Batch], at: usize) -> Self;
     /// Writes the components to the batches `to[0..COMPONENTS]`, lanes from `at` on.
@@ -154,6 +173,21 @@ impl<L: Lane> Turn<L> for PlaneRotation<L> {
         Self([L::splat(1.0), L::splat(0.0)])
     }
     #[inline(always)]
+    fn about_z(cos: L, sin: L) -> Self {
+        Self::new(cos, sin)
+    }
+    #[inline(always)]
+    fn then(&self, next: &Self) -> Self {
+        let ([c, s], [cos, sin]) = (self.0, next.0);
+        let (c, s) = (c * cos - s * sin, s * cos + c * sin);
+        let length = (c * c + s * s).sqrt();
+        Self([c / length, s / length])
+    }
+    #[inline(always)]
+    fn inverse(&self) -> Self {
+        Self([self.0[0], -self.0[1]])
+    }
+    #[inline(always)]
     fn load(from: &[Batch], at: usize) -> Self {
         Self([L::load(&from[0], at), L::load(&from[1], at)])
     }
@@ -174,6 +208,34 @@ impl<L: Lane> Turn<L> for Matrix<L, 3> {
             q[i][i] = L::splat(1.0);
         }
         q
+    }
+    #[inline(always)]
+    fn about_z(cos: L, sin: L) -> Self {
+        let (zero, one) = (L::splat(0.0), L::splat(1.0));
+        [[cos, -sin, zero], [sin, cos, zero], [zero, zero, one]]
+    }
+    #[inline(always)]
+    fn then(&self, next: &Self) -> Self {
+        // One step of Newton's iteration for the polar factor, Q ← ½ Q (3 I − Qᵀ Q): round-off off a rotation is squared away.
+        let q = product(next, self);
+        let mut mend = product(&q.inverse(), &q);
+        for i in 0..3 {
+            for j in 0..3 {
+                mend[i][j] = mend[i][j] * L::splat(-0.5);
+            }
+            mend[i][i] += L::splat(1.5);
+        }
+        product(&q, &mend)
+    }
+    #[inline(always)]
+    fn inverse(&self) -> Self {
+        let mut transposed = *self;
+        for i in 0..3 {
+            for j in 0..3 {
+                transposed[i][j] = self[j][i];
+            }
+        }
+        transposed
     }
     #[inline(always)]
     fn load(from: &[Batch], at: usize) -> Self {
@@ -202,6 +264,28 @@ impl<L: Lane> SymmetricTensor<L> for Plane<L> {
     }
 
     #[inline(always)]
+    fn adjugate(self) -> Self {
+        let [xx, yy, zz, xy] = self.0;
+        Self([yy * zz, xx * zz, xx * yy - xy * xy, -(xy * zz)])
+    }
+
+    #[inline(always)]
+    fn components(self) -> [L; 6] {
+        let [xx, yy, zz, xy] = self.0;
+        [xx, yy, zz, xy, L::splat(0.0), L::splat(0.0)]
+    }
+
+    #[inline(always)]
+    fn from_components(components: [L; 6]) -> Self {
+        Self([components[0], components[1], components[2], components[3]])
+    }
+
+    #[inline(always)]
+    fn principal(self) -> ([L; 3], [Self; 3]) {
+        principal::plane(self)
+    }
+
+    #[inline(always)]
     fn rotated(self, rotation: &PlaneRotation<L>) -> Self {
         // The sum stays; half difference and shear turn by 2θ.
         let [c, s] = rotation.0;
@@ -223,16 +307,31 @@ impl<L: Lane> SymmetricTensor<L> for Solid<L> {
     }
 
     #[inline(always)]
+    fn adjugate(self) -> Self {
+        let [xx, yy, zz, xy, yz, zx] = self.0;
+        Self([yy * zz - yz * yz, zz * xx - zx * zx, xx * yy - xy * xy, yz * zx - xy * zz, zx * xy - yz * xx, xy * yz - zx * yy])
+    }
+
+    #[inline(always)]
+    fn components(self) -> [L; 6] {
+        self.0
+    }
+
+    #[inline(always)]
+    fn from_components(components: [L; 6]) -> Self {
+        Self(components)
+    }
+
+    #[inline(always)]
+    fn principal(self) -> ([L; 3], [Self; 3]) {
+        principal::solid(self)
+    }
+
+    #[inline(always)]
     fn rotated(self, q: &[[L; 3]; 3]) -> Self {
         let [xx, yy, zz, xy, yz, zx] = self.0;
         let t = [[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]];
-        let mut transposed = [[L::splat(0.0); 3]; 3];
-        for i in 0..3 {
-            for j in 0..3 {
-                transposed[i][j] = q[j][i];
-            }
-        }
-        let r = product(&product(q, &t), &transposed);
+        let r = product(&product(q, &t), &q.inverse());
         Self([r[0][0], r[1][1], r[2][2], r[0][1], r[1][2], r[2][0]])
     }
 }
@@ -363,6 +462,44 @@ mod tests {
         assert!((t.contract(t) - r.contract(r)).abs() < 1e-13);
         assert!((t.determinant() - r.determinant()).abs() < 1e-13);
         assert!(t.deviator().trace().abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_tensor_times_its_adjugate_is_its_determinant() {
+        let t = Solid([3.0, -1.0, 0.5, 2.0, -0.3, 1.1]);
+        let full = |t: Solid<f64>| {
+            let [xx, yy, zz, xy, yz, zx] = t.components();
+            [[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]]
+        };
+        let p = product(&full(t), &full(t.adjugate()));
+        for i in 0..3 {
+            for j in 0..3 {
+                assert!((p[i][j] - if i == j { t.determinant() } else { 0.0 }).abs() < 1e-14);
+            }
+        }
+        let plane = Plane([3.0, -1.0, 0.5, 2.0]);
+        let (a, b) = (plane.adjugate().components(), Solid([3.0, -1.0, 0.5, 2.0, 0.0, 0.0]).adjugate().0);
+        assert!((0..6).all(|c| (a[c] - b[c]).abs() < 1e-15), "{a:?} {b:?}");
+        assert_eq!(Plane::from_components(plane.components()).0, plane.0);
+    }
+
+    #[test]
+    fn a_million_small_rotations_stay_a_rotation() {
+        let (steps, angle) = (1_000_000, 0.01f64);
+        let step = PlaneRotation::about_z(angle.cos(), angle.sin());
+        let step_space = product(&rotation_matrix(0, 0.02), &rotation_matrix(2, angle));
+        let (mut plane, mut space) = (PlaneRotation::none(), <[[f64; 3]; 3]>::none());
+        for _ in 0..steps {
+            (plane, space) = (plane.then(&step), space.then(&step_space));
+        }
+        let (s, c) = (2.0 * angle * f64::from(steps)).sin_cos();
+        assert!((plane.0[0] - c).abs() < 1e-9 && (plane.0[1] - s).abs() < 1e-9, "{plane:?} for {c} {s}");
+        let back = space.inverse().then(&space);
+        let unit = <[[f64; 3]; 3]>::none();
+        assert!((0..9).all(|k| (back[k / 3][k % 3] - unit[k / 3][k % 3]).abs() < 1e-14), "{back:?}");
+        let t = Plane([3.0, -1.0, 0.5, 2.0]);
+        let there = t.rotated(&plane).rotated(&plane.inverse()).0;
+        assert!((0..4).all(|k| (there[k] - t.0[k]).abs() < 1e-14));
     }
 
     #[test]

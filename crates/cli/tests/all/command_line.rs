@@ -33,7 +33,7 @@ fn usage_errors_end_with_code_two() {
 fn help_and_version_end_with_code_zero() {
     let help = embate(here(), ["--help"]);
     assert_eq!(help.code, Some(0));
-    for command in ["run", "check", "list", "new", "verify", "schema"] {
+    for command in ["run", "check", "list", "new", "import", "verify", "schema"] {
         assert!(help.out.contains(command), "{}", help.out);
     }
     assert_eq!(embate(here(), ["--version"]).out.trim(), concat!("embate ", env!("CARGO_PKG_VERSION")));
@@ -97,7 +97,7 @@ fn one_list_can_be_chosen() {
         let answer = embate(here(), ["list", what]);
         assert_eq!(answer.code, Some(0));
         assert!(answer.out.starts_with(title));
-        assert_eq!(answer.out.contains("plastic_strain  "), what == "fields", "{}", answer.out);
+        assert_eq!(answer.out.contains("von_mises  "), what == "fields", "{}", answer.out);
     }
 }
 
@@ -143,4 +143,31 @@ fn a_full_disk_is_told() {
     let output = Command::new(env!("CARGO_BIN_EXE_embate")).arg("list").stdout(full).output().unwrap();
     assert_eq!(output.status.code(), Some(1));
     assert!(String::from_utf8_lossy(&output.stderr).contains("standard output"));
+}
+
+/// A square that stands; `{}` is what follows the step.
+const DECK: &str = "*NODE\n1,0,0\n2,1,0\n3,1,1\n4,0,1\n*ELEMENT,TYPE=CPE4,ELSET=body\n1,1,2,3,4\n*SOLID SECTION,ELSET=body,MATERIAL=m\n\
+    *MATERIAL,NAME=m\n*DENSITY\n1.e-9,\n*ELASTIC\n1000.,0.3\n*STEP\n*DYNAMIC,EXPLICIT\n,1.e-3\n{}*END STEP\n";
+
+#[test]
+fn a_deck_is_imported_with_a_report_and_the_exit_code_tells_whether_all_of_it_acts() {
+    let folder = fresh("import");
+    fs::write(folder.join("whole.inp"), DECK.replace("{}", "")).unwrap();
+    fs::write(folder.join("partly.inp"), DECK.replace("{}", "*FOO\n")).unwrap();
+    fs::write(folder.join("wrong.inp"), DECK.replace("{}", "*EQUATION\n")).unwrap();
+    let whole = embate(&folder, ["import", "whole.inp", "--out", "whole", "--units", "mm,t,s"]);
+    assert_eq!(whole.code, Some(0), "{}", whole.err);
+    assert!(whole.out.contains("nothing was ignored") && whole.out.contains("units of the deck: mm, t, s"), "{}", whole.out);
+    assert_eq!(embate(&folder, ["check", "whole"]).code, Some(0));
+    let partly = embate(&folder, ["import", "partly.inp", "--out", "partly"]);
+    assert_eq!(partly.code, Some(3), "{}", partly.err);
+    assert!(partly.out.contains("*FOO (partly.inp, line 17)") && partly.err.contains("import.txt"), "{}{}", partly.out, partly.err);
+    assert!(fs::read_to_string(folder.join("partly/import.txt")).unwrap().contains("*FOO"));
+    let wrong = embate(&folder, ["import", "wrong.inp", "--out", "wrong"]);
+    assert_eq!(wrong.code, Some(2));
+    assert!(wrong.err.contains("wrong.inp, line 17: *EQUATION") && !folder.join("wrong").exists(), "{}", wrong.err);
+    let again = embate(&folder, ["import", "whole.inp", "--out", "whole"]);
+    assert_eq!(again.code, Some(2));
+    assert!(again.err.contains("--force"), "{}", again.err);
+    assert_eq!(embate(&folder, ["import", "whole.inp", "--out", "units", "--units", "mm,kg"]).code, Some(2));
 }

@@ -74,6 +74,7 @@ fn every_example_is_listed_here() {
         "ironing",
         "rolling-ring",
         "rubber-disk",
+        "taylor-bar",
         "thin-plates",
         "three-rings",
         "tube-plate",
@@ -255,6 +256,14 @@ fn a_die_slides_over_a_slab_with_the_friction_that_was_given() {
     let [along, across] = ["contact.force_x[sole]", "contact.force_y[sole]"].map(|name| results.mean(name, 0.3, 0.6));
     is_near(-along / across, 0.31, 0.01);
     is_near(across, 226e6, 5e6);
+}
+
+#[test]
+fn a_copper_rod_is_a_third_shorter_after_its_impact() {
+    let results = run("taylor-bar", "example-taylor-bar");
+    results.is_sound(1e-3);
+    is_near(*results.column("tail.y").last().unwrap(), 21.42e-3, 0.25e-3);
+    is_near(results.column("energy.kinetic")[0], 239.81, 0.03);
 }
 
 #[test]

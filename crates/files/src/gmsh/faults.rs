@@ -9,7 +9,7 @@ pub(super) const PLACES: usize = 20;
 
 /// Faults by kind, in the order in which the kinds were met.
 #[derive(Debug, Default)]
-pub(super) struct Faults {
+pub(crate) struct Faults {
     kinds: Vec<Kind>,
 }
 
@@ -22,7 +22,7 @@ struct Kind {
 
 impl Faults {
     /// Adds a fault to those of the kind `name`, a plural such as "elements without area".
-    pub(super) fn add(&mut self, name: &'static str, fault: impl FnOnce() -> Fault) {
+    pub(crate) fn add(&mut self, name: &'static str, fault: impl FnOnce() -> Fault) {
         let index = self.kinds.iter().position(|kind| kind.name == name).unwrap_or_else(|| {
             self.kinds.push(Kind { name, faults: Vec::new(), more: 0 });
             self.kinds.len() - 1
@@ -35,12 +35,12 @@ impl Faults {
         }
     }
 
-    pub(super) fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.kinds.is_empty()
     }
 
     /// All faults; a last one of each kind counts those without a place.
-    pub(super) fn into_list(self, source: &str) -> Vec<Fault> {
+    pub(crate) fn into_list(self, source: &str) -> Vec<Fault> {
         let mut list = Vec::new();
         for kind in self.kinds {
             list.extend(kind.faults);

@@ -7,7 +7,7 @@
 
 mod contents;
 mod element_kind;
-mod faults;
+pub(crate) mod faults;
 mod plane;
 mod reader;
 mod version2;

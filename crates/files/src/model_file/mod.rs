@@ -27,6 +27,7 @@ pub(crate) use reader::{Document, Record, Vocabulary};
 pub(crate) use tree::Node;
 
 use embate_solver::model::Model;
+use embate_solver::quantity::Dimension;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -112,6 +113,11 @@ fn load_source(name: &str, source: Source, folder: &Path, set: &[String]) -> Res
         }
     }
     if faults.is_empty() { Ok(model) } else { Err(faults.into_diagnostics(&sources, Some(&root))) }
+}
+
+/// The SI value and the dimension of a quantity such as `3 mm`; `None` if it is none.
+pub(crate) fn quantity_in_si(text: &str) -> Option<(f64, Dimension)> {
+    units::read(text, units::Wanted { name: "quantity", dimensions: &[], angle: false }).ok()
 }
 
 /// The tree of a text.

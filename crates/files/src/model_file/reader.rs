@@ -5,10 +5,12 @@
 use super::diagnostics::Faults;
 use super::tree::{Entry, Node, Place, Value};
 use super::value::{self, Datum, Wrong};
+use embate_solver::block::stress_state::STRESS_STATES;
 use embate_solver::mesh::shapes::Values;
 use embate_solver::model::describe::{
     Form, Key, Kind, MOVED, Need, Rule, SECTIONS, Section, TOP, nearest, section as section_by_name, suggestion,
 };
+use embate_solver::quantity::Dimension;
 use std::collections::BTreeMap;
 
 /// What a kind of file may hold.
@@ -61,7 +63,7 @@ impl Document {
     pub(super) fn single(&self, name: &str) -> Record {
         match (self.section(name).first(), section_by_name(name)) {
             (Some(record), _) => record.clone(),
-            (None, Some(section)) => Reader { vocabulary: &MODEL, faults: &mut Faults::default() }.table(
+            (None, Some(section)) => Reader { vocabulary: &MODEL, faults: &mut Faults::default(), of_revolution: false }.table(
                 section,
                 &[],
                 name,
@@ -191,7 +193,7 @@ fn whole(value: u64) -> usize {
 
 /// Reads all sections.
 pub(super) fn read(root: &Node, vocabulary: &Vocabulary, faults: &mut Faults) -> Document {
-    let mut reader = Reader { vocabulary, faults };
+    let mut reader = Reader { vocabulary, faults, of_revolution: is_axisymmetric(root) };
     let mut document = Document::default();
     let Value::Table(entries) = &root.value else { return document };
     let (sections, others): (Vec<&Entry>, Vec<&Entry>) = entries.iter().partition(|entry| vocabulary.section(&entry.key).is_some());
@@ -223,6 +225,37 @@ pub(super) fn header(section: &Section) -> String {
 struct Reader<'a> {
     vocabulary: &'a Vocabulary,
     faults: &'a mut Faults,
+    /// Whether masses and forces are those of the whole circumference, and not per metre of depth.
+    of_revolution: bool,
+}
+
+/// Whether a part says that it is one; those that don't agree are told later.
+fn is_axisymmetric(root: &Node) -> bool {
+    let Value::Table(sections) = &root.value else { return false };
+    let parts = sections.iter().filter(|section| section.key == "part").filter_map(|section| match &section.node.value {
+        Value::List(parts) => Some(parts),
+        _ => None,
+    });
+    let says = |key: &Entry| {
+        key.key == "stress_state"
+            && matches!(&key.node.value, Value::Text(name) if STRESS_STATES.iter().any(|kind| kind.name == name && kind.axisymmetric))
+    };
+    parts.flatten().any(|part| matches!(&part.value, Value::Table(keys) if keys.iter().any(says)))
+}
+
+/// A key of a body of revolution: without the metre of depth.
+fn all_around(key: &Key) -> Key {
+    let whole = |dimension: Dimension| match dimension {
+        Dimension::MASS_PER_LENGTH => Dimension::MASS,
+        Dimension::FORCE_PER_LENGTH => Dimension::FORCE,
+        other => other,
+    };
+    let kind = match key.kind {
+        Kind::Quantity(dimension, range) => Kind::Quantity(whole(dimension), range),
+        Kind::Vector(dimension, range) => Kind::Vector(whole(dimension), range),
+        other => other,
+    };
+    Key { kind, ..*key }
 }
 
 impl Reader<'_> {
@@ -306,7 +339,8 @@ impl Reader<'_> {
         if let (Kind::Table(section), Value::Table(entries)) = (key.kind, &node.value) {
             return Some(Datum::Table(Box::new(self.table(section, entries, path, node.place))));
         }
-        match value::read(key, node, path) {
+        let key = if self.of_revolution { all_around(key) } else { *key };
+        match value::read(&key, node, path) {
             Ok(datum) => Some(datum),
             Err(wrongs) => {
                 self.faults.cover(path);

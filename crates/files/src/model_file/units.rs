@@ -367,6 +367,9 @@ pub(super) fn quantity(dimension: Dimension) -> &'static str {
         Dimension::SLOWNESS => "inverse velocity",
         Dimension::VISCOSITY_PER_LENGTH => "pressure per velocity",
         Dimension::MASS_PER_LENGTH => "mass per length",
+        Dimension::FORCE_PER_LENGTH => "force per length",
+        Dimension::MASS => "mass",
+        Dimension::FORCE => "force",
         Dimension::INERTIA_PER_LENGTH => "moment of inertia per length",
         _ => "another dimension",
     }

@@ -63,8 +63,16 @@ const THIN: f32 = 3.4;
 impl Mesh {
     /// Takes what is sound: cells whose nodes are listed wrongly are left out.
     pub(super) fn new(cells: &Cells) -> Self {
+        Self::without(cells, &[])
+    }
+
+    /// The same without some cells (ascending).
+    pub(super) fn without(cells: &Cells, gone: &[u32]) -> Self {
         let mut mesh = Self { part_count: cells.part_names.len(), ..Self::default() };
         for (index, range) in cells.offsets.windows(2).enumerate().take(cells.kinds.len()) {
+            if gone.binary_search(&(index as u32)).is_ok() {
+                continue;
+            }
             // Parts beyond any sensible number are a fault elsewhere; here they only must not cost memory.
             let part = cells.parts.get(index).copied().unwrap_or(0).min(cells.kinds.len() as u32);
             let (nodes, corners) = match cells.nodes.get(range[0] as usize..range[1] as usize) {

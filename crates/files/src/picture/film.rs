@@ -20,6 +20,8 @@ pub struct FilmSettings {
     pub title: String,
     /// Whether bodies are also shown mirrored at x = 0 and at y = 0 (symmetric models).
     pub mirror: [bool; 2],
+    /// Whether forces are those of the whole circumference, and not per metre of depth.
+    pub of_revolution: bool,
     /// Field shown as colour: a name (`von_mises`; vectors show their size) or a component (`stress.xy`); empty: plastic strain if there is
     /// any, else the equivalent stress.
     pub field: String,
@@ -31,7 +33,7 @@ pub struct FilmSettings {
 
 impl Default for FilmSettings {
     fn default() -> Self {
-        Self { title: String::new(), mirror: [false; 2], field: String::new(), width: 960, height: 720 }
+        Self { title: String::new(), mirror: [false; 2], of_revolution: false, field: String::new(), width: 960, height: 720 }
     }
 }
 
@@ -72,6 +74,8 @@ struct Stored {
     number: usize,
     time: f64,
     positions: Vec<[f32; 2]>,
+    /// Eroded cells, ascending.
+    gone: Vec<u32>,
     obstacles: Vec<Line>,
     /// One list per scalar.
     values: Vec<Vec<f32>>,
@@ -127,10 +131,12 @@ impl Film {
         if self.stored.last().is_some_and(|last| last.number % self.stride != 0) {
             self.stored.pop();
         }
+        let gone = gone(frame);
         self.stored.push(Stored {
             number: self.added,
             time: frame.time,
-            positions: frame.positions.iter().map(|p| [(p[0] - origin[0]) as f32, (p[1] - origin[1]) as f32]).collect(),
+            positions: self.shown(frame, &gone).map(|p| [(p[0] - origin[0]) as f32, (p[1] - origin[1]) as f32]).collect(),
+            gone,
             obstacles: self.line_reader.lines(frame),
             values: self.scalars.iter().map(|scalar| scalar.values(frame)).collect(),
         });
@@ -140,6 +146,23 @@ impl Film {
         {
             self.thin();
         }
+    }
+
+    /// Positions of the nodes that have a cell; not a number for those whose cells are all `gone`, which fly anywhere.
+    fn shown<'a>(&self, frame: &'a Frame<2>, gone: &[u32]) -> impl Iterator<Item = [f64; 2]> + use<'a> {
+        let mut has_cell = vec![gone.is_empty(); frame.positions.len()];
+        if !gone.is_empty() {
+            let there = (0..self.cells.len()).filter(|&cell| gone.binary_search(&(cell as u32)).is_err());
+            for &node in there.flat_map(|cell| self.cells.cell(cell)) {
+                has_cell[node as usize] = true;
+            }
+        }
+        frame.positions.iter().zip(has_cell).map(|(p, has_cell)| if has_cell { *p } else { [f64::NAN; 2] })
+    }
+
+    /// The cells of a frame, where some are gone.
+    fn mesh_left(&self, frame: &Stored) -> Option<Mesh> {
+        (!frame.gone.is_empty()).then(|| Mesh::without(&self.cells, &frame.gone))
     }
 
     fn choose_scalars(&mut self, frame: &Frame<2>) {
@@ -177,6 +200,7 @@ impl Film {
         let show = Show { view: self.view_of(last, &show), ..show };
         let mut scene = self.scene(&show, &notes, [self.settings.width, self.settings.height]);
         let mut canvas = scene.still().clone();
+        let mesh = self.mesh_left(last).unwrap_or(mesh);
         scene.draw(&mesh, &self.moment(last, &show, notes.last().map_or("", String::as_str)), &mut canvas);
         write_png(&canvas, &folder.join("final.png"))
     }
@@ -191,7 +215,8 @@ impl Film {
             let mut animation: Option<Animation<'_>> = None;
             let mut out = Some(out);
             for (index, frame) in chosen.iter().map(|k| (*k, &self.stored[*k])) {
-                scene.draw(mesh, &self.moment(frame, show, &notes[index]), &mut canvas);
+                let left = self.mesh_left(frame);
+                scene.draw(left.as_ref().unwrap_or(mesh), &self.moment(frame, show, &notes[index]), &mut canvas);
                 if let Some(out) = out.take() {
                     animation = Some(Animation::start(out, &canvas, scene.looks(), &path)?);
                 }
@@ -232,7 +257,8 @@ impl Film {
             Some(last) => ([0.0, last as f64], [false; 2]),
             None => colour_range(all(chosen), kind.starts_at_zero()),
         };
-        let key = Key::Bar { label: kind.label(), si: kind.kind.unit, range, beyond, states };
+        let si = if self.settings.of_revolution && kind.kind.unit == "N/m" { "N" } else { kind.kind.unit };
+        let key = Key::Bar { label: kind.label(), si, range, beyond, states };
         Show { scalar, range, key, view, sides }
     }
 
@@ -284,6 +310,12 @@ impl Film {
         debug_assert_eq!(decimals(step), digits as usize);
         self.stored.iter().map(|frame| format!("t = {} {}", number(frame.time * unit.factor, step), unit.name)).collect()
     }
+}
+
+/// Cells that were eroded, ascending.
+fn gone(frame: &Frame<2>) -> Vec<u32> {
+    let Some(alive) = frame.fields.iter().find(|field| field.kind.name == "alive") else { return Vec::new() };
+    (0..).zip(&alive.values).filter(|(_, alive)| **alive == 0.0).map(|(cell, _)| cell).collect()
 }
 
 /// Range of the colour map, and whether values lie below or above it. Single peaks far above everything else don't set the range.

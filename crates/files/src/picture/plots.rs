@@ -10,12 +10,12 @@ use std::path::Path;
 /// time axis) into `folder`.
 ///
 /// `columns`: names as in `history.csv`, one of them `time` (else the first is the time); `rows`: one value per column, SI. Values that are
-/// not finite leave gaps; missing columns leave a plot without curves.
+/// not finite leave gaps; missing columns leave a plot without curves. Energies and forces are per metre of depth, `of_revolution` those of the whole circumference.
 ///
 /// # Errors
 /// [`PictureError::Io`] if a file can't be written.
-pub fn plots(columns: &[String], rows: &[Vec<f64>], title: &str, folder: &Path) -> Result<(), PictureError> {
-    let table = Table { columns, rows };
+pub fn plots(columns: &[String], rows: &[Vec<f64>], title: &str, of_revolution: bool, folder: &Path) -> Result<(), PictureError> {
+    let table = Table { columns, rows, of_revolution };
     write_text(&folder.join("energy.svg"), &chart(&titled(title, "energy"), &[energy(&table)]))?;
     write_text(&folder.join("history.svg"), &chart(&titled(title, "history"), &history(&table)))
 }
@@ -32,6 +32,7 @@ fn write_text(path: &Path, text: &str) -> Result<(), PictureError> {
 struct Table<'a> {
     columns: &'a [String],
     rows: &'a [Vec<f64>],
+    of_revolution: bool,
 }
 
 impl Table<'_> {
@@ -91,8 +92,8 @@ fn energy(table: &Table<'_>) -> Panel {
         curves.push(Curve { name: name.replace('_', " "), colour, dashes, width, points: table.points(column) });
     }
     let remark = if zero.is_empty() { String::new() } else { format!("zero throughout: {}", zero.join(", ")) };
-    // Plane models: everything is per metre of depth.
-    Panel { name: "energy".into(), si: "J/m", from_zero: true, height: 380.0, curves, remark }
+    let si = if table.of_revolution { "J" } else { "J/m" };
+    Panel { name: "energy".into(), si, from_zero: true, height: 380.0, curves, remark }
 }
 
 /// Curves in one panel; more would be a carpet.
@@ -139,7 +140,7 @@ fn history(table: &Table<'_>) -> Vec<Panel> {
     let name = if from_start { "displacement" } else { "position" };
     let quantities = [
         Quantity { name, si: "m", axes: positions, from_start },
-        Quantity { name: "contact force", si: "N/m", axes: forces, from_start: false },
+        Quantity { name: "contact force", si: if table.of_revolution { "N" } else { "N/m" }, axes: forces, from_start: false },
     ];
     let mut panels: Vec<Panel> = quantities.iter().flat_map(|quantity| quantity.panels(table)).collect();
     if panels.is_empty() {
@@ -218,7 +219,7 @@ mod tests {
 
     fn names_of(columns: &[&str], rows: &[Vec<f64>]) -> Vec<String> {
         let columns: Vec<String> = columns.iter().map(ToString::to_string).collect();
-        history(&Table { columns: &columns, rows }).into_iter().map(|panel| panel.name).collect()
+        history(&Table { columns: &columns, rows, of_revolution: false }).into_iter().map(|panel| panel.name).collect()
     }
 
     #[test]
@@ -233,7 +234,7 @@ mod tests {
         let columns = ["time", "contact.force_y[a]", "obstacle.force_y[floor]", "obstacle.force_y[a]", "obstacle.force_x[floor]"];
         let columns: Vec<String> = columns.iter().map(ToString::to_string).collect();
         let rows: Vec<Vec<f64>> = (0..9).map(f64::from).map(|t| vec![t, t, 2.0 * t, 3.0 * t, 0.0]).collect();
-        let panels = history(&Table { columns: &columns, rows: &rows });
+        let panels = history(&Table { columns: &columns, rows: &rows, of_revolution: false });
         let curves: Vec<&str> = panels[0].curves.iter().map(|curve| curve.name.as_str()).collect();
         assert_eq!((panels.len(), panels[0].name.as_str()), (1, "contact force y"));
         assert_eq!(curves, ["a", "floor", "a (obstacle)"]);

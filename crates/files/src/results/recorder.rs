@@ -31,6 +31,7 @@ pub struct Recorder<'a> {
     folder: ResultFolder,
     model: String,
     title: String,
+    of_revolution: bool,
     end: f64,
     part_names: Vec<String>,
     include: Vec<String>,
@@ -71,6 +72,7 @@ impl<'a> Recorder<'a> {
             folder,
             model: model.name.clone(),
             title: picture_title(model),
+            of_revolution: model.is_axisymmetric(),
             end: model.run.end,
             part_names: cells.part_names.clone(),
             include: model.output.include.clone(),
@@ -99,7 +101,7 @@ impl<'a> Recorder<'a> {
         let pictures = self.film.map(|film| {
             self.folder.add_pictures(|side| {
                 film.finish(side).map_err(|e| e.to_string())?;
-                picture::plots(&self.columns, &self.plot_rows.into_rows(), &self.title, side).map_err(|e| e.to_string())
+                picture::plots(&self.columns, &self.plot_rows.into_rows(), &self.title, self.of_revolution, side).map_err(|e| e.to_string())
             })
         });
         if let Some(Err(message)) = pictures {
@@ -157,6 +159,7 @@ pub fn film_settings(model: &Model) -> FilmSettings {
         title: picture_title(model),
         field: model.output.picture_field.clone(),
         mirror: model.output.mirror,
+        of_revolution: model.is_axisymmetric(),
         ..FilmSettings::default()
     }
 }

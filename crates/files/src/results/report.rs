@@ -2,8 +2,9 @@
 //!
 //! Figures come from [`Summary`]; the recorder adds status, names and times. Goes to the user, to tests and to tools.
 
-use embate_solver::output::Summary;
+use embate_solver::output::{Eroded, Summary};
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 /// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -35,6 +36,32 @@ pub struct ContactCheck {
     pub crossings_found: u64,
     /// Nodes inside a body without contact, over all steps; must be zero.
     pub unverified: u64,
+}
+
+/// What erosion has done.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Erosion {
+    /// Eroded elements of each part that has lost some.
+    pub elements: BTreeMap<String, usize>,
+    /// Mass of nodes that have no element any more, kg/m.
+    pub mass_loose: f64,
+    /// The element that failed first.
+    pub first: FirstEroded,
+}
+
+/// The element that failed first.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FirstEroded {
+    /// Its part.
+    pub part: String,
+    /// Its number in the part.
+    pub element: usize,
+    /// Its place when it failed, m.
+    pub at: [f64; 2],
+    /// When it failed, s.
+    pub time: f64,
+    /// By which criterion.
+    pub criterion: String,
 }
 
 /// The contents of `summary.json`; the order of the fields is the order in the file. Numbers that are not finite become `null`.
@@ -82,10 +109,22 @@ pub struct Report {
     pub penetration_max: f64,
     /// What was checked in the contacts.
     pub contact: ContactCheck,
+    /// Mass that was added for longer steps, kg/m; left out where none was.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mass_added: Option<f64>,
+    /// What erosion has done; left out where nothing was eroded.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub erosion: Option<Erosion>,
     /// Hash of positions and velocities at the end.
     pub state_hash: String,
     /// Things the user should know.
     pub warnings: Vec<String>,
+}
+
+fn erosion(erosion: &embate_solver::output::Erosion) -> Erosion {
+    let Eroded { part, element, at, time, criterion } = erosion.first.clone();
+    let first = FirstEroded { part, element, at, time, criterion: criterion.to_string() };
+    Erosion { elements: erosion.elements.iter().cloned().collect(), mass_loose: erosion.mass_loose, first }
 }
 
 impl Report {
@@ -118,6 +157,8 @@ impl Report {
                 crossings_found: summary.contact.crossings_found,
                 unverified: summary.contact.unverified,
             },
+            mass_added: (summary.mass_added != 0.0).then_some(summary.mass_added),
+            erosion: summary.erosion.as_ref().map(erosion),
             state_hash: summary.state_hash.clone(),
             warnings: summary.warnings.clone(),
         }

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod abaqus;
 mod gmsh;
 mod model_file;
 mod picture;

@@ -370,7 +370,7 @@ fn history(rows: usize) -> (Vec<String>, Vec<Vec<f64>>) {
 fn plots_show_every_energy_probe_and_contact_by_name() {
     let folder = folder("plots");
     let (columns, rows) = history(20_000);
-    plots(&columns, &rows, "Tube <against> plate & \"wall\"", &folder).unwrap();
+    plots(&columns, &rows, "Tube <against> plate & \"wall\"", false, &folder).unwrap();
     let energy = fs::read_to_string(folder.join("energy.svg")).unwrap();
     for name in
         [">kinetic<", ">internal<", ">plastic<", ">total<", "zero throughout: external", "kJ/m", "time [ms]", "&lt;against&gt; plate &amp;"]
@@ -413,7 +413,7 @@ fn plots_of_strange_histories_are_sound() {
     ];
     for (name, columns, rows) in cases {
         let folder = folder(&format!("plots-strange-{}", name.replace(' ', "-")));
-        plots(&columns, &rows, "", &folder).unwrap();
+        plots(&columns, &rows, "", false, &folder).unwrap();
         for file in ["energy.svg", "history.svg"] {
             let text = fs::read_to_string(folder.join(file)).unwrap();
             assert!(!text.contains("NaN") && !text.contains("inf"), "{name}: {file}");

@@ -66,6 +66,8 @@ fn summary(steps: u64) -> Summary {
         ledger_residual: 1e-15,
         momentum_drift_linear: Some(1e-16),
         momentum_drift_angular: None,
+        erosion: None,
+        mass_added: 0.0,
         penetration_max: 0.0,
         contact: embate_solver::contact::tracker::Certificate::default(),
         state_hash: "0123456789abcdef".into(),

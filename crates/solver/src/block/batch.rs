@@ -7,7 +7,7 @@ use embate_lanes::{BATCH, Batch};
 pub(crate) struct ElementBatch {
     /// Smallest corner mass of each element times its corners: the mass in the stable step, which holds for any later form of the element.
     pub(crate) mass_least: Batch,
-    /// 1 for an element, 0 for a lane that only fills the batch up.
+    /// 1 for an element, 0 for a lane that only fills the batch up and for an eroded element: both are copies of a live one (`erosion.rs`).
     pub(crate) live: Batch,
     /// Stored elastic energy of each element, J/m.
     pub(crate) stored: Batch,

@@ -4,13 +4,16 @@
 //! are shared by threads and do not depend on their number.
 
 use super::batch::{ElementBatch, element_of};
+use super::erosion::Eroded;
 use super::forces::{Forces, Sums, radius_initial};
 use super::make::BlockInput;
+use super::nodal::Nodal;
 use super::strain::{Measures, Strain, Tensor, initial_width};
 use super::stress_state::StressState;
 use super::strip::{STRIP, Shape, Strip};
 use super::{Block, ElementState, Motion, Report};
 use crate::element::Element;
+use crate::failure::Criterion;
 use crate::material::points::{PointLaw, Points, RESPONSE};
 use crate::material::{Family, Variable};
 use crate::tensor::{Dim, Space, SymmetricTensor, Turn};
@@ -21,31 +24,34 @@ use std::marker::PhantomData;
 use std::sync::{Mutex, PoisonError};
 
 /// Batches that one task advances: small enough to share, large enough to be worth it; fixed, so that sums do not depend on threads.
-const CHUNK: usize = 64;
+pub(super) const CHUNK: usize = 64;
 
 /// The elements of a block with their state.
 pub(super) struct Elements<E, S, const D: usize, const N: usize, const P: usize> {
-    element: E,
-    law: Box<dyn PointLaw>,
-    viscosity: Option<[f64; 2]>,
-    count: usize,
-    nodes: Indices,
+    pub(super) element: E,
+    pub(super) law: Box<dyn PointLaw>,
+    pub(super) viscosity: Option<[f64; 2]>,
+    pub(super) count: usize,
+    pub(super) nodes: Indices,
     /// Cauchy stress of the points, Pa.
-    stress: Vec<Batch>,
+    pub(super) stress: Vec<Batch>,
     /// What the law remembers of the points.
-    history: Vec<Batch>,
+    pub(super) history: Vec<Batch>,
     /// Hyperelastic laws: initial geometry of the points.
-    initial: Vec<Batch>,
-    elements: Vec<ElementBatch>,
+    pub(super) initial: Vec<Batch>,
+    pub(super) elements: Vec<ElementBatch>,
     /// What hourglass control remembers.
-    hourglass: Vec<Batch>,
+    pub(super) hourglass: Vec<Batch>,
     /// Share of each corner in the element's mass: `N` batches per batch of elements.
-    corner_mass: Vec<Batch>,
+    pub(super) corner_mass: Vec<Batch>,
     /// Initial volume of each element, one batch per batch of elements.
-    volume_initial: Vec<Batch>,
-    reports: Vec<Report>,
+    pub(super) volume_initial: Vec<Batch>,
+    pub(super) reports: Vec<Report>,
     /// Room for each thread.
     strips: Vec<Mutex<Strip>>,
+    /// Averages over the nodes, for elements that want them.
+    nodal: Option<Box<Nodal>>,
+    pub(super) eroded: Eroded,
     state: PhantomData<S>,
 }
 
@@ -78,16 +84,16 @@ impl<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const 
 where
     Dim<D>: Space<D>,
 {
-    const COMPONENTS: usize = <Tensor<D, f64> as SymmetricTensor<f64>>::COMPONENTS;
+    pub(super) const COMPONENTS: usize = <Tensor<D, f64> as SymmetricTensor<f64>>::COMPONENTS;
 
-    fn strip(law: &dyn PointLaw) -> Mutex<Strip> {
+    fn strip(law: &dyn PointLaw, batches: usize) -> Strip {
         let turn = <<Tensor<D, f64> as SymmetricTensor<f64>>::Rotation as Turn<f64>>::COMPONENTS;
         let shape = Shape { nodes: N, dimensions: D, points: P, components: Self::COMPONENTS, turn, velocities: E::HOURGLASS > 0 };
-        Mutex::new(Strip::new(&shape, law))
+        Strip::new(&shape, law, batches)
     }
 
     /// Widths of a batch in stress, history, initial geometry and hourglass memory.
-    fn widths(&self) -> [usize; 4] {
+    pub(super) fn widths(&self) -> [usize; 4] {
         let initial = if self.law.family() == Family::Hyperelastic { P * initial_width::<S, D>() } else { 0 };
         [P * Self::COMPONENTS, P * self.law.state_width(), initial, E::HOURGLASS]
     }
@@ -98,7 +104,7 @@ where
         let x: [[f64; D]; N] = std::array::from_fn(|a| positions[connectivity[element * N + a] as usize]);
         let jacobians = E::gradients(&x);
         let width = initial_width::<S, D>();
-        let mut volume = 0.0;
+        let (mut volume, mut corner_volumes) = (0.0, [0.0; N]);
         for p in 0..P {
             let determinant = Dim::<D>::determinant(&jacobians[p]);
             let shape = E::shape(E::POINTS[p]);
@@ -107,7 +113,7 @@ where
             let point_volume = if S::AXISYMMETRIC { area * (radius * TAU) } else { area };
             volume += point_volume;
             for a in 0..N {
-                self.corner_mass[batch * N + a].0[lane] += density * point_volume * shape[a];
+                corner_volumes[a] += point_volume * shape[a];
             }
             if self.law.family() == Family::Hyperelastic {
                 let adjugate = Dim::<D>::adjugate(&jacobians[p]);
@@ -123,7 +129,11 @@ where
                 }
             }
         }
-        let least = (0..N).map(|a| self.corner_mass[batch * N + a].0[lane]).fold(f64::INFINITY, f64::min);
+        let corner_volumes = E::corner_volumes(&x, S::AXISYMMETRIC).unwrap_or(corner_volumes);
+        for (a, corner) in corner_volumes.into_iter().enumerate() {
+            self.corner_mass[batch * N + a].0[lane] = density * corner;
+        }
+        let least = corner_volumes.into_iter().map(|corner| density * corner).fold(f64::INFINITY, f64::min);
         let values = &mut self.elements[batch];
         values.mass_least.0[lane] = N as f64 * least;
         values.live.0[lane] = if batch * BATCH + lane < self.count { 1.0 } else { 0.0 };
@@ -210,7 +220,9 @@ where
         let batches = count.div_ceil(BATCH);
         let rows = (0..batches * N).map(|row| std::array::from_fn(|lane| connectivity[element_of(row / N, lane, count) * N + row % N]));
         let room = |width: usize| vec![Batch::default(); length(batches, width)];
-        let strips = vec![Self::strip(law.as_ref())];
+        let strips = vec![Mutex::new(Self::strip(law.as_ref(), STRIP))];
+        let averages = E::NODAL_DILATATION && !S::PLANE_STRESS;
+        let nodal = averages.then(|| Box::new(Nodal::new(connectivity, N, Self::COMPONENTS, || Self::strip(law.as_ref(), CHUNK))));
         let mut block = Self {
             element,
             viscosity,
@@ -225,7 +237,9 @@ where
             volume_initial: vec![Batch::default(); batches],
             reports: vec![Report::NOTHING; batches.div_ceil(CHUNK)],
             strips,
+            nodal,
             law,
+            eroded: Eroded::default(),
             state: PhantomData,
         };
         block.initial = vec![Batch::default(); batches * block.widths()[2]];
@@ -267,9 +281,14 @@ where
     }
 
     fn advance(&mut self, motion: &Motion<'_, D>, level: Level, corners: &mut [Batch], parallel: bool) -> Report {
+        if let Some(mut nodal) = self.nodal.take() {
+            let report = self.advance_averaged(&mut nodal, motion, level, corners, parallel);
+            self.nodal = Some(nodal);
+            return report;
+        }
         let threads = if parallel { rayon::current_num_threads() } else { 1 };
         while self.strips.len() < threads {
-            self.strips.push(Self::strip(self.law.as_ref()));
+            self.strips.push(Mutex::new(Self::strip(self.law.as_ref(), STRIP)));
         }
         let widths = self.widths();
         let law = self.law.as_ref();
@@ -316,7 +335,7 @@ where
                 .enumerate()
                 .for_each(advance);
         }
-        self.reports.iter().fold(Report::NOTHING, |sum, &report| sum.join(report))
+        self.reports.iter().fold(self.eroded.left, |sum, &report| sum.join(report))
     }
 
     fn mass(&self, element: usize) -> f64 {
@@ -332,6 +351,9 @@ where
     }
 
     fn state(&self, element: usize) -> ElementState {
+        if let Some(last) = self.eroded.last.get(&element) {
+            return *last;
+        }
         let (batch, lane) = (element / BATCH, element % BATCH);
         let width = self.law.state_width();
         let mean = |values: &[Batch], width: usize, value: usize| {
@@ -359,5 +381,29 @@ where
 
     fn has(&self, variable: Variable) -> bool {
         self.law.variables().iter().any(|&(own, _)| own == variable)
+    }
+
+    fn scale_mass(&mut self, element: usize, factor: f64) {
+        self.make_heavier(element, factor);
+    }
+
+    fn is_alive(&self, element: usize) -> bool {
+        self.elements[element / BATCH].live.0[element % BATCH] > 0.0
+    }
+
+    fn failed(&self, criteria: &[Criterion], parallel: bool) -> Vec<(u32, u32)> {
+        self.failing(criteria, parallel)
+    }
+
+    fn determinant(&self, element: usize, positions: &[[f64; D]]) -> f64 {
+        self.least_determinant(element, positions)
+    }
+
+    fn erode(&mut self, elements: &[u32]) -> Vec<f64> {
+        self.take_out(elements)
+    }
+
+    fn report(&self, positions: &[[f64; D]]) -> Report {
+        self.of_the_living(positions)
     }
 }

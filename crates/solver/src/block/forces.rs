@@ -154,7 +154,7 @@ where
         let corners = &mut self.corners[batch * N * D..(batch + 1) * N * D];
         for a in 0..N {
             for i in 0..D {
-                (-nodal[a][i]).store(&mut corners[a * D + i], at);
+                (-nodal[a][i] * live).store(&mut corners[a * D + i], at);
             }
         }
         let element = &mut self.elements[batch];
@@ -327,6 +327,7 @@ where
             shear,
             mass,
             time_step: L::splat(self.time_step),
+            is_plane_stress: S::PLANE_STRESS,
         };
         let held = self.element.hold_shape(&corners, kept, at);
         for a in 0..N {

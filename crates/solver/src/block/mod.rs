@@ -7,14 +7,17 @@
 
 mod batch;
 mod elements;
+mod erosion;
 mod forces;
 mod make;
+mod nodal;
 mod strain;
 pub mod stress_state;
 mod strip;
 
 pub use make::{BlockInput, make};
 
+use crate::failure::Criterion;
 use crate::material::Variable;
 use embate_lanes::{Batch, Level};
 
@@ -99,6 +102,19 @@ pub trait Block<const D: usize>: Send + Sync {
     fn bulk_modulus(&self) -> f64;
     /// Whether the law shows this.
     fn has(&self, variable: Variable) -> bool;
+    /// Makes an element heavier by a factor, for a longer stable step; before the first [`Block::advance`] that counts.
+    fn scale_mass(&mut self, element: usize, factor: f64);
+    /// Whether an element has not been eroded.
+    fn is_alive(&self, element: usize) -> bool;
+    /// Elements that fail by one of the criteria in the state of the last [`Block::advance`], ascending, with the index of the first such criterion.
+    fn failed(&self, criteria: &[Criterion], parallel: bool) -> Vec<(u32, u32)>;
+    /// Smallest Jacobian determinant of an element over its points.
+    fn determinant(&self, element: usize, positions: &[[f64; D]]) -> f64;
+    /// Takes elements (ascending) out: they pull no more, have no step and store nothing, but keep their mass. What they dissipated stays in the reports. Returns the
+    /// elastic energy that each had stored, J/m.
+    fn erode(&mut self, elements: &[u32]) -> Vec<f64>;
+    /// What the last [`Block::advance`] told, without the elements that were eroded since.
+    fn report(&self, positions: &[[f64; D]]) -> Report;
 }
 
 /// Where a corner force lies: batch index of its first component; the components of a corner follow each other.

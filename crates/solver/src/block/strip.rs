@@ -45,8 +45,9 @@ pub(super) struct Shape {
 }
 
 impl Strip {
-    pub(super) fn new(shape: &Shape, law: &dyn PointLaw) -> Self {
-        let room = |values: usize| vec![Batch::default(); STRIP * values];
+    /// Room for so many batches of elements.
+    pub(super) fn new(shape: &Shape, law: &dyn PointLaw, batches: usize) -> Self {
+        let room = |values: usize| vec![Batch::default(); batches * values];
         let Shape { nodes, dimensions, points, components, turn, velocities } = *shape;
         Self {
             nodes: room(nodes * dimensions),

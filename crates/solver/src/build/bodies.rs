@@ -77,7 +77,11 @@ impl Builder<'_> {
                 self.faults.push(Fault::new(format!("part[{i}].rigid"), message, "make them one part, or mesh them apart"));
                 continue;
             }
-            if let Some(&node) = nodes.iter().find(|&&node| self.constraints.of(node as usize).is_some()) {
+            // It can't leave the axis: nothing moves it along x.
+            let holds = |node: u32| {
+                self.constraints.of(node as usize).is_some_and(|held| !(model.is_axisymmetric() && held.holds_only([1.0, 0.0])))
+            };
+            if let Some(&node) = nodes.iter().find(|&&node| holds(node)) {
                 let message =
                     format!("part \"{}\" is rigid, but a symmetry line or a constraint holds its node at {}", part.name, self.place(node));
                 let help = "let `rigid` of the part say how it moves, and take it out of the symmetry (`parts`) or the constraint";
@@ -121,9 +125,14 @@ impl Builder<'_> {
         }
     }
 
-    /// What prescribes the velocities of a body.
+    /// What prescribes the velocities of a body. A body of revolution moves along its axis only.
     pub(super) fn drives(&self, motion: &Motion) -> [Option<Speed>; 3] {
         let [x, y] = &motion.velocity;
-        [x, y, &motion.spin].map(|drive| drive.as_ref().and_then(|drive| self.curves.speed(drive)))
+        let [x, y, spin] = [x, y, &motion.spin].map(|drive| drive.as_ref().and_then(|drive| self.curves.speed(drive)));
+        if !self.model.is_axisymmetric() {
+            return [x, y, spin];
+        }
+        let still = || Some(Speed::constant(0.0));
+        [still(), y, still()]
     }
 }

@@ -6,7 +6,7 @@ use crate::contact::law::{self, Law};
 use crate::contact::mirror::{MirrorLine, MirroredNode};
 use crate::contact::springs::{Tangential, Terms};
 use crate::contact::tracker::SKIN;
-use crate::contact::{Vector, initial};
+use crate::contact::{Tributary, Vector, initial};
 use crate::model::{ContactLaw, Interface, Partners};
 use crate::{contact, model};
 
@@ -25,22 +25,22 @@ impl Builder<'_> {
             }
             let surface = side.target.surface.nodes.iter().zip(&side.nodes);
             let nodes: Vec<MirroredNode> = surface
-                .map(|(&node, &(length, own))| (node, height(self.mesh.positions[node as usize], point, normal), length, own))
-                .filter(|&(node, height, ..)| is_held[node as usize] && height > tolerance)
-                .map(|(node, height, length, own)| self.mirrored(&contact.interface, node, height, [length, own]))
+                .map(|(&node, &own)| (node, height(self.mesh.positions[node as usize], point, normal), own))
+                .filter(|&(node, height, _)| is_held[node as usize] && height > tolerance)
+                .map(|(node, height, own)| self.mirrored(&contact.interface, node, height, own))
                 .collect();
-            let mean = nodes.iter().map(|node| node.area).sum::<f64>() / nodes.len().max(1) as f64;
+            let mean = side.nodes.iter().map(|own| own.length).sum::<f64>() / side.nodes.len().max(1) as f64;
             MirrorLine { point, normal, nodes, reach: SKIN * mean + half_law(&contact.interface).reach() }
         };
-        self.mirror_lines().map(line).filter(|line| !line.nodes.is_empty()).collect()
+        self.mirror_lines().map(line).collect()
     }
 
-    fn mirrored(&self, interface: &Interface, node: u32, height: f64, [length, own]: [f64; 2]) -> MirroredNode {
-        let here = law::Node { tributary: length, own, other: own, share: self.constraints.share(node) };
+    fn mirrored(&self, interface: &Interface, node: u32, height: f64, own: Tributary) -> MirroredNode {
+        let here = law::Node { own, other: own.stiffness, share: self.constraints.share(node) };
         // As a surface keeps from itself: no more than half of what lay between.
         let reach = 2.0 * half_law(interface).reach();
         let distance = 0.5 * (interface.thickness - (interface.thickness + reach - height).max(0.0));
-        MirroredNode { node, stiffness: 4.0 * stiffness_of(interface, here, 2), area: length, distance }
+        MirroredNode { node, stiffness: 4.0 * stiffness_of(interface, here, 2), area: own.area, distance }
     }
 }
 

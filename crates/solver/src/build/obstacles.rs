@@ -8,9 +8,10 @@ use crate::contact::obstacle::plane::Plane;
 use crate::contact::obstacle::{Both, NodeObstacle, OutlineShape, Shape};
 use crate::contact::projection::node_segment::Target;
 use crate::contact::tracker::{SKIN, Tracker};
-use crate::contact::{self, Contact, ContactKind, Formulation, Vector, initial, law, length};
+use crate::contact::{self, Contact, ContactKind, Formulation, Tributary, Vector, initial, law, length};
 use crate::error::Fault;
 use crate::load::constraint::unit;
+use crate::load::tributary::Depth;
 use crate::mesh::surface::{NONE, Surface};
 use crate::model::{Obstacle, ObstacleShape};
 use crate::rigid::{Body, Member};
@@ -19,10 +20,10 @@ use std::f64::consts::TAU;
 /// The outside of the bodies that an obstacle stops.
 struct Met {
     outline: Outlined,
-    /// Tributary length (m) and pressure stiffness (Pa/m) of each of its nodes.
-    own: Vec<(f64, f64)>,
-    /// Mean of both over the nodes.
-    mean: (f64, f64),
+    /// What each of its nodes stands for.
+    own: Vec<Tributary>,
+    /// Mean over the nodes.
+    mean: Tributary,
     /// Longest segment, m.
     longest: f64,
     /// Reach of the law, m.
@@ -32,9 +33,9 @@ struct Met {
 impl Met {
     /// A point of the obstacle as a slave: it has as much as a node of the parts.
     fn point(&self, obstacle: &Obstacle) -> Slave {
-        let (area, own) = self.mean;
-        let here = law::Node { tributary: area, own, other: own, share: 1.0 };
-        Slave { stiffness: stiffness_of(&obstacle.interface, here, 1), area, slip: 0.0 }
+        let own = self.mean;
+        let here = law::Node { own, other: own.stiffness, share: 1.0 };
+        Slave { stiffness: stiffness_of(&obstacle.interface, here, 1), area: own.area, slip: 0.0 }
     }
 }
 
@@ -45,17 +46,21 @@ impl Builder<'_> {
     pub(super) fn obstacles(&mut self) -> Vec<Contact> {
         let mut contacts = Vec::new();
         for (i, obstacle) in self.model.obstacles.iter().enumerate() {
-            let terms = terms_of(&obstacle.interface);
-            let made = self.met(obstacle, terms.law.reach()).and_then(|met| self.obstacle(obstacle, met));
-            match made {
+            match self.obstacle_formulation(obstacle) {
                 Ok((body, formulation)) => {
-                    let (kind, terms) = (ContactKind::Obstacle(body), self.add_terms(terms));
+                    let (kind, terms) = (ContactKind::Obstacle(body), self.add_terms(terms_of(&obstacle.interface)));
                     contacts.push(Contact::new(obstacle.name.clone(), kind, formulation, terms, obstacle.interface.active));
                 }
                 Err(fault) => self.faults.push(Fault { path: format!("obstacle[{i}]{}", fault.path), ..fault }),
             }
         }
         contacts
+    }
+
+    /// The body of an obstacle, and what makes springs at it.
+    pub(super) fn obstacle_formulation(&mut self, obstacle: &Obstacle) -> Result<(usize, Box<dyn Formulation>), Fault> {
+        let met = self.met(obstacle, terms_of(&obstacle.interface).law.reach())?;
+        self.obstacle(obstacle, met)
     }
 
     /// The outside of the parts that an obstacle stops.
@@ -67,9 +72,10 @@ impl Builder<'_> {
     fn met(&self, obstacle: &Obstacle, reach: f64) -> Result<Met, Fault> {
         let Side { target, lids, nodes: own, .. } = self.side(self.outline_met(obstacle)?, &obstacle.interface);
         let count = own.len().max(1) as f64;
-        let sum = own.iter().fold((0.0, 0.0), |sum, it| (sum.0 + it.0, sum.1 + it.1));
+        let mean = |of: fn(&Tributary) -> f64| own.iter().map(of).fold(0.0, |sum, it| sum + it) / count;
+        let mean = Tributary { area: mean(|it| it.area), length: mean(|it| it.length), stiffness: mean(|it| it.stiffness) };
         let longest = target.surface.segments.iter().map(|&segment| length(segment, &self.mesh.positions)).fold(0.0, f64::max);
-        Ok(Met { outline: Outlined { target, lids }, own, mean: (sum.0 / count, sum.1 / count), longest, reach })
+        Ok(Met { outline: Outlined { target, lids }, own, mean, longest, reach })
     }
 
     /// The body of an obstacle, and what makes springs at it.
@@ -90,18 +96,14 @@ impl Builder<'_> {
         length: Option<f64>,
     ) -> Result<(usize, Box<dyn Formulation>), Fault> {
         let reference = obstacle.reference.unwrap_or(point);
-        let shape = plane(seen(point, reference), normal, length, obstacle.interface.thickness, met.mean.0)?;
+        let shape = plane(seen(point, reference), normal, length, obstacle.interface.thickness, met.mean.length)?;
         // Beyond every picture of the model.
         let far = shape.half.min(20.0 * initial::size(&self.mesh.positions));
         let points = shape.at([-far, far]).into();
-        let mut rigid = self.obstacle_body(obstacle, reference);
         let arms = shape.ends().into_iter().flatten();
         let ends: Vec<(Vector, Vector)> = arms.map(|arm| (arm, [reference[0] + arm[0], reference[1] + arm[1]])).collect();
         let ends = ends.into_iter().filter(|&(_, x)| !self.is_beyond_mirrors(x, &obstacle.parts)).collect::<Vec<_>>();
-        rigid.members = ends.into_iter().map(|(arm, x)| Member { node: self.add_node(x), arm }).collect();
-        let own: Vec<u32> = rigid.members.iter().map(|member| member.node).collect();
-        let body = self.bodies.add_with_nodes(rigid, self.positions.len());
-        self.outlines.push(OutlineShape { name: obstacle.name.clone(), body, points });
+        let (body, own) = self.register(obstacle, reference, ends, points);
         let held = |node: u32| self.is_held_along(node, shape.normal);
         let nodes = self.node_obstacle(obstacle, &met, Box::new(shape), body, held);
         if own.is_empty() {
@@ -136,18 +138,11 @@ impl Builder<'_> {
         };
         let points = (0..=ROUND).map(place).collect();
         let shape = Box::new(shape);
-        let mut rigid = self.obstacle_body(obstacle, reference);
-        if hollow || pushed >= met.longest {
-            let body = self.bodies.add(rigid);
-            self.outlines.push(OutlineShape { name: obstacle.name.clone(), body, points });
-            return Ok((body, Box::new(self.node_obstacle(obstacle, &met, shape, body, |_| false))));
-        }
-        // Smaller than the segments: it can come in between the nodes.
-        let node = self.add_node(centre);
-        rigid.members.push(Member { node, arm: middle });
-        let body = self.bodies.add_with_nodes(rigid, self.positions.len());
-        self.outlines.push(OutlineShape { name: obstacle.name.clone(), body, points });
+        // Smaller than the segments it can come in between the nodes.
+        let slips_through = !hollow && pushed < met.longest;
+        let (body, own) = self.register(obstacle, reference, if slips_through { vec![(middle, centre)] } else { Vec::new() }, points);
         let nodes = self.node_obstacle(obstacle, &met, shape, body, |_| false);
+        let Some(&node) = own.first() else { return Ok((body, Box::new(nodes))) };
         let slave = met.point(obstacle);
         let tracker = self.tracker(met.outline, points_only(vec![node]), &[(1, 0)], &self.positions);
         let segments = RoundSegments::new(tracker, slave, [pushed, met.reach], body, initial::is_ignored(&obstacle.interface));
@@ -160,30 +155,21 @@ impl Builder<'_> {
         let mean = [0, 1].map(|d| own.iter().map(|x| x[d]).sum::<f64>() / own.len() as f64);
         let reference = obstacle.reference.unwrap_or(mean);
         let arm = |x: &[f64; 2]| [x[0] - reference[0], x[1] - reference[1]];
-        let mut rigid = self.obstacle_body(obstacle, reference);
-        rigid.members = own.iter().map(|x| Member { node: self.add_node(*x), arm: arm(x) }).collect();
-        let nodes: Vec<u32> = rigid.members.iter().map(|member| member.node).collect();
-        let body = self.bodies.add_with_nodes(rigid, self.positions.len());
-        self.outlines.push(OutlineShape { name: obstacle.name.clone(), body, points: points.iter().map(arm).collect() });
+        let places = own.iter().map(|x| (arm(x), *x)).collect();
+        let (body, nodes) = self.register(obstacle, reference, places, points.iter().map(arm).collect());
         let surface = chain(nodes, closed);
         let lines: Vec<f64> = surface.segments.iter().map(|&segment| length(segment, &self.positions)).collect();
         // Lines as fine as the segments meet them as another surface would, half in each pass. Of long ones only the corners count besides, each with as much as a node
         // of the parts has.
-        let passes = if lines.iter().sum::<f64>() <= lines.len() as f64 * met.mean.0 { 2 } else { 1 };
-        let slave = |tributary: f64, own: f64, share: f64| {
-            let here = law::Node { tributary, own, other: own, share };
-            Slave { stiffness: stiffness_of(&obstacle.interface, here, passes), area: tributary / passes as f64, slip: 0.0 }
+        let passes = if lines.iter().sum::<f64>() <= lines.len() as f64 * met.mean.length { 2 } else { 1 };
+        let slave = |own: Tributary, share: f64| {
+            let here = law::Node { own, other: own.stiffness, share };
+            Slave { stiffness: stiffness_of(&obstacle.interface, here, passes), area: own.area / passes as f64, slip: 0.0 }
         };
-        let of_parts = met
-            .outline
-            .target
-            .surface
-            .nodes
-            .iter()
-            .zip(&met.own)
-            .map(|(&node, &(length, own))| slave(length, own, self.constraints.share(node)));
-        let of_corners = contact::node_stiffness(&surface, &vec![met.mean.1; lines.len()], &self.positions);
-        let of_corners = of_corners.iter().map(|&(length, own)| slave(length.min(met.mean.0), own, 1.0));
+        let of_parts = met.outline.target.surface.nodes.iter().zip(&met.own).map(|(&node, &own)| slave(own, self.constraints.share(node)));
+        let of_corners = contact::tributaries(&surface, &vec![met.mean.stiffness; lines.len()], &self.positions, Depth::of(self.model));
+        let least = |own: &Tributary| Tributary { area: own.area.min(met.mean.area), length: own.length.min(met.mean.length), ..*own };
+        let of_corners = of_corners.iter().map(|own| slave(least(own), 1.0));
         let slaves = vec![of_parts.collect(), of_corners.collect()];
         let own = Target { surface, mirrors: Vec::new() };
         let tracker = self.tracker(met.outline, own, &[(0, 1), (1, 0)], &self.positions).with_ends(&self.positions);
@@ -194,6 +180,25 @@ impl Builder<'_> {
     pub(super) fn tracker(&self, parts: Outlined, obstacle: Target, passes: &[(usize, usize)], positions: &[Vector]) -> Tracker {
         let search = (search_by_name("").expect("the registry of searches is not empty").make)();
         Tracker::new(vec![parts.target, obstacle], passes, search, positions).with_bodies(&self.body_of_node, &[parts.lids, Vec::new()])
+    }
+
+    /// The rigid body of an obstacle and its nodes, at these arms and places, m; `points` of its outline. Those that are there already, where contacts are made again.
+    fn register(
+        &mut self,
+        obstacle: &Obstacle,
+        reference: Vector,
+        places: Vec<(Vector, Vector)>,
+        points: Vec<Vector>,
+    ) -> (usize, Vec<u32>) {
+        if let Some(&body) = self.made.get(&obstacle.name) {
+            return (body, self.bodies.state(body).members.iter().map(|member| member.node).collect());
+        }
+        let mut rigid = self.obstacle_body(obstacle, reference);
+        rigid.members = places.into_iter().map(|(arm, x)| Member { node: self.add_node(x), arm }).collect();
+        let nodes: Vec<u32> = rigid.members.iter().map(|member| member.node).collect();
+        let body = if nodes.is_empty() { self.bodies.add(rigid) } else { self.bodies.add_with_nodes(rigid, self.positions.len()) };
+        self.outlines.push(OutlineShape { name: obstacle.name.clone(), body, points });
+        (body, nodes)
     }
 
     /// A node that belongs to no element.
@@ -211,12 +216,12 @@ impl Builder<'_> {
         body: usize,
         left_out: impl Fn(u32) -> bool,
     ) -> NodeObstacle {
-        let slave = |(&node, &(length, own)): (&u32, &(f64, f64))| {
-            let here = law::Node { tributary: length, own, other: own, share: self.constraints.share(node) };
-            (!left_out(node)).then(|| (node, Slave { stiffness: stiffness_of(&obstacle.interface, here, 1), area: length, slip: 0.0 }))
+        let slave = |(&node, &own): (&u32, &Tributary)| {
+            let here = law::Node { own, other: own.stiffness, share: self.constraints.share(node) };
+            (!left_out(node)).then(|| (node, Slave { stiffness: stiffness_of(&obstacle.interface, here, 1), area: own.area, slip: 0.0 }))
         };
         let nodes = met.outline.target.surface.nodes.iter().zip(&met.own).filter_map(slave).collect();
-        NodeObstacle::new(shape, body, nodes, SKIN * met.mean.0 + met.reach, initial::is_ignored(&obstacle.interface))
+        NodeObstacle::new(shape, body, nodes, SKIN * met.mean.length + met.reach, initial::is_ignored(&obstacle.interface))
     }
 
     /// The rigid body of an obstacle with its reference point, m.

@@ -9,8 +9,9 @@ use super::node_segment::{Face, Slave};
 use super::projection::node_segment::Target;
 use super::search::Search;
 use super::tracker::Tracker;
-use super::{Formulation, Vector, law, length, node_segment, pinball, segment, tied};
+use super::{Formulation, Tributary, Vector, law, node_segment, pinball, segment, tied};
 use crate::error::Fault;
+use crate::load::tributary::Depth;
 use crate::model::{self, ContactLaw, Partners, Penalty, PenaltySource};
 
 /// A formulation as the registry describes it.
@@ -67,8 +68,8 @@ pub struct Side<'a> {
     pub segments: Vec<f64>,
     /// Part behind each segment.
     pub parts: Vec<u32>,
-    /// Tributary length (m) and κ (Pa/m) of each node.
-    pub nodes: Vec<(f64, f64)>,
+    /// What each node stands for.
+    pub nodes: Vec<Tributary>,
     /// Nodes of the element behind each segment, counter-clockwise.
     pub cells: Vec<&'a [u32]>,
 }
@@ -97,12 +98,16 @@ pub struct Setup<'a> {
     pub bodies: &'a [u32],
     /// Initial positions, m.
     pub positions: &'a [Vector],
+    /// What lengths are multiplied by.
+    pub depth: Depth,
     /// Makes the law of the normal force.
     pub law: &'a dyn Fn() -> Box<dyn Law>,
     /// Number of the terms that its ties follow; of a contact that is not tied those of all its springs.
     pub tie_terms: usize,
     /// Makes a search of the kind that the contact names.
     pub search: &'a dyn Fn() -> Box<dyn Search<2>>,
+    /// Whether it will take over from one that has acted already, because surfaces have changed.
+    pub again: bool,
 }
 
 impl Setup<'_> {
@@ -129,11 +134,11 @@ impl Setup<'_> {
     #[must_use]
     pub fn slaves(&self, side: usize, passes: usize) -> Vec<Slave> {
         let Target { surface, mirrors } = &self.sides[side].target;
-        let of = |(&(tributary, own), node): (&(f64, f64), &u32)| {
+        let of = |(&own, node): (&Tributary, &u32)| {
             let on_line = mirrors.binary_search_by_key(node, |&(node, _)| node).is_ok();
-            let node = law::Node { tributary, own, other: f64::INFINITY, share: if on_line { 0.5 } else { 1.0 } };
+            let node = law::Node { own, other: f64::INFINITY, share: if on_line { 0.5 } else { 1.0 } };
             // In a double pass each side carries half of the pressure.
-            Slave { stiffness: law::penalty::stiffness(self.penalty(), node, passes), area: tributary / passes as f64, slip: 0.0 }
+            Slave { stiffness: law::penalty::stiffness(self.penalty(), node, passes), area: own.area / passes as f64, slip: 0.0 }
         };
         self.sides[side].nodes.iter().zip(&surface.nodes).map(of).collect()
     }
@@ -145,8 +150,8 @@ impl Setup<'_> {
         let surface = &target.surface;
         let mut faces = vec![[Face::default(); 2]; surface.nodes.len()];
         for (&segment, stiffness) in surface.segments.iter().zip(segments) {
-            let length = length(segment, self.positions);
-            for (end, node) in segment.iter().enumerate() {
+            let shares = self.depth.shares(segment.map(|node| self.positions[node as usize]));
+            for (end, (node, length)) in segment.iter().zip(shares).enumerate() {
                 if let Ok(at) = surface.nodes.binary_search(node) {
                     faces[at][1 - end] = Face { length, stiffness: length * stiffness };
                 }
@@ -174,9 +179,7 @@ impl Setup<'_> {
     #[must_use]
     pub fn per_modulus(&self, side: usize, passes: usize) -> Vec<f64> {
         match self.penalty() {
-            Penalty::Automatic { scale, .. } => {
-                self.sides[side].nodes.iter().map(|&(tributary, _)| scale * tributary / passes as f64).collect()
-            }
+            Penalty::Automatic { scale, .. } => self.sides[side].nodes.iter().map(|own| scale * own.area / passes as f64).collect(),
             Penalty::PerNode(_) | Penalty::Pressure(_) => Vec::new(),
         }
     }

@@ -7,6 +7,7 @@ use super::springs::{End, Spring, Springs};
 use super::tied::Ties;
 use super::tracker::{Certificate, SearchReport};
 use super::{Formulation, Scene, Vector};
+use std::any::Any;
 
 /// A node that may reach the line.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,6 +74,12 @@ impl Formulation for Mirrored {
     fn remember(&mut self, solved: &[Spring]) {
         // Nothing is found, and nothing solved, while the contact does not act.
         self.contact.remember(&solved[self.found.min(solved.len())..]);
+    }
+
+    fn inherit(&mut self, old: Box<dyn Any>) {
+        if let Ok(old) = old.downcast::<Self>() {
+            self.contact.inherit(old.contact);
+        }
     }
 
     fn freed(&self) -> f64 {

@@ -19,9 +19,11 @@ pub mod obstacle;
 pub mod mirror;
 pub mod traces;
 
+use crate::load::tributary::Depth;
 use crate::mesh::surface::Surface;
 use crate::rigid::Bodies;
 use springs::{Spring, Springs, Totals};
+use std::any::Any;
 use std::ops::Range;
 use tied::Ties;
 use traces::Traces;
@@ -31,13 +33,17 @@ use tracker::{Certificate, SearchReport};
 pub type Vector = [f64; 2];
 
 /// What makes springs of surfaces: nodes against segments, segments against segments, pinballs, nodes against obstacles.
-pub trait Formulation: Send {
+pub trait Formulation: Any + Send {
     /// Adds the springs of the step: of everything that is inside or may come in during the next update, so that a spring is there before it is
     /// needed (one that closes unseen would give back what it never took).
     fn detect(&mut self, scene: &Scene<'_>, springs: &mut Springs);
 
     /// Keeps what the next step needs of the solved springs, in the order of [`Formulation::detect`].
     fn remember(&mut self, solved: &[Spring]);
+
+    /// Takes over what its predecessor knew, which was of the same kind and made of the same contact before surfaces changed. What belongs to nodes and segments that are no
+    /// more is forgotten.
+    fn inherit(&mut self, old: Box<dyn Any>);
 
     /// Energy of springs that broke in the last step and will not come back, J/m.
     fn freed(&self) -> f64 {
@@ -115,6 +121,8 @@ pub struct Contact {
     /// What friction took until the last half step, J/m.
     pub friction_work: f64,
     formulation: Box<dyn Formulation>,
+    /// What was checked before its surfaces were gone.
+    checked: Certificate,
     /// Number of the terms that its springs follow.
     terms: usize,
     /// Times between which it acts, s.
@@ -137,6 +145,7 @@ impl Contact {
             has_pressed: false,
             friction_work: 0.0,
             formulation,
+            checked: Certificate::default(),
             terms,
             active,
             time: 0.0,
@@ -174,6 +183,31 @@ impl Contact {
             if ends { springs.list[self.found.clone()].iter().flat_map(|spring| spring.stored).sum() } else { self.formulation.freed() };
     }
 
+    /// Goes on with another formulation of the same kind, made of changed surfaces.
+    pub fn renew(&mut self, formulation: Box<dyn Formulation>) {
+        let old = std::mem::replace(&mut self.formulation, formulation);
+        self.formulation.inherit(old);
+    }
+
+    /// Acts no more: one of its surfaces is gone.
+    pub fn end(&mut self) {
+        self.checked += self.formulation.certificate();
+        self.formulation = Box::new(Nothing);
+    }
+
+    /// Energy at n + ½ of the springs of the last step that have not broken, J/m.
+    #[must_use]
+    pub fn stored(&self, springs: &Springs) -> f64 {
+        let of = |spring: &Spring| spring.stored[0] + spring.stored[1];
+        springs.list[self.found.clone()].iter().map(of).sum::<f64>() - self.totals.lost.freed
+    }
+
+    /// Energy at n − ½ of the springs of this step, J/m.
+    #[must_use]
+    pub fn stored_before(&self, springs: &Springs) -> f64 {
+        springs.list[self.found.clone()].iter().map(|spring| spring.stored_before).sum()
+    }
+
     /// Its ties, if it has such.
     #[must_use]
     pub fn ties(&self) -> Option<Ties> {
@@ -183,7 +217,9 @@ impl Contact {
     /// What was checked so far, and whether a contact was missed.
     #[must_use]
     pub fn certificate(&self) -> Certificate {
-        self.formulation.certificate()
+        let mut sum = self.checked;
+        sum += self.formulation.certificate();
+        sum
     }
 
     /// What the global search did, if there is one.
@@ -215,23 +251,47 @@ impl Contact {
     }
 }
 
+/// Stands in where a surface is gone.
+struct Nothing;
+
+impl Formulation for Nothing {
+    fn detect(&mut self, _: &Scene<'_>, _: &mut Springs) {}
+    fn remember(&mut self, _: &[Spring]) {}
+    fn inherit(&mut self, _: Box<dyn Any>) {}
+}
+
 pub(crate) fn length(segment: [u32; 2], positions: &[Vector]) -> f64 {
     let [a, b] = segment.map(|node| positions[node as usize]);
     ((b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2)).sqrt()
 }
 
-/// Tributary length (m) and mean pressure stiffness (Pa/m) of each node of a surface, in the order of its nodes.
+/// What a node of a surface stands for.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Tributary {
+    /// Area, m²/m; of a body of revolution m², all around.
+    pub area: f64,
+    /// Length, m.
+    pub length: f64,
+    /// Mean pressure stiffness κ of the elements behind it, Pa/m.
+    pub stiffness: f64,
+}
+
+/// What each node of a surface stands for, in the order of its nodes.
 #[must_use]
-pub fn node_stiffness(surface: &Surface, pressure_stiffness: &[f64], positions: &[Vector]) -> Vec<(f64, f64)> {
-    let mut sums = vec![(0.0, 0.0); surface.nodes.len()];
+pub fn tributaries(surface: &Surface, pressure_stiffness: &[f64], positions: &[Vector], depth: Depth) -> Vec<Tributary> {
+    let mut sums = vec![Tributary::default(); surface.nodes.len()];
     for (&segment, &stiffness) in surface.segments.iter().zip(pressure_stiffness) {
-        let half = 0.5 * length(segment, positions);
-        for node in segment {
+        let shares = depth.shares(segment.map(|node| positions[node as usize]));
+        for (node, share) in segment.into_iter().zip(shares) {
             if let Ok(at) = surface.nodes.binary_search(&node) {
-                sums[at].0 += half;
-                sums[at].1 += half * stiffness;
+                sums[at].area += share;
+                sums[at].length += 0.5 * length(segment, positions);
+                sums[at].stiffness += share * stiffness;
             }
         }
     }
-    sums.into_iter().map(|(length, weighted)| (length, weighted / length)).collect()
+    for sum in &mut sums {
+        sum.stiffness /= sum.area;
+    }
+    sums
 }

@@ -10,6 +10,7 @@ use super::tracker::{Certificate, Memory, SearchReport, Touch, Tracker, is_facin
 use super::{Formulation, Scene, Sweep, Vector};
 use crate::mesh::surface::NONE;
 use crate::model;
+use std::any::Any;
 
 /// Registry entry.
 pub const DOUBLE_PASS: FormulationKind = FormulationKind {
@@ -64,7 +65,7 @@ pub struct PassInput {
 /// What a segment at a node has of the node's tributary length and of its stiffness, as fractions.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Face {
-    /// Fraction of the length.
+    /// Fraction of the length, of a body of revolution of the area.
     pub length: f64,
     /// Fraction of the stiffness.
     pub stiffness: f64,
@@ -99,7 +100,7 @@ impl PassInput {
 pub struct Slave {
     /// Stiffness, N/m per metre of depth.
     pub stiffness: f64,
-    /// Length of surface that it stands for, m: its own, half of that where both surfaces are slaves.
+    /// Area of surface that it stands for, m (of a body of revolution m²): its own, half of that where both surfaces are slaves.
     pub area: f64,
     /// Elastic slip at n − ½, m.
     pub slip: f64,
@@ -211,6 +212,13 @@ impl Formulation for NodeSegment {
     fn remember(&mut self, solved: &[Spring]) {
         for (touch, spring) in self.touches.iter().zip(solved) {
             self.tracker.remember(touch, Memory { slip: spring.slip_new, half: spring.gap_new, ..touch.memory });
+        }
+    }
+
+    fn inherit(&mut self, old: Box<dyn Any>) {
+        if let Ok(old) = old.downcast::<Self>() {
+            self.tracker.inherit(&old.tracker);
+            self.has_begun = old.has_begun;
         }
     }
 

@@ -18,6 +18,7 @@ use super::springs::{End, Spring, Springs};
 use super::tracker::SKIN;
 use super::{Formulation, Scene, Sweep, Vector, length};
 use crate::model;
+use std::any::Any;
 
 /// Registry entry.
 pub const KIND: FormulationKind = FormulationKind {
@@ -81,6 +82,8 @@ struct Near {
     slip: f64,
     /// Gap that counts as zero, m; not positive.
     offset: f64,
+    /// Whether the pair was there before the surfaces changed.
+    known: bool,
 }
 
 impl Disk {
@@ -300,7 +303,7 @@ impl Formulation for Pinball {
                 let had = (a[0] - b[0]).hypot(a[1] - b[1]) - touching;
                 gap += (self.thickness + self.reach - 0.5 * had.max(0.0)).max(0.0);
             }
-            let offset = kept(self.has_begun, near.offset, gap);
+            let offset = kept(self.has_begun || near.known, near.offset, gap);
             near.offset = if self.ignores_start || own { offset } else { 0.0 };
             let area = one.length.min(other.length);
             let stiffness = area * penalty::pressure(self.penalty, one.stiffness, other.stiffness);
@@ -314,6 +317,29 @@ impl Formulation for Pinball {
             springs.push(spring, &ends[..one.count + other.count]);
         }
         self.has_begun = true;
+    }
+
+    fn inherit(&mut self, old: Box<dyn Any>) {
+        let Ok(old) = old.downcast::<Self>() else { return };
+        let mut by_nodes: Vec<([u32; 4], usize)> = self.disks.iter().map(|disk| disk.nodes).zip(0..).collect();
+        by_nodes.sort_unstable();
+        let find = |disk: u32| {
+            let disk = &old.disks[disk as usize];
+            let first = by_nodes.partition_point(|&(nodes, _)| nodes < disk.nodes);
+            let same = by_nodes[first..].iter().take_while(|&&(nodes, _)| nodes == disk.nodes).map(|&(_, index)| index);
+            same.into_iter().find(|&index| self.disks[index].shares == disk.shares).map(|index| index as u32)
+        };
+        let now = |near: &Near| {
+            let mut pair = [find(near.pair[0])?, find(near.pair[1])?];
+            if self.meets_itself() {
+                pair.sort_unstable();
+            }
+            Some(Near { pair, known: old.has_begun, ..*near })
+        };
+        // The first search looks what is known of its pairs up here. Disks that come to light may be in each other, where their body has been squeezed: that counts as zero.
+        let mut near: Vec<Near> = old.near.iter().filter_map(now).collect();
+        near.sort_by_key(|near| near.pair);
+        self.near = near;
     }
 
     fn remember(&mut self, solved: &[Spring]) {

@@ -4,7 +4,8 @@
 //! is where both projections on t overlap; at each of its Gauss points stand the points x_a and x_b of the segments with the same coordinate along t, and between
 //! them a spring with the gap g = n·(x_a − x_b) and the stiffness κ w ℓ (weight w, length ℓ of the common part). The forces are F ∂g/∂x of the four nodes: the gap does not
 //! change when both segments move together, so both momenta are exact. A uniform gap gives the consistent loads of a uniform pressure on both meshes, so flat surfaces pass the patch test whatever
-//! their nodes; node-to-segment contact does not. After Papadopoulos and Taylor, Comput. Meth. Appl. Mech. Engng 94 (1992) 373-389 (integration over the parts that
+//! their nodes; node-to-segment contact does not. In a body of revolution each point stands for its present circumference, w ℓ 2π x with x half way between x_a and x_b, and the forces are
+//! the gradient of that energy. After Papadopoulos and Taylor, Comput. Meth. Appl. Mech. Engng 94 (1992) 373-389 (integration over the parts that
 //! segments have in common) and Puso and Laursen, Comput. Meth. Appl. Mech. Engng 193 (2004) 601-629 (common plane of both).
 //!
 //! Which pairs there are comes from the [`Tracker`], nodes of each surface against the other: the two segments at a node that touches, with the segment it touches and its neighbours.
@@ -16,8 +17,10 @@ use super::law::{Law, penalty};
 use super::springs::{End, Spring, Springs};
 use super::tracker::{Certificate, SearchReport, Touch, Tracker};
 use super::{Formulation, Scene, Vector};
+use crate::load::tributary::Depth;
 use crate::mesh::surface::{NONE, Surface};
 use crate::model::{ContactLaw, Penalty};
+use std::any::Any;
 
 /// Registry entry.
 pub const KIND: FormulationKind = FormulationKind {
@@ -46,6 +49,7 @@ pub struct Segment {
     law: Box<dyn Law>,
     penalty: Penalty,
     rule: Rule,
+    depth: Depth,
     /// Distance that the surfaces keep, m.
     thickness: f64,
     /// Largest gap at which the law pushes, m.
@@ -149,7 +153,7 @@ impl Segment {
         // With springs that don't give way two points a pair were more conditions than the nodes can meet.
         let rule = if matches!(setup.contact.interface.law, ContactLaw::Multiplier) { ONE } else { TWO };
         let law = (setup.law)();
-        let (penalty, thickness, reach) = (setup.penalty(), setup.contact.interface.thickness, law.reach());
+        let (penalty, thickness, reach, depth) = (setup.penalty(), setup.contact.interface.thickness, law.reach(), setup.depth);
         let chains: Vec<Chain> = setup.sides.iter().map(|side| Chain::new(&side.target.surface, side.segments.clone())).collect();
         let count = chains.iter().map(|chain| chain.depth.len()).sum();
         let at_a_distance = thickness + reach > 0.0;
@@ -166,6 +170,7 @@ impl Segment {
             law,
             penalty,
             rule,
+            depth,
             thickness,
             reach,
             start,
@@ -301,10 +306,15 @@ impl Segment {
             facing.offsets[k] = if self.start.ignored { offset } else { 0.0 };
             let gap = gap - facing.offsets[k];
             let [energy, push] = self.density(gap, pressure);
+            let around = self.depth.at(common.middle(place).map(|x| x.max(0.0)));
             if energy > least && push > 0.0 {
-                common.vary_area(&mut ends, -(energy - least) / push);
+                let factor = -(energy - least) / push;
+                common.vary_area(&mut ends, factor);
+                if self.depth == Depth::Revolution {
+                    common.vary_radius(&mut ends, place, factor);
+                }
             }
-            let (normal, area) = (common.normal, weight * common.area);
+            let (normal, area) = (common.normal, weight * common.area * around);
             let side = if self.chains.len() == 1 { 0.0 } else { 1.0 };
             let (stiffness, slip) = (pressure * area, facing.slips[k]);
             springs.push(Spring { normal, gap, stiffness, area, side, slip, ..Spring::default() }, &ends);
@@ -366,6 +376,33 @@ impl Formulation for Segment {
             self.connect(self.commons[index], springs);
         }
         self.start.has_begun = true;
+    }
+
+    fn inherit(&mut self, old: Box<dyn Any>) {
+        let Ok(old) = old.downcast::<Self>() else { return };
+        self.tracker.inherit(&old.tracker);
+        self.start.has_begun = old.start.has_begun;
+        let (surfaces, before) = (self.surfaces(), &old.facing);
+        let by_nodes = surfaces.map(|surface| {
+            let mut list: Vec<([u32; 2], u32)> = self.tracker.targets()[surface].surface.segments.iter().copied().zip(0..).collect();
+            list.sort_unstable();
+            list
+        });
+        let now = |facing: &Facing| {
+            let mut pair = facing.pair;
+            for k in 0..2 {
+                let nodes = old.tracker.targets()[surfaces[k]].surface.segments[pair[k] as usize];
+                let at = by_nodes[k].binary_search_by_key(&nodes, |&(nodes, _)| nodes).ok()?;
+                pair[k] = by_nodes[k][at].1;
+            }
+            // A surface that meets itself has each pair once.
+            if surfaces[0] == surfaces[1] {
+                pair.sort_unstable();
+            }
+            Some(Facing { pair, ..*facing })
+        };
+        self.facing = before.iter().filter_map(now).collect();
+        self.facing.sort_by_key(|facing| facing.pair);
     }
 
     fn certificate(&self) -> Certificate {
@@ -447,31 +484,58 @@ impl Common {
     /// Friction acts along t at both points, which are the gap apart; its couple is taken by forces across both segments, half of it each. So the slip rate
     /// ṡ = t·(v_a − v_b) + ½ g (θ̇_a + θ̇_b) does not see rotations of both together, and friction keeps the angular momentum.
     fn point(&self, place: f64) -> (f64, [End; 4]) {
-        let (n, origin) = (self.normal, self.positions[0][0]);
-        let t = [-n[1], n[0]];
+        let n = self.normal;
+        let [xa, xb] = self.points(place);
+        let gap = dot(minus(xa, xb), n);
+        let (weights, slid) = (self.weights(place), self.slides(place, [n, [-n[0], -n[1]]]));
+        let end = |k: usize, i: usize| {
+            let share = if k == 0 { weights[k][i] } else { -weights[k][i] };
+            End { at: self.nodes[k][i], share, lean: slid[k][i], turn: self.half_angle(k, i).map(|half| gap * half), ..End::default() }
+        };
+        (gap, [end(0, 0), end(0, 1), end(1, 0), end(1, 1)])
+    }
+
+    /// What each node has of the points x_a and x_b at a place.
+    fn weights(&self, place: f64) -> [[f64; 2]; 2] {
         let s = self.begin + place * self.length;
-        let weights = self.along.map(|[begin, end]| {
+        self.along.map(|[begin, end]| {
             let share = (s - begin) / (end - begin);
             [1.0 - share, share]
-        });
-        let [xa, xb] = [0, 1].map(|k| [0, 1].map(|d| weights[k][0] * self.positions[k][0][d] + weights[k][1] * self.positions[k][1][d]));
-        let gap = dot(minus(xa, xb), n);
+        })
+    }
+
+    /// x_a and x_b at a place, m.
+    fn points(&self, place: f64) -> [Vector; 2] {
+        let weights = self.weights(place);
+        [0, 1].map(|k| [0, 1].map(|d| weights[k][0] * self.positions[k][0][d] + weights[k][1] * self.positions[k][1][d]))
+    }
+
+    /// Half way between x_a and x_b, m.
+    fn middle(&self, place: f64) -> Vector {
+        let [xa, xb] = self.points(place);
+        [0, 1].map(|d| 0.5 * (xa[d] + xb[d]))
+    }
+
+    /// Derivative of c_a·x_a + c_b·x_b by the position of each node, as far as it comes from the points' sliding along their segments.
+    fn slides(&self, place: f64, by: [Vector; 2]) -> [[Vector; 2]; 2] {
+        let (n, origin) = (self.normal, self.positions[0][0]);
+        let t = [-n[1], n[0]];
+        let weights = self.weights(place);
         let chord = self.positions.map(|[begin, end]| minus(end, begin));
-        // Derivative of the gap by the coordinate of each node along t: by s at the nodes of the ends, by the segments' own nodes.
-        let slopes = [0, 1].map(|k| dot(n, chord[k]) / (self.along[k][1] - self.along[k][0]) * if k == 0 { 1.0 } else { -1.0 });
+        // By the coordinate of each node along t: by s at the nodes of the ends, by the segments' own nodes.
+        let slopes = [0, 1].map(|k| dot(by[k], chord[k]) / (self.along[k][1] - self.along[k][0]));
         let mut by_place = [0, 1].map(|k| weights[k].map(|weight| -slopes[k] * weight));
         for ([_, whose, end], part) in self.ends.into_iter().zip([1.0 - place, place]) {
             by_place[whose as usize][end as usize] += part * (slopes[0] + slopes[1]);
         }
         let height = |x: Vector| -dot(minus(x, origin), n);
         let by_angle: f64 = (0..4).map(|i| by_place[i / 2][i % 2] * height(self.positions[i / 2][i % 2])).sum();
-        let end = |k: usize, i: usize| {
-            let half = self.half_angle(k, i);
-            let share = if k == 0 { weights[k][i] } else { -weights[k][i] };
-            let lean = [0, 1].map(|d| by_place[k][i] * t[d] + by_angle * half[d]);
-            End { at: self.nodes[k][i], share, lean, turn: half.map(|half| gap * half), ..End::default() }
-        };
-        (gap, [end(0, 0), end(0, 1), end(1, 0), end(1, 1)])
+        [0, 1].map(|k| {
+            [0, 1].map(|i| {
+                let half = self.half_angle(k, i);
+                [0, 1].map(|d| by_place[k][i] * t[d] + by_angle * half[d])
+            })
+        })
     }
 
     /// ½ dφ_k of segment k by the position of its end i.
@@ -479,6 +543,20 @@ impl Common {
         let chord = minus(self.positions[k][1], self.positions[k][0]);
         let per_length = (i as f64 - 0.5) / dot(chord, chord);
         [-chord[1] * per_length, chord[0] * per_length]
+    }
+
+    /// Adds `factor` times the derivative of ln(r) to the rows of the gap, with the radius r half way between both points at a place.
+    fn vary_radius(&self, ends: &mut [End; 4], place: f64, factor: f64) {
+        let radius = self.middle(place)[0];
+        if !(radius > 0.0) {
+            return;
+        }
+        let (weights, slid) = (self.weights(place), self.slides(place, [[0.5, 0.0]; 2]));
+        for (index, end) in ends.iter_mut().enumerate() {
+            let (k, i) = (index / 2, index % 2);
+            let own = [0.5 * weights[k][i], 0.0];
+            end.lean = [0, 1].map(|d| end.lean[d] + factor / radius * (own[d] + slid[k][i][d]));
+        }
     }
 
     /// Adds `factor` times the derivative of ln(area) to the rows of the gap.

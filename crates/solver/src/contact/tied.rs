@@ -15,6 +15,7 @@ use super::springs::{Spring, Springs};
 use super::tracker::{Certificate, SearchReport};
 use super::{Formulation, Scene, Vector, length};
 use crate::error::Fault;
+use std::any::Any;
 
 /// What makes contacts with `tied`; it stands in for the formulation.
 pub const KIND: FormulationKind = FormulationKind {
@@ -82,9 +83,10 @@ impl Tied {
         let unborn = Unborn { search: (setup.search)(), nodes, input, thickness: interface.thickness };
         let (strength, terms, side) = (setup.contact.tied.unwrap_or(f64::INFINITY), setup.tie_terms, [1.0, -1.0][slave]);
         let (positions, bound) = (setup.positions, vec![false; unborn.nodes.len()]);
+        let again = setup.again;
         let loose = NodeSegment::of(setup);
         let mut tied = Self { target, ties: Vec::new(), unborn: Some(unborn), strength, terms, side, loose, bound, broken: 0, freed: 0.0 };
-        if birth <= 0.0 {
+        if birth <= 0.0 && !again {
             tied.bind(positions);
             if tied.ties.is_empty() {
                 let (first, second) = [("first", "second"), ("second", "first")][slave];
@@ -185,6 +187,31 @@ impl Formulation for Tied {
             }
             holds
         });
+    }
+
+    fn inherit(&mut self, old: Box<dyn Any>) {
+        let Ok(old) = old.downcast::<Self>() else { return };
+        let Self { target: before, ties, unborn, loose, broken, .. } = *old;
+        self.loose.inherit(Box::new(loose));
+        self.broken = broken;
+        if unborn.is_some() {
+            return;
+        }
+        let Some(Unborn { nodes, .. }) = self.unborn.take() else { return };
+        let mut by_nodes: Vec<([u32; 2], u32)> = self.target.surface.segments.iter().copied().zip(0..).collect();
+        by_nodes.sort_unstable();
+        for tie in ties {
+            let segment = before.surface.segments[tie.segment as usize];
+            let at = by_nodes.binary_search_by_key(&segment, |&(nodes, _)| nodes).ok().map(|at| by_nodes[at].1);
+            // Ties go with the elements on either side.
+            match (at, nodes.binary_search(&tie.node)) {
+                (Some(segment), Ok(slave)) => {
+                    self.bound[slave] = true;
+                    self.ties.push(Tie { slave: slave as u32, segment, ..tie });
+                }
+                _ => self.broken += 1,
+            }
+        }
     }
 
     fn certificate(&self) -> Certificate {

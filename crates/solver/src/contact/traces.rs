@@ -4,14 +4,16 @@
 
 use super::Vector;
 use super::springs::{Spring, Springs};
+use crate::load::tributary::Depth;
 use crate::mesh::surface::Surface;
 
 /// Sums over the run, and the outside that they belong to.
 #[derive(Clone, Debug, Default)]
 pub struct Traces {
     outside: Surface,
-    /// Initial length of surface at each node, m; zero inside.
-    length: Vec<f64>,
+    depth: Depth,
+    /// Initial area of surface at each node, m (of a body of revolution m²); zero inside.
+    area: Vec<f64>,
     /// Sliding distance of each node, m.
     slip: Vec<f64>,
     /// Friction work taken at each node, J/m.
@@ -30,14 +32,20 @@ pub struct State {
 impl Traces {
     /// For `outside`, the outside of all bodies of a model without contacts an empty one; `positions` are the initial ones.
     #[must_use]
-    pub fn new(outside: Surface, positions: &[Vector]) -> Self {
-        let mut length = vec![0.0; positions.len()];
+    pub fn new(outside: Surface, positions: &[Vector], depth: Depth) -> Self {
+        let mut area = vec![0.0; positions.len()];
         for &segment in &outside.segments {
-            for node in segment {
-                length[node as usize] += 0.5 * super::length(segment, positions);
+            for (node, share) in segment.into_iter().zip(depth.shares(segment.map(|node| positions[node as usize]))) {
+                area[node as usize] += share;
             }
         }
-        Self { outside, length, slip: vec![0.0; positions.len()], heat: vec![0.0; positions.len()] }
+        Self { outside, depth, area, slip: vec![0.0; positions.len()], heat: vec![0.0; positions.len()] }
+    }
+
+    /// Goes on with another outside; `positions` are the initial ones. Sums stay with the nodes.
+    pub fn renew(&mut self, outside: Surface, positions: &[Vector]) {
+        let Self { slip, heat, depth, .. } = std::mem::take(self);
+        *self = Self { slip, heat, ..Self::new(outside, positions, depth) };
     }
 
     /// Adds what a solved spring did in an update of `time_step` (s).
@@ -49,8 +57,8 @@ impl Traces {
         for end in springs.ends(spring) {
             let (node, share) = (end.at as usize, end.share.abs());
             if let (Some(slip), Some(heat)) = (self.slip.get_mut(node), self.heat.get_mut(node)) {
-                if self.length[node] > 0.0 {
-                    *slip += share * slid / self.length[node];
+                if self.area[node] > 0.0 {
+                    *slip += share * slid / self.area[node];
                 }
                 *heat += 0.5 * share * spring.lost.friction;
             }
@@ -66,39 +74,41 @@ impl Traces {
     /// Friction work taken at a node by initial surface, J/m².
     #[must_use]
     pub fn heat(&self, node: usize) -> f64 {
-        if self.length[node] > 0.0 { self.heat[node] / self.length[node] } else { 0.0 }
+        if self.area[node] > 0.0 { self.heat[node] / self.area[node] } else { 0.0 }
     }
 
     /// Contact pressure and shear stress (Pa) of every node, from the contact forces on the nodes (N/m) at their current positions: −f·n and f·t
-    /// by current length, t along the surface with the body on its right. In pairs; zero inside.
+    /// by current area, t along the surface with the body on its right. In pairs; zero inside.
     #[must_use]
     pub fn tractions(&self, forces: &[Vector], positions: &[Vector]) -> Vec<[f64; 2]> {
         let mut along = vec![[0.0; 2]; positions.len()];
-        let mut length = vec![0.0; positions.len()];
+        let mut area = vec![0.0; positions.len()];
         for &segment in &self.outside.segments {
-            let [a, b] = segment.map(|node| positions[node as usize]);
-            for node in segment {
-                along[node as usize][0] += 0.5 * (b[0] - a[0]);
-                along[node as usize][1] += 0.5 * (b[1] - a[1]);
-                length[node as usize] += 0.5 * super::length(segment, positions);
+            let ends @ [a, b] = segment.map(|node| positions[node as usize]);
+            let length = super::length(segment, positions);
+            for (node, share) in segment.into_iter().zip(self.depth.shares(ends)) {
+                let part = if length > 0.0 { share / length } else { 0.0 };
+                along[node as usize][0] += part * (b[0] - a[0]);
+                along[node as usize][1] += part * (b[1] - a[1]);
+                area[node as usize] += share;
             }
         }
-        let traction = |((f, t), length): ((&Vector, &Vector), &f64)| {
+        let traction = |((f, t), area): ((&Vector, &Vector), &f64)| {
             let norm = (t[0] * t[0] + t[1] * t[1]).sqrt();
             if norm == 0.0 {
                 return [0.0; 2];
             }
-            let per = 1.0 / (norm * length);
+            let per = 1.0 / (norm * area);
             // n = (−t₂, t₁)
             [(f[0] * t[1] - f[1] * t[0]) * per, (f[0] * t[0] + f[1] * t[1]) * per]
         };
-        forces.iter().zip(&along).zip(&length).map(traction).collect()
+        forces.iter().zip(&along).zip(&area).map(traction).collect()
     }
 
     /// State of every node from the solved springs of the step.
     #[must_use]
     pub fn states(&self, springs: &Springs) -> Vec<State> {
-        let mut sums = vec![(0.0, 0.0, 0.0f64); self.length.len()];
+        let mut sums = vec![(0.0, 0.0, 0.0f64); self.area.len()];
         for spring in &springs.list {
             let status = if spring.force == 0.0 { 0.0 } else { 1.0 + f64::from(u8::from(spring.slides)) };
             for end in springs.ends(spring) {

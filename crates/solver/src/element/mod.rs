@@ -3,8 +3,12 @@
 //! Everything else (strain, internal force, volume) follows in the block. To add an element: one file, one line in `elements!`.
 
 mod quad4;
+mod quad4_reduced;
+mod tri3;
 
 pub use quad4::{Quad4, Quad4Full};
+pub use quad4_reduced::{Quad4Reduced, Quad4ReducedAssumedStrain, Quad4ReducedViscous};
+pub use tri3::{Tri3, Tri3Anp};
 
 use crate::tensor::{Dim, Matrix, Space};
 use embate_lanes::{Batch, Lane};
@@ -37,6 +41,8 @@ where
     const NODES: [[f64; D]; N];
     /// Whether the dilatation is averaged over the element (B-bar), which keeps plastic flow and rubber from locking.
     const MEAN_DILATATION: bool;
+    /// Whether the dilatation is averaged over the nodes of the block and back (`block/nodal.rs`); for elements with one point.
+    const NODAL_DILATATION: bool = false;
     /// Batches that hourglass control keeps per element, at least 1 where there is such control; 0: none is needed.
     const HOURGLASS: usize = 0;
 
@@ -52,6 +58,10 @@ where
     /// Square of the element's thickness h, m²: dt = h / c is stable for waves of speed c when every corner has the mass share 1/N.
     /// `determinants` are those of the Jacobian at the points, `volume` their weighted sum.
     fn thickness_squared<L: Lane>(nodal: &[[L; D]; N], determinants: &[L; P], volume: L) -> L;
+    /// Exact ∫ N_a dA of every corner, or ∫ 2πx N_a dA of a body of revolution; `None`: the points' sums are exact enough.
+    fn corner_volumes(_nodal: &[[f64; D]; N], _is_axisymmetric: bool) -> Option<[f64; N]> {
+        None
+    }
     /// Forces against the shapes that the points do not feel; `kept` are [`Element::HOURGLASS`] batches, lanes from `at` on. Called only where there are some.
     #[inline(always)]
     fn hold_shape<L: Lane>(&self, _corners: &Corners<L, D, N>, _kept: &mut [Batch], _at: usize) -> Held<L, D, N> {
@@ -86,6 +96,8 @@ pub struct Corners<L, const D: usize, const N: usize> {
     pub mass: L,
     /// The step, s.
     pub time_step: L,
+    /// Whether there is no stress normal to the plane.
+    pub is_plane_stress: bool,
 }
 
 /// What hourglass control answers.
@@ -123,7 +135,15 @@ macro_rules! elements {
     };
 }
 
-elements!(Quad4: 4 nodes, 4 points, Quad4Full: 4 nodes, 4 points);
+elements!(
+    Quad4: 4 nodes, 4 points,
+    Quad4Full: 4 nodes, 4 points,
+    Quad4Reduced: 4 nodes, 1 points,
+    Quad4ReducedViscous: 4 nodes, 1 points,
+    Quad4ReducedAssumedStrain: 4 nodes, 1 points,
+    Tri3: 3 nodes, 1 points,
+    Tri3Anp: 3 nodes, 1 points,
+);
 
 /// Every element.
 #[must_use]

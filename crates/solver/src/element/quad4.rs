@@ -17,9 +17,9 @@ use embate_lanes::Lane;
 
 const G: f64 = 0.577_350_269_189_625_8; // 1/√3
 const POINTS: [[f64; 2]; 4] = [[-G, -G], [G, -G], [G, G], [-G, G]];
-const NODES: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+pub(super) const NODES: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
 
-fn shape(natural: [f64; 2]) -> [f64; 4] {
+pub(super) fn shape(natural: [f64; 2]) -> [f64; 4] {
     NODES.map(|[xi, eta]| 0.25 * (1.0 + xi * natural[0]) * (1.0 + eta * natural[1]))
 }
 
@@ -61,7 +61,7 @@ fn divergence<L: Lane>(flux: &[Matrix<L, 2>; 4]) -> [[L; 2]; 4] {
 }
 
 #[inline(always)]
-fn distance_squared<L: Lane>(a: [L; 2], b: [L; 2]) -> L {
+pub(super) fn distance_squared<L: Lane>(a: [L; 2], b: [L; 2]) -> L {
     let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
     dx * dx + dy * dy
 }

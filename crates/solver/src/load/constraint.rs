@@ -60,6 +60,14 @@ impl<const D: usize> Held<D> {
         }
     }
 
+    /// Whether nothing but the rest along one direction is prescribed.
+    #[must_use]
+    pub fn holds_only(&self, direction: [f64; D]) -> bool {
+        self.turn.is_none()
+            && self.speeds.iter().all(|speed| speed.as_constant() == Some(0.0))
+            && self.directions.iter().all(|(held, _)| (0..D).map(|d| held[d] * direction[d]).sum::<f64>().abs() == 1.0)
+    }
+
     /// The part of a direction along which the node is free to move.
     #[must_use]
     pub fn free_part(&self, mut direction: [f64; D]) -> [f64; D] {
@@ -402,6 +410,12 @@ impl<const D: usize> Constraints<D> {
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.held.is_empty()
+    }
+
+    /// Whether something is prescribed across a direction, or a motion along it.
+    #[must_use]
+    pub fn holds_more_than(&self, direction: [f64; D]) -> bool {
+        self.held.iter().any(|held| !held.holds_only(direction))
     }
 
     /// Normals of the symmetry lines that `node` lies on.

@@ -17,6 +17,8 @@ pub struct Damping {
     rates: Vec<f64>,
     /// Rate on the parts and obstacles that no load leaves out, 1/s.
     everywhere: f64,
+    /// Rate of dynamic relaxation, on all nodes and free bodies, 1/s; `None` without.
+    relaxation: Option<f64>,
     time_step: f64,
 }
 
@@ -54,12 +56,18 @@ impl Damping {
     /// Whether the model has no such load.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.loads.is_empty()
+        self.loads.is_empty() && self.relaxation.is_none()
+    }
+
+    /// Sets the rate of dynamic relaxation, 1/s.
+    pub fn relax(&mut self, rate: f64) {
+        self.relaxation = Some(rate);
     }
 
     /// What acts at `time` (s) in an update over `time_step` = ½ (dt^{n−1} + dt^n), s, on so many nodes. Tells whether rates have changed.
     pub fn prepare(&mut self, time: f64, time_step: f64, nodes: usize) -> bool {
-        let mut changed = false;
+        // Its rate changes from step to step.
+        let mut changed = self.relaxation.is_some();
         for load in &mut self.loads {
             let now = (load.active[0]..load.active[1]).contains(&time);
             changed |= now != std::mem::replace(&mut load.now, now);
@@ -82,18 +90,18 @@ impl Damping {
     #[inline]
     #[must_use]
     pub fn factor(&self, node: usize) -> f64 {
-        self.rates.get(node).map_or(0.0, |rate| 0.5 * rate * self.time_step)
+        0.5 * self.rate(node) * self.time_step
     }
 
     /// Rate of a node now, 1/s.
     #[must_use]
     pub fn rate(&self, node: usize) -> f64 {
-        self.rates.get(node).copied().unwrap_or(0.0)
+        self.rates.get(node).copied().unwrap_or(0.0) + self.relaxation.unwrap_or(0.0)
     }
 
     /// Rate now on free obstacles, 1/s.
     #[must_use]
     pub fn rate_everywhere(&self) -> f64 {
-        self.everywhere
+        self.everywhere + self.relaxation.unwrap_or(0.0)
     }
 }

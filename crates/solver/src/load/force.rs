@@ -97,6 +97,16 @@ impl Forces {
         }
     }
 
+    /// Leaves nodes without elements alone, and surfaces that are outside no more.
+    pub fn renew(&mut self, is_free: impl Fn(u32) -> bool, is_outside: impl Fn([u32; 2]) -> bool) {
+        for load in &mut self.loads {
+            match &mut load.what {
+                What::Given(forces) => forces.retain(|&(node, _)| !is_free(node)),
+                What::Pressure(segments, _) => segments.retain(|&segment| is_outside(segment)),
+            }
+        }
+    }
+
     /// Force on every node now, N/m; empty when the model has no such load.
     #[must_use]
     pub fn now(&self) -> &[Vector] {

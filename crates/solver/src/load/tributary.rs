@@ -19,6 +19,15 @@ impl Depth {
         if model.is_axisymmetric() { Self::Revolution } else { Self::Plane }
     }
 
+    /// Area by length at a place: one, or the circumference 2π x.
+    #[must_use]
+    pub fn at(self, x: [f64; 2]) -> f64 {
+        match self {
+            Self::Plane => 1.0,
+            Self::Revolution => TAU * x[0],
+        }
+    }
+
     /// Area that each of the two nodes of a segment stands for: ∫ N_a ds, half the length, or 2π ∫ N_a x ds = π L (2 x_a + x_b) / 3.
     #[must_use]
     pub fn shares(self, [a, b]: [[f64; 2]; 2]) -> [f64; 2] {

@@ -4,19 +4,42 @@
 //! it returns the Cauchy stress and what the ledger and the stable step need. To add a law: one file, one line in `laws!`.
 //! Blocks see laws erased, as [`points::PointLaw`]: the kernel of a law is compiled once, not once per element.
 
+mod chaboche;
+mod crushable_foam;
+mod drucker_prager;
+mod arruda_boyce;
 mod elastic;
+pub mod hardening;
 mod j2;
+mod johnson_cook;
+mod mooney_rivlin;
 mod neo_hookean;
+mod ogden;
+mod orthotropic_elastic;
 mod parameters;
 mod plane_stress;
 pub mod points;
+mod rubber;
 mod state;
+mod trial;
+mod viscoelastic;
+mod yeoh;
 
+pub use arruda_boyce::ArrudaBoyce;
+pub use chaboche::Chaboche;
+pub use crushable_foam::CrushableFoam;
+pub use drucker_prager::DruckerPrager;
 pub use elastic::Elastic;
-pub use j2::J2;
+pub use j2::{J2, J2Ludwik, J2Swift, J2Table, J2Voce, J2With};
+pub use johnson_cook::JohnsonCook;
+pub use mooney_rivlin::MooneyRivlin;
 pub use neo_hookean::NeoHookean;
-pub use parameters::{DENSITY, POISSON, ParameterFault, Parameters, YOUNG, bulk_and_shear};
-pub use state::{State, Tensors, Variable};
+pub use ogden::Ogden;
+pub use orthotropic_elastic::OrthotropicElastic;
+pub use parameters::{BULK, DENSITY, POISSON, ParameterFault, Parameters, YOUNG, bulk_and_shear};
+pub use state::{Orientation, State, Tensors, Variable};
+pub use viscoelastic::Viscoelastic;
+pub use yeoh::Yeoh;
 
 use crate::quantity::Parameter;
 use crate::tensor::SymmetricTensor;
@@ -85,7 +108,7 @@ pub trait Law: Copy + Send + Sync + 'static {
     const KIND: LawKind;
     /// Which measures it works on.
     const FAMILY: Family;
-    /// History values of a point: `[L; N]`, [`Tensors`], or a pair of such.
+    /// History values of a point: `[L; N]`, [`Tensors`], [`Orientation`], or a pair of such.
     type State<L: Lane, T: SymmetricTensor<L>>: State<L>;
     /// History values that are shown to the user, with their places in the state.
     const VARIABLES: &'static [(Variable, usize)] = &[];
@@ -93,6 +116,10 @@ pub trait Law: Copy + Send + Sync + 'static {
     const NEEDS_ROTATION: bool = false;
     /// Whether a rate law needs the volume ratio and the heat of the bulk viscosity.
     const NEEDS_VOLUME: bool = false;
+    /// Whether it takes energy for good; what is shown of its history (plastic strain, damage) grows with such.
+    const DISSIPATES: bool = !Self::VARIABLES.is_empty();
+    /// Whether it answers alike in all directions at rest. Where it does not, bulk and shear stiffness are bounds of the waves.
+    const ISOTROPIC: bool = true;
 
     /// Reads its parameters, which have been checked against [`Law::KIND`].
     fn new(parameters: &Parameters<'_>) -> Self;
@@ -138,7 +165,25 @@ macro_rules! laws {
     };
 }
 
-laws!(Elastic, J2, NeoHookean);
+laws!(
+    Elastic,
+    OrthotropicElastic,
+    J2,
+    J2Voce,
+    J2Swift,
+    J2Ludwik,
+    J2Table,
+    Chaboche,
+    JohnsonCook,
+    DruckerPrager,
+    CrushableFoam,
+    NeoHookean,
+    MooneyRivlin,
+    Yeoh,
+    ArrudaBoyce,
+    Ogden,
+    Viscoelastic
+);
 
 /// What the law called `name` finds wrong with parameters whose ranges are right.
 #[must_use]

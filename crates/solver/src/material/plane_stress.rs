@@ -65,7 +65,8 @@ impl Search {
             found = false;
             let (step, change) = (self.unknown.0[k] - self.unknown_old.0[k], f - self.residual_old.0[k]);
             let secant = change / step;
-            let slope = if !first && secant > 1e-3 * wave && secant < 4.0 * wave { secant } else { wave };
+            // Cords in rubber are a ten-thousandth as stiff across as along.
+            let slope = if !first && secant > 1e-6 * wave && secant < 4.0 * wave { secant } else { wave };
             (self.unknown_old.0[k], self.residual_old.0[k]) = (self.unknown.0[k], f);
             self.unknown.0[k] -= f / slope;
         }

@@ -1,6 +1,6 @@
 //! History of a point: how laws keep numbers and tensors between steps, and which of them the user sees.
 
-use crate::tensor::SymmetricTensor;
+use crate::tensor::{SymmetricTensor, Turn};
 use embate_lanes::{Batch, Lane};
 use std::marker::PhantomData;
 
@@ -8,7 +8,7 @@ use std::marker::PhantomData;
 pub trait State<L: Lane>: Copy {
     /// How many.
     const COUNT: usize;
-    /// All zero.
+    /// All zero; an orientation not turned.
     fn zero() -> Self;
     /// Reads it from the batches `from[0..COUNT]`, lanes from `at` on.
     fn load(from: &[Batch], at: usize) -> Self;
@@ -69,6 +69,26 @@ impl<L: Lane, T: SymmetricTensor<L>, const N: usize> State<L> for Tensors<L, T, 
         for index in 0..N {
             self.0[index].store(&mut to[index * T::COMPONENTS..], at);
         }
+    }
+}
+
+/// How the material lies: the rotation of its axes since they were x, y, z. Not turned at the start unless the law says otherwise.
+#[derive(Clone, Copy, Debug)]
+pub struct Orientation<L: Lane, T: SymmetricTensor<L>>(pub T::Rotation);
+
+impl<L: Lane, T: SymmetricTensor<L>> State<L> for Orientation<L, T> {
+    const COUNT: usize = <T::Rotation as Turn<L>>::COMPONENTS;
+    #[inline(always)]
+    fn zero() -> Self {
+        Self(T::Rotation::none())
+    }
+    #[inline(always)]
+    fn load(from: &[Batch], at: usize) -> Self {
+        Self(T::Rotation::load(from, at))
+    }
+    #[inline(always)]
+    fn store(self, to: &mut [Batch], at: usize) {
+        self.0.store(to, at);
     }
 }
 

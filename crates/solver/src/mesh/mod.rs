@@ -34,6 +34,8 @@ pub struct ElementGroup {
     pub connectivity: Vec<u32>,
     /// The user's number of each element: its place in the part as it was made or read, whatever its number of nodes.
     pub user_elements: Vec<u32>,
+    /// Whether each element has been eroded: then it is no part of surfaces and bodies. Empty while all are there.
+    pub eroded: Vec<bool>,
 }
 
 impl ElementGroup {
@@ -46,6 +48,23 @@ impl ElementGroup {
     /// Nodes of each element.
     pub fn cells(&self) -> impl Iterator<Item = &[u32]> {
         self.connectivity.chunks_exact(self.nodes_per_element)
+    }
+
+    /// Nodes of each element that has not been eroded.
+    pub fn live_cells(&self) -> impl Iterator<Item = &[u32]> {
+        self.cells().enumerate().filter(|(element, _)| self.is_alive(*element)).map(|(_, cell)| cell)
+    }
+
+    /// Whether an element has not been eroded.
+    #[must_use]
+    pub fn is_alive(&self, element: usize) -> bool {
+        !self.eroded.get(element).copied().unwrap_or(false)
+    }
+
+    /// Takes an element out of surfaces and bodies.
+    pub fn erode(&mut self, element: usize) {
+        self.eroded.resize(self.elements(), false);
+        self.eroded[element] = true;
     }
 
     /// Nodes of an element.
@@ -180,10 +199,10 @@ impl Mesh<2> {
         self.groups_of(part).map(ElementGroup::elements).sum()
     }
 
-    /// Nodes of each element of the parts (all when `parts` is empty).
+    /// Nodes of each element of the parts (all when `parts` is empty) that has not been eroded.
     fn cells(&self, parts: &[String]) -> impl Iterator<Item = &[u32]> {
         let is_of = |group: &&ElementGroup| parts.is_empty() || parts.contains(&self.parts[group.part].name);
-        self.groups.iter().filter(is_of).flat_map(ElementGroup::cells)
+        self.groups.iter().filter(is_of).flat_map(ElementGroup::live_cells)
     }
 
     fn add_named_groups(&mut self, source: &ImportedMesh, numbers: &[u32], faults: &mut Vec<Fault>) {
@@ -327,7 +346,14 @@ impl Mesh<2> {
             (surface::exterior(self.cells(&only(name)))?, only(name).to_vec())
         } else if let Some(lines) = self.lines.get(name) {
             let owner = name.split_once('.').map(|(part, _)| part).filter(|part| is_part(part));
-            (lines.clone(), owner.map_or(Vec::new(), |part| only(part).to_vec()))
+            let of = owner.map_or(Vec::new(), |part| only(part).to_vec());
+            let mut lines = lines.clone();
+            if self.groups.iter().any(|group| !group.eroded.is_empty()) {
+                let mut outside = surface::exterior(self.cells(&of))?;
+                outside.sort_unstable();
+                lines.retain(|segment| outside.binary_search(segment).is_ok());
+            }
+            (lines, of)
         } else {
             let help = "name a part, a side as part.side, or a one-dimensional group of a mesh file";
             return Err(Fault::new("", format!("there is no surface \"{name}\""), help));

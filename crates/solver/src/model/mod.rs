@@ -73,6 +73,28 @@ pub struct Run {
     pub max_steps: Option<u64>,
     /// Linear and quadratic coefficient of the bulk viscosity; both zero: none.
     pub bulk_viscosity: [f64; 2],
+    /// Mass that is added for a longer step.
+    pub mass_scaling: Option<MassScaling>,
+    /// Damping that brings everything to rest.
+    pub relaxation: Option<Relaxation>,
+}
+
+/// Dynamic relaxation: damping that adapts itself, and an end when all is at rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Relaxation {
+    /// Kinetic energy over internal energy at which the state counts as at rest.
+    pub tolerance: f64,
+    /// Time from which rest ends the run, s: loads must be complete.
+    pub from: f64,
+}
+
+/// Makes elements with a small stable step heavier.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MassScaling {
+    /// Step that every element shall allow at the start, safety included, s.
+    pub time_step: f64,
+    /// Largest mass that may be added, as a fraction of the mass of the deformable parts.
+    pub limit: f64,
 }
 
 impl Model {
@@ -85,7 +107,17 @@ impl Model {
 
 impl Default for Run {
     fn default() -> Self {
-        Self { end: 0.0, safety: 0.9, energy_limit: 0.05, step_limit: None, time_step: None, max_steps: None, bulk_viscosity: [0.0; 2] }
+        Self {
+            end: 0.0,
+            safety: 0.9,
+            energy_limit: 0.05,
+            step_limit: None,
+            time_step: None,
+            max_steps: None,
+            bulk_viscosity: [0.0; 2],
+            mass_scaling: None,
+            relaxation: None,
+        }
     }
 }
 
@@ -98,6 +130,8 @@ pub struct Material {
     pub parameters: BTreeMap<String, f64>,
     /// Parameters that are lists.
     pub lists: BTreeMap<String, Vec<f64>>,
+    /// Limits at which its elements fail and are eroded, by key of the failure registry; empty: never.
+    pub failure: BTreeMap<String, f64>,
 }
 
 /// `[[part]]`: a body of one material and one element kind for each number of nodes.
@@ -125,6 +159,8 @@ pub struct Part {
     pub spin: f64,
     /// `Some`: the part is a rigid body and moves so.
     pub rigid: Option<Motion>,
+    /// Factor on its mass where mass resists motion; what it weighs stays.
+    pub mass_scale: f64,
 }
 
 /// A still `quad4` and `tri3` part of nothing, to build on.
@@ -142,6 +178,7 @@ impl Default for Part {
             velocity: [0.0; 2],
             spin: 0.0,
             rigid: None,
+            mass_scale: 1.0,
         }
     }
 }

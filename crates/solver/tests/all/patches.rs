@@ -3,7 +3,7 @@
 use embate_lanes::{Batch, Level};
 use embate_solver::block::{Block, BlockInput, Motion, Report, corner_slot, make};
 use embate_solver::element::{ELEMENTS, Element, ElementVisitor, with_element};
-use embate_solver::material::{LAWS, LawKind};
+use embate_solver::material::{LAWS, Law, LawKind, LawVisitor, with_law};
 use embate_solver::model::Material;
 use embate_solver::quantity::{Parameter, Range};
 use std::collections::BTreeMap;
@@ -28,12 +28,40 @@ impl Spread {
     }
 }
 
-/// A value for any parameter: known ones as above, stresses a small part of Young's modulus, the rest by their range.
+/// The index at the end of a name, from zero.
+fn last(name: &str) -> usize {
+    name.bytes().last().map_or(0, |digit| usize::from(digit - b'1'))
+}
+
+/// A value for any parameter: known ones as above, stresses a small part of Young's modulus, the rest by their range. What makes a law of another
+/// kind of it (dependence on the rate) is left out, `options` has it.
 fn value(parameter: &Parameter, poisson: f64) -> f64 {
     match (parameter.name, parameter.range) {
         ("density", _) => DENSITY,
         ("young", _) => YOUNG,
         ("poisson", _) => poisson,
+        ("rate_reference", _) => parameter.default.unwrap_or(1.0),
+        ("rate_exponent", _) => 5.0,
+        ("saturation", _) => 0.02 * YOUNG,
+        ("saturation_rate", _) => 20.0,
+        ("strength", _) => 0.04 * YOUNG,
+        ("strain_offset", _) => 0.01,
+        ("hardening_exponent", _) => 0.3,
+        ("rate_coefficient", _) => parameter.default.unwrap_or(0.0),
+        ("temperature" | "temperature_reference", _) => 300.0,
+        ("temperature_melt", _) => 1000.0,
+        ("specific_heat" | "softening_exponent", _) => 1.0,
+        ("friction_angle", _) => 0.5,
+        ("dilation_angle", _) => 0.2,
+        ("bulk", _) => YOUNG / (3.0 * (1.0 - 2.0 * poisson)),
+        // Rubber: shear stiffness of the order of the bulk stiffness.
+        ("c10" | "c01", _) => 0.1 * YOUNG,
+        ("shear", _) => 0.3 * YOUNG,
+        ("locking_stretch", _) => 2.0,
+        ("young_1" | "young_2" | "young_3", _) => YOUNG * [1.0, 0.5, 0.7][last(parameter.name)],
+        ("poisson_12" | "poisson_23" | "poisson_31", _) => [0.25, 0.3, 0.2][last(parameter.name)],
+        ("shear_12" | "shear_23" | "shear_31", _) => YOUNG * [0.25, 0.3, 0.2][last(parameter.name)],
+        ("angle", _) => 0.4,
         (_, Range::Between(low, high)) => 0.5 * (low + high),
         (_, Range::UpTo(_, high)) => high,
         _ => 0.01 * YOUNG,
@@ -45,15 +73,45 @@ pub(crate) fn parameters(kind: &LawKind, poisson: f64) -> BTreeMap<String, f64> 
     numbers.map(|parameter| (parameter.name.to_string(), value(parameter, poisson))).collect()
 }
 
-/// Lists of two ascending values for parameters that are lists.
+/// What parameters may have besides [`parameters`]: each set makes a law of another kind.
+pub(crate) fn options(kind: &LawKind) -> Vec<Vec<(&'static str, f64)>> {
+    let all = [vec![], vec![("rate_reference", 50.0)], vec![("rate_coefficient", 0.02)]];
+    let has = |name: &str| kind.parameters.iter().any(|parameter| parameter.name == name);
+    all.into_iter().filter(|set| set.iter().all(|(name, _)| has(name))).collect()
+}
+
+/// Values for parameters that are lists: two ascending ones unless they must go together; curves begin at zero.
+fn list(parameter: &Parameter) -> Vec<f64> {
+    match parameter.name {
+        "plastic_strain" => vec![0.0, 0.1],
+        "stress" => vec![0.01 * YOUNG, 0.02 * YOUNG],
+        "damage" => vec![0.05, 3.0, -2.0, 0.02, 0.5],
+        "mu" => vec![0.2 * YOUNG, -0.05 * YOUNG],
+        "alpha" => vec![2.5, -3.0],
+        "shear_ratio" => vec![0.3, 0.2],
+        "relaxation_time" => vec![0.05, 2.0],
+        _ => [0.4, 0.5].map(|factor| factor * value(parameter, 0.3)).to_vec(),
+    }
+}
+
 pub(crate) fn lists(kind: &LawKind) -> BTreeMap<String, Vec<f64>> {
     let lists = kind.parameters.iter().filter(|parameter| parameter.list > 0);
-    lists.map(|parameter| (parameter.name.to_string(), [0.4, 0.5].map(|factor| factor * value(parameter, 0.3)).to_vec())).collect()
+    lists.map(|parameter| (parameter.name.to_string(), list(parameter))).collect()
 }
 
 pub(crate) fn material(law: &str, poisson: f64) -> Material {
     let kind = LAWS.iter().find(|kind| kind.name == law).unwrap();
-    Material { law: law.into(), parameters: parameters(kind, poisson), lists: lists(kind) }
+    let mut lists = lists(kind);
+    // What is told of bodies holds while they stand still: nothing may relax meanwhile. Laws by themselves are tested with short times.
+    lists.entry("relaxation_time".into()).and_modify(|times| times.fill(1e12));
+    Material { law: law.into(), parameters: parameters(kind, poisson), lists, ..Material::default() }
+}
+
+/// Strength far beyond every load: a law that flows stays elastic.
+pub(crate) fn stay_elastic(material: &mut Material) {
+    let strengths = ["yield", "saturation", "strength", "cohesion", "tension_cutoff"];
+    material.parameters.iter_mut().filter(|(name, _)| strengths.contains(&name.as_str())).for_each(|(_, value)| *value *= 1e5);
+    material.lists.iter_mut().filter(|(name, _)| *name == "stress").for_each(|(_, list)| list.iter_mut().for_each(|value| *value *= 1e5));
 }
 
 /// One law of each family.
@@ -67,6 +125,11 @@ pub(crate) fn every_pair(mut check: impl FnMut(&'static str, &'static str)) {
             check(element.name, law.name);
         }
     }
+}
+
+/// Whether hourglass shapes of this element meet dampers, which have no potential and no stiffness.
+pub(crate) fn is_damped(element: &str) -> bool {
+    element == "quad4_reduced_viscous"
 }
 
 pub(crate) fn nodes_of(element: &str) -> usize {
@@ -211,6 +274,15 @@ impl Body {
         self.positions = positions.to_vec();
     }
 
+    /// One step with these velocities.
+    pub(crate) fn advance(&mut self, velocities: &[[f64; 2]], time_step: f64) {
+        for (x, v) in self.positions.iter_mut().zip(velocities) {
+            *x = [x[0] + v[0] * time_step, x[1] + v[1] * time_step];
+        }
+        let motion = Motion { positions: &self.positions, velocities, time_step };
+        self.report = self.block.advance(&motion, self.level, &mut self.corners, self.parallel);
+    }
+
     /// One step in which every node goes to `to(x)`.
     pub(crate) fn map(&mut self, to: impl Fn([f64; 2]) -> [f64; 2]) {
         let positions: Vec<_> = self.positions.iter().map(|&x| to(x)).collect();
@@ -238,10 +310,30 @@ impl Body {
         masses
     }
 
-    /// Stored and dissipated energy.
+    /// Stored and dissipated energy, with that of hourglass control.
     pub(crate) fn energy(&self) -> f64 {
-        self.report.stored + self.report.dissipated
+        self.report.stored + self.report.dissipated + self.report.hourglass
     }
+}
+
+/// Slope of the stress in uniaxial strain along x, from rest: K + 4µ/3, where all directions are alike.
+pub(crate) fn modulus_along_x(element: &str, material: &Material) -> f64 {
+    const STRAIN: f64 = 1e-7;
+    let mut body = Body::single(element, material, &reference_nodes(element));
+    body.map(|[x, y]| [x * (1.0 + STRAIN), y]);
+    body.block.state(0).stress[0] / STRAIN
+}
+
+/// Whether the law answers alike in all directions at rest.
+pub(crate) fn is_isotropic(law: &str) -> bool {
+    struct Ask;
+    impl LawVisitor for Ask {
+        type Output = bool;
+        fn visit<M: Law>(self) -> bool {
+            M::ISOTROPIC
+        }
+    }
+    with_law(law, Ask).unwrap()
 }
 
 /// Tangent stiffness K_ij = −∂f_i/∂x_j by central differences; `make_body` must give the same body every time.

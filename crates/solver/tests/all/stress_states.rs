@@ -4,6 +4,7 @@
 use crate::patches::*;
 use embate_solver::block::BlockInput;
 use embate_solver::block::stress_state::STRESS_STATES;
+use embate_solver::element::ELEMENTS;
 use embate_solver::material::Variable;
 
 /// Calls `check(element, stress state, law)` for all that can meet.
@@ -65,6 +66,9 @@ fn what_the_forces_take_is_found_in_the_stores() {
 #[test]
 fn uniform_states_are_in_equilibrium_on_distorted_meshes() {
     every_state(|element, state, law| {
+        if state == "axisymmetric" && !is_isotropic(law) {
+            return; // the same stretch all around gives other stresses along the radius than around: no equilibrium
+        }
         // Radial and axial stretch is uniform in every stress state.
         let patch = patch_from(element, 4, 0.25, 1.0);
         let mut body = body(element, state, law, 0.3, &patch);
@@ -80,7 +84,10 @@ fn uniform_states_are_in_equilibrium_on_distorted_meshes() {
         }
         let forces = body.forces();
         let inner = largest(patch.inner.iter().flat_map(|&node| &forces[node]));
-        assert!(inner < 1e-8 * YOUNG, "{element} {state} {law}: {inner}");
+        // One point takes the radius for the same all over a quadrilateral, which balances only where its sides are parallel.
+        let is_inexact = state == "axisymmetric" && element.starts_with("quad4_reduced");
+        let allowed = if is_inexact { 0.1 * largest(forces.iter().flatten()) } else { 1e-8 * YOUNG };
+        assert!(inner < allowed, "{element} {state} {law}: {inner}");
     });
 }
 
@@ -103,7 +110,7 @@ fn the_stable_step_bounds_the_largest_frequency_of_every_stress_state() {
 
 #[test]
 fn an_axisymmetric_body_weighs_what_its_revolution_weighs() {
-    for element in ["quad4", "quad4_full"] {
+    for element in ELEMENTS.iter().map(|kind| kind.name) {
         let body = body(element, "axisymmetric", "elastic", 0.3, &patch_from(element, 3, 0.2, 1.0));
         let expected = DENSITY * std::f64::consts::PI * (4.0f64.powi(2) - 1.0) * 3.0;
         let mass: f64 = body.masses().iter().sum();

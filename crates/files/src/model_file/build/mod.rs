@@ -11,10 +11,11 @@ use super::diagnostics::Faults;
 use super::reader::{Document, Record};
 use super::units::shorten;
 use super::value::Datum;
-use crate::gmsh;
+use crate::{abaqus, gmsh};
 use embate_solver::mesh::shapes::Values;
 use embate_solver::model::{
-    Cadence, Copies, ImportedMesh, Material, Mirror, Model, Output, Part, Partners, Placement, Probe, ProbeAt, Run, Shape, Symmetry,
+    Cadence, Copies, ImportedMesh, MassScaling, Material, Mirror, Model, Output, Part, Partners, Placement, Probe, ProbeAt, Relaxation,
+    Run, Shape, Symmetry,
 };
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -27,7 +28,12 @@ pub(super) fn model(document: &Document, name: &str, folder: &Path, faults: &mut
     let mut model = Model { name: name.to_string(), meshes: meshes.loaded, ..Model::default() };
     model.title = document.top.text("title");
     model.run = run(&document.single("run"));
-    let material = |record: &Record| Material { law: record.text("law"), parameters: record.numbers(), lists: record.lists() };
+    let material = |record: &Record| Material {
+        law: record.text("law"),
+        parameters: record.numbers(),
+        lists: record.lists(),
+        failure: record.table("failure").map(Record::numbers).unwrap_or_default(),
+    };
     model.materials = document.section("material").iter().map(|record| (record.name.clone(), material(record))).collect();
     model.parts = parts;
     model.contacts = document.section("contact").iter().map(|record| contact::contact(record, faults)).collect();
@@ -54,6 +60,12 @@ fn run(record: &Record) -> Run {
         time_step: record.number("time_step"),
         max_steps: record.integer("max_steps"),
         bulk_viscosity: record.vector("bulk_viscosity"),
+        relaxation: record
+            .table("relaxation")
+            .map(|it| Relaxation { tolerance: it.number("tolerance").unwrap_or(f64::NAN), from: it.number("from").unwrap_or(f64::NAN) }),
+        mass_scaling: record
+            .table("mass_scaling")
+            .map(|it| MassScaling { time_step: it.number("time_step").unwrap_or(f64::NAN), limit: it.number("limit").unwrap_or(f64::NAN) }),
     }
 }
 
@@ -72,6 +84,7 @@ fn part(record: &Record, meshes: &mut Meshes<'_>, faults: &mut Faults) -> Part {
         velocity: record.vector("velocity"),
         spin: record.number("spin").unwrap_or(f64::NAN),
         rigid: motion::rigid(record),
+        mass_scale: record.number("mass_scale").unwrap_or(f64::NAN),
     }
 }
 
@@ -121,7 +134,8 @@ impl Meshes<'_> {
             return *index;
         }
         let index = if path.is_file() {
-            match gmsh::read(&path, scale) {
+            let is_deck = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("inp"));
+            match if is_deck { abaqus::read(&path, scale) } else { gmsh::read(&path, scale) } {
                 Ok(mesh) => {
                     self.loaded.push(Arc::new(mesh));
                     Some(self.loaded.len() - 1)

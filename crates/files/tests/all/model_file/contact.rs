@@ -384,3 +384,17 @@ fn obstacles_and_moving_parts_that_make_no_sense_are_refused() {
         (and("[[load]]\nparts = \"ball\""), "load[1]", "needs one of `gravity`, `centrifugal`, `force`, `pressure` and `damping`"),
     ]);
 }
+
+#[test]
+fn bodies_of_revolution_have_masses_and_forces_of_the_whole() {
+    let around = and(
+        "[[obstacle]]\nname = \"die\"\nplane = { normal = [0, 1] }\nmotion = { y = \"free\" }\nmass = \"30 g\"\n\n[[load]]\nforce = [0, \"2 kN\"]\non = \"tube.outer\"",
+    );
+    let plane = faults(&around);
+    assert!(plane.iter().any(|fault| fault.path.starts_with("obstacle") && fault.path.ends_with("mass")), "{plane:?}");
+    assert!(plane.iter().any(|fault| fault.path == "load[1].force[1]"), "{plane:?}");
+    let around = around.replace("[[part]]\n", "[[part]]\nstress_state = \"axisymmetric\"\n");
+    let model = read(&around).unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
+    assert_eq!(model.obstacles.last().and_then(|die| die.mass), Some(0.03));
+    assert!(matches!(model.loads[1], Load::Force { force: [0.0, 2000.0], .. }), "{:?}", model.loads);
+}

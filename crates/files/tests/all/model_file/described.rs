@@ -231,8 +231,9 @@ fn every_key_refuses_every_bad_value_at_its_place() {
 fn every_parameter_of_every_law_refuses_every_bad_value() {
     for law in material::registry() {
         for parameter in law.parameters {
-            let key =
-                Key { name: parameter.name, kind: Kind::Quantity(parameter.dimension, parameter.range), need: Need::Required, doc: "" };
+            let (dimension, range) = (parameter.dimension, parameter.range);
+            let kind = if parameter.list > 0 { Kind::Quantities(dimension, range, 1) } else { Kind::Quantity(dimension, range) };
+            let key = Key { name: parameter.name, kind, need: Need::Required, doc: "" };
             try_all(&key, &format!("material.steel.{}", parameter.name), &[format!("material.steel.law={}", law.name)]);
         }
     }

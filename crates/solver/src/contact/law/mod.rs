@@ -7,6 +7,7 @@ pub mod penalty;
 pub mod pressure_gap;
 pub mod tie;
 
+use super::Tributary;
 use super::springs::{Closing, Spring};
 use crate::quantity::Parameter;
 
@@ -50,10 +51,8 @@ pub struct ContactLawKind {
 /// A slave node as a law sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Node {
-    /// Length of the surface that is its own, m.
-    pub tributary: f64,
-    /// Pressure stiffness κ of the elements behind it, Pa/m.
-    pub own: f64,
+    /// The surface that is its own, and what is behind it.
+    pub own: Tributary,
     /// Pressure stiffness κ of the elements behind the target, Pa/m.
     pub other: f64,
     /// Part of the node that belongs to the model: one half on a symmetry line, where the mirror image holds the other.

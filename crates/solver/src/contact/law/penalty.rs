@@ -33,20 +33,21 @@ pub const KIND: ContactLawKind = ContactLawKind {
 /// Fraction α of m / dt² that `penalty_from = "time_step"` takes.
 const OF_TIME_STEP: f64 = 0.1;
 
-/// κ of a node from its mass m (kg/m), the first step dt (s) and its tributary length A (m): α m / (dt² A), Pa/m.
+/// κ of a node from its mass m (kg/m), the first step dt (s) and its tributary length A (m), of a body of revolution from mass and area all around: α m / (dt² A), Pa/m.
 #[must_use]
-pub fn of_time_step(mass: f64, time_step: f64, length: f64) -> f64 {
-    OF_TIME_STEP * mass / (time_step * time_step * length)
+pub fn of_time_step(mass: f64, time_step: f64, area: f64) -> f64 {
+    OF_TIME_STEP * mass / (time_step * time_step * area)
 }
 
 /// Spring stiffness of a slave node, N/m per metre of depth; `passes` 1 or 2.
 #[must_use]
 pub fn stiffness(penalty: model::Penalty, node: Node, passes: usize) -> f64 {
     match penalty {
-        model::Penalty::PerNode(stiffness) => stiffness * node.share,
+        // Per metre of depth: of a body of revolution per metre of its circumference.
+        model::Penalty::PerNode(stiffness) => stiffness * node.share * (node.own.area / node.own.length),
         // Tributary lengths end at the symmetry line already.
-        model::Penalty::Pressure(pressure) => pressure * node.tributary,
-        model::Penalty::Automatic { scale, .. } => scale * node.tributary * node.own.min(node.other) / passes as f64,
+        model::Penalty::Pressure(pressure) => pressure * node.own.area,
+        model::Penalty::Automatic { scale, .. } => scale * node.own.area * node.own.stiffness.min(node.other) / passes as f64,
     }
 }
 

@@ -14,6 +14,7 @@ use crate::contact::node_segment::{Slave, segment_ends};
 use crate::contact::springs::{End, Spring, Springs};
 use crate::contact::tracker::{self, Certificate, SearchReport, Touch, Tracker};
 use crate::contact::{Formulation, Scene};
+use std::any::Any;
 
 /// The circle, in the frame of its body.
 #[derive(Clone, Copy, Debug)]
@@ -167,6 +168,13 @@ impl Formulation for RoundSegments {
     fn remember(&mut self, solved: &[Spring]) {
         for (touch, spring) in self.found.iter().zip(solved) {
             self.tracker.remember(touch, tracker::Memory { slip: spring.slip_new, ..touch.memory });
+        }
+    }
+
+    fn inherit(&mut self, old: Box<dyn Any>) {
+        if let Ok(old) = old.downcast::<Self>() {
+            self.tracker.inherit(&old.tracker);
+            self.has_begun = old.has_begun;
         }
     }
 

@@ -13,6 +13,7 @@ use super::tracker::{Certificate, SearchReport};
 use super::{Formulation, Scene, Vector};
 use crate::output::Outline;
 use crate::rigid::Bodies;
+use std::any::Any;
 
 /// Shape of an obstacle in the frame of its body.
 pub trait Shape: Send {
@@ -142,6 +143,16 @@ impl Formulation for NodeObstacle {
         self.has_begun = true;
     }
 
+    fn inherit(&mut self, old: Box<dyn Any>) {
+        let Ok(old) = old.downcast::<Self>() else { return };
+        self.has_begun = old.has_begun;
+        for ((node, slave), memory) in self.nodes.iter_mut().zip(&mut self.memories) {
+            if let Ok(at) = old.nodes.binary_search_by_key(node, |&(node, _)| node) {
+                (slave.slip, *memory) = (old.nodes[at].1.slip, old.memories[at]);
+            }
+        }
+    }
+
     fn remember(&mut self, solved: &[Spring]) {
         for (&index, spring) in self.found.iter().zip(solved) {
             self.nodes[index as usize].1.slip = spring.slip_new;
@@ -172,6 +183,14 @@ impl Formulation for Both {
         first.detect(scene, springs);
         self.split = springs.list.len() - begin;
         second.detect(scene, springs);
+    }
+
+    fn inherit(&mut self, old: Box<dyn Any>) {
+        if let Ok(old) = old.downcast::<Self>() {
+            for (part, old) in self.parts.iter_mut().zip(old.parts) {
+                part.inherit(old);
+            }
+        }
     }
 
     fn certificate(&self) -> Certificate {

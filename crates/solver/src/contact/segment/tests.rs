@@ -36,7 +36,7 @@ fn even(count: usize) -> Vec<f64> {
 }
 
 /// Springs of the formulation at rest, with what acts in it.
-fn springs_of(model: &Facing2, penalty: Penalty) -> Springs {
+fn springs_of(model: &Facing2, penalty: Penalty, depth: Depth) -> Springs {
     let contact = model::Contact { formulation: model::Formulation::Segment, interface: penalty.into(), ..model::Contact::default() };
     let side = |surface: &Surface| Side {
         segments: vec![1.0; surface.segments.len()],
@@ -51,8 +51,10 @@ fn springs_of(model: &Facing2, penalty: Penalty) -> Springs {
         contact: &contact,
         sides,
         positions: &model.positions,
+        depth,
         law: &law,
         tie_terms: 0,
+        again: false,
         search: &search,
         bodies: &bodies,
         passes: both_passes(&contact),
@@ -87,7 +89,7 @@ fn a_uniform_gap_gives_the_loads_of_a_uniform_pressure_on_any_two_meshes() {
         for angle in [0.0, std::f64::consts::FRAC_PI_6, 2.0] {
             let (gap, stiffness) = (-1e-3, 3e5);
             let model = facing(&first, &second, gap, angle);
-            let springs = springs_of(&model, Penalty::Pressure(stiffness));
+            let springs = springs_of(&model, Penalty::Pressure(stiffness), Depth::Plane);
             let found = forces(&model, &springs);
             let pressure = -gap * stiffness;
             let up = [-angle.sin(), angle.cos()];
@@ -110,9 +112,27 @@ fn a_uniform_gap_gives_the_loads_of_a_uniform_pressure_on_any_two_meshes() {
 }
 
 #[test]
+fn all_around_a_uniform_gap_gives_the_loads_of_a_uniform_pressure() {
+    let (first, second, gap, stiffness) = (even(4), vec![0.0, 0.13, 0.2, 0.55, 0.81, 1.0], -1e-3, 3e5);
+    let model = facing(&first, &second, gap, 0.0);
+    let found = forces(&model, &springs_of(&model, Penalty::Pressure(stiffness), Depth::Revolution));
+    for (surface, sign) in model.surfaces.iter().zip([-1.0, 1.0]) {
+        let mut consistent = vec![0.0; model.positions.len()];
+        for segment in &surface.segments {
+            let shares = Depth::Revolution.shares(segment.map(|node| model.positions[node as usize]));
+            segment.iter().zip(shares).for_each(|(&node, share)| consistent[node as usize] += share * -gap * stiffness);
+        }
+        for &node in &surface.nodes {
+            let [x, y] = found[node as usize];
+            assert!(x.abs() < 1e-9 && (y - sign * consistent[node as usize]).abs() < 1e-9, "node {node}: {x} {y} {consistent:?}");
+        }
+    }
+}
+
+#[test]
 fn only_the_common_part_carries() {
     let model = facing(&[0.0, 1.0, 2.0], &[1.5, 2.5, 3.5], -1e-3, 0.0);
-    let springs = springs_of(&model, Penalty::Pressure(1.0));
+    let springs = springs_of(&model, Penalty::Pressure(1.0), Depth::Plane);
     let length: f64 = springs.list.iter().map(|spring| spring.area).sum();
     assert!((length - 0.5).abs() < 1e-14, "{length}");
 }
@@ -181,6 +201,23 @@ fn the_area_varies_as_difference_quotients_say() {
         for node in 0..4 {
             for d in 0..2 {
                 let quotient = 3.0 * quotient(&positions, [node, d], area) / area(&positions);
+                assert!((ends[node].lean[d] - quotient).abs() < 1e-8, "{node} {d}: {} {quotient}", ends[node].lean[d]);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_circumference_varies_as_difference_quotients_say() {
+    let nodes = [[0, 1], [2, 3]];
+    for (positions, place) in inclined().into_iter().zip([0.2, 0.9, 0.5]) {
+        let radius = |positions: &[Vector; 4]| Common::new(nodes, positions).unwrap().middle(place)[0];
+        let common = Common::new(nodes, &positions).unwrap();
+        let mut ends = [End::default(); 4];
+        common.vary_radius(&mut ends, place, 3.0);
+        for node in 0..4 {
+            for d in 0..2 {
+                let quotient = 3.0 * quotient(&positions, [node, d], radius) / radius(&positions);
                 assert!((ends[node].lean[d] - quotient).abs() < 1e-8, "{node} {d}: {} {quotient}", ends[node].lean[d]);
             }
         }

@@ -46,6 +46,7 @@ impl Spring {
         let bend = gap_new + link.gap_old - 2.0 * self.gap;
         self.energy = 0.5 * (stored_old + stored_new) + 0.5 * elastic * bend;
         self.stored = [stored_new, 0.0];
+        self.stored_before = stored_old;
         let rate_mean = 0.5 * (link.rate_old + link.rates[0]);
         let slip_mean = 0.5 * (link.slip_rate_old + link.rates[1]);
         self.work = mean_step * (self.force * rate_mean + self.friction * slip_mean);
@@ -67,6 +68,7 @@ impl Spring {
                 if stiffness.is_finite() {
                     let (old, new) = (self.slip - 0.5 * before * link.slip_rate_old, self.slip + 0.5 * after * link.rates[1]);
                     self.stored[1] = 0.5 * stiffness * new * new;
+                    self.stored_before += 0.5 * stiffness * old * old;
                     self.energy += 0.25 * stiffness * (old * old + new * new) + 0.5 * self.friction * (old + new - 2.0 * self.slip);
                 } else {
                     self.lost.damping -= mean_step * self.friction * slip_mean;

@@ -66,6 +66,8 @@ pub struct Spring {
     pub gap_new: f64,
     /// Energy at n + ½ of the gap, and of a tie's slip, J/m.
     pub stored: [f64; 2],
+    /// The sum of both at n − ½, J/m.
+    pub stored_before: f64,
     /// Energy of the elastic slip at n, J/m: ¼ k (s^{n−½}² + s^{n+½}²).
     pub slip_energy: f64,
     /// Work of both forces in the velocity update, J/m.

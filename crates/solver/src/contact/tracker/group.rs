@@ -33,7 +33,7 @@ pub(super) struct Group {
 }
 
 impl Group {
-    fn key(&self) -> (u32, u32) {
+    pub(super) fn key(&self) -> (u32, u32) {
         (self.slave, self.body)
     }
 

@@ -9,6 +9,7 @@ mod certificate;
 mod ends;
 mod group;
 mod locate;
+mod past;
 mod reach;
 mod start;
 
@@ -21,7 +22,7 @@ use super::projection::node_segment::{Projection, Target, Vector};
 use super::search::Search;
 use crate::mesh::surface::NONE;
 use ends::Ends;
-use group::Pass;
+use group::{Group, Pass};
 use rayon::prelude::*;
 use reach::Reach;
 
@@ -72,6 +73,8 @@ pub struct Tracker {
     /// What the chunks of groups found in this step.
     chunks: Vec<Found>,
     certificate: Certificate,
+    /// What each pass recalls from before the surfaces changed, until the first search.
+    past: Option<Vec<Vec<Group>>>,
 }
 
 /// What a chunk of groups found.
@@ -95,7 +98,7 @@ impl Tracker {
     pub fn new(targets: Vec<Target>, passes: &[(usize, usize)], search: Box<dyn Search<2>>, positions: &[Vector]) -> Self {
         let passes = passes.iter().map(|&(slave, target)| Pass::new(slave, target, &targets)).collect();
         let reach = Reach::new(search, &targets, positions);
-        Self { targets, passes, reach, touches: Vec::new(), chunks: Vec::new(), certificate: Certificate::default() }
+        Self { targets, passes, reach, touches: Vec::new(), chunks: Vec::new(), certificate: Certificate::default(), past: None }
     }
 
     /// With the body of each node of the model, and per surface the segments that were left out of it because they lie on a symmetry line.
@@ -167,15 +170,18 @@ impl Tracker {
         self.reach.report.steps += 1;
         let mut sweep = sweep;
         if self.reach.is_left(sweep.new) {
-            let at_start = self.reach.is_new();
-            if at_start {
+            let (at_start, past) = (self.reach.is_new(), self.past.take());
+            if at_start && past.is_none() {
                 sweep.old = sweep.new;
             }
             let reach = self.reach.radius(sweep) + extra;
-            for pass in &mut self.passes {
+            for (number, pass) in self.passes.iter_mut().enumerate() {
                 if at_start {
                     pass.search(&self.targets, sweep, FIRST * reach, &mut self.reach);
-                    pass.start(&self.targets, sweep.new);
+                    pass.start(&self.targets, sweep.old, past.is_none());
+                }
+                if let Some(past) = &past {
+                    pass.recall(&past[number]);
                 }
                 pass.search(&self.targets, sweep, reach, &mut self.reach);
             }

@@ -49,11 +49,11 @@ const BOXES: usize = 64;
 type Extent = [Vector; 2];
 
 impl Pass {
-    /// Enters the nodes that are inside other bodies.
-    pub(super) fn start(&mut self, targets: &[Target], positions: &[Vector]) {
+    /// Enters the nodes that are inside other bodies; of surfaces with ends only where `open` says so.
+    pub(super) fn start(&mut self, targets: &[Target], positions: &[Vector], open: bool) {
         let target = &targets[self.target];
         let enclosed = self.enclosed(target, positions);
-        let mut inside = self.near_ones(target, &enclosed, positions);
+        let mut inside = if open { self.near_ones(target, &enclosed, positions) } else { Vec::new() };
         let segments = || target.surface.segments.iter().copied().zip(self.segment_bodies.iter().copied());
         let lids = || self.lids.iter().map(|&(lid, body)| (lid, body, true));
         let closed =

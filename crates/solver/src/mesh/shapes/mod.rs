@@ -228,12 +228,12 @@ const MESH: Key = shape_key("mesh", &MESH_SECTION, "A group of a mesh file.");
 
 static MESH_SECTION: Section = Section {
     name: "mesh",
-    doc: "A group of a mesh file (Gmsh `.msh` 2.2 or 4.1), triangles too. Its other groups can be named in contacts, constraints and probes.",
+    doc: "A group of a mesh file (Gmsh `.msh` 2.2 or 4.1; Abaqus or CalculiX `.inp`), triangles too. Its other groups can be named in contacts, constraints and probes.",
     form: Form::Inline,
     required: false,
     keys: &[
         key("file", Kind::Text, Need::Required, "Path of the file, from the model file's folder."),
-        key("group", Kind::Text, Need::Required, "Name of a two-dimensional physical group."),
+        key("group", Kind::Text, Need::Required, "Name of a two-dimensional physical group, or of an element set."),
         key("scale", Kind::Quantity(Dimension::LENGTH, Positive), Need::Default("\"1 m\""), "Length of one unit of the file."),
     ],
     ..Section::EMPTY

@@ -92,6 +92,10 @@ impl Check<'_> {
         {
             self.fault(format!("{path}.slave"), format!("the slave is surface {slave}, but there are only 0 and 1"), "");
         }
+        if contact.formulation == Formulation::Pinball && self.model.is_axisymmetric() {
+            let message = "pinballs are cylinders of the plane, which a body of revolution has none of";
+            self.fault(format!("{path}.formulation"), message, "take `double_pass`, `single_pass` or `segment`");
+        }
         for (_, key, message, help) in contradictions(contact).into_iter().filter(|(holds, ..)| *holds) {
             self.fault(format!("{path}.{key}"), message, help);
         }

@@ -14,6 +14,10 @@ impl Check<'_> {
                 Load::Gravity { parts, acceleration, curve } => {
                     self.part_list(&format!("{path}.parts"), parts);
                     self.vector(&format!("{path}.gravity"), *acceleration);
+                    if model.is_axisymmetric() && acceleration[0] != 0.0 {
+                        let message = "gravity across the axis of an axisymmetric model would pull it to one side";
+                        self.fault(format!("{path}.gravity[0]"), message, "let it act along the axis y, such as [0, \"-9.81 m/s^2\"]");
+                    }
                     self.factor(&path, curve);
                 }
                 Load::Centrifugal { parts, centre, speed, curve } => {
@@ -89,6 +93,10 @@ impl Check<'_> {
                 Image::Same => {}
                 Image::Translated(by) => {
                     self.vector(&format!("{path}.translation"), by);
+                    if model.is_axisymmetric() && by[0] != 0.0 {
+                        let message = "nodes of an axisymmetric model at different radii can't move as one";
+                        self.fault(format!("{path}.translation[0]"), message, "join sets that lie one above the other along y");
+                    }
                     if by == [0.0; 2] {
                         self.fault(format!("{path}.translation"), "the translation is zero", "leave it out where the sets coincide");
                     }
@@ -96,6 +104,10 @@ impl Check<'_> {
                 Image::Turned { centre, angle } => {
                     self.vector(&format!("{path}.centre"), centre);
                     self.number(&format!("{path}.rotation"), angle);
+                    if model.is_axisymmetric() {
+                        let message = "an axisymmetric model has no sectors: it is the same all around already";
+                        self.fault(format!("{path}.rotation"), message, "leave it out, or join by a translation along y");
+                    }
                     if angle == 0.0 {
                         self.fault(format!("{path}.rotation"), "the rotation is zero", "leave it out where the sets coincide");
                     }

@@ -14,6 +14,7 @@ use super::describe::{self, out_of_range, suggestion};
 use super::reference::{Reference, excerpt};
 use super::{Cadence, Material, Model, Part, Probe, ProbeAt, Shape};
 use crate::error::Fault;
+use crate::failure;
 use crate::material::{self, Parameters};
 use crate::output;
 use crate::quantity::{Dimension, Parameter, Range};
@@ -124,6 +125,14 @@ impl Check<'_> {
         if let Some(largest) = run.time_step {
             self.number("run.time_step", largest);
         }
+        if let Some(relaxation) = run.relaxation {
+            self.number("run.relaxation.tolerance", relaxation.tolerance);
+            self.number("run.relaxation.from", relaxation.from);
+        }
+        if let Some(scaling) = run.mass_scaling {
+            self.number("run.mass_scaling.time_step", scaling.time_step);
+            self.number("run.mass_scaling.limit", scaling.limit);
+        }
         if run.max_steps == Some(0) {
             self.fault("run.max_steps", "`max_steps` must be at least 1, but it is 0", "leave it out for no limit");
         }
@@ -150,6 +159,16 @@ impl Check<'_> {
                     Some(value) => self.within(&path, *value, parameter.dimension, parameter.range),
                     None if parameter.default.is_some() => {}
                     None => self.fault(path, format!("law `{}` needs `{}`", it.law, parameter.name), parameter.doc),
+                }
+            }
+            for (key, &value) in &it.failure {
+                match failure::by_name(key) {
+                    Some(kind) => self.within(&format!("{path}.failure.{key}"), value, kind.limit.dimension, kind.limit.range),
+                    None => self.fault(
+                        format!("{path}.failure"),
+                        format!("there is no criterion `{}`", excerpt(key)),
+                        "see `embate list failure`",
+                    ),
                 }
             }
             let before = self.faults.len();

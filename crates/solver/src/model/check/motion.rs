@@ -137,6 +137,20 @@ impl Check<'_> {
             }
         }
         let begins = [("velocity[0]", velocity[0]), ("velocity[1]", velocity[1]), ("spin", spin)];
+        if self.model.is_axisymmetric() {
+            let help = "leave it out: it moves along its axis y only";
+            for k in [0, 2] {
+                let (axis, (begin, value)) = (AXES[k], begins[k]);
+                let asked = drives[k].is_some_and(|drive| *drive != Drive::Constant(0.0));
+                if asked || (key == "motion" && drives[k].is_none()) {
+                    let message = format!("`{axis}` of a rigid body of revolution can't be prescribed or free");
+                    self.fault(format!("{body}.{key}.{axis}"), message, help);
+                } else if drives[k].is_none() && value != 0.0 {
+                    let message = format!("a rigid body of revolution can't begin with a motion in `{axis}`");
+                    self.fault(format!("{body}.{begin}"), message, help);
+                }
+            }
+        }
         for ((axis, drive), (begin, value)) in AXES.iter().zip(drives).zip(begins) {
             if drive.is_some() && value != 0.0 && value.is_finite() {
                 let message = format!("`{axis}` is not free, so it can't begin with {value}");
@@ -149,6 +163,10 @@ impl Check<'_> {
     pub(super) fn part_motion(&mut self, path: &str, part: &Part) {
         self.vector(&format!("{path}.velocity"), part.velocity);
         self.number(&format!("{path}.spin"), part.spin);
+        if part.is_axisymmetric() && part.spin != 0.0 && part.rigid.is_none() {
+            let message = "`spin` turns a part in its plane, which a body of revolution can't";
+            self.fault(format!("{path}.spin"), message, "leave it out; for a rotation about the axis take the load `centrifugal`");
+        }
         if let Some(motion) = &part.rigid {
             self.motion(path, "rigid", motion, part.velocity, part.spin);
         }
@@ -319,7 +337,10 @@ impl Check<'_> {
 
 /// Whether a part is rigid and free in nothing.
 pub(super) fn is_driven(part: &Part) -> bool {
-    part.rigid.as_ref().is_some_and(|motion| drives(motion).iter().all(Option::is_some))
+    // Of a body of revolution there is only y to ask for.
+    let told =
+        |motion: &Motion| if part.is_axisymmetric() { drives(motion)[1].is_some() } else { drives(motion).iter().all(Option::is_some) };
+    part.rigid.as_ref().is_some_and(told)
 }
 
 fn drives(motion: &Motion) -> [Option<&Drive>; 3] {

@@ -25,6 +25,7 @@ impl Check<'_> {
             self.known(&format!("{path}.element"), "element", &part.element, &elements);
             self.stress_state(&path, part);
             self.part_motion(&path, part);
+            self.number(&format!("{path}.mass_scale"), part.mass_scale);
             self.shape(&path, part);
             let count = element_count(model, part);
             if total <= ELEMENTS_MAX && total.saturating_add(count) > ELEMENTS_MAX {

@@ -45,7 +45,7 @@ pub(super) static OBSTACLE: Section = Section {
             "motion",
             Kind::Motion,
             Optional("fixed"),
-            "How it moves: velocities `x` and `y` of its reference point, and `rotation` about it. What is left out is fixed.",
+            "How it moves: velocities `x` and `y` of its reference point, and `rotation` about it. What is left out is fixed. In an axisymmetric model only `y` can move.",
         ),
         key(
             "reference",
@@ -57,7 +57,7 @@ pub(super) static OBSTACLE: Section = Section {
             "mass",
             Quantity(Dimension::MASS_PER_LENGTH, Positive),
             Optional("needed where, and only where, `x` or `y` is free"),
-            "Mass per depth.",
+            "Mass per depth; of an axisymmetric model the whole mass, kg.",
         ),
         key(
             "inertia",
@@ -117,7 +117,7 @@ static INTERFACE: Group = Group {
             "penalty",
             Stiffness(Positive),
             Optional("automatic, from the elements under the surfaces"),
-            "Stiffness per node and depth (N/m/m, also meant by a bare number), or pressure per penetration (Pa/m).",
+            "Stiffness per node and depth, or circumference (N/m/m, also meant by a bare number), or pressure per penetration (Pa/m).",
         ),
         key("penalty_scale", Quantity(Dimension::NONE, Positive), Optional("1"), "Factor on the automatic penalty."),
         key(

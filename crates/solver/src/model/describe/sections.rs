@@ -5,6 +5,7 @@ use super::Need::{self, Default, Optional, Required};
 use super::contact::{CONTACT, OBSTACLE};
 use super::{Form, Key, Kind, More, Rule, Section, key};
 use crate::block::stress_state::STRESS_STATES;
+use crate::failure::CRITERIA;
 use crate::mesh::shapes::SHAPES;
 use crate::quantity::Range::{Finite, NotNegative, Positive, UpTo};
 use crate::quantity::{Dimension, Parameter};
@@ -63,6 +64,48 @@ static RUN: Section = Section {
             Default("[0, 0]"),
             "Linear and quadratic coefficient of the pressure that resists compression: `[0.06, 1.2]` spreads shocks over a few elements and keeps them from ringing.",
         ),
+        key(
+            "relaxation",
+            Table(&RELAXATION),
+            Optional("none"),
+            "Damping that brings everything to rest, and an end of the run when it is.",
+        ),
+        key("mass_scaling", Table(&MASS_SCALING), Optional("none"), "Makes elements with a small stable step heavier, once at the start."),
+    ],
+    ..Section::EMPTY
+};
+
+static RELAXATION: Section = Section {
+    name: "relaxation",
+    doc: "Dynamic relaxation: a damping of mass that adapts itself to the slowest motion brings everything to rest, and the run ends when it is. For quasi-static states; what happens on the way means nothing.",
+    keys: &[
+        key(
+            "tolerance",
+            Quantity(Dimension::NONE, Positive),
+            Default("1e-6"),
+            "Kinetic energy over internal energy at which the state counts as at rest; it must stay below for half a period of the slowest motion.",
+        ),
+        key(
+            "from",
+            Quantity(Dimension::TIME, NotNegative),
+            Default("0"),
+            "Time from which rest ends the run: when loads that grow are complete.",
+        ),
+    ],
+    ..Section::EMPTY
+};
+
+static MASS_SCALING: Section = Section {
+    name: "mass_scaling",
+    doc: "Raises the density of elements whose stable step is too small, so that all allow one step at the start. The added mass resists motion; what gravity pulls at stays the true mass. Later steps may be smaller, as elements change their shape.",
+    keys: &[
+        key("time_step", Quantity(Dimension::TIME, Positive), Required, "Step that every element shall allow, `safety` included."),
+        key(
+            "limit",
+            Quantity(Dimension::NONE, Positive),
+            Default("0.05"),
+            "Largest mass that may be added, as a fraction of the mass of the deformable parts; more is a fault.",
+        ),
     ],
     ..Section::EMPTY
 };
@@ -72,9 +115,31 @@ static MATERIAL: Section = Section {
     doc: "A material: a law and its parameters. Parts refer to it by its name.",
     form: Form::Named,
     required: true,
-    keys: &[key("law", Choice(laws), Required, "Name of the law.")],
+    keys: &[
+        key("law", Choice(laws), Required, "Name of the law."),
+        key("failure", Table(&FAILURE), Optional("nothing fails"), "When elements of this material fail: they are taken out of the model."),
+    ],
     more: Some(More { by: "law", keys: law_keys }),
     ..Section::EMPTY
+};
+
+static FAILURE: Section = Section {
+    name: "failure",
+    doc: "Limits at which an element fails. What counts is the mean over its points, as in the result files, after every step; any one limit is enough. A failed element pulls no more, contact sees the surfaces behind it at once, and its mass stays on its nodes.",
+    keys: &FAILURE_KEYS,
+    ..Section::EMPTY
+};
+
+/// One key per criterion of the registry.
+const FAILURE_KEYS: [Key; CRITERIA.len()] = {
+    let mut keys = [key("", Flag, Required, ""); CRITERIA.len()];
+    let mut at = 0;
+    while at < CRITERIA.len() {
+        let Parameter { name, dimension, range, doc, .. } = CRITERIA[at].limit;
+        keys[at] = key(name, Quantity(dimension, range), Optional("no limit"), doc);
+        at += 1;
+    }
+    keys
 };
 
 static PART: Section = Section {
@@ -100,12 +165,23 @@ static PART: Section = Section {
             "What the plane stands for. In an axisymmetric part x is the radius and y the axis; forces, masses and energies are those of the whole circumference.",
         ),
         key("velocity", Vector(Dimension::VELOCITY, Finite), Default("[0, 0]"), "Initial velocity."),
-        key("spin", Angle(Dimension::RATE, Finite), Default("0"), "Initial angular velocity about the centre of mass, counter-clockwise."),
+        key(
+            "spin",
+            Angle(Dimension::RATE, Finite),
+            Default("0"),
+            "Initial angular velocity about the centre of mass, counter-clockwise; not of an axisymmetric part.",
+        ),
         key(
             "rigid",
             Kind::Rigid,
             Default("false"),
-            "Whether the part is rigid, free to move; or how it moves: `x` and `y` of its centre of mass, `rotation` about it. What is left out is free.",
+            "Whether the part is rigid, free to move; or how it moves: `x` and `y` of its centre of mass, `rotation` about it. What is left out is free. An axisymmetric part moves along `y` only.",
+        ),
+        key(
+            "mass_scale",
+            Quantity(Dimension::NONE, Positive),
+            Default("1"),
+            "Factor on the mass of the part where mass resists motion: 100 makes steps ten times as long. What gravity pulls at stays the true mass.",
         ),
         key("mirror", Table(&MIRROR), Optional("not mirrored"), "A line that the shape is mirrored on, before it is turned."),
         key("rotation", Table(&ROTATION), Optional("not turned"), "An angle by which the shape is turned, before it is moved."),
@@ -228,7 +304,7 @@ static LOAD: Section = Section {
             "gravity",
             Vector(Dimension::ACCELERATION, Finite),
             Optional("another load"),
-            "Uniform acceleration of parts, such as `[0, \"-9.81 m/s^2\"]`.",
+            "Uniform acceleration of parts, such as `[0, \"-9.81 m/s^2\"]`; in an axisymmetric model along y.",
         ),
         key(
             "centrifugal",

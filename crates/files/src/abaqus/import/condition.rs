@@ -1,0 +1,247 @@
+//! Amplitudes, prescribed motion, initial velocities and loads of a deck.
+
+use super::Importer;
+use super::report::Outcome::{Approximated, Ignored};
+use crate::abaqus::text::{Line, folded, shown};
+use embate_solver::error::Fault;
+use std::collections::BTreeSet;
+
+/// An amplitude: a function of time.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Amplitude {
+    pub(super) name: String,
+    pub(super) times: Vec<f64>,
+    pub(super) values: Vec<f64>,
+    pub(super) smooth: bool,
+}
+
+/// What a boundary condition prescribes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Prescribed {
+    Displacement,
+    Velocity,
+    Acceleration,
+}
+
+/// One component of prescribed motion: 0 x, 1 y, 2 rotation about z.
+#[derive(Clone, Debug)]
+pub(super) struct Boundary {
+    pub(super) at: usize,
+    /// Group of the mesh; `None`: nodes of no element.
+    pub(super) group: Option<String>,
+    pub(super) nodes: Vec<u32>,
+    pub(super) axis: usize,
+    pub(super) prescribed: Prescribed,
+    pub(super) value: f64,
+    /// In capitals.
+    pub(super) amplitude: Option<String>,
+}
+
+/// A load.
+#[derive(Clone, Debug)]
+pub(super) enum Load {
+    Gravity { at: usize, elements: BTreeSet<u32>, acceleration: [f64; 2], amplitude: Option<String> },
+    Force { at: usize, group: String, force: [f64; 2], amplitude: Option<String> },
+    Pressure { at: usize, group: String, pressure: f64, amplitude: Option<String> },
+}
+
+pub(super) fn amplitude(importer: &mut Importer<'_>, at: usize) -> Result<(), Fault> {
+    let block = importer.block(at);
+    let name = block.parameter("NAME").unwrap_or_default().to_string();
+    let smooth = block.is("DEFINITION", "SMOOTH STEP");
+    if block.has("DEFINITION") && !smooth && !block.is("DEFINITION", "TABULAR") || block.is("VALUE", "ABSOLUTE") {
+        importer.note(
+            at,
+            Ignored,
+            "only TABULAR and SMOOTH STEP with relative values are read; what names this amplitude does not act either",
+        );
+        return Ok(());
+    }
+    let mut numbers = Vec::new();
+    for &line in &block.data {
+        for number in importer.numbers(line, "a time or value")? {
+            numbers.extend(number);
+        }
+    }
+    let (times, values): (Vec<f64>, Vec<f64>) = numbers.chunks_exact(2).map(|pair| (pair[0], pair[1])).unzip();
+    if times.is_empty() || !numbers.len().is_multiple_of(2) || times.windows(2).any(|pair| pair[1] <= pair[0]) {
+        let message = format!("amplitude {} is not a list of pairs with ascending times", shown(&name));
+        return Err(importer.text.fault(block.line, message, "write time, value, time, value, ..."));
+    }
+    importer.amplitudes.insert(folded(&name), Amplitude { name, times, values, smooth });
+    Ok(())
+}
+
+fn amplitude_of(importer: &Importer<'_>, at: usize) -> Option<String> {
+    importer.block(at).parameter("AMPLITUDE").map(folded)
+}
+
+/// The components that a degree of freedom or a label stands for; `None`: not known.
+fn axes(word: &str) -> Option<Vec<usize>> {
+    Some(match word {
+        "XSYMM" => vec![0, 2],
+        "YSYMM" => vec![1, 2],
+        "ZSYMM" => vec![],
+        "ENCASTRE" => vec![0, 1, 2],
+        "PINNED" => vec![0, 1],
+        _ => return None,
+    })
+}
+
+pub(super) fn boundary(importer: &mut Importer<'_>, at: usize) -> Result<(), Fault> {
+    let block = importer.block(at);
+    if block.is("OP", "NEW")
+        && let Some(step) = importer.step_at
+    {
+        // It removes what holds before the step, not what other blocks of the step say.
+        importer.boundaries.retain(|boundary| boundary.at > step);
+    }
+    let prescribed = match block.parameter("TYPE").map(folded).as_deref() {
+        None | Some("DISPLACEMENT") => Prescribed::Displacement,
+        Some("VELOCITY") => Prescribed::Velocity,
+        Some("ACCELERATION") => Prescribed::Acceleration,
+        Some(other) => {
+            importer.note(at, Ignored, &format!("conditions of the type {other} have no counterpart"));
+            return Ok(());
+        }
+    };
+    for &line in &block.data {
+        let fields = importer.text.fields(line);
+        let field = |k: usize| fields.get(k).copied().unwrap_or_default();
+        let (all, value) = match axes(&folded(field(1))) {
+            Some(all) => (all, 0.0),
+            None => {
+                let first = importer.text.tag(line, field(1), "a degree of freedom")?;
+                let last = if field(2).is_empty() { first } else { importer.text.tag(line, field(2), "a degree of freedom")? };
+                let value = if field(3).is_empty() { 0.0 } else { importer.text.number(line, field(3), "a prescribed value")? };
+                // Out of the plane (3, 4, 5) nothing moves anyway.
+                ((0..3).filter(|axis| (first..=last).contains(&[1, 2, 6][*axis])).collect(), value)
+            }
+        };
+        for instance in importer.deck.instances_of(at) {
+            let (group, nodes) = importer.node_group(line, instance, field(0))?;
+            for &axis in &all {
+                let amplitude = amplitude_of(importer, at);
+                importer.boundaries.push(Boundary { at, group: group.clone(), nodes: nodes.clone(), axis, prescribed, value, amplitude });
+            }
+        }
+    }
+    Ok(())
+}
+
+pub(super) fn initial(importer: &mut Importer<'_>, at: usize) -> Result<(), Fault> {
+    let block = importer.block(at);
+    if !block.is("TYPE", "VELOCITY") {
+        importer.note(at, Ignored, "only TYPE=VELOCITY is read; the bodies begin without this");
+        return Ok(());
+    }
+    for &line in &block.data {
+        let fields = importer.text.fields(line);
+        let field = |k: usize| fields.get(k).copied().unwrap_or_default();
+        let axis = importer.text.tag(line, field(1), "a degree of freedom")?;
+        let value = importer.text.number(line, field(2), "a velocity")?;
+        if axis > 2 {
+            importer.ignored(at, line, "a velocity out of the plane, or an angular velocity");
+            continue;
+        }
+        for instance in importer.deck.instances_of(at) {
+            for node in importer.deck.nodes_named(importer.text, line, instance, field(0))? {
+                importer.velocities.entry(node).or_default()[axis as usize - 1] = value;
+            }
+        }
+    }
+    importer.velocity_blocks.push(at);
+    Ok(())
+}
+
+pub(super) fn nodal_force(importer: &mut Importer<'_>, at: usize) -> Result<(), Fault> {
+    for &line in &importer.block(at).data {
+        let fields = importer.text.fields(line);
+        let field = |k: usize| fields.get(k).copied().unwrap_or_default();
+        let axis = importer.text.tag(line, field(1), "a degree of freedom")?;
+        let value = importer.text.number(line, field(2), "a force")?;
+        for instance in importer.deck.instances_of(at) {
+            let (group, nodes) = importer.node_group(line, instance, field(0))?;
+            let (Some(group), 1..=2) = (group, axis) else {
+                importer.ignored(at, line, "a moment, a force out of the plane, or one on nodes of no element");
+                continue;
+            };
+            let mut force = [0.0; 2];
+            force[axis as usize - 1] = value * nodes.len() as f64;
+            let amplitude = amplitude_of(importer, at);
+            importer.loads.push(Load::Force { at, group, force, amplitude });
+        }
+    }
+    Ok(())
+}
+
+pub(super) fn distributed(importer: &mut Importer<'_>, at: usize) -> Result<(), Fault> {
+    for &line in &importer.block(at).data {
+        let fields = importer.text.fields(line);
+        let field = |k: usize| fields.get(k).copied().unwrap_or_default();
+        let label = folded(field(1));
+        for instance in importer.deck.instances_of(at) {
+            match label.as_str() {
+                "GRAV" => gravity(importer, at, line, instance)?,
+                _ if label.strip_prefix(['P', 'E']).is_some_and(|number| number.parse::<u8>().is_ok()) => {
+                    let value = importer.text.number(line, field(2), "a pressure")?;
+                    let elements = importer.deck.elements_named(importer.text, line, instance, field(0))?;
+                    for element in elements {
+                        importer.deck.face(importer.text, line, element, &label)?;
+                    }
+                    let full = importer.deck.full_shown(instance, field(0));
+                    let group = importer.add_set(&format!("{label}-{full}"), |group| {
+                        format!("*SURFACE, TYPE=ELEMENT, NAME=\"{group}\"\n\"{full}\", {label}\n")
+                    });
+                    let amplitude = amplitude_of(importer, at);
+                    importer.loads.push(Load::Pressure { at, group, pressure: value, amplitude });
+                }
+                _ => importer.ignored(at, line, &format!("a load {label} has no counterpart in the import and does not act")),
+            }
+        }
+    }
+    Ok(())
+}
+
+fn gravity(importer: &mut Importer<'_>, at: usize, line: Line, instance: usize) -> Result<(), Fault> {
+    let fields = importer.text.fields(line);
+    let field = |k: usize| fields.get(k).copied().unwrap_or_default();
+    let number = |k: usize| if field(k).is_empty() { Ok(0.0) } else { importer.text.number(line, field(k), "a number of gravity") };
+    let (size, direction) = (number(2)?, [number(3)?, number(4)?, number(5)?]);
+    if direction[2] != 0.0 {
+        importer.ignored(at, line, "gravity out of the plane does not act");
+        return Ok(());
+    }
+    let length = direction[0].hypot(direction[1]);
+    if length == 0.0 {
+        return Err(importer.text.fault(line, "gravity has no direction", "write set, GRAV, size, x, y, z"));
+    }
+    let elements = match field(0) {
+        "" => BTreeSet::new(),
+        name => importer.deck.elements_named(importer.text, line, instance, name)?.into_iter().collect(),
+    };
+    let acceleration = [0, 1].map(|axis| if direction[axis] == 0.0 { 0.0 } else { size * (direction[axis] / length) });
+    let amplitude = amplitude_of(importer, at);
+    importer.loads.push(Load::Gravity { at, elements, acceleration, amplitude });
+    Ok(())
+}
+
+pub(super) fn surface_load(importer: &mut Importer<'_>, at: usize) -> Result<(), Fault> {
+    for &line in &importer.block(at).data {
+        let fields = importer.text.fields(line);
+        let field = |k: usize| fields.get(k).copied().unwrap_or_default();
+        let key = importer.surface(line, field(0))?;
+        let group = importer.names.surfaces.get(&key).cloned();
+        let (Some(group), "P") = (group, folded(field(1)).as_str()) else {
+            importer.ignored(at, line, "only a pressure (P) on edges of elements is read");
+            continue;
+        };
+        let pressure = importer.text.number(line, field(2), "a pressure")?;
+        let amplitude = amplitude_of(importer, at);
+        importer.loads.push(Load::Pressure { at, group, pressure, amplitude });
+    }
+    if importer.block(at).data.is_empty() {
+        importer.note(at, Approximated, "no data lines: nothing to apply");
+    }
+    Ok(())
+}

@@ -1,0 +1,57 @@
+//! Decks of Abaqus and CalculiX: .inp files become an [`ImportedMesh`], or a whole model.
+//!
+//! The walk of the data: `text.rs` (files, includes, keywords with their data lines) → `deck.rs` and `sets.rs` (nodes, elements, sets and
+//! surfaces, with instances in place; `element_kind.rs` is the table of element types) → `plane.rs` (the mesh), or `import/` (a model file
+//! with a report of what became of each keyword).
+
+mod deck;
+mod element_kind;
+pub mod import;
+
+mod plane;
+mod sets;
+mod text;
+
+use deck::Deck;
+use embate_solver::error::Fault;
+use embate_solver::model::ImportedMesh;
+use std::path::Path;
+use text::Text;
+
+/// Reads the mesh of a deck; see [`parse`]. `scale` is the length of the file's unit in metres.
+///
+/// # Errors
+/// The file can't be read, or what [`parse`] finds.
+pub fn read(path: &Path, scale: f64) -> Result<ImportedMesh, Vec<Fault>> {
+    let text = Text::read(path, &path.display().to_string()).map_err(|fault| vec![fault])?;
+    mesh(&text, scale)
+}
+
+/// Makes a plane mesh from the bytes of a deck (.inp); what it includes is looked for in `folder`.
+///
+/// - Positions are x and y times `scale` (m per unit of the file), with instances in place; z is 0 within 1e-9 of the mesh's size.
+/// - Groups: element sets (two-dimensional, elements in the order of the set), surfaces of element edges (lines), surfaces of nodes and node
+///   sets (points). Outside of its part the set of an instance is called `INSTANCE.SET`. Names keep their first spelling. A surface or node
+///   set whose name is taken is called `NAME-surface` or `NAME-nodes`. If the deck has no element sets, its elements are the group `all`.
+/// - Nodes keep the file's order; those of no plane element are left out, also of sets.
+/// - Clockwise elements are turned, their first node kept.
+/// - Masses, springs, rigid lines, beams and the like are stepped over, and so is every keyword that is not about geometry.
+///
+/// `source` names the file in messages.
+///
+/// # Errors
+/// The first fault of the text with its line: what is no keyword, number or name, a missing node, a number twice, elements of second order,
+/// of three dimensions or of unknown type, keywords that generate nodes or elements; or all nodes that are off the plane.
+pub fn parse(bytes: &[u8], source: &str, folder: &Path, scale: f64) -> Result<ImportedMesh, Vec<Fault>> {
+    let text = Text::parse(bytes, source, folder).map_err(|fault| vec![fault])?;
+    mesh(&text, scale)
+}
+
+fn mesh(text: &Text, scale: f64) -> Result<ImportedMesh, Vec<Fault>> {
+    if !(scale.is_finite() && scale > 0.0) {
+        let message = format!("the mesh's unit is {scale} m");
+        return Err(vec![Fault::new(text.shown_name(), message, "it is a finite number greater than 0")]);
+    }
+    let deck = Deck::read(text).map_err(|fault| vec![fault])?;
+    plane::mesh(&deck, text, scale)
+}

@@ -1,0 +1,231 @@
+//! Sets and surfaces of a deck, in the order of the file: *NSET, *ELSET, *SURFACE.
+//!
+//! Part of [`Deck`]; what they name must stand above them. Members are indices into the deck's nodes and elements.
+
+use super::deck::{Deck, Scope, Set, Surface, extend};
+use super::text::{Block, Line, Text, folded, shown};
+use embate_solver::error::Fault;
+use std::collections::BTreeMap;
+
+const ABOVE: &str = "name a set that is defined above this line, or a number; outside of a part it is INSTANCE.SET";
+
+impl Deck {
+    pub(super) fn read_sets(&mut self, text: &Text) -> Result<(), Fault> {
+        for (at, block) in text.blocks.iter().enumerate() {
+            match block.keyword.as_str() {
+                "NSET" | "ELSET" => {
+                    let of_nodes = block.keyword == "NSET";
+                    for (named_in, looked_in) in self.homes(text, at, block)? {
+                        self.read_set(text, block, of_nodes, named_in, looked_in)?;
+                    }
+                }
+                "SURFACE" => {
+                    for instance in self.instances_of(at) {
+                        self.read_surface(text, block, instance)?;
+                    }
+                }
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    /// Instances in which a set gets its name and in which its members are looked for.
+    fn homes(&self, text: &Text, at: usize, block: &Block) -> Result<Vec<(usize, usize)>, Fault> {
+        if let (Some(name), Scope::Root) = (block.parameter("INSTANCE"), &self.scopes[at]) {
+            let found = self.instances.iter().position(|it| !it.name.is_empty() && folded(&it.name) == folded(name));
+            let instance = found.ok_or_else(|| {
+                text.fault(block.line, format!("there is no instance {}", shown(name)), "name an *INSTANCE of the assembly")
+            })?;
+            return Ok(vec![(0, instance)]);
+        }
+        Ok(self.instances_of(at).into_iter().map(|instance| (instance, instance)).collect())
+    }
+
+    fn read_set(&mut self, text: &Text, block: &Block, of_nodes: bool, named_in: usize, looked_in: usize) -> Result<(), Fault> {
+        let Some(name) = block.parameter(&block.keyword).filter(|name| !name.is_empty()) else {
+            return Err(text.fault(block.line, format!("*{} has no name", block.keyword), format!("add {}=...", block.keyword)));
+        };
+        let mut members = Vec::new();
+        if of_nodes && let Some(elements) = block.parameter("ELSET") {
+            for element in self.elements_named(text, block.line, looked_in, elements)? {
+                members.extend(self.elements[element as usize].nodes());
+            }
+        }
+        for &line in &block.data {
+            let fields = text.fields(line);
+            if block.has("GENERATE") {
+                let [first, last] = [0, 1].map(|at| fields.get(at).copied().unwrap_or_default());
+                let first = text.tag(line, first, "the first number")?;
+                let last = text.tag(line, last, "the last number")?;
+                let step = fields.get(2).filter(|field| !field.is_empty()).map_or(Ok(1), |field| text.tag(line, field, "the step"))?;
+                let instance = &self.instances[looked_in];
+                let range = [first, last, step];
+                members.extend(if of_nodes { instance.nodes_between(range) } else { instance.elements_between(range) });
+                continue;
+            }
+            for field in fields.into_iter().filter(|field| !field.is_empty()) {
+                members.extend(if of_nodes {
+                    self.nodes_named(text, line, looked_in, field)?
+                } else {
+                    self.elements_named(text, line, looked_in, field)?
+                });
+            }
+        }
+        let name = self.full_shown(named_in, name);
+        extend(if of_nodes { &mut self.node_sets } else { &mut self.element_sets }, &name, members);
+        Ok(())
+    }
+
+    /// The nodes of a set, or the node of a number, as seen from an instance.
+    pub(super) fn nodes_named(&self, text: &Text, line: Line, instance: usize, name: &str) -> Result<Vec<u32>, Fault> {
+        if let Ok(tag) = name.parse::<u64>() {
+            let node = self.instances[instance].node(tag);
+            return node
+                .map(|node| vec![node])
+                .ok_or_else(|| text.fault(line, format!("there is no node {tag}"), "look for the number in *NODE"));
+        }
+        for name in [self.full(instance, name), folded(name)] {
+            if let Some(set) = self.node_sets.get(&name) {
+                return Ok(set.members.clone());
+            }
+            if let Some(node) = self.numbered(&name).and_then(|(at, tag)| self.instances[at].node(tag)) {
+                return Ok(vec![node]);
+            }
+        }
+        Err(text.fault(line, format!("there is no node set {}", shown(name)), ABOVE))
+    }
+
+    /// The elements of a set, or the element of a number; empty for masses, springs and the like.
+    pub(super) fn elements_named(&self, text: &Text, line: Line, instance: usize, name: &str) -> Result<Vec<u32>, Fault> {
+        if let Ok(tag) = name.parse::<u64>() {
+            return match self.instances[instance].element(tag) {
+                Some(element) => Ok(vec![element]),
+                None if !self.beside.is_empty() => Ok(Vec::new()),
+                None => Err(text.fault(line, format!("there is no element {tag}"), "look for the number in *ELEMENT")),
+            };
+        }
+        for name in [self.full(instance, name), folded(name)] {
+            if let Some(set) = self.element_sets.get(&name) {
+                return Ok(set.members.clone());
+            }
+            if self.beside.contains_key(&name) {
+                return Ok(Vec::new());
+            }
+            if let Some(element) = self.numbered(&name).and_then(|(at, tag)| self.instances[at].element(tag)) {
+                return Ok(vec![element]);
+            }
+        }
+        Err(text.fault(line, format!("there is no element set {}", shown(name)), ABOVE))
+    }
+
+    /// `INSTANCE.12`: the instance and the number.
+    fn numbered(&self, name: &str) -> Option<(usize, u64)> {
+        let (instance, tag) = name.rsplit_once('.')?;
+        let at = self.instances.iter().skip(1).position(|it| folded(&it.name) == instance)?;
+        Some((at + 1, tag.parse().ok()?))
+    }
+
+    fn read_surface(&mut self, text: &Text, block: &Block, instance: usize) -> Result<(), Fault> {
+        let Some(name) = block.parameter("NAME").filter(|name| !name.is_empty()) else {
+            return Err(text.fault(block.line, "*SURFACE has no name", "add NAME=..."));
+        };
+        let surface = match block.parameter("TYPE").map_or("ELEMENT".into(), folded).as_str() {
+            _ if block.has("COMBINE") || block.has("CROP") => Surface::Other("made of other surfaces".into()),
+            "ELEMENT" => self.edges(text, block, instance)?,
+            "NODE" => {
+                let mut nodes = Vec::new();
+                for &line in &block.data {
+                    nodes.extend(self.nodes_named(text, line, instance, text.fields(line)[0])?);
+                }
+                Surface::Nodes(nodes)
+            }
+            "SEGMENTS" => segments(text, block)?,
+            other => Surface::Other(format!("of the type {other}")),
+        };
+        let name = self.full_shown(instance, name);
+        match self.surfaces.entry(folded(&name)) {
+            std::collections::btree_map::Entry::Occupied(_) => {
+                Err(text.fault(block.line, format!("a second surface {}", shown(&name)), "give it another name"))
+            }
+            std::collections::btree_map::Entry::Vacant(entry) => {
+                entry.insert(Set { name, members: vec![surface] });
+                Ok(())
+            }
+        }
+    }
+
+    /// Edges of elements: `set, S1` is one edge of each, `set` alone those that belong to one element of the deck only, `,` all of these.
+    fn edges(&self, text: &Text, block: &Block, instance: usize) -> Result<Surface, Fault> {
+        let mut edges = Vec::new();
+        let mut counts = None;
+        for &line in &block.data {
+            let fields = text.fields(line);
+            let face = fields.get(1).copied().unwrap_or_default();
+            let elements = match fields[0] {
+                "" => (0..self.elements.len() as u32).collect(),
+                name => self.elements_named(text, line, instance, name)?,
+            };
+            for element in elements {
+                if face.is_empty() {
+                    let counts = counts.get_or_insert_with(|| self.edge_counts());
+                    let it = &self.elements[element as usize];
+                    let free = (0..it.kind.nodes).filter(|&edge| counts.get(&sorted(it.edge(edge))) == Some(&1));
+                    edges.extend(free.map(|edge| (element, edge as u8)));
+                } else {
+                    edges.push((element, self.face(text, line, element, face)?));
+                }
+            }
+        }
+        edges.sort_unstable();
+        edges.dedup();
+        Ok(Surface::Edges(edges))
+    }
+
+    /// The edge, from 0, that S1, P1 or E1 and so on stand for.
+    pub(super) fn face(&self, text: &Text, line: Line, element: u32, face: &str) -> Result<u8, Fault> {
+        let kind = self.elements[element as usize].kind;
+        let mut letters = face.chars();
+        let letter = letters.next().map(|c| c.to_ascii_uppercase());
+        let fits = matches!((letter, kind.shell), (Some('S' | 'P'), false) | (Some('E'), true));
+        let number = letters.as_str().parse::<u8>().ok().filter(|number| fits && (1..=kind.nodes as u8).contains(number));
+        number.map(|number| number - 1).ok_or_else(|| {
+            let letter = if kind.shell { 'E' } else { 'S' };
+            let message = format!("an element {} has no edge {}", kind.name, shown(face));
+            text.fault(line, message, format!("its edges are {letter}1 to {letter}{}", kind.nodes))
+        })
+    }
+
+    /// How many elements have each edge.
+    fn edge_counts(&self) -> BTreeMap<[u32; 2], u32> {
+        let mut counts = BTreeMap::new();
+        for element in &self.elements {
+            for edge in 0..element.kind.nodes {
+                *counts.entry(sorted(element.edge(edge))).or_insert(0) += 1;
+            }
+        }
+        counts
+    }
+}
+
+fn sorted([a, b]: [u32; 2]) -> [u32; 2] {
+    [a.min(b), a.max(b)]
+}
+
+/// Points of a rigid surface of straight lines.
+fn segments(text: &Text, block: &Block) -> Result<Surface, Fault> {
+    let mut points = Vec::new();
+    for &line in &block.data {
+        let fields = text.fields(line);
+        let word = folded(fields[0]);
+        if !matches!(word.as_str(), "START" | "LINE") {
+            return Ok(Surface::Other(format!("with the segment {word}; only straight lines are read")));
+        }
+        let number = |at: usize| text.number(line, fields.get(at).copied().unwrap_or_default(), "a coordinate of a segment");
+        points.push([number(1)?, number(2)?]);
+    }
+    if points.len() < 2 || block.has("FILLET RADIUS") {
+        return Ok(Surface::Other("with rounded corners or without lines".into()));
+    }
+    Ok(Surface::Lines(points))
+}

@@ -1,0 +1,205 @@
+//! Eroded elements: which fail, and how they leave a block without costing the others anything.
+//!
+//! Kernels have no branch for them: the lane of an eroded element becomes a copy of a live element, as the lanes that fill the last batch are, so nothing in it can go wrong; its forces and
+//! energies count zero times. When that live element is eroded too, its copies become copies of another. The state that an element had at the end is kept for output.
+
+use super::batch::ElementBatch;
+use super::elements::{CHUNK, Elements};
+use super::stress_state::StressState;
+use super::{Block, ElementState, Report};
+use crate::element::Element;
+use crate::failure::{Criterion, Seen};
+use crate::material::Variable;
+use crate::tensor::{Dim, Space};
+use embate_lanes::{BATCH, Batch};
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+
+/// What a block knows of its eroded elements.
+pub(super) struct Eroded {
+    /// What they dissipated, J/m; nothing else is left of them in the reports.
+    pub(super) left: Report,
+    /// State of each at the end.
+    pub(super) last: BTreeMap<usize, ElementState>,
+    /// The live element that lanes without one are copies of; `None`: the last one, as at the start.
+    source: Option<usize>,
+}
+
+impl Default for Eroded {
+    fn default() -> Self {
+        Self { left: Report::NOTHING, last: BTreeMap::new(), source: None }
+    }
+}
+
+/// A batch of a block as criteria see it.
+struct Look<'a, E, S, const D: usize, const N: usize, const P: usize> {
+    block: &'a Elements<E, S, D, N, P>,
+    batch: usize,
+}
+
+impl<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize> Look<'_, E, S, D, N, P>
+where
+    Dim<D>: Space<D>,
+{
+    /// Mean over the points of value `value` of `width`.
+    fn mean(&self, values: &[Batch], width: usize, value: usize) -> Batch {
+        let mut mean = Batch::default();
+        for p in 0..P {
+            let of_point = &values[(self.batch * P + p) * width + value];
+            for lane in 0..BATCH {
+                mean.0[lane] += of_point.0[lane];
+            }
+        }
+        Batch(mean.0.map(|sum| sum / P as f64))
+    }
+}
+
+impl<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize> Seen for Look<'_, E, S, D, N, P>
+where
+    Dim<D>: Space<D>,
+{
+    fn stress(&self) -> [Batch; 4] {
+        std::array::from_fn(|c| self.mean(&self.block.stress, Elements::<E, S, D, N, P>::COMPONENTS, c))
+    }
+
+    fn variable(&self, variable: Variable) -> Batch {
+        let place = self.block.law.variables().iter().find(|&&(own, _)| own == variable);
+        place.map_or(Batch::default(), |&(_, index)| self.mean(&self.block.history, self.block.law.state_width(), index))
+    }
+
+    fn time_step_squared(&self) -> Batch {
+        self.block.elements[self.batch].time_step_squared
+    }
+}
+
+impl<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize> Elements<E, S, D, N, P>
+where
+    Dim<D>: Space<D>,
+{
+    pub(super) fn make_heavier(&mut self, element: usize, factor: f64) {
+        let last = self.count - 1;
+        // The lanes that fill the last batch are copies of the last element.
+        let lanes = if element == last { element..self.elements.len() * BATCH } else { element..element + 1 };
+        for (batch, lane) in lanes.map(|element| (element / BATCH, element % BATCH)) {
+            for a in 0..N {
+                self.corner_mass[batch * N + a].0[lane] *= factor;
+            }
+            self.elements[batch].mass_least.0[lane] *= factor;
+        }
+    }
+
+    pub(super) fn failing(&self, criteria: &[Criterion], parallel: bool) -> Vec<(u32, u32)> {
+        let look = |(index, batches): (usize, &[ElementBatch])| -> Vec<(u32, u32)> {
+            let mut failed = Vec::new();
+            for (within, elements) in batches.iter().enumerate() {
+                let batch = index * CHUNK + within;
+                let seen = Look { block: self, batch };
+                let fails: Vec<[bool; BATCH]> = criteria.iter().map(|criterion| (criterion.kind.fails)(&seen, criterion.limit)).collect();
+                for lane in (0..BATCH).filter(|&lane| elements.live.0[lane] > 0.0) {
+                    if let Some(first) = fails.iter().position(|fails| fails[lane]) {
+                        failed.push(((batch * BATCH + lane) as u32, first as u32));
+                    }
+                }
+            }
+            failed
+        };
+        if parallel {
+            self.elements.par_chunks(CHUNK).enumerate().flat_map_iter(look).collect()
+        } else {
+            self.elements.chunks(CHUNK).enumerate().flat_map(look).collect()
+        }
+    }
+
+    pub(super) fn least_determinant(&self, element: usize, positions: &[[f64; D]]) -> f64 {
+        let (batch, lane) = (element / BATCH, element % BATCH);
+        let x: [[f64; D]; N] = std::array::from_fn(|a| positions[self.nodes.row(batch * N + a)[lane] as usize]);
+        E::gradients(&x)
+            .iter()
+            .map(|jacobian| Dim::<D>::determinant(jacobian))
+            .fold(f64::INFINITY, |least, own| if own < least { own } else { least })
+    }
+
+    pub(super) fn take_out(&mut self, elements: &[u32]) -> Vec<f64> {
+        let mut stored = Vec::with_capacity(elements.len());
+        for &element in elements {
+            let state = self.state(element as usize);
+            self.eroded.last.insert(element as usize, state);
+            let (values, lane) = (&mut self.elements[element as usize / BATCH], element as usize % BATCH);
+            values.live.0[lane] = 0.0;
+            // What an inverted element thinks it has is no energy.
+            let sound = |value: f64| if value.is_finite() { value } else { 0.0 };
+            stored.push(sound(values.stored.0[lane]));
+            let left = Report {
+                dissipated: sound(values.dissipated.0[lane]),
+                hourglass: sound(values.hourglass.0[lane]),
+                viscous: sound(values.viscous.0[lane]),
+                ..Report::NOTHING
+            };
+            self.eroded.left = self.eroded.left.join(left);
+        }
+        let old = self.eroded.source.unwrap_or(self.count - 1);
+        let source = if self.is_alive(old) { Some(old) } else { (0..self.count).find(|&element| self.is_alive(element)) };
+        if let Some(source) = source {
+            if source == old {
+                elements.iter().for_each(|&element| self.copy(source, element as usize));
+            } else {
+                (0..self.elements.len() * BATCH)
+                    .filter(|&lane| !self.is_alive(lane))
+                    .collect::<Vec<_>>()
+                    .into_iter()
+                    .for_each(|lane| self.copy(source, lane));
+            }
+            self.eroded.source = Some(source);
+        }
+        stored
+    }
+
+    /// Makes a lane that counts for nothing a copy of a live element.
+    fn copy(&mut self, from: usize, to: usize) {
+        let [stress, history, initial, hourglass] = self.widths();
+        let (source, place) = ([from / BATCH, from % BATCH], [to / BATCH, to % BATCH]);
+        for a in 0..N {
+            self.nodes.copy_lane([source[0] * N + a, source[1]], [place[0] * N + a, place[1]]);
+        }
+        let lists =
+            [(&mut self.stress, stress), (&mut self.history, history), (&mut self.initial, initial), (&mut self.hourglass, hourglass)];
+        for (list, width) in lists {
+            for k in 0..width {
+                list[place[0] * width + k].0[place[1]] = list[source[0] * width + k].0[source[1]];
+            }
+        }
+        self.volume_initial[place[0]].0[place[1]] = self.volume_initial[source[0]].0[source[1]];
+        let values = self.elements[source[0]];
+        let lane = &mut self.elements[place[0]];
+        let fields: [(&mut Batch, Batch); 9] = [
+            (&mut lane.mass_least, values.mass_least),
+            (&mut lane.stored, values.stored),
+            (&mut lane.dissipated, values.dissipated),
+            (&mut lane.time_step_squared, values.time_step_squared),
+            (&mut lane.hourglass, values.hourglass),
+            (&mut lane.viscous, values.viscous),
+            (&mut lane.viscous_step, values.viscous_step),
+            (&mut lane.viscous_pressure, values.viscous_pressure),
+            (&mut lane.volume, values.volume),
+        ];
+        for (to, from) in fields {
+            to.0[place[1]] = from.0[source[1]];
+        }
+    }
+
+    pub(super) fn of_the_living(&self, positions: &[[f64; D]]) -> Report {
+        let mut sum = self.eroded.left;
+        for element in (0..self.count).filter(|&element| self.is_alive(element)) {
+            let (values, lane) = (&self.elements[element / BATCH], element % BATCH);
+            sum = sum.join(Report {
+                time_step_squared: values.time_step_squared.0[lane],
+                determinant: self.least_determinant(element, positions),
+                stored: values.stored.0[lane],
+                dissipated: values.dissipated.0[lane],
+                hourglass: values.hourglass.0[lane],
+                viscous: values.viscous.0[lane],
+            });
+        }
+        sum
+    }
+}

@@ -1,0 +1,322 @@
+//! Averaged nodal pressure: the driver of elements with one point whose dilatation is averaged over the nodes of the block and back (`tri3_anp`).
+//!
+//! The parts of the kernel are those of any element; between them the block goes through its nodes twice. Rate laws: θ_n = Σ_e V_e θ_e / Σ_e V_e over the elements of
+//! a node, θ̄_e the mean of its nodes. Hyperelastic laws: J_n = Σ_e V_e / Σ_e V_e⁰ in the same way. The pressure in the forces is averaged by the same two means, weighted
+//! with V (V⁰): Σ_e V_e p_e θ̄_e = Σ_e V_e p̄_e θ_e, so what the nodes spend is what the elements store. Sums run in the order of the elements.
+//! Source: Bonet and Burton, Commun. Numer. Meth. Engng 14 (1998) 437-449.
+
+use super::batch::ElementBatch;
+use super::elements::{CHUNK, Elements};
+use super::forces::{Forces, Sums};
+use super::strain::{Measures, Strain, Tensor, circumference, initial_width};
+use super::stress_state::StressState;
+use super::strip::Strip;
+use super::{Motion, Report};
+use crate::element::Element;
+use crate::material::Family;
+use crate::material::points::{Points, RESPONSE};
+use crate::tensor::{Dim, Space, SymmetricTensor};
+use embate_lanes::{BATCH, Batch, Lane, Level, math};
+use rayon::prelude::*;
+use std::marker::PhantomData;
+
+/// What the averages need beside the block.
+pub(super) struct Nodal {
+    /// Nodes of the block, counted from zero: `corners` per lane.
+    cells: Vec<u32>,
+    corners: usize,
+    /// Where the elements of each node begin in `elements`; one more than nodes.
+    starts: Vec<u32>,
+    elements: Vec<u32>,
+    /// Room for each chunk.
+    strips: Vec<Strip>,
+    /// Stresses with the averaged pressure, Pa.
+    stress: Vec<Batch>,
+    /// By lane: weight, weight times the value, and the value averaged.
+    weight: Vec<Batch>,
+    moment: Vec<Batch>,
+    mean: Vec<Batch>,
+    /// By node.
+    at_nodes: Vec<f64>,
+}
+
+impl Nodal {
+    /// For `count` elements with so many `corners`, in lanes of `batches`; `strip` makes the room of a chunk.
+    pub(super) fn new(connectivity: &[u32], corners: usize, components: usize, strip: impl Fn() -> Strip) -> Self {
+        let count = connectivity.len() / corners;
+        let mut nodes = connectivity.to_vec();
+        nodes.sort_unstable();
+        nodes.dedup();
+        let local = |node: &u32| nodes.binary_search(node).map_or(0, |at| at as u32);
+        let mut cells: Vec<u32> = connectivity.iter().map(local).collect();
+        let mut starts = vec![0; nodes.len() + 1];
+        cells.iter().for_each(|&node| starts[node as usize + 1] += 1);
+        for node in 0..nodes.len() {
+            starts[node + 1] += starts[node];
+        }
+        let (mut next, mut elements) = (starts.clone(), vec![0; cells.len()]);
+        for (k, &node) in cells.iter().enumerate() {
+            elements[next[node as usize] as usize] = (k / corners) as u32;
+            next[node as usize] += 1;
+        }
+        let batches = count.div_ceil(BATCH);
+        cells.resize(batches * BATCH * corners, 0);
+        let room = || vec![Batch::default(); batches];
+        Self {
+            cells,
+            corners,
+            starts,
+            elements,
+            strips: (0..batches.div_ceil(CHUNK)).map(|_| strip()).collect(),
+            stress: vec![Batch::default(); batches * components],
+            weight: room(),
+            moment: room(),
+            mean: room(),
+            at_nodes: vec![0.0; nodes.len()],
+        }
+    }
+
+    /// From weights and moments to the mean over the nodes of each element of the weighted means of the nodes.
+    fn average(&mut self, parallel: bool) {
+        let Self { cells, corners, starts, elements, weight, moment, mean, at_nodes, .. } = self;
+        let node = |(node, value): (usize, &mut f64)| {
+            let (mut total, mut sum) = (0.0, 0.0);
+            for &element in &elements[starts[node] as usize..starts[node + 1] as usize] {
+                let (batch, lane) = (element as usize / BATCH, element as usize % BATCH);
+                total += weight[batch].0[lane];
+                sum += moment[batch].0[lane];
+            }
+            *value = if total > 0.0 { sum / total } else { 0.0 };
+        };
+        if parallel {
+            at_nodes.par_iter_mut().with_min_len(1024).enumerate().for_each(node);
+        } else {
+            at_nodes.iter_mut().enumerate().for_each(node);
+        }
+        let (corners, share) = (*corners, 1.0 / *corners as f64);
+        let element = |(batch, mean): (usize, &mut Batch)| {
+            for (lane, mean) in mean.0.iter_mut().enumerate() {
+                let cell = &cells[(batch * BATCH + lane) * corners..][..corners];
+                *mean = cell.iter().map(|&node| at_nodes[node as usize]).sum::<f64>() * share;
+            }
+        };
+        if parallel {
+            mean.par_iter_mut().with_min_len(CHUNK).enumerate().for_each(element);
+        } else {
+            mean.iter_mut().enumerate().for_each(element);
+        }
+    }
+}
+
+/// Does the tasks, in parallel if wanted.
+fn each<T: Send>(tasks: Vec<T>, parallel: bool, work: impl Fn(T) + Send + Sync) {
+    if parallel { tasks.into_par_iter().for_each(work) } else { tasks.into_iter().for_each(work) }
+}
+
+impl<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize> Elements<E, S, D, N, P>
+where
+    Dim<D>: Space<D>,
+{
+    /// One step of a block with nodal averages.
+    pub(super) fn advance_averaged(
+        &mut self,
+        nodal: &mut Nodal,
+        motion: &Motion<'_, D>,
+        level: Level,
+        corners: &mut [Batch],
+        parallel: bool,
+    ) -> Report {
+        let measures = Measures { family: self.law.family(), rotation: self.law.needs_rotation(), volume: self.law.needs_volume() };
+        self.strain_all(nodal, motion, measures, level, parallel);
+        nodal.average(parallel);
+        let means = nodal.mean.clone();
+        if measures.family == Family::Rate && measures.volume {
+            for (batch, (weight, moment)) in nodal.weight.iter_mut().zip(&mut nodal.moment).enumerate() {
+                let ratio = &nodal.strips[batch / CHUNK].volume_ratio[batch % CHUNK];
+                for lane in 0..BATCH {
+                    weight.0[lane] = self.volume_initial[batch].0[lane] * self.elements[batch].live.0[lane];
+                    moment.0[lane] = weight.0[lane] * ratio.0[lane];
+                }
+            }
+            nodal.average(parallel);
+            for (batch, mean) in nodal.mean.iter().enumerate() {
+                nodal.strips[batch / CHUNK].volume_ratio[batch % CHUNK] = *mean;
+            }
+        }
+        self.respond_all(nodal, &means, motion.time_step, measures.family, level, parallel);
+        nodal.average(parallel);
+        self.force_all(nodal, motion.time_step, measures.family, level, corners, parallel)
+    }
+
+    /// Strains without averages; the volumes and dilatations (volume ratios) of the elements.
+    fn strain_all(&mut self, nodal: &mut Nodal, motion: &Motion<'_, D>, measures: Measures, level: Level, parallel: bool) {
+        let components = Self::COMPONENTS;
+        let initial = if measures.family == Family::Hyperelastic { initial_width::<S, D>() } else { 0 };
+        let (nodes, volume_initial, elements, all_initial) = (&self.nodes, &self.volume_initial, &self.elements, &self.initial);
+        let tasks = (self.stress.chunks_mut(CHUNK * components).zip(&mut nodal.strips))
+            .zip(nodal.weight.chunks_mut(CHUNK).zip(nodal.moment.chunks_mut(CHUNK)))
+            .enumerate()
+            .collect();
+        each(tasks, parallel, |(index, ((stress, strip), (weight, moment)))| {
+            let (first, last) = (index * CHUNK, index * CHUNK + weight.len());
+            level.run(Strain::<E, S, D, N, P> {
+                motion: *motion,
+                measures,
+                first,
+                nodes,
+                elements: &elements[first..last],
+                volume_initial: &volume_initial[first..last],
+                initial: &all_initial[first * initial..last * initial],
+                stress,
+                strip,
+                kind: PhantomData,
+            });
+            for batch in 0..weight.len() {
+                for lane in 0..BATCH {
+                    let value = match measures.family {
+                        Family::Rate => Tensor::<D, f64>::load(&strip.strain[batch * components..][..components], lane).trace(),
+                        Family::Hyperelastic => strip.volume_ratio[batch].0[lane],
+                    };
+                    weight[batch].0[lane] = strip.volume[batch].0[lane] * elements[first + batch].live.0[lane];
+                    moment[batch].0[lane] = weight[batch].0[lane] * value;
+                }
+            }
+        });
+    }
+
+    /// Stresses from the averaged strains; their pressures, to be averaged.
+    fn respond_all(&mut self, nodal: &mut Nodal, means: &[Batch], time_step: f64, family: Family, level: Level, parallel: bool) {
+        let (components, width) = (Self::COMPONENTS, self.law.state_width());
+        let (law, elements) = (self.law.as_ref(), &self.elements);
+        // A law without history has one batch per chunk, which stands for nothing.
+        let history = if width == 0 { 1 } else { CHUNK * width };
+        let tasks = (self.stress.chunks_mut(CHUNK * components).zip(self.history.chunks_mut(history)).zip(&mut nodal.strips))
+            .zip(nodal.weight.chunks_mut(CHUNK).zip(nodal.moment.chunks_mut(CHUNK)))
+            .enumerate()
+            .collect();
+        each(tasks, parallel, |(index, (((stress, history), strip), (weight, moment)))| {
+            let (first, count) = (index * CHUNK, weight.len());
+            for batch in 0..count {
+                for lane in 0..BATCH {
+                    impose::<D>(strip, batch, lane, means[first + batch].0[lane], family);
+                }
+            }
+            law.respond(
+                level,
+                Points {
+                    time_step,
+                    strain: &strip.strain[..count * components],
+                    rotation: &strip.rotation,
+                    volume_ratio: &strip.volume_ratio[..count],
+                    viscous_heat: &strip.viscous_heat[..count],
+                    stress,
+                    state: &mut history[..count * width],
+                    response: &mut strip.response[..count * RESPONSE],
+                    room: &mut strip.law,
+                },
+            );
+            for batch in 0..count {
+                for lane in 0..BATCH {
+                    let pressure = Tensor::<D, f64>::load(&stress[batch * components..][..components], lane).trace() / 3.0;
+                    let volume = match family {
+                        Family::Rate => volume::<E, S, D, N, P>(strip, batch, lane),
+                        Family::Hyperelastic => strip.volume[batch].0[lane],
+                    };
+                    weight[batch].0[lane] = volume * elements[first + batch].live.0[lane];
+                    moment[batch].0[lane] = weight[batch].0[lane] * pressure;
+                }
+            }
+        });
+    }
+
+    /// Forces from the stresses with averaged pressures.
+    fn force_all(
+        &mut self,
+        nodal: &mut Nodal,
+        time_step: f64,
+        family: Family,
+        level: Level,
+        corners: &mut [Batch],
+        parallel: bool,
+    ) -> Report {
+        let (components, width, thickness) = (Self::COMPONENTS, self.law.state_width(), self.law.thickness().unwrap_or(0));
+        let (element, viscosity, all_stress, all_history) = (&self.element, self.viscosity, &self.stress, &self.history);
+        let means = &nodal.mean;
+        let tasks = (self.elements.chunks_mut(CHUNK).zip(nodal.stress.chunks_mut(CHUNK * components)).zip(&nodal.strips))
+            .zip(corners.chunks_mut(CHUNK * N * D).zip(self.reports.iter_mut()))
+            .enumerate()
+            .collect();
+        each(tasks, parallel, |(index, (((elements, stress), strip), (corners, report))): (usize, Task<'_>)| {
+            let (first, count) = (index * CHUNK, elements.len());
+            stress.copy_from_slice(&all_stress[first * components..(first + count) * components]);
+            for batch in 0..count {
+                for lane in 0..BATCH {
+                    let own = &mut stress[batch * components..(batch + 1) * components];
+                    let mut pressure = means[first + batch].0[lane];
+                    if family == Family::Hyperelastic {
+                        // The weight J̄/J belongs to the deviator alone.
+                        pressure = pressure * E::WEIGHTS[0] / strip.weight[batch].0[lane];
+                    }
+                    let unaveraged = Tensor::<D, f64>::load(own, lane);
+                    unaveraged.plus(Tensor::<D, f64>::isotropic(pressure - unaveraged.trace() / 3.0)).store(own, lane);
+                }
+            }
+            let mut sums = Sums::new();
+            level.run(Forces::<E, S, D, N, P> {
+                element,
+                family,
+                time_step,
+                viscosity,
+                stress,
+                history: if width == 0 { &[] } else { &all_history[first * width..(first + count) * width] },
+                history_width: width,
+                thickness,
+                hourglass: &mut [],
+                strip,
+                elements,
+                corners,
+                sums: &mut sums,
+                kind: PhantomData,
+            });
+            *report = sums.report();
+        });
+        self.reports.iter().fold(Report::NOTHING, |sum, &report| sum.join(report))
+    }
+}
+
+/// Elements, stresses, room, corner forces and report of a chunk.
+type Task<'a> = (((&'a mut [ElementBatch], &'a mut [Batch]), &'a Strip), (&'a mut [Batch], &'a mut Report));
+
+/// Gives an element its averaged dilatation θ̄ or volume ratio J̄ (F̄ = (J̄/J)^{1/3} F).
+fn impose<const D: usize>(strip: &mut Strip, batch: usize, lane: usize, mean: f64, family: Family)
+where
+    Dim<D>: Space<D>,
+{
+    let components = <Tensor<D, f64> as SymmetricTensor<f64>>::COMPONENTS;
+    let strain = &mut strip.strain[batch * components..(batch + 1) * components];
+    let own = Tensor::<D, f64>::load(strain, lane);
+    match family {
+        Family::Rate => own.plus(Tensor::<D, f64>::isotropic((mean - own.trace()) / 3.0)).store(strain, lane),
+        Family::Hyperelastic => {
+            let change = mean / strip.volume_ratio[batch].0[lane];
+            let root = math::cbrt(change);
+            own.times(root * root).store(strain, lane);
+            strip.volume_ratio[batch].0[lane] = mean;
+            strip.weight[batch].0[lane] *= change;
+        }
+    }
+}
+
+/// Volume of an element now.
+fn volume<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize>(
+    strip: &Strip,
+    batch: usize,
+    lane: usize,
+) -> f64
+where
+    Dim<D>: Space<D>,
+{
+    let x: [[f64; D]; N] = std::array::from_fn(|a| std::array::from_fn(|i| f64::load(&strip.nodes[(batch * N + a) * D + i], lane)));
+    let area = Dim::<D>::determinant(&E::gradients(&x)[0]) * E::WEIGHTS[0];
+    circumference::<S, f64, D, N>(area, &x, &E::shape(E::POINTS[0]))
+}

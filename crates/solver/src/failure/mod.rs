@@ -1,0 +1,101 @@
+//! When an element fails: criteria on its mean state, and the registry that everything else iterates over.
+//!
+//! A material lists limits (`failure`); after the law has answered, a block asks its criteria about each batch of eight elements (`Seen`), and the step erodes
+//! what fails. The mean over the points decides, the same value that files show. To add a criterion: one file, one line in [`CRITERIA`].
+
+mod damage;
+mod plastic_strain;
+mod principal_stress;
+mod time_step;
+
+use crate::material::Variable;
+use crate::quantity::Parameter;
+use embate_lanes::{BATCH, Batch};
+
+/// A criterion as the registry describes it.
+#[derive(Clone, Copy, Debug)]
+pub struct CriterionKind {
+    /// Its key in the model file, and the limit.
+    pub limit: Parameter,
+    /// What the law must remember for it.
+    pub needs: Option<Variable>,
+    /// Which of eight elements fail at a limit.
+    pub fails: fn(&dyn Seen, f64) -> [bool; BATCH],
+}
+
+/// Every criterion.
+pub const CRITERIA: &[CriterionKind] = &[plastic_strain::KIND, principal_stress::KIND, damage::KIND, time_step::KIND];
+
+/// A criterion with its limit.
+#[derive(Clone, Copy, Debug)]
+pub struct Criterion {
+    /// Which.
+    pub kind: &'static CriterionKind,
+    /// Limit, SI.
+    pub limit: f64,
+}
+
+/// What criteria see of eight elements: means over the points.
+pub trait Seen {
+    /// Cauchy stress xx yy zz xy, Pa.
+    fn stress(&self) -> [Batch; 4];
+    /// What the law remembers; zero where it has no such thing.
+    fn variable(&self, variable: Variable) -> Batch;
+    /// Squares of the stable steps, s².
+    fn time_step_squared(&self) -> Batch;
+}
+
+/// The criterion called `name`.
+#[must_use]
+pub fn by_name(name: &str) -> Option<&'static CriterionKind> {
+    CRITERIA.iter().find(|kind| kind.limit.name == name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    struct State {
+        stress: [f64; 4],
+        variables: [f64; Variable::COUNT],
+        time_step: f64,
+    }
+
+    impl Seen for State {
+        fn stress(&self) -> [Batch; 4] {
+            self.stress.map(Batch::splat)
+        }
+        fn variable(&self, variable: Variable) -> Batch {
+            Batch::splat(self.variables[variable as usize])
+        }
+        fn time_step_squared(&self) -> Batch {
+            Batch::splat(self.time_step * self.time_step)
+        }
+    }
+
+    #[test]
+    fn each_criterion_fails_at_its_limit_and_not_before() {
+        let state = State { stress: [3.0, 1.0, 0.5, 2.0], variables: [0.2, 300.0, 0.9], time_step: 1e-8 };
+        let at = |name: &str, limit: f64| (by_name(name).unwrap().fails)(&state, limit)[0];
+        assert!(at("plastic_strain", 0.2) && !at("plastic_strain", 0.21));
+        // 2 + √(1 + 4)
+        assert!(at("principal_stress", 4.236) && !at("principal_stress", 4.237));
+        assert!(at("damage", 0.9) && !at("damage", 1.0));
+        assert!(at("time_step", 1.1e-8) && !at("time_step", 0.9e-8));
+    }
+
+    #[test]
+    fn stress_across_the_plane_counts_and_pressure_does_not() {
+        let fails = |stress: [f64; 4]| {
+            let state = State { stress, variables: [0.0; Variable::COUNT], time_step: 1.0 };
+            (by_name("principal_stress").unwrap().fails)(&state, 1.0)[0]
+        };
+        assert!(fails([0.0, 0.0, 1.5, 0.0]) && !fails([-9.0, -9.0, -9.0, 0.0]));
+    }
+
+    #[test]
+    fn an_element_without_a_step_fails_for_its_step() {
+        let state = State { stress: [0.0; 4], variables: [0.0; Variable::COUNT], time_step: f64::NAN };
+        assert!((by_name("time_step").unwrap().fails)(&state, 1e-9)[0]);
+    }
+}

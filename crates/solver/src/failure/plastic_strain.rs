@@ -1,0 +1,17 @@
+//! Failure at an equivalent plastic strain: the usual limit of ductile metals.
+
+use super::CriterionKind;
+use crate::material::Variable;
+use crate::quantity::{Dimension, Parameter, Range};
+
+pub(super) const KIND: CriterionKind = CriterionKind {
+    limit: Parameter::new(
+        "plastic_strain",
+        "ε_f",
+        Dimension::NONE,
+        Range::Positive,
+        "Equivalent plastic strain at which an element fails.",
+    ),
+    needs: Some(Variable::PlasticStrain),
+    fails: |seen, limit| seen.variable(Variable::PlasticStrain).0.map(|strain| strain >= limit),
+};

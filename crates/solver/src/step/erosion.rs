@@ -1,0 +1,165 @@
+//! Erosion within a step: after the laws have answered, what fails is taken out of blocks, mesh, contacts and loads, before anything moves.
+//!
+//! The elastic energy of an eroded element goes to the books as `eroded`. The element pulled until the step before and pulls no more now; by the trapezoidal rule of the ledger half of its
+//! last pull, f^n·½ (x^n − x^{n−1}), was never done on the nodes and stays in what is booked. Springs of contacts live in half steps: what those of surfaces that
+//! are gone stored at n − ½, less what springs of the new surfaces store there, is booked with it. So the drift does not see erosion.
+
+use super::System;
+use crate::block::{Report, corner_slot};
+use crate::build::{Lent, Origin};
+use crate::failure::Criterion;
+use crate::output::Eroded;
+
+/// What fails and what has failed.
+pub(crate) struct Erosion {
+    /// Criteria of each block.
+    criteria: Vec<Vec<Criterion>>,
+    /// What contacts are made from.
+    origin: Origin,
+    /// Energy that went with elements and springs, J/m.
+    pub(crate) energy: f64,
+    /// Blocks without elements.
+    gone: Vec<bool>,
+    /// Energy of the contact springs before surfaces changed in this step, J/m.
+    springs: Option<f64>,
+    /// Elements by part, and what the first one was.
+    pub(crate) by_part: Vec<usize>,
+    pub(crate) first: Option<Eroded>,
+}
+
+/// What fails in a step: block, element, criterion.
+type Failed = (usize, u32, &'static str);
+
+impl Erosion {
+    pub(crate) fn new(criteria: Vec<Vec<Criterion>>, origin: Origin) -> Self {
+        let gone = vec![false; criteria.len()];
+        Self { criteria, origin, energy: 0.0, gone, springs: None, by_part: Vec::new(), first: None }
+    }
+
+    pub(crate) fn is_gone(&self, block: usize) -> bool {
+        self.gone[block]
+    }
+
+    /// Books the contact springs that surfaces took with them, if they changed in this step; `stored`: what springs of the new ones store, J/m.
+    pub(crate) fn close_springs(&mut self, stored: impl FnOnce() -> f64) {
+        if let Some(before) = self.springs.take() {
+            self.energy += before - stored();
+        }
+    }
+}
+
+impl System {
+    /// Takes out what fails. Returns what `elements` is without it.
+    pub(super) fn erode(&mut self, elements: Report) -> Report {
+        let Some(mut erosion) = self.erosion.take() else { return elements };
+        let failed = self.failed(&erosion, elements.determinant <= 0.0);
+        let elements = if failed.is_empty() {
+            elements
+        } else {
+            erosion.by_part.resize(self.mesh.parts.len(), 0);
+            for of_block in failed.chunk_by(|a, b| a.0 == b.0) {
+                self.take_out(of_block, &mut erosion);
+            }
+            self.renew_surfaces(&mut erosion);
+            self.reports.iter().fold(Report::NOTHING, |sum, &report| sum.join(report))
+        };
+        self.erosion = Some(erosion);
+        elements
+    }
+
+    /// What fails, ascending by block and element. Where an element is `inverted`, all such ones fail that may fail for their step.
+    fn failed(&self, erosion: &Erosion, inverted: bool) -> Vec<Failed> {
+        let mut failed = Vec::new();
+        for (index, (block, criteria)) in self.blocks.iter().zip(&erosion.criteria).enumerate() {
+            if criteria.is_empty() || erosion.gone[index] {
+                continue;
+            }
+            let name = |criterion: u32| criteria[criterion as usize].kind.limit.name;
+            let mut of_block: Vec<(u32, &'static str)> =
+                block.failed(criteria, self.parallel).into_iter().map(|(element, criterion)| (element, name(criterion))).collect();
+            let step = criteria.iter().map(|criterion| criterion.kind.limit.name).find(|name| *name == "time_step");
+            if let Some(step) = step.filter(|_| inverted) {
+                let is_inverted =
+                    |&element: &u32| block.is_alive(element as usize) && !(block.determinant(element as usize, &self.positions) > 0.0);
+                of_block.extend((0..block.elements() as u32).filter(is_inverted).map(|element| (element, step)));
+                of_block.sort_by_key(|&(element, _)| element);
+                of_block.dedup_by_key(|(element, _)| *element);
+            }
+            failed.extend(of_block.into_iter().map(|(element, name)| (index, element, name)));
+        }
+        failed
+    }
+
+    /// Takes elements out of their block and of the mesh.
+    fn take_out(&mut self, failed: &[Failed], erosion: &mut Erosion) {
+        let index = failed[0].0;
+        let first = self.blocks[..index].iter().map(|block| block.corner_batches()).sum::<usize>();
+        let numbers: Vec<u32> = failed.iter().map(|&(_, element, _)| element).collect();
+        let group = &self.mesh.groups[index];
+        for &(_, element, criterion) in failed {
+            let mut work = 0.0;
+            for (corner, &node) in group.cell(element as usize).iter().enumerate() {
+                let (batch, lane) = corner_slot::<2>(group.nodes_per_element, element as usize, corner);
+                let [x, x_old] = [self.positions[node as usize], self.positions_old[node as usize]];
+                for d in 0..2 {
+                    let force = &mut self.corners[first + batch + d].0[lane];
+                    work += std::mem::take(force) * (x[d] - x_old[d]);
+                }
+            }
+            if work.is_finite() {
+                erosion.energy += 0.5 * work;
+            }
+            erosion.first.get_or_insert_with(|| Eroded {
+                part: self.mesh.parts[group.part].name.clone(),
+                element: group.user_elements[element as usize] as usize,
+                at: self.centre(group.cell(element as usize)),
+                time: self.time,
+                criterion,
+            });
+        }
+        let part = group.part;
+        erosion.by_part[part] += failed.len();
+        erosion.energy += self.blocks[index].erode(&numbers).iter().sum::<f64>();
+        for &element in &numbers {
+            self.mesh.groups[index].erode(element as usize);
+        }
+        let block = &self.blocks[index];
+        self.reports[index] = block.report(&self.positions);
+        erosion.gone[index] = !(0..block.elements()).any(|element| block.is_alive(element));
+    }
+
+    /// Lets contacts, traces and loads see the surfaces that are left.
+    fn renew_surfaces(&mut self, erosion: &mut Erosion) {
+        if !self.forces.is_empty() {
+            let has_elements = self.has_elements();
+            // Segments run against the elements behind them.
+            let edges = |cell: &[u32]| (0..cell.len()).map(|c| [cell[(c + 1) % cell.len()], cell[c]]).collect::<Vec<_>>();
+            let mut backed: Vec<[u32; 2]> = self.mesh.groups.iter().flat_map(|group| group.live_cells()).flat_map(edges).collect();
+            backed.sort_unstable();
+            self.forces.renew(|node| !has_elements[node as usize], |segment| backed.binary_search(&segment).is_ok());
+        }
+        if self.contacts.is_empty() {
+            return;
+        }
+        // The outside of what was sound before stays sound with elements taken out of it.
+        let outside = self.mesh.outside_without(&[], |segment| self.constraints.is_mirror(segment)).unwrap_or_default();
+        self.traces.renew(outside, &self.mesh.positions);
+        erosion.springs = Some(self.contacts.iter().map(|contact| contact.stored(&self.springs)).sum());
+        let lent = Lent { mesh: &mut self.mesh, constraints: &mut self.constraints, mass: &mut self.mass, bodies: &mut self.bodies };
+        erosion.origin.renew(lent, &mut self.contacts);
+    }
+
+    /// Mass of nodes without elements, kg/m.
+    pub(crate) fn mass_loose(&self) -> f64 {
+        let has_elements = self.has_elements();
+        let count = self.mesh.positions.len();
+        self.mass[..count].iter().zip(&has_elements).filter(|(_, has)| !**has).map(|(mass, _)| mass).sum()
+    }
+
+    /// Whether each node has an element.
+    fn has_elements(&self) -> Vec<bool> {
+        let mut has_elements = vec![false; self.positions.len()];
+        self.mesh.groups.iter().flat_map(|group| group.live_cells()).flatten().for_each(|&node| has_elements[node as usize] = true);
+        has_elements
+    }
+}

@@ -1,0 +1,70 @@
+//! Dynamic relaxation: damping of mass at the critical rate of the motion that there is, and the end when all is at rest.
+//!
+//! The Rayleigh quotient with the stiffness that the internal forces show in the step, ω² = −v·(f^n − f^{n−1}) / (dt Σ m v²), is the square of the angular frequency of the motion; what
+//! moves fast dies first, so it falls to that of the slowest mode, whose critical rate is 2 ω. Underwood, "Dynamic relaxation", in Computational Methods for Transient Analysis
+//! (1983) 245-265; Papadrakakis, Comput. Meth. Appl. Mech. Engng 25 (1981) 35-48.
+
+use super::{System, Vector};
+use crate::model;
+
+/// What brings everything to rest.
+pub(crate) struct Relaxation {
+    tolerance: f64,
+    from: f64,
+    /// Internal forces of the step before, N/m.
+    forces: Vec<Vector>,
+    /// ω, 1/s.
+    frequency: f64,
+    /// Since when kinetic energy has been small, s.
+    quiet: Option<f64>,
+    /// Kinetic over internal energy now.
+    pub(crate) ratio: f64,
+    /// When all was at rest, s.
+    pub(crate) rest: Option<f64>,
+}
+
+impl Relaxation {
+    pub(crate) fn new(model::Relaxation { tolerance, from }: model::Relaxation, nodes: usize) -> Self {
+        Self { tolerance, from, forces: vec![[0.0; 2]; nodes], frequency: 0.0, quiet: None, ratio: f64::INFINITY, rest: None }
+    }
+}
+
+impl System {
+    /// Sets the rate of damping for the coming update.
+    pub(super) fn relax(&mut self) {
+        let Some(relaxation) = &mut self.relaxation else { return };
+        let (mut power, mut inertia) = (0.0, 0.0);
+        for (node, old) in relaxation.forces.iter_mut().enumerate() {
+            let force = self.assembly.force(node, &self.corners);
+            if self.bodies.of_node(node as u32).is_none() {
+                let v = self.velocities[node];
+                power += v[0] * (force[0] - old[0]) + v[1] * (force[1] - old[1]);
+                inertia += self.mass[node] * (v[0] * v[0] + v[1] * v[1]);
+            }
+            *old = force;
+        }
+        let square = -power / (self.time_step_old * inertia);
+        // Of what is at rest, or gives way, nothing is learnt.
+        if square.is_finite() && square > 0.0 {
+            relaxation.frequency = square.sqrt();
+        }
+        self.damping.relax(2.0 * relaxation.frequency);
+    }
+
+    /// Ends the run where all is at rest.
+    pub(super) fn see_rest(&mut self) {
+        let Some(relaxation) = &mut self.relaxation else { return };
+        let stores = &self.ledger.stores;
+        relaxation.ratio = stores.kinetic.abs() / (stores.elastic + stores.plastic);
+        // NaN where nothing has been strained yet.
+        if !(relaxation.ratio <= relaxation.tolerance) || self.time < relaxation.from {
+            relaxation.quiet = None;
+            return;
+        }
+        let since = *relaxation.quiet.get_or_insert(self.time);
+        if relaxation.frequency > 0.0 && (self.time - since) * relaxation.frequency >= std::f64::consts::PI {
+            relaxation.rest = Some(self.time);
+            self.limits.end = self.time;
+        }
+    }
+}

@@ -5,6 +5,7 @@ mod bodies;
 mod discrete;
 mod failure;
 mod mass;
+mod mirrors;
 mod obstacles;
 mod start;
 
@@ -15,6 +16,7 @@ use crate::block::spring::SpringBlock;
 use crate::block::{Block, BlockInput, Motion, Report, make};
 use crate::contact::formulation::{self, Setup, Side};
 use crate::contact::law::{self, Law};
+use crate::contact::mirror::Mirrored;
 use crate::contact::obstacle::OutlineShape;
 use crate::contact::projection::node_segment::Target;
 use crate::contact::search::SearchKind;
@@ -436,7 +438,9 @@ impl Builder<'_> {
     fn formulation(&mut self, contact: &model::Contact) -> Result<(Box<dyn Formulation>, usize), Vec<Fault>> {
         let terms = self.add_terms(terms_of(&contact.interface));
         let tie_terms = if contact.tied.is_some() { self.add_terms(terms_of_ties(&contact.interface)) } else { terms };
-        let sides = self.outlines_of(contact)?.into_iter().map(|outline| self.side(outline, &contact.interface)).collect();
+        let mirror_terms = self.add_terms(mirrors::terms_of_mirrors(&contact.interface));
+        let sides: Vec<Side<'_>> = self.outlines_of(contact)?.into_iter().map(|outline| self.side(outline, &contact.interface)).collect();
+        let mirrors = self.mirrors_of(contact, &sides[0]);
         let Some(search) = search_by_name(&contact.search) else {
             let message = format!("there is no search \"{}\"", contact.search);
             return Err(vec![Fault::new("search", message, "see `embate list searches`")]);
@@ -457,7 +461,10 @@ impl Builder<'_> {
             search: &|| (search.make)(),
             again: self.again,
         };
-        let made = (kind.make)(setup).map_err(|fault| vec![fault])?;
+        let mut made = (kind.make)(setup).map_err(|fault| vec![fault])?;
+        if !mirrors.is_empty() {
+            made = Box::new(Mirrored::new(made, mirrors, mirror_terms));
+        }
         Ok((made, terms))
     }
 

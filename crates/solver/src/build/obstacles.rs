@@ -172,7 +172,7 @@ impl Builder<'_> {
         let of_corners = of_corners.iter().map(|own| slave(least(own), 1.0));
         let slaves = vec![of_parts.collect(), of_corners.collect()];
         let own = Target { surface, mirrors: Vec::new() };
-        let tracker = self.tracker(met.outline, own, &[(0, 1), (1, 0)], &self.positions);
+        let tracker = self.tracker(met.outline, own, &[(0, 1), (1, 0)], &self.positions).with_ends(&self.positions);
         (body, Box::new(NodeSegment::new(tracker, slaves, &obstacle.interface, met.reach)))
     }
 

@@ -16,6 +16,7 @@ pub mod pinball;
 pub mod segment;
 pub mod tied;
 pub mod obstacle;
+pub mod mirror;
 pub mod traces;
 
 use crate::load::tributary::Depth;

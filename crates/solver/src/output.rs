@@ -61,6 +61,8 @@ pub enum Needs {
     Nothing,
     /// A material that flows.
     Plasticity,
+    /// A material with an equation of state.
+    EquationOfState,
     /// A contact or an obstacle.
     Contact,
     /// A contact or an obstacle with friction.
@@ -173,6 +175,7 @@ pub static FIELDS: &[FieldKind] = &[
     at_cells("von_mises", &[], "Pa", Needs::Nothing, "equivalent stress √(3/2 s:s) of the mean stress"),
     at_cells("pressure", &[], "Pa", Needs::Nothing, "minus a third of the stress trace"),
     at_cells("plastic_strain", &[], "", Needs::Plasticity, "equivalent plastic strain, mean over the element's points"),
+    at_cells("density", &[], "kg/m^3", Needs::EquationOfState, "density of materials with an equation of state, 0 for others"),
     at_cells("energy_density", &[], "J/m^3", Needs::Nothing, "stored elastic energy per initial volume"),
 ];
 

@@ -40,6 +40,8 @@ impl Dimension {
     pub const RATE: Self = Self::new(0, 0, -1);
     /// s/m.
     pub const SLOWNESS: Self = Self::new(0, -1, 1);
+    /// Pa s: dynamic viscosity.
+    pub const VISCOSITY: Self = Self::new(1, -1, -1);
     /// Pa s/m: shear stress per slip rate.
     pub const VISCOSITY_PER_LENGTH: Self = Self::new(1, -2, -1);
     /// N/m = kg/s²: force per metre of depth.
@@ -56,6 +58,7 @@ impl Dimension {
             Self::NONE => return String::new(),
             Self::PRESSURE => return "Pa".into(),
             Self::PRESSURE_PER_LENGTH => return "Pa/m".into(),
+            Self::VISCOSITY => return "Pa s".into(),
             Self::VISCOSITY_PER_LENGTH => return "Pa s/m".into(),
             Self::FORCE_PER_LENGTH => return "N/m".into(),
             _ => {}

@@ -46,6 +46,7 @@ struct Probe {
 impl Recorded {
     pub(crate) fn new(model: &Model, system: &System) -> Result<Self, Vec<Fault>> {
         let has_plastic = system.blocks.iter().any(|block| block.has(Variable::PlasticStrain));
+        let has_density = system.blocks.iter().any(|block| block.has(Variable::Density));
         let has_contact = !system.contacts.is_empty();
         let has_friction = system.terms.iter().any(|terms| matches!(terms.tangential, Tangential::Friction(_)));
         let wanted = |kind: &&FieldKind| {
@@ -54,6 +55,7 @@ impl Recorded {
             let sensible = match kind.needs {
                 Needs::Nothing => true,
                 Needs::Plasticity => has_plastic,
+                Needs::EquationOfState => has_density,
                 Needs::Contact => has_contact,
                 Needs::Friction => has_friction,
             };
@@ -201,6 +203,7 @@ fn values(name: &str, system: &System, surface: &OnSurface) -> Vec<f64> {
         "von_mises" => by_element(system, |state| [von_mises(&state.stress)]),
         "pressure" => by_element(system, |state| [-(state.stress[0] + state.stress[1] + state.stress[2]) / 3.0]),
         "plastic_strain" => by_element(system, |state| [state.variables[Variable::PlasticStrain as usize]]),
+        "density" => by_element(system, |state| [state.variables[Variable::Density as usize]]),
         "energy_density" => by_element(system, |state| [state.energy_density]),
         _ => Vec::new(),
     }

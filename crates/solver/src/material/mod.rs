@@ -5,8 +5,10 @@
 //! Blocks see laws erased, as [`points::PointLaw`]: the kernel of a law is compiled once, not once per element.
 
 mod elastic;
+pub mod eos;
 mod j2;
 mod neo_hookean;
+mod null;
 mod parameters;
 mod plane_stress;
 pub mod points;
@@ -15,6 +17,7 @@ mod state;
 pub use elastic::Elastic;
 pub use j2::J2;
 pub use neo_hookean::NeoHookean;
+pub use null::Null;
 pub use parameters::{DENSITY, POISSON, ParameterFault, Parameters, YOUNG, bulk_and_shear};
 pub use state::{State, Tensors, Variable};
 
@@ -93,6 +96,8 @@ pub trait Law: Copy + Send + Sync + 'static {
     const NEEDS_ROTATION: bool = false;
     /// Whether a rate law needs the volume ratio and the heat of the bulk viscosity.
     const NEEDS_VOLUME: bool = false;
+    /// Whether it has no pressure of its own.
+    const NEEDS_EQUATION_OF_STATE: bool = false;
 
     /// Reads its parameters, which have been checked against [`Law::KIND`].
     fn new(parameters: &Parameters<'_>) -> Self;
@@ -138,7 +143,7 @@ macro_rules! laws {
     };
 }
 
-laws!(Elastic, J2, NeoHookean);
+laws!(Elastic, J2, NeoHookean, Null);
 
 /// What the law called `name` finds wrong with parameters whose ranges are right.
 #[must_use]
@@ -151,6 +156,19 @@ pub fn faults(name: &str, parameters: &Parameters<'_>) -> Vec<ParameterFault> {
         }
     }
     with_law(name, Check(parameters)).unwrap_or_default()
+}
+
+/// Whether the law called `name` needs an equation of state, and whether it may have one; `None` when there is no such law.
+#[must_use]
+pub fn equation_of_state(name: &str) -> Option<[bool; 2]> {
+    struct Ask;
+    impl LawVisitor for Ask {
+        type Output = [bool; 2];
+        fn visit<M: Law>(self) -> Self::Output {
+            [M::NEEDS_EQUATION_OF_STATE, M::FAMILY == Family::Rate]
+        }
+    }
+    with_law(name, Ask)
 }
 
 /// Every law.

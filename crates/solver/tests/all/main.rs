@@ -27,5 +27,6 @@ mod projection;
 mod rigid;
 mod search;
 mod self_contact;
+mod shocks;
 mod stress_states;
 mod swept;

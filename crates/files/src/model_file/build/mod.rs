@@ -27,7 +27,12 @@ pub(super) fn model(document: &Document, name: &str, folder: &Path, faults: &mut
     let mut model = Model { name: name.to_string(), meshes: meshes.loaded, ..Model::default() };
     model.title = document.top.text("title");
     model.run = run(&document.single("run"));
-    let material = |record: &Record| Material { law: record.text("law"), parameters: record.numbers(), lists: record.lists() };
+    let material = |record: &Record| Material {
+        law: record.text("law"),
+        eos: record.text("eos"),
+        parameters: record.numbers(),
+        lists: record.lists(),
+    };
     model.materials = document.section("material").iter().map(|record| (record.name.clone(), material(record))).collect();
     model.parts = parts;
     model.contacts = document.section("contact").iter().map(|record| contact::contact(record, faults)).collect();

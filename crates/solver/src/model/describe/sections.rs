@@ -72,8 +72,16 @@ static MATERIAL: Section = Section {
     doc: "A material: a law and its parameters. Parts refer to it by its name.",
     form: Form::Named,
     required: true,
-    keys: &[key("law", Choice(laws), Required, "Name of the law.")],
-    more: Some(More { by: "law", keys: law_keys }),
+    keys: &[
+        key("law", Choice(laws), Required, "Name of the law."),
+        key(
+            "eos",
+            Choice(equations_of_state),
+            Optional("the law's own pressure"),
+            "Equation of state: gives the pressure in place of the law, which keeps what is without volume. Not with hyperelastic laws; `null` needs it.",
+        ),
+    ],
+    more: &[More { by: "law", keys: law_keys }, More { by: "eos", keys: equation_keys }],
     ..Section::EMPTY
 };
 
@@ -431,6 +439,10 @@ fn laws() -> Vec<&'static str> {
     material::registry().iter().map(|kind| kind.name).collect()
 }
 
+fn equations_of_state() -> Vec<&'static str> {
+    material::eos::EQUATIONS.iter().map(|kind| kind.name).collect()
+}
+
 fn elements() -> Vec<&'static str> {
     elements_of(4)
 }
@@ -453,9 +465,17 @@ fn fields() -> Vec<&'static str> {
 
 /// The keys of a law's parameters.
 fn law_keys(law: &str) -> Option<Vec<Key>> {
-    let kind = material::registry().into_iter().find(|kind| kind.name == law)?;
+    Some(parameter_keys(material::registry().into_iter().find(|kind| kind.name == law)?.parameters))
+}
+
+/// The keys of the parameters of an equation of state.
+fn equation_keys(name: &str) -> Option<Vec<Key>> {
+    Some(parameter_keys(material::eos::kind(name)?.parameters))
+}
+
+fn parameter_keys(parameters: &[Parameter]) -> Vec<Key> {
     let need = |default: Option<f64>| default.map_or(Required, Need::Value);
     let kind_of = |p: &Parameter| if p.list > 0 { Quantities(p.dimension, p.range, 1) } else { Quantity(p.dimension, p.range) };
     let need_of = |p: &Parameter| if p.list > 0 && p.default.is_some() { Optional("none") } else { need(p.default) };
-    Some(kind.parameters.iter().map(|p| key(p.name, kind_of(p), need_of(p), p.doc)).collect())
+    parameters.iter().map(|p| key(p.name, kind_of(p), need_of(p), p.doc)).collect()
 }

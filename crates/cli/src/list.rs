@@ -140,12 +140,17 @@ fn entry(text: &mut String, name: &str, doc: &str, source: &str) {
 
 /// A row of a parameter table; `without` says what a parameter without a default value is.
 fn parameter_row(parameter: &Parameter, without: &str) -> Vec<String> {
-    let default = parameter.default.map_or(without.to_string(), |value| format!("default {value}"));
+    let default = match (parameter.default, parameter.list) {
+        (None, _) => without.to_string(),
+        (Some(_), 1..) => "default: none".to_string(),
+        (Some(value), 0) => format!("default {value}"),
+    };
+    let many = if parameter.list > 0 { format!(", up to {} values", parameter.list) } else { String::new() };
     vec![
         parameter.name.to_string(),
         parameter.symbol.to_string(),
         unit(parameter.dimension.unit()),
-        parameter.range.to_string(),
+        format!("{}{many}", parameter.range),
         default,
         parameter.doc.to_string(),
     ]

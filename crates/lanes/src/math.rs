@@ -1,4 +1,4 @@
-//! Natural logarithm, exponential and cube root from correctly rounded operations: the same bits on every machine.
+//! Natural logarithm, exponential, power and cube root from correctly rounded operations: the same bits on every machine.
 
 use crate::Lane;
 
@@ -38,6 +38,15 @@ pub fn exp<L: Lane>(x: L) -> L {
         p = p * r + L::splat(1.0 / factorial);
     }
     (L::splat(1.0) + (r + r * r * p)) * k.power_of_two()
+}
+
+/// x to the power of y for x ≥ 0 and y > 0: e^{y ln x}; zero (and whatever is not positive and normal) gives zero.
+///
+/// The logarithm's error is multiplied by y ln x: relative error below 5e-16 (1 + |y ln x|). Results keep within the limits of [`exp`].
+#[inline(always)]
+pub fn pow<L: Lane>(x: L, y: L) -> L {
+    let least = L::splat(f64::MIN_POSITIVE);
+    L::select(x.less(least), L::splat(0.0), exp(y * ln(x.max(least))))
 }
 
 /// Cube root of positive normal numbers, relative error below 1e-15.

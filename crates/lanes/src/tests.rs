@@ -1,4 +1,4 @@
-//! Every instruction set of this machine against the scalar reference, to the bit; `ln`, `exp`, `cbrt` against the platform's.
+//! Every instruction set of this machine against the scalar reference, to the bit; `ln`, `exp`, `pow`, `cbrt` against the platform's.
 
 use crate::*;
 
@@ -23,7 +23,7 @@ impl Kernel for EveryOperation<'_> {
     fn run<L: Lane>(self) -> Vec<u64> {
         let mut results = Vec::new();
         for (a, b) in self.0.iter().zip(self.1) {
-            let mut out = [Batch::default(); 13];
+            let mut out = [Batch::default(); 14];
             let mut outside = 0;
             for at in (0..BATCH).step_by(L::WIDTH) {
                 let (x, y) = (L::load(a, at), L::load(b, at));
@@ -44,6 +44,7 @@ impl Kernel for EveryOperation<'_> {
                     math::ln(positive),
                     math::exp(y),
                     math::cbrt(positive),
+                    math::pow(positive, y.abs()),
                 ];
                 for (value, slot) in all.into_iter().zip(&mut out) {
                     value.store(slot, at);
@@ -130,6 +131,20 @@ fn transcendental_functions_are_accurate() {
     assert_eq!(math::ln(1.0f64).to_bits(), 0.0f64.to_bits());
     assert_eq!(math::exp(0.0f64), 1.0);
     assert_eq!(math::cbrt(1.0f64), 1.0);
+}
+
+#[test]
+fn powers_are_accurate_and_those_of_zero_are_zero() {
+    for i in 0..4000 {
+        let x = 10f64.powf(0.005 * f64::from(i) - 15.0);
+        for y in [0.01, 0.2, 1.0 / 3.0, 1.0, 2.5, 8.0] {
+            let expected = x.powf(y);
+            let limit = 5e-16 * (1.0 + (y * x.ln()).abs());
+            assert!((math::pow(x, y) / expected - 1.0).abs() <= limit, "{x} to the power of {y}");
+        }
+    }
+    assert_eq!(math::pow(0.0f64, 0.2), 0.0);
+    assert_eq!(math::pow(1.0f64, 0.2), 1.0);
 }
 
 #[test]

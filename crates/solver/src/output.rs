@@ -2,6 +2,7 @@
 //! Values only, no formats; goes to the writers of `embate-files`.
 
 use crate::contact::tracker::Certificate;
+use crate::material::Variable;
 
 /// Shape of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,10 +60,8 @@ pub enum Location {
 pub enum Needs {
     /// Nothing.
     Nothing,
-    /// A material that flows.
-    Plasticity,
-    /// A material with an equation of state.
-    EquationOfState,
+    /// A material with this history variable.
+    History(Variable),
     /// A contact or an obstacle.
     Contact,
     /// A contact or an obstacle with friction.
@@ -174,8 +173,22 @@ pub static FIELDS: &[FieldKind] = &[
     at_cells("stress", STRESS, "Pa", Needs::Nothing, "Cauchy stress, mean over the element's points"),
     at_cells("von_mises", &[], "Pa", Needs::Nothing, "equivalent stress √(3/2 s:s) of the mean stress"),
     at_cells("pressure", &[], "Pa", Needs::Nothing, "minus a third of the stress trace"),
-    at_cells("plastic_strain", &[], "", Needs::Plasticity, "equivalent plastic strain, mean over the element's points"),
-    at_cells("density", &[], "kg/m^3", Needs::EquationOfState, "density of materials with an equation of state, 0 for others"),
+    at_cells(
+        "plastic_strain",
+        &[],
+        "",
+        Needs::History(Variable::PlasticStrain),
+        "equivalent plastic strain, mean over the element's points",
+    ),
+    at_cells(
+        "temperature",
+        &[],
+        "K",
+        Needs::History(Variable::Temperature),
+        "temperature, mean over the element's points; 0 where the material has none",
+    ),
+    at_cells("damage", &[], "", Needs::History(Variable::Damage), "damage, 1 at failure, mean over the element's points"),
+    at_cells("density", &[], "kg/m^3", Needs::History(Variable::Density), "density of materials with an equation of state, 0 for others"),
     at_cells("energy_density", &[], "J/m^3", Needs::Nothing, "stored elastic energy per initial volume"),
 ];
 

@@ -50,6 +50,10 @@ impl Dimension {
     pub const MASS_PER_LENGTH: Self = Self::new(1, -1, 0);
     /// kg m = kg m²/m: moment of inertia per metre of depth.
     pub const INERTIA_PER_LENGTH: Self = Self::new(1, 1, 0);
+    /// K.
+    pub const TEMPERATURE: Self = Self { temperature: 1, ..Self::NONE };
+    /// J/kg/K: heat per mass and temperature.
+    pub const SPECIFIC_HEAT: Self = Self { temperature: -1, ..Self::new(0, 2, -2) };
 
     /// The SI unit in plain text, `kg/m^3` for example; empty for a pure number.
     #[must_use]
@@ -59,6 +63,7 @@ impl Dimension {
             Self::PRESSURE => return "Pa".into(),
             Self::PRESSURE_PER_LENGTH => return "Pa/m".into(),
             Self::VISCOSITY => return "Pa s".into(),
+            Self::SPECIFIC_HEAT => return "J/kg/K".into(),
             Self::VISCOSITY_PER_LENGTH => return "Pa s/m".into(),
             Self::FORCE_PER_LENGTH => return "N/m".into(),
             _ => {}

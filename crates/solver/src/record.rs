@@ -45,8 +45,6 @@ struct Probe {
 
 impl Recorded {
     pub(crate) fn new(model: &Model, system: &System) -> Result<Self, Vec<Fault>> {
-        let has_plastic = system.blocks.iter().any(|block| block.has(Variable::PlasticStrain));
-        let has_density = system.blocks.iter().any(|block| block.has(Variable::Density));
         let has_contact = !system.contacts.is_empty();
         let has_friction = system.terms.iter().any(|terms| matches!(terms.tangential, Tangential::Friction(_)));
         let wanted = |kind: &&FieldKind| {
@@ -54,13 +52,12 @@ impl Recorded {
             let named = include.iter().any(|name| name == kind.name) || model.output.picture_field == kind.name;
             let sensible = match kind.needs {
                 Needs::Nothing => true,
-                Needs::Plasticity => has_plastic,
-                Needs::EquationOfState => has_density,
+                Needs::History(variable) => system.blocks.iter().any(|block| block.has(variable)),
                 Needs::Contact => has_contact,
                 Needs::Friction => has_friction,
             };
             // Pictures fall back on these two.
-            let pictured = model.output.pictures && (kind.name == "von_mises" || (kind.name == "plastic_strain" && has_plastic));
+            let pictured = model.output.pictures && (kind.name == "von_mises" || (kind.name == "plastic_strain" && sensible));
             named || pictured || (include.is_empty() && sensible)
         };
         let fields = FIELDS.iter().filter(wanted).collect();
@@ -204,6 +201,8 @@ fn values(name: &str, system: &System, surface: &OnSurface) -> Vec<f64> {
         "pressure" => by_element(system, |state| [-(state.stress[0] + state.stress[1] + state.stress[2]) / 3.0]),
         "plastic_strain" => by_element(system, |state| [state.variables[Variable::PlasticStrain as usize]]),
         "density" => by_element(system, |state| [state.variables[Variable::Density as usize]]),
+        "temperature" => by_element(system, |state| [state.variables[Variable::Temperature as usize]]),
+        "damage" => by_element(system, |state| [state.variables[Variable::Damage as usize]]),
         "energy_density" => by_element(system, |state| [state.energy_density]),
         _ => Vec::new(),
     }

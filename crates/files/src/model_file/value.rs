@@ -396,7 +396,10 @@ pub(super) fn example(key: &Key) -> String {
         Kind::Quantities(dimension, _, least) => format!("[{}]", vec![number(dimension); least].join(", ")),
         Kind::Value => "\"5 m/s\"".to_string(),
         Kind::Values => "[0, \"5 m/s\"]".to_string(),
-        Kind::Points(_) => "[[0, 0], [\"3 mm\", 0]]".to_string(),
+        Kind::Points(least) => {
+            let square = ["[0, 0]", "[\"3 mm\", 0]", "[\"3 mm\", \"3 mm\"]", "[0, \"3 mm\"]"];
+            format!("[{}]", square.iter().cycle().take(least.max(2)).copied().collect::<Vec<_>>().join(", "))
+        }
         Kind::Outlines(_) => "[[[0, 0], [\"3 mm\", 0], [0, \"3 mm\"]]]".to_string(),
         Kind::Drive(Dimension::RATE) => "\"30 rad/s\"".to_string(),
         Kind::Drive(dimension) => number(dimension),

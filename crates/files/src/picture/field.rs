@@ -63,7 +63,7 @@ impl Scalar {
     /// Whether the colour range starts at zero by nature.
     pub(super) fn starts_at_zero(&self) -> bool {
         let size = self.component.is_none() && !self.kind.components.is_empty();
-        let scalars = ["plastic_strain", "von_mises", "energy_density", "contact_pressure", "contact_slip", "friction_heat"];
+        let scalars = ["plastic_strain", "von_mises", "energy_density", "damage", "contact_pressure", "contact_slip", "friction_heat"];
         size || scalars.contains(&self.kind.name)
     }
 

@@ -1,44 +1,39 @@
-//! J2 (von Mises) plasticity with linear isotropic hardening, rate form, radial return.
+//! J2 (von Mises) plasticity with isotropic hardening of any kind, rate form, radial return.
 //!
-//! Trial stress as in `elastic`; q = √(3/2 s:s). Where q > σ_y(ε_p) = σ_y0 + H ε_p:
-//! Δε_p = (q_trial − σ_y(ε_p)) / (3µ + H), s ← s (1 − 3µ Δε_p / q_trial), dissipation per volume ∫ σ_y dε_p = (σ_y(ε_p) + ½ H Δε_p) Δε_p.
-//! H is the plastic modulus dσ_y/dε_p, not the tangent modulus E_t = E H / (E + H).
+//! Trial stress as in `elastic`; q = √(3/2 s:s). Where q > σ_y(ε_p), the flow stress at the end of the step is met (backward Euler):
+//! q_trial − 3µ Δε_p = σ_y(ε_p + Δε_p) R(Δε_p / Δt), s ← s (1 − 3µ Δε_p / q_trial),
+//! with R = 1 or after Cowper and Symonds (see `hardening/rate.rs`). Linear hardening has a closed form, Δε_p = (q_trial − σ_y) / (3µ + H), and
+//! dissipates ∫ σ_y dε_p = (σ_y(ε_p) + ½ H Δε_p) Δε_p; the others are solved to 1e-12 of q_trial and dissipate as `trial.rs` says.
 //! Source: Wilkins, Methods in Computational Physics 3 (1964); Simo and Hughes, Computational Inelasticity (1998), box 3.2.
 
-use super::{DENSITY, Family, Kinematics, Law, LawKind, POISSON, Parameters, Response, Variable, YOUNG, bulk_and_shear};
-use crate::quantity::{Dimension, Parameter, Range};
+use super::hardening::{Hardening, Linear, Ludwik, Rate, Swift, Table, Voce};
+use super::trial::{LIMIT, Newton, Trial};
+use super::{Family, Kinematics, Law, LawKind, ParameterFault, Parameters, Response, Variable, bulk_and_shear};
 use crate::tensor::SymmetricTensor;
 use embate_lanes::Lane;
 
-/// The law with its moduli.
+/// Linear hardening.
+pub type J2 = J2With<Linear>;
+/// Saturating hardening.
+pub type J2Voce = J2With<Voce>;
+/// Power law of the strain with an offset.
+pub type J2Swift = J2With<Swift>;
+/// Power law of the plastic strain.
+pub type J2Ludwik = J2With<Ludwik>;
+/// A measured curve.
+pub type J2Table = J2With<Table>;
+
+/// The law with its moduli and its flow stress.
 #[derive(Clone, Copy, Debug)]
-pub struct J2 {
+pub struct J2With<H: Hardening> {
     bulk: f64,
     shear: f64,
-    yield_stress: f64,
-    hardening: f64,
+    hardening: H,
+    rate: Option<Rate>,
 }
 
-impl Law for J2 {
-    const KIND: LawKind = LawKind {
-        name: "j2",
-        doc: "elasto-plasticity after von Mises with linear isotropic hardening",
-        source: "Simo and Hughes, Computational Inelasticity (1998), box 3.2",
-        parameters: &[
-            DENSITY,
-            YOUNG,
-            POISSON,
-            Parameter::new("yield", "σ_y", Dimension::PRESSURE, Range::Positive, "initial yield stress"),
-            Parameter::new(
-                "hardening",
-                "H",
-                Dimension::PRESSURE,
-                Range::NotNegative,
-                "plastic modulus dσ_y/dε_p (not the tangent modulus)",
-            )
-            .or(0.0),
-        ],
-    };
+impl<H: Hardening> Law for J2With<H> {
+    const KIND: LawKind = H::KIND;
     const FAMILY: Family = Family::Rate;
     /// Equivalent plastic strain.
     type State<L: Lane, T: SymmetricTensor<L>> = [L; 1];
@@ -46,33 +41,85 @@ impl Law for J2 {
 
     fn new(parameters: &Parameters<'_>) -> Self {
         let [bulk, shear] = bulk_and_shear(parameters);
-        Self { bulk, shear, yield_stress: parameters.value("yield"), hardening: parameters.value("hardening") }
+        Self { bulk, shear, hardening: H::new(parameters, shear), rate: Rate::new(parameters) }
+    }
+
+    fn faults(parameters: &Parameters<'_>) -> Vec<ParameterFault> {
+        let mut faults = H::faults(parameters);
+        faults.extend(Rate::faults(parameters));
+        faults
     }
 
     #[inline(always)]
     fn update<L: Lane, T: SymmetricTensor<L>>(&self, kinematics: &Kinematics<L, T>, state: &mut [L; 1]) -> Response<L, T> {
-        let (bulk, shear, zero) = (L::splat(self.bulk), L::splat(self.shear), L::splat(0.0));
-        let strain = kinematics.strain_increment;
-        let sum = kinematics.stress_rotated.plus(strain.times(shear + shear));
-        let third = sum.trace() * L::splat(1.0 / 3.0);
-        let mean = third + L::splat(self.bulk - 2.0 / 3.0 * self.shear) * strain.trace();
-        let trial = sum.plus(T::isotropic(-third));
-        let square = trial.contract(trial) * L::splat(1.5);
-        let flow = L::splat(self.yield_stress) + L::splat(self.hardening) * state[0];
-        let yields = (flow * flow).less(square);
-        let (mut deviator, mut dissipated) = (trial, zero);
+        let zero = L::splat(0.0);
+        let trial = Trial::new(self.bulk, self.shear, kinematics);
+        let [flow, slope] = self.hardening.flow(state[0]);
+        let yields = (flow * flow).less(trial.square);
+        let (mut deviator, mut dissipated) = (trial.deviator, zero);
         if L::any(yields) {
-            let q = square.sqrt();
-            let step = L::select(yields, (q - flow) * L::splat(1.0 / (3.0 * self.shear + self.hardening)), zero);
-            let factor = L::select(yields, L::splat(1.0) - L::splat(3.0 * self.shear) * step / q, L::splat(1.0));
-            deviator = trial.times(factor);
+            let q = trial.square.sqrt();
+            let step = match (self.rate, self.hardening.modulus()) {
+                (None, Some(modulus)) => {
+                    let step = L::select(yields, (q - flow) * L::splat(1.0 / (3.0 * self.shear + modulus)), zero);
+                    dissipated = (flow + L::splat(0.5 * modulus) * step) * step;
+                    step
+                }
+                (None, None) => self.step_static(q, state[0], [flow, slope], yields),
+                (Some(rate), _) => self.step_with_rate(&rate, kinematics.time_step, q, state[0], flow, yields),
+            };
+            if self.rate.is_some() || self.hardening.modulus().is_none() {
+                dissipated = trial.work(self.shear, kinematics.strain_increment, q, step, yields);
+            }
+            deviator = trial.scaled(L::splat(1.0) - L::splat(3.0 * self.shear) * step / q, yields);
             state[0] += step;
-            dissipated = (flow + L::splat(0.5 * self.hardening) * step) * step;
         }
-        Response { stress: deviator.plus(T::isotropic(mean)), stored: zero, dissipated, bulk, shear }
+        Response {
+            stress: deviator.plus(T::isotropic(trial.mean)),
+            stored: zero,
+            dissipated,
+            bulk: L::splat(self.bulk),
+            shear: L::splat(self.shear),
+        }
     }
 
     fn stiffness(&self) -> [f64; 2] {
         [self.bulk, self.shear]
+    }
+}
+
+impl<H: Hardening> J2With<H> {
+    /// Δε_p of q − 3µ Δε_p = σ_y(ε_p + Δε_p).
+    #[inline(always)]
+    fn step_static<L: Lane>(&self, q: L, plastic: L, [flow, slope]: [L; 2], yields: L::Mask) -> L {
+        let stiffness = L::splat(3.0 * self.shear);
+        let mut newton = Newton::new((q - flow) / (stiffness + slope), q / stiffness, q, yields);
+        for _ in 0..LIMIT {
+            let [flow, slope] = self.hardening.flow(plastic + newton.at);
+            if !newton.next(q - stiffness * newton.at - flow, -(stiffness + slope)) {
+                break;
+            }
+        }
+        newton.at
+    }
+
+    /// The same with the rate. The unknown is u = (rate / C)^{1/P}: with it the equation is smooth, where Δε_p itself begins with an infinite slope.
+    #[inline(always)]
+    fn step_with_rate<L: Lane>(&self, rate: &Rate, time_step: L, q: L, plastic: L, flow: L, yields: L::Mask) -> L {
+        let (stiffness, one) = (L::splat(3.0 * self.shear), L::splat(1.0));
+        let high = rate.excess(q / stiffness, time_step);
+        let mut newton = Newton::new((q - flow) / flow, high, q, yields);
+        let mut step = L::splat(0.0);
+        for _ in 0..LIMIT {
+            let u = newton.at;
+            let [strain, strain_slope] = rate.strain(u, time_step);
+            step = strain;
+            let [flow, slope] = self.hardening.flow(plastic + step);
+            let change = (stiffness + slope * (one + u)) * strain_slope + flow;
+            if !newton.next(q - stiffness * step - flow * (one + u), -change) {
+                break;
+            }
+        }
+        L::select(yields, step, L::splat(0.0))
     }
 }

@@ -4,18 +4,28 @@
 //! it returns the Cauchy stress and what the ledger and the stable step need. To add a law: one file, one line in `laws!`.
 //! Blocks see laws erased, as [`points::PointLaw`]: the kernel of a law is compiled once, not once per element.
 
+mod chaboche;
+mod crushable_foam;
+mod drucker_prager;
 mod elastic;
 pub mod eos;
+pub mod hardening;
 mod j2;
+mod johnson_cook;
 mod neo_hookean;
 mod null;
 mod parameters;
 mod plane_stress;
 pub mod points;
 mod state;
+mod trial;
 
+pub use chaboche::Chaboche;
+pub use crushable_foam::CrushableFoam;
+pub use drucker_prager::DruckerPrager;
 pub use elastic::Elastic;
-pub use j2::J2;
+pub use j2::{J2, J2Ludwik, J2Swift, J2Table, J2Voce, J2With};
+pub use johnson_cook::JohnsonCook;
 pub use neo_hookean::NeoHookean;
 pub use null::Null;
 pub use parameters::{DENSITY, POISSON, ParameterFault, Parameters, YOUNG, bulk_and_shear};
@@ -96,6 +106,8 @@ pub trait Law: Copy + Send + Sync + 'static {
     const NEEDS_ROTATION: bool = false;
     /// Whether a rate law needs the volume ratio and the heat of the bulk viscosity.
     const NEEDS_VOLUME: bool = false;
+    /// Whether its flow changes the mean stress, which no equation of state may then replace.
+    const FLOWS_IN_VOLUME: bool = false;
     /// Whether it has no pressure of its own.
     const NEEDS_EQUATION_OF_STATE: bool = false;
 
@@ -143,7 +155,7 @@ macro_rules! laws {
     };
 }
 
-laws!(Elastic, J2, NeoHookean, Null);
+laws!(Elastic, J2, J2Voce, J2Swift, J2Ludwik, J2Table, Chaboche, JohnsonCook, DruckerPrager, CrushableFoam, NeoHookean, Null);
 
 /// What the law called `name` finds wrong with parameters whose ranges are right.
 #[must_use]
@@ -165,7 +177,7 @@ pub fn equation_of_state(name: &str) -> Option<[bool; 2]> {
     impl LawVisitor for Ask {
         type Output = [bool; 2];
         fn visit<M: Law>(self) -> Self::Output {
-            [M::NEEDS_EQUATION_OF_STATE, M::FAMILY == Family::Rate]
+            [M::NEEDS_EQUATION_OF_STATE, M::FAMILY == Family::Rate && !M::FLOWS_IN_VOLUME]
         }
     }
     with_law(name, Ask)

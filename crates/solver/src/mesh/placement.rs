@@ -4,7 +4,43 @@
 
 use super::shapes::{Body, cos_sin, quarters};
 use crate::load::constraint::unit;
-use crate::model::Placement;
+
+/// Where the body of a built-in shape goes: it is mirrored, then turned, then moved, then copied.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Placement {
+    /// A line that it is mirrored on.
+    pub mirror: Option<Mirror>,
+    /// Angle by which it is turned, rad, counter-clockwise.
+    pub rotation: f64,
+    /// Point about which it is turned, m.
+    pub rotation_point: [f64; 2],
+    /// How far it is moved, m.
+    pub translation: [f64; 2],
+    /// How often it is there.
+    pub copies: Option<Copies>,
+}
+
+/// A line to mirror on.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Mirror {
+    /// A point of it, m.
+    pub point: [f64; 2],
+    /// Its normal, of any length but zero.
+    pub normal: [f64; 2],
+}
+
+/// Bodies of one part that follow each other: each is turned and then moved as often as there are others before it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Copies {
+    /// How many bodies there are in all.
+    pub count: usize,
+    /// How far each is moved from the one before, m.
+    pub translation: [f64; 2],
+    /// Angle by which each is turned from the one before, rad, counter-clockwise.
+    pub angle: f64,
+    /// Point about which they are turned, m.
+    pub point: [f64; 2],
+}
 
 impl Placement {
     /// The body, placed: first mirrored, then turned, then moved; copies follow each other, and their elements and nodes are numbered so.
@@ -67,7 +103,6 @@ mod tests {
     use super::*;
     use crate::mesh::shapes::{rectangle, ring};
     use crate::mesh::surface::{Surface, exterior};
-    use crate::model::{Copies, Mirror};
 
     fn is_sound(body: &Body) {
         for cell in body.cells() {

@@ -12,6 +12,7 @@ pub use load::{Constraint, Image, Join, Load, NonReflecting, Rotation, Symmetry}
 use crate::block::stress_state::STRESS_STATES;
 use crate::element::{ELEMENTS, ElementKind};
 use crate::load::curve::sine::Sine;
+pub use crate::mesh::placement::{Copies, Mirror, Placement};
 use crate::mesh::shapes::Count;
 pub use crate::mesh::shapes::{Disk, Edge, Path, Polygon, Quadrilateral, Rectangle, Ring, Shape, Trapezoid};
 use crate::quantity::Dimension;
@@ -238,43 +239,6 @@ impl Default for CurveShape {
     fn default() -> Self {
         Self::Table { times: Vec::new(), values: Vec::new(), smooth: false }
     }
-}
-
-/// Where the body of a built-in shape goes: it is mirrored, then turned, then moved, then copied.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Placement {
-    /// A line that it is mirrored on.
-    pub mirror: Option<Mirror>,
-    /// Angle by which it is turned, rad, counter-clockwise.
-    pub rotation: f64,
-    /// Point about which it is turned, m.
-    pub rotation_point: [f64; 2],
-    /// How far it is moved, m.
-    pub translation: [f64; 2],
-    /// How often it is there.
-    pub copies: Option<Copies>,
-}
-
-/// A line to mirror on.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Mirror {
-    /// A point of it, m.
-    pub point: [f64; 2],
-    /// Its normal, of any length but zero.
-    pub normal: [f64; 2],
-}
-
-/// Bodies of one part that follow each other: each is turned and then moved as often as there are others before it.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Copies {
-    /// How many bodies there are in all.
-    pub count: usize,
-    /// How far each is moved from the one before, m.
-    pub translation: [f64; 2],
-    /// Angle by which each is turned from the one before, rad, counter-clockwise.
-    pub angle: f64,
-    /// Point about which they are turned, m.
-    pub point: [f64; 2],
 }
 
 /// A mesh that came from a file: plane nodes and named groups of cells. Parts that use the same mesh share its nodes.

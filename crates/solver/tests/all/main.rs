@@ -5,10 +5,12 @@
 // What the tests share.
 mod bodies;
 mod patches;
+mod point;
 
 mod bars;
 mod blocks;
 mod certificate;
+mod chaboche;
 mod conditions;
 mod contact;
 mod elements;
@@ -16,11 +18,14 @@ mod ends;
 mod formulations;
 mod friction;
 mod free_bodies;
+mod hardening;
 mod initial;
 mod loads;
+mod johnson_cook;
 mod materials;
 mod mixed;
 mod obstacles;
+mod pressed;
 mod plasticity;
 mod projectiles;
 mod projection;

@@ -1,6 +1,6 @@
 //! What every registered law promises by itself, in plane strain and in space: rest, objectivity, energy, dissipation, stiffness, equal bits.
 
-use crate::patches::{Spread, YOUNG, eigenvalues, lists, parameters, solids};
+use crate::patches::{Spread, YOUNG, eigenvalues, lists, options, parameters, solids};
 use embate_lanes::{BATCH, Batch, Kernel, Lane, Level};
 use embate_solver::material::{Family, Kinematics, Law, LawVisitor, Parameters, Response, State, Variable, with_law};
 use embate_solver::tensor::{Plane, PlaneRotation, Solid, SymmetricTensor, product};
@@ -98,6 +98,18 @@ fn law<M: Law>(poisson: f64) -> M {
     M::new(&Parameters::new(M::KIND.parameters, &values, &lists))
 }
 
+/// The law with every set of options.
+fn variants<M: Law>() -> Vec<M> {
+    let make = |set: Vec<(&str, f64)>| {
+        let (mut values, lists) = (parameters(&M::KIND, 0.3), lists(&M::KIND));
+        values.extend(set.into_iter().map(|(name, value)| (name.to_string(), value)));
+        let parameters = Parameters::new(M::KIND.parameters, &values, &lists);
+        assert!(M::faults(&parameters).is_empty(), "{:?}", M::faults(&parameters));
+        M::new(&parameters)
+    };
+    options(&M::KIND).into_iter().map(make).collect()
+}
+
 fn deformed<T: Shown>(f: &Full) -> Kinematics<f64, T> {
     let b = T::of(&product(f, &transposed(f)));
     let zero = T::isotropic(0.0);
@@ -149,9 +161,9 @@ fn rest<M: Law, T: Shown>() {
 every_law!(there_is_no_stress_and_no_energy_at_rest, rest);
 
 fn objectivity<M: Law, T: Shown>() {
-    let law = law::<M>(0.3);
+    let laws = variants::<M>();
     let mut numbers = Spread::new(21);
-    for _ in 0..200 {
+    for law in laws.iter().cycle().take(200 * laws.len()) {
         let q = random_rotation::<T>(&mut numbers);
         let turned = |m: &Full| product(&product(&q, m), &transposed(&q));
         let (mut state, mut state_turned) = (virgin::<M, T>(), virgin::<M, T>());
@@ -298,26 +310,27 @@ fn sound_speed<M: Law, T: Shown>() {
 every_law!(no_wave_in_a_strained_hyperelastic_law_is_faster_than_it_reports, sound_speed);
 
 fn dissipation<M: Law, T: Shown>() {
-    let mut numbers = Spread::new(26);
-    let law = law::<M>(0.3);
-    let (mut state, mut stress, mut total) = (virgin::<M, T>(), [[0.0; 3]; 3], 0.0);
-    for step in 0..5000 {
-        let size = [1e-3, 1e-2, 1e-1][step % 3];
-        let kinematics = match M::FAMILY {
-            Family::Rate => strained::<T>(&stress, &random_symmetric::<T>(size, &mut numbers)),
-            Family::Hyperelastic => deformed::<T>(&random_deformation::<T>(0.5, &mut numbers)),
-        };
-        let response: Response<f64, T> = law.update(&kinematics, &mut state);
-        assert!(response.dissipated >= 0.0, "{}", M::KIND.name);
-        assert!(response.stored >= 0.0 && response.bulk > 0.0 && response.shear > 0.0, "{}", M::KIND.name);
-        (stress, total) = (response.stress.full(), total + response.dissipated);
+    for law in variants::<M>() {
+        let mut numbers = Spread::new(26);
+        let (mut state, mut stress, mut total) = (virgin::<M, T>(), [[0.0; 3]; 3], 0.0);
+        for step in 0..5000 {
+            let size = [1e-3, 1e-2, 1e-1][step % 3];
+            let kinematics = match M::FAMILY {
+                Family::Rate => strained::<T>(&stress, &random_symmetric::<T>(size, &mut numbers)),
+                Family::Hyperelastic => deformed::<T>(&random_deformation::<T>(0.5, &mut numbers)),
+            };
+            let response: Response<f64, T> = law.update(&kinematics, &mut state);
+            assert!(response.dissipated >= 0.0, "{}", M::KIND.name);
+            assert!(response.stored >= 0.0 && response.bulk > 0.0 && response.shear > 0.0, "{}", M::KIND.name);
+            (stress, total) = (response.stress.full(), total + response.dissipated);
+        }
+        assert_eq!(
+            total > 0.0,
+            M::VARIABLES.iter().any(|&(variable, _)| variable == Variable::PlasticStrain),
+            "{} dissipates {total}",
+            M::KIND.name
+        );
     }
-    assert_eq!(
-        total > 0.0,
-        M::VARIABLES.iter().any(|&(variable, _)| variable == Variable::PlasticStrain),
-        "{} dissipates {total}",
-        M::KIND.name
-    );
 }
 every_law!(dissipation_is_never_negative, dissipation);
 
@@ -378,10 +391,11 @@ fn every_instruction_set_gives_the_bits_of_the_scalar_one() {
                     })
                 })
                 .collect();
-            let law = law::<M>(0.3);
-            let reference = Level::SCALAR.run(Updates(&law, &inputs));
-            for level in Level::available() {
-                assert!(level.run(Updates(&law, &inputs)) == reference, "{} {}", M::KIND.name, level.name());
+            for law in variants::<M>() {
+                let reference = Level::SCALAR.run(Updates(&law, &inputs));
+                for level in Level::available() {
+                    assert!(level.run(Updates(&law, &inputs)) == reference, "{} {}", M::KIND.name, level.name());
+                }
             }
         }
     }

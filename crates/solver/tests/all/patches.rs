@@ -28,12 +28,26 @@ impl Spread {
     }
 }
 
-/// A value for any parameter: known ones as above, stresses a small part of Young's modulus, the rest by their range.
+/// A value for any parameter: known ones as above, stresses a small part of Young's modulus, the rest by their range. What makes a law of another
+/// kind of it (dependence on the rate) is left out, `options` has it.
 fn value(parameter: &Parameter, poisson: f64) -> f64 {
     match (parameter.name, parameter.range) {
         ("density", _) => DENSITY,
         ("young", _) => YOUNG,
         ("poisson", _) => poisson,
+        ("rate_reference", _) => parameter.default.unwrap_or(1.0),
+        ("rate_exponent", _) => 5.0,
+        ("saturation", _) => 0.02 * YOUNG,
+        ("saturation_rate", _) => 20.0,
+        ("strength", _) => 0.04 * YOUNG,
+        ("strain_offset", _) => 0.01,
+        ("hardening_exponent", _) => 0.3,
+        ("rate_coefficient", _) => parameter.default.unwrap_or(0.0),
+        ("temperature" | "temperature_reference", _) => 300.0,
+        ("temperature_melt", _) => 1000.0,
+        ("specific_heat" | "softening_exponent", _) => 1.0,
+        ("friction_angle", _) => 0.5,
+        ("dilation_angle", _) => 0.2,
         (_, Range::Between(low, high)) => 0.5 * (low + high),
         (_, Range::UpTo(_, high)) => high,
         _ => 0.01 * YOUNG,
@@ -45,10 +59,23 @@ pub(crate) fn parameters(kind: &LawKind, poisson: f64) -> BTreeMap<String, f64> 
     numbers.map(|parameter| (parameter.name.to_string(), value(parameter, poisson))).collect()
 }
 
-/// Lists of two ascending values for parameters that are lists.
+/// What parameters may have besides [`parameters`]: each set makes a law of another kind.
+pub(crate) fn options(kind: &LawKind) -> Vec<Vec<(&'static str, f64)>> {
+    let all = [vec![], vec![("rate_reference", 50.0)], vec![("rate_coefficient", 0.02)]];
+    let has = |name: &str| kind.parameters.iter().any(|parameter| parameter.name == name);
+    all.into_iter().filter(|set| set.iter().all(|(name, _)| has(name))).collect()
+}
+
+/// Lists of two ascending values for parameters that are lists; curves begin at zero.
 pub(crate) fn lists(kind: &LawKind) -> BTreeMap<String, Vec<f64>> {
     let lists = kind.parameters.iter().filter(|parameter| parameter.list > 0);
-    lists.map(|parameter| (parameter.name.to_string(), [0.4, 0.5].map(|factor| factor * value(parameter, 0.3)).to_vec())).collect()
+    let list = |parameter: &Parameter| match parameter.name {
+        "plastic_strain" => vec![0.0, 0.1],
+        "stress" => vec![0.01 * YOUNG, 0.02 * YOUNG],
+        "damage" => vec![0.05, 3.0, -2.0, 0.02, 0.5],
+        _ => [0.4, 0.5].map(|factor| factor * value(parameter, 0.3)).to_vec(),
+    };
+    lists.map(|parameter| (parameter.name.to_string(), list(parameter))).collect()
 }
 
 pub(crate) fn material(law: &str, poisson: f64) -> Material {
@@ -59,6 +86,13 @@ pub(crate) fn material(law: &str, poisson: f64) -> Material {
 /// Every law that stands by itself: a fluid has no pressure without an equation of state.
 pub(crate) fn solids() -> impl Iterator<Item = &'static LawKind> {
     LAWS.iter().filter(|law| equation_of_state(law.name).is_some_and(|[needs, _]| !needs))
+}
+
+/// Strength far beyond every load: a law that flows stays elastic.
+pub(crate) fn stay_elastic(material: &mut Material) {
+    let strengths = ["yield", "saturation", "strength", "cohesion", "tension_cutoff"];
+    material.parameters.iter_mut().filter(|(name, _)| strengths.contains(&name.as_str())).for_each(|(_, value)| *value *= 1e5);
+    material.lists.iter_mut().filter(|(name, _)| *name == "stress").for_each(|(_, list)| list.iter_mut().for_each(|value| *value *= 1e5));
 }
 
 /// One law of each family.

@@ -151,6 +151,7 @@ fn what_does_not_go_together_is_told() {
     };
     told(&|it| it.eos.clear(), "has no pressure of its own");
     told(&|it| it.law = "neo_hookean".into(), "an equation of state would contradict it");
+    told(&|it| it.law = "drucker_prager".into(), "an equation of state would contradict it");
     told(&|it| it.eos = "ideal_gass".into(), "did you mean `ideal_gas`?");
     told(&|it| it.parameters.retain(|name, _| name != "gamma"), "equation of state `ideal_gas` needs `gamma`");
     told(&|it| it.parameters.extend([("gama".into(), 1.0)]), "did you mean `gamma`?");

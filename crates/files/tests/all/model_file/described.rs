@@ -7,9 +7,24 @@ use embate_solver::model::describe::{Form, Key, Kind, Need, SECTIONS, Section};
 use embate_solver::quantity::{Dimension, Range};
 use std::path::Path;
 
-/// A sound model that uses every section.
+/// A sound model that uses every section, and a part of each shape that it lacks (polygons need an element with three nodes).
 fn all_sections() -> String {
-    format!("{SOUND}{MORE}")
+    format!(
+        r#"{SOUND}{MORE}
+[[part]]
+name = "wedge"
+material = "steel"
+trapezoid = {{ corner = [2, 0], bottom = "20 mm", top = "10 mm", height = "30 mm", elements = [2, 3] }}
+[[part]]
+name = "patch"
+material = "steel"
+quadrilateral = {{ corners = [[3, 0], [4, 0], [4, 1], [3, 1]], elements = [2, 2] }}
+[[part]]
+name = "strip"
+material = "steel"
+path = {{ points = [[5, 0], [6, 0]], width = "30 mm", elements = [1, 4] }}
+"#
+    )
 }
 
 /// What a bad value must be answered with: the path's end and a part of the message.
@@ -111,8 +126,10 @@ fn values(kind: Kind) -> Vec<Bad> {
         Kind::Points(least) => {
             let inside = |it: Bad| Bad { value: format!("[{}]", vec![format!("[0, {}]", it.value); least].join(", ")), at: "[0][1]", ..it };
             let mut all: Vec<Bad> = scalar(Range::Finite).into_iter().map(inside).collect();
-            all.extend(["5", "[]", "[[0, 0]]", "\"1 m\"", "{}"].map(|value| bad(value, "", "must be a list of at least")));
-            all.push(bad("[[0, 0], 1]", "[1]", "must be a list of 2 numbers"));
+            all.extend(["5", "[]", "\"1 m\"", "{}"].map(|value| bad(value, "", "must be a list of at least")));
+            all.extend((least > 1).then(|| bad("[[0, 0]]", "", "must be a list of at least")));
+            let padded = format!("[[0, 0], 1{}]", ", [0, 0]".repeat(least.saturating_sub(2)));
+            all.push(bad(padded, "[1]", "must be a list of 2 numbers"));
             all
         }
         Kind::Outlines(least) => {
@@ -159,7 +176,7 @@ fn values(kind: Kind) -> Vec<Bad> {
 
 /// Sets the key of the sound model to every bad value and looks for the fault at its path and place.
 fn try_all(key: &Key, path: &str, before: &[String]) -> usize {
-    let shown = path.replace(".0", "[0]").replace(".1", "[1]").replace(".2", "[2]");
+    let shown = (0..9).fold(path.to_string(), |path, index| path.replace(&format!(".{index}"), &format!("[{index}]")));
     let all = values(key.kind);
     for it in &all {
         let mut set = before.to_vec();
@@ -214,8 +231,9 @@ fn every_key_refuses_every_bad_value_at_its_place() {
 fn every_parameter_of_every_law_refuses_every_bad_value() {
     for law in material::registry() {
         for parameter in law.parameters {
-            let key =
-                Key { name: parameter.name, kind: Kind::Quantity(parameter.dimension, parameter.range), need: Need::Required, doc: "" };
+            let (dimension, range) = (parameter.dimension, parameter.range);
+            let kind = if parameter.list > 0 { Kind::Quantities(dimension, range, 1) } else { Kind::Quantity(dimension, range) };
+            let key = Key { name: parameter.name, kind, need: Need::Required, doc: "" };
             try_all(&key, &format!("material.steel.{}", parameter.name), &[format!("material.steel.law={}", law.name)]);
         }
     }

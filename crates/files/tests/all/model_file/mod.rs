@@ -33,18 +33,6 @@ rectangle = { corner = [0, "-3 mm"], size = ["600 mm", "3 mm"], elements = [120,
 name = "ball"
 material = "steel"
 disk = { centre = [0, 0.1], radius = "9 mm", elements = 4 }
-[[part]]
-name = "wedge"
-material = "steel"
-trapezoid = { corner = [2, 0], bottom = "20 mm", top = "10 mm", height = "30 mm", elements = [2, 3] }
-[[part]]
-name = "patch"
-material = "steel"
-quadrilateral = { corners = [[3, 0], [4, 0], [4, 1], [3, 1]], elements = [2, 2] }
-[[part]]
-name = "strip"
-material = "steel"
-path = { points = [[5, 0], [6, 0]], width = "30 mm", elements = [1, 4] }
 [[contact]]
 between = ["tube", "plate"]
 [[obstacle]]

@@ -75,7 +75,7 @@ fn shapes_that_can_not_be_are_refused_with_the_place() {
 #[test]
 fn what_folds_over_or_needs_triangles_is_told_when_it_is_meshed() {
     let folded = "quadrilateral = { corners = [[0, 0], [1, 0], [1, 1], [0, 1]], elements = [8, 8], bottom_arc = [0.5, 2] }";
-    let tight = "path = { points = [[0, 0], [1, 0], [1, 0.1], [2, 0.1]], width = 0.5, elements = [2, 8] }";
+    let tight = "path = { points = [[0, 0], [1, 0], [1, 0.1], [0, 0.1]], width = 0.5, elements = [2, 8] }";
     for shape in [folded, tight] {
         let model = read(&with(shape)).unwrap();
         let found = embate_solver::mesh::Mesh::new(&model).unwrap_err();

@@ -122,7 +122,7 @@ impl Ends {
     pub(super) fn admit(&self, slaves: &Surface, target: &Target, slave: u32, projection: &Projection, positions: &[Vector]) -> bool {
         let place = projection.weights[1];
         let end = usize::from(place > 0.5);
-        let at_end = place < AT_END || place > 1.0 - AT_END;
+        let at_end = !(AT_END..=1.0 - AT_END).contains(&place);
         !at_end
             || self.lengths.is_empty()
             || !target.is_free(projection.segment, end, positions)

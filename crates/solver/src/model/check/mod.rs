@@ -197,7 +197,10 @@ impl Check<'_> {
             return !needs;
         }
         if !may_have {
-            let message = format!("law `{}` gives the pressure by its energy function; an equation of state would contradict it", it.law);
+            let message = format!(
+                "law `{}` has a pressure of its own, from its energy or its flow: an equation of state would contradict it",
+                it.law
+            );
             self.fault(path, message, "leave `eos` out, or take a law in rate form such as `elastic` or `j2`");
             return false;
         }

@@ -78,7 +78,7 @@ static MATERIAL: Section = Section {
             "eos",
             Choice(equations_of_state),
             Optional("the law's own pressure"),
-            "Equation of state: gives the pressure in place of the law, which keeps what is without volume. Not with hyperelastic laws; `null` needs it.",
+            "Equation of state: gives the pressure in place of the law, which keeps what is without volume. Not with hyperelastic laws, nor where flow changes the volume (`drucker_prager`, `crushable_foam`); `null` needs it.",
         ),
     ],
     more: &[More { by: "law", keys: law_keys }, More { by: "eos", keys: equation_keys }],

@@ -1,0 +1,208 @@
+//! Von Mises plasticity with mixed hardening: saturating isotropic hardening and up to three backstresses that fade (Armstrong and Frederick, Chaboche).
+//!
+//! ξ = s − Σ α_k, q = √(3/2 ξ:ξ); flow where q > σ_y(ε_p) = σ_y0 + Q (1 − e^{−b ε_p}), along N = 3/2 ξ/q;
+//! α̇_k = ⅔ C_k ε̇_p N − γ_k ε̇_p α_k: with γ_k = 0 linear kinematic hardening (Prager), else a backstress that saturates at C_k / γ_k.
+//! Return (backward Euler): α_k ← a_k (α_k + ⅔ C_k Δε_p N), a_k = 1 / (1 + γ_k Δε_p), so that ξ keeps the direction of η = s_trial − Σ a_k α_k and
+//! Δε_p solves q(η) − (3µ + Σ a_k C_k) Δε_p = σ_y(ε_p + Δε_p).
+//! Energy: each backstress stores ¾ α_k:α_k / C_k, counted as stored; dissipated are the isotropic flow stress and the recall,
+//! ½ (ξ_old + ξ_new):Δε_p + Σ ¾ (γ_k / C_k) Δε_p α_k,new:(α_k,old + α_k,new). With `trial.rs` that closes to the last digit.
+//! Source: Chaboche, Int. J. Plasticity 2 (1986) 149-188; return: Hartmann and Haupt, Int. J. Numer. Meth. Engng 36 (1993) 3801-3814.
+
+use super::hardening::{Hardening, Voce, YIELD};
+use super::trial::{LIMIT, Newton, Trial};
+use super::{
+    DENSITY, Family, Kinematics, Law, LawKind, POISSON, ParameterFault, Parameters, Response, Tensors, Variable, YOUNG, bulk_and_shear,
+};
+use crate::quantity::{Dimension, Parameter, Range};
+use crate::tensor::SymmetricTensor;
+use embate_lanes::Lane;
+
+/// Most backstresses.
+const PARTS: usize = 3;
+
+/// The law with its moduli.
+#[derive(Clone, Copy, Debug)]
+pub struct Chaboche {
+    bulk: f64,
+    shear: f64,
+    isotropic: Voce,
+    modulus: [f64; PARTS],
+    recall: [f64; PARTS],
+    /// ¾ γ/C.
+    fading: [f64; PARTS],
+}
+
+/// The backstresses on the way to the end of a step.
+#[derive(Clone, Copy)]
+struct Backstresses<L: Lane, T: SymmetricTensor<L>> {
+    /// a_k.
+    factors: [L; PARTS],
+    /// Σ a_k C_k.
+    modulus: L,
+    /// η = s_trial − Σ a_k α_k.
+    shifted: T,
+    /// −dη/dΔε_p of η, and of Σ a_k C_k Δε_p: Σ γ_k a_k² α_k and Σ a_k² C_k.
+    slope: T,
+    modulus_slope: L,
+}
+
+impl Law for Chaboche {
+    const KIND: LawKind = LawKind {
+        name: "chaboche",
+        doc: "elasto-plasticity after von Mises with kinematic and isotropic hardening, for load that turns around (Chaboche)",
+        source: "Chaboche, Int. J. Plasticity 2 (1986) 149-188",
+        parameters: &[
+            DENSITY,
+            YOUNG,
+            POISSON,
+            YIELD,
+            Parameter::new(
+                "isotropic_stress",
+                "Q",
+                Dimension::PRESSURE,
+                Range::NotNegative,
+                "what isotropic hardening adds to the yield stress in the end",
+            )
+            .or(0.0),
+            Parameter::new(
+                "isotropic_rate",
+                "b",
+                Dimension::NONE,
+                Range::Positive,
+                "how fast: after a plastic strain of 1/b 63 % are done",
+            )
+            .or(10.0),
+            Parameter::new("backstress_modulus", "C", Dimension::PRESSURE, Range::Positive, "initial moduli of up to three backstresses")
+                .list(PARTS),
+            Parameter::new(
+                "backstress_recall",
+                "γ",
+                Dimension::NONE,
+                Range::NotNegative,
+                "how fast each fades: it saturates at C/γ; 0 is linear hardening; left out, all are 0",
+            )
+            .or(0.0)
+            .list(PARTS),
+        ],
+    };
+    const FAMILY: Family = Family::Rate;
+    /// Equivalent plastic strain; backstresses.
+    type State<L: Lane, T: SymmetricTensor<L>> = ([L; 1], Tensors<L, T, PARTS>);
+    const VARIABLES: &'static [(Variable, usize)] = &[(Variable::PlasticStrain, 0)];
+    const NEEDS_ROTATION: bool = true;
+
+    fn new(parameters: &Parameters<'_>) -> Self {
+        let [bulk, shear] = bulk_and_shear(parameters);
+        let value = |name| parameters.value(name);
+        let isotropic = Voce { yield_stress: value("yield"), gain: value("isotropic_stress"), rate: value("isotropic_rate"), modulus: 0.0 };
+        let modulus = parameters.array("backstress_modulus", 0.0);
+        let recall: [f64; PARTS] = parameters.array("backstress_recall", 0.0);
+        let fading = std::array::from_fn(|k| if modulus[k] > 0.0 { 0.75 * recall[k] / modulus[k] } else { 0.0 });
+        Self { bulk, shear, isotropic, modulus, recall, fading }
+    }
+
+    fn faults(parameters: &Parameters<'_>) -> Vec<ParameterFault> {
+        let (moduli, recalls) = (parameters.list("backstress_modulus"), parameters.list("backstress_recall"));
+        if recalls.is_empty() || recalls.len() == moduli.len() {
+            return Vec::new();
+        }
+        vec![ParameterFault {
+            name: "backstress_recall",
+            message: format!("there are {} recalls for {} backstress moduli", recalls.len(), moduli.len()),
+            help: "give one for each backstress, 0 for one that doesn't fade".into(),
+        }]
+    }
+
+    #[inline(always)]
+    fn update<L: Lane, T: SymmetricTensor<L>>(&self, kinematics: &Kinematics<L, T>, state: &mut Self::State<L, T>) -> Response<L, T> {
+        let (zero, one) = (L::splat(0.0), L::splat(1.0));
+        let plastic = state.0[0];
+        let mut old = state.1.0;
+        let trial = Trial::new(self.bulk, self.shear, kinematics);
+        let mut shifted = trial.deviator;
+        for k in 0..PARTS {
+            old[k] = old[k].rotated(&kinematics.rotation);
+            shifted = shifted.plus(old[k].times(-one));
+        }
+        let square = shifted.contract(shifted) * L::splat(1.5);
+        let [flow, _] = self.isotropic.flow(plastic);
+        let yields = (flow * flow).less(square);
+        let (mut deviator, mut dissipated, mut backstresses) = (trial.deviator, zero, old);
+        if L::any(yields) {
+            let step = self.step(trial.deviator, &old, plastic, square.sqrt(), flow, yields);
+            let end = self.backstresses(trial.deviator, &old, step);
+            let q = (end.shifted.contract(end.shifted) * L::splat(1.5)).sqrt();
+            // Δε_p N, a tensor.
+            let strain = end.shifted.times(L::select(yields, L::splat(1.5) * step / q, zero));
+            deviator = trial.deviator.plus(strain.times(L::splat(-2.0 * self.shear)));
+            let mut mean = deviator.plus(trial.deviator).plus(kinematics.strain_increment.times(L::splat(-2.0 * self.shear)));
+            let mut recalled = zero;
+            for k in 0..PARTS {
+                let new = old[k].plus(strain.times(L::splat(2.0 / 3.0 * self.modulus[k]))).times(end.factors[k]);
+                let sum = old[k].plus(new);
+                mean = mean.plus(sum.times(-one));
+                recalled += new.contract(sum) * L::splat(self.fading[k]);
+                backstresses[k] = new;
+            }
+            dissipated = (mean.contract(strain) * L::splat(0.5) + recalled * step).max(zero);
+            dissipated = L::select(yields, dissipated, zero);
+            state.0[0] += step;
+        }
+        state.1 = Tensors::new(backstresses);
+        Response {
+            stress: deviator.plus(T::isotropic(trial.mean)),
+            stored: zero,
+            dissipated,
+            bulk: L::splat(self.bulk),
+            shear: L::splat(self.shear),
+        }
+    }
+
+    fn stiffness(&self) -> [f64; 2] {
+        [self.bulk, self.shear]
+    }
+}
+
+impl Chaboche {
+    /// What the backstresses have become of after a plastic strain of `step`, as far as the return needs it.
+    #[inline(always)]
+    fn backstresses<L: Lane, T: SymmetricTensor<L>>(&self, deviator: T, old: &[T; PARTS], step: L) -> Backstresses<L, T> {
+        let (zero, one) = (L::splat(0.0), L::splat(1.0));
+        let mut end =
+            Backstresses { factors: [one; PARTS], modulus: zero, shifted: deviator, slope: T::isotropic(zero), modulus_slope: zero };
+        for k in 0..PARTS {
+            let recall = L::splat(self.recall[k]);
+            let factor = one / (one + recall * step);
+            let modulus = L::splat(self.modulus[k]) * factor;
+            end.factors[k] = factor;
+            end.modulus += modulus;
+            end.modulus_slope += modulus * factor;
+            end.shifted = end.shifted.plus(old[k].times(-factor));
+            end.slope = end.slope.plus(old[k].times(recall * factor * factor));
+        }
+        end
+    }
+
+    /// Δε_p where it `yields`, from q = q(η) of the trial.
+    #[inline(always)]
+    fn step<L: Lane, T: SymmetricTensor<L>>(&self, deviator: T, old: &[T; PARTS], plastic: L, q: L, flow: L, yields: L::Mask) -> L {
+        let stiffness = L::splat(3.0 * self.shear);
+        // q(η) never exceeds the sum of the trial stress and the old backstresses.
+        let mut most = (deviator.contract(deviator) * L::splat(1.5)).sqrt();
+        for k in 0..PARTS {
+            most += (old[k].contract(old[k]) * L::splat(1.5)).sqrt();
+        }
+        let mut newton = Newton::new((q - flow) / stiffness, most / stiffness, q, yields);
+        for _ in 0..LIMIT {
+            let step = newton.at;
+            let end = self.backstresses(deviator, old, step);
+            let [flow, slope] = self.isotropic.flow(plastic + step);
+            let q = (end.shifted.contract(end.shifted) * L::splat(1.5)).sqrt();
+            let turn = end.shifted.contract(end.slope) * L::splat(1.5) / q;
+            if !newton.next(q - (stiffness + end.modulus) * step - flow, turn - (stiffness + end.modulus_slope + slope)) {
+                break;
+            }
+        }
+        newton.at
+    }
+}

@@ -1,0 +1,50 @@
+//! Flow stress over equivalent plastic strain: the contract that each kind of hardening fulfils; `j2.rs` makes a law of each.
+//! To add one: a file here with its curve, a type in `j2.rs`, and a name in `laws!`.
+
+mod linear;
+mod ludwik;
+mod rate;
+mod swift;
+mod table;
+mod voce;
+
+pub use linear::Linear;
+pub use ludwik::Ludwik;
+pub use rate::Rate;
+pub use swift::Swift;
+pub use table::Table;
+pub use voce::Voce;
+
+pub(super) use ludwik::Power;
+pub(super) use rate::{RATE_EXPONENT, RATE_REFERENCE};
+pub(super) use table::{PLASTIC_STRAIN, STRESS};
+
+use super::{LawKind, ParameterFault, Parameters};
+use crate::quantity::{Dimension, Parameter, Range};
+use embate_lanes::Lane;
+
+/// Initial yield stress.
+pub(super) const YIELD: Parameter = Parameter::new("yield", "σ_y", Dimension::PRESSURE, Range::Positive, "initial yield stress");
+
+/// A flow stress σ_y(ε_p), positive and nowhere falling.
+pub trait Hardening: Copy + Send + Sync + 'static {
+    /// The law `j2` with this hardening.
+    const KIND: LawKind;
+
+    /// Reads its parameters; `shear` is the elastic shear modulus, Pa.
+    fn new(parameters: &Parameters<'_>, shear: f64) -> Self;
+
+    /// What is wrong with its parameters beyond the range of each.
+    fn faults(_parameters: &Parameters<'_>) -> Vec<ParameterFault> {
+        Vec::new()
+    }
+
+    /// [σ_y, dσ_y/dε_p] at the equivalent plastic strain, Pa. `#[inline(always)]`.
+    fn flow<L: Lane>(&self, plastic: L) -> [L; 2];
+
+    /// dσ_y/dε_p if it is the same everywhere, Pa: then the return has a closed form.
+    #[inline(always)]
+    fn modulus(&self) -> Option<f64> {
+        None
+    }
+}

@@ -1,0 +1,46 @@
+//! Power law with an offset: σ_y = K (ε_0 + ε_p)^n; the initial yield stress is K ε_0^n.
+//!
+//! Source: Swift, Journal of the Mechanics and Physics of Solids 1 (1952) 1-18.
+
+use super::super::{DENSITY, LawKind, POISSON, Parameters, YOUNG};
+use super::{Hardening, RATE_EXPONENT, RATE_REFERENCE};
+use crate::quantity::{Dimension, Parameter, Range};
+use embate_lanes::{Lane, math};
+
+/// K, ε_0 and n.
+#[derive(Clone, Copy, Debug)]
+pub struct Swift {
+    strength: f64,
+    offset: f64,
+    exponent: f64,
+}
+
+impl Hardening for Swift {
+    const KIND: LawKind = LawKind {
+        name: "j2_swift",
+        doc: "elasto-plasticity after von Mises with a power law of the strain (Swift)",
+        source: "Swift, J. Mech. Phys. Solids 1 (1952) 1-18",
+        parameters: &[
+            DENSITY,
+            YOUNG,
+            POISSON,
+            Parameter::new("strength", "K", Dimension::PRESSURE, Range::Positive, "flow stress at a strain of one"),
+            Parameter::new("strain_offset", "ε_0", Dimension::NONE, Range::Positive, "strain at first yield: the yield stress is K ε_0^n"),
+            Parameter::new("hardening_exponent", "n", Dimension::NONE, Range::UpTo(0.0, 1.0), "exponent"),
+            RATE_REFERENCE,
+            RATE_EXPONENT,
+        ],
+    };
+
+    fn new(parameters: &Parameters<'_>, _shear: f64) -> Self {
+        let value = |name| parameters.value(name);
+        Self { strength: value("strength"), offset: value("strain_offset"), exponent: value("hardening_exponent") }
+    }
+
+    #[inline(always)]
+    fn flow<L: Lane>(&self, plastic: L) -> [L; 2] {
+        let strain = L::splat(self.offset) + plastic;
+        let stress = L::splat(self.strength) * math::pow(strain, L::splat(self.exponent));
+        [stress, L::splat(self.exponent) * stress / strain]
+    }
+}

@@ -1,0 +1,230 @@
+//! Johnson and Cook's plasticity of metals: hardening, rate, heat and damage, for impact.
+//!
+//! σ_y = (A + B ε_p^n)(1 + C ln max(ε̇_p / ε̇_0, 1))(1 − T*^m), T* = (T − T_r) / (T_m − T_r) within 0 and 1: at the melting point no shear is left.
+//! The term B ε_p^n has the same chord at its start as in `hardening/ludwik.rs`. The flow stress at the end of the step is met (radial return,
+//! Newton to 1e-12) at the temperature of its start; then the step heats by ΔT = χ D / (ρ c), with the dissipation D of `trial.rs` and the initial
+//! density ρ, as nothing conducts in so short a time (Simo and Miehe's isothermal split).
+//! Damage grows by Δε_p / ε_f, ε_f = (D1 + D2 e^{D3 σ*}) (1 + D4 ln max(ε̇_p/ε̇_0, 1)) (1 + D5 T*), with the triaxiality σ* = σ_m / q (tension
+//! positive, so that D3 of metals is negative) of at most 1.5. It weakens nothing: at 1 the material has come to its end.
+//! Source: Johnson and Cook, 7th Int. Symp. Ballistics (1983) 541-547; damage: Engineering Fracture Mechanics 21 (1985) 31-48.
+
+use super::hardening::{Power, YIELD};
+use super::trial::{LIMIT, Newton, Trial};
+use super::{DENSITY, Family, Kinematics, Law, LawKind, POISSON, ParameterFault, Parameters, Response, Variable, YOUNG, bulk_and_shear};
+use crate::quantity::{Dimension, Parameter, Range};
+use crate::tensor::SymmetricTensor;
+use embate_lanes::{Lane, math};
+
+/// Constants of the damage.
+const CONSTANTS: usize = 5;
+/// Least failure strain: what D1..D5 make negative breaks at once.
+const FAILURE_LEAST: f64 = 1e-6;
+
+/// The law with its moduli.
+#[derive(Clone, Copy, Debug)]
+pub struct JohnsonCook {
+    bulk: f64,
+    shear: f64,
+    yield_stress: f64,
+    power: Power,
+    rate_coefficient: f64,
+    rate_reference: f64,
+    softening: f64,
+    temperature: f64,
+    temperature_reference: f64,
+    /// 1 / (T_m − T_r).
+    per_range: f64,
+    /// χ / (ρ c).
+    heating: f64,
+    damage: Option<[f64; CONSTANTS]>,
+}
+
+impl Law for JohnsonCook {
+    const KIND: LawKind = LawKind {
+        name: "johnson_cook",
+        doc: "metal at high rates: hardening, rate, heating by plastic work, softening by heat, damage (Johnson and Cook)",
+        source: "Johnson and Cook, 7th Int. Symp. Ballistics (1983) 541-547; Eng. Fract. Mech. 21 (1985) 31-48",
+        parameters: &[
+            DENSITY,
+            YOUNG,
+            POISSON,
+            YIELD,
+            Parameter::new(
+                "strength",
+                "B",
+                Dimension::PRESSURE,
+                Range::NotNegative,
+                "what a plastic strain of one adds to the flow stress",
+            ),
+            Parameter::new("hardening_exponent", "n", Dimension::NONE, Range::UpTo(0.0, 1.0), "exponent of the plastic strain"),
+            Parameter::new(
+                "rate_coefficient",
+                "C",
+                Dimension::NONE,
+                Range::NotNegative,
+                "growth of the flow stress with the logarithm of the rate",
+            )
+            .or(0.0),
+            Parameter::new(
+                "rate_reference",
+                "ε̇_0",
+                Dimension::RATE,
+                Range::Positive,
+                "rate of plastic strain up to which there is no growth",
+            )
+            .or(1.0),
+            Parameter::new("softening_exponent", "m", Dimension::NONE, Range::Positive, "exponent of the temperature").or(1.0),
+            Parameter::new("temperature", "T_0", Dimension::TEMPERATURE, Range::Positive, "initial temperature").or(293.15),
+            Parameter::new(
+                "temperature_reference",
+                "T_r",
+                Dimension::TEMPERATURE,
+                Range::Positive,
+                "temperature up to which nothing softens: that of the tests behind A, B and n",
+            )
+            .or(293.15),
+            Parameter::new(
+                "temperature_melt",
+                "T_m",
+                Dimension::TEMPERATURE,
+                Range::Positive,
+                "melting point: no shear strength from there on",
+            ),
+            Parameter::new("specific_heat", "c", Dimension::SPECIFIC_HEAT, Range::Positive, "heat per mass and temperature"),
+            Parameter::new("taylor_quinney", "χ", Dimension::NONE, Range::UpTo(0.0, 1.0), "share of the plastic work that heats").or(0.9),
+            Parameter::new(
+                "damage",
+                "D1..D5",
+                Dimension::NONE,
+                Range::Finite,
+                "five constants of the failure strain; none: no damage is counted",
+            )
+            .or(0.0)
+            .list(CONSTANTS),
+        ],
+    };
+    const FAMILY: Family = Family::Rate;
+    /// Equivalent plastic strain, temperature, damage.
+    type State<L: Lane, T: SymmetricTensor<L>> = [L; 3];
+    const VARIABLES: &'static [(Variable, usize)] = &[(Variable::PlasticStrain, 0), (Variable::Temperature, 1), (Variable::Damage, 2)];
+
+    fn new(parameters: &Parameters<'_>) -> Self {
+        let [bulk, shear] = bulk_and_shear(parameters);
+        let value = |name| parameters.value(name);
+        Self {
+            bulk,
+            shear,
+            yield_stress: value("yield"),
+            power: Power::new(value("strength"), value("hardening_exponent"), shear),
+            rate_coefficient: value("rate_coefficient"),
+            rate_reference: value("rate_reference"),
+            softening: value("softening_exponent"),
+            temperature: value("temperature"),
+            temperature_reference: value("temperature_reference"),
+            per_range: 1.0 / (value("temperature_melt") - value("temperature_reference")),
+            heating: value("taylor_quinney") / (value("density") * value("specific_heat")),
+            damage: (!parameters.list("damage").is_empty()).then(|| parameters.array("damage", 0.0)),
+        }
+    }
+
+    fn faults(parameters: &Parameters<'_>) -> Vec<ParameterFault> {
+        let mut faults = Vec::new();
+        if parameters.value("temperature_melt") <= parameters.value("temperature_reference") {
+            faults.push(ParameterFault {
+                name: "temperature_melt",
+                message: "the melting point is not above the reference temperature".into(),
+                help: "temperatures are absolute, in kelvin".into(),
+            });
+        }
+        let constants = parameters.list("damage").len();
+        if constants != 0 && constants != CONSTANTS {
+            faults.push(ParameterFault {
+                name: "damage",
+                message: format!("the damage has five constants, here are {constants}"),
+                help: "give D1 to D5, zeros for those that are not known; or leave `damage` out".into(),
+            });
+        }
+        faults
+    }
+
+    fn start<L: Lane, T: SymmetricTensor<L>>(&self) -> [L; 3] {
+        [L::splat(0.0), L::splat(self.temperature), L::splat(0.0)]
+    }
+
+    #[inline(always)]
+    fn update<L: Lane, T: SymmetricTensor<L>>(&self, kinematics: &Kinematics<L, T>, state: &mut [L; 3]) -> Response<L, T> {
+        let (zero, one) = (L::splat(0.0), L::splat(1.0));
+        let trial = Trial::new(self.bulk, self.shear, kinematics);
+        let homologous = (state[1] - L::splat(self.temperature_reference)) * L::splat(self.per_range);
+        let homologous = homologous.max(zero).min(one);
+        let strength = one - math::pow(homologous, L::splat(self.softening));
+        let [flow, slope] = self.flow(state[0], strength);
+        let yields = (flow * flow).less(trial.square);
+        let (mut deviator, mut dissipated) = (trial.deviator, zero);
+        if L::any(yields) {
+            let q = trial.square.sqrt();
+            let unit = (L::splat(self.rate_reference) * kinematics.time_step).max(L::splat(1e-100));
+            let step = self.step(q, state[0], [flow, slope], strength, unit, yields);
+            let factor = L::splat(3.0 * self.shear) * step / q;
+            dissipated = trial.work(self.shear, kinematics.strain_increment, q, step, yields);
+            deviator = trial.scaled(one - factor, yields);
+            state[0] += step;
+            state[1] += dissipated * L::splat(self.heating);
+            if let Some(constants) = self.damage {
+                let end = (q - L::splat(3.0 * self.shear) * step).max(L::splat(f64::MIN_POSITIVE));
+                let triaxiality = (trial.mean / end).min(L::splat(1.5));
+                let failure = failure(&constants, triaxiality, math::ln((step / unit).max(one)), homologous);
+                state[2] = L::select(yields, (state[2] + step / failure).min(one), state[2]);
+            }
+        }
+        Response {
+            stress: deviator.plus(T::isotropic(trial.mean)),
+            stored: zero,
+            dissipated,
+            bulk: L::splat(self.bulk),
+            shear: L::splat(self.shear),
+        }
+    }
+
+    fn stiffness(&self) -> [f64; 2] {
+        [self.bulk, self.shear]
+    }
+}
+
+/// Failure strain.
+#[inline(always)]
+fn failure<L: Lane>(constants: &[f64; CONSTANTS], triaxiality: L, logarithm: L, homologous: L) -> L {
+    let one = L::splat(1.0);
+    let shape = L::splat(constants[0]) + L::splat(constants[1]) * math::exp(L::splat(constants[2]) * triaxiality);
+    let factors = (one + L::splat(constants[3]) * logarithm) * (one + L::splat(constants[4]) * homologous);
+    (shape * factors).max(L::splat(FAILURE_LEAST))
+}
+
+impl JohnsonCook {
+    /// Flow stress without the rate, and its slope, at what heat has left of the strength.
+    #[inline(always)]
+    fn flow<L: Lane>(&self, plastic: L, strength: L) -> [L; 2] {
+        let [power, slope] = self.power.flow(plastic);
+        [(L::splat(self.yield_stress) + power) * strength, slope * strength]
+    }
+
+    /// Δε_p where it `yields`; `unit` is the increment ε̇_0 Δt.
+    #[inline(always)]
+    fn step<L: Lane>(&self, q: L, plastic: L, [flow, slope]: [L; 2], strength: L, unit: L, yields: L::Mask) -> L {
+        let (stiffness, one, zero) = (L::splat(3.0 * self.shear), L::splat(1.0), L::splat(0.0));
+        let coefficient = L::splat(self.rate_coefficient);
+        let mut newton = Newton::new((q - flow) / (stiffness + slope), q / stiffness, q, yields);
+        for _ in 0..LIMIT {
+            let step = newton.at;
+            let [flow, slope] = self.flow(plastic + step, strength);
+            let ratio = step / unit;
+            let fast = one.less(ratio);
+            let rate = one + coefficient * math::ln(ratio.max(one));
+            let rate_slope = L::select(fast, coefficient / step, zero);
+            if !newton.next(q - stiffness * step - flow * rate, -(stiffness + slope * rate + flow * rate_slope)) {
+                break;
+            }
+        }
+        newton.at
+    }
+}

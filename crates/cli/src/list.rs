@@ -25,6 +25,8 @@ enum What {
     Materials,
     /// Criteria of failure
     Failure,
+    /// Equations of state
+    EquationsOfState,
     /// Global contact searches
     Searches,
     /// Contact formulations
@@ -48,6 +50,7 @@ impl What {
             Self::StressStates => stress_states(),
             Self::Materials => materials(),
             Self::Failure => failure(),
+            Self::EquationsOfState => equations_of_state(),
             Self::Searches => searches(),
             Self::Formulations => formulations(),
             Self::Laws => laws(),
@@ -87,6 +90,15 @@ fn materials() -> String {
     for law in material::registry() {
         entry(&mut text, law.name, law.doc, law.source);
         text.push_str(&table(&law.parameters.iter().map(|parameter| parameter_row(parameter, "required")).collect::<Vec<_>>(), "      "));
+    }
+    text
+}
+
+fn equations_of_state() -> String {
+    let mut text = String::from("Equations of state (material.NAME.eos)\n");
+    for kind in material::eos::EQUATIONS {
+        entry(&mut text, kind.name, kind.doc, kind.source);
+        text.push_str(&table(&kind.parameters.iter().map(|parameter| parameter_row(parameter, "required")).collect::<Vec<_>>(), "      "));
     }
     text
 }

@@ -209,6 +209,7 @@ pub static FIELDS: &[FieldKind] = &[
         Needs::Failure,
         "1 where the element is there, 0 where it was eroded: then its other values are those when it failed",
     ),
+    at_cells("density", &[], "kg/m^3", Needs::History(Variable::Density), "density of materials with an equation of state, 0 for others"),
     at_cells("energy_density", &[], "J/m^3", Needs::Nothing, "stored elastic energy per initial volume"),
 ];
 

@@ -40,14 +40,14 @@ impl Dimension {
     pub const RATE: Self = Self::new(0, 0, -1);
     /// s/m.
     pub const SLOWNESS: Self = Self::new(0, -1, 1);
+    /// Pa s: dynamic viscosity; also a force per velocity and metre of depth, N s/m/m.
+    pub const VISCOSITY: Self = Self::new(1, -1, -1);
     /// Pa s/m: shear stress per slip rate.
     pub const VISCOSITY_PER_LENGTH: Self = Self::new(1, -2, -1);
     /// N.
     pub const FORCE: Self = Self::new(1, 1, -2);
     /// kg.
     pub const MASS: Self = Self::new(1, 0, 0);
-    /// Pa s = N s/m/m: force per velocity and metre of depth.
-    pub const VISCOSITY: Self = Self::new(1, -1, -1);
     /// N/m = kg/s²: force per metre of depth.
     pub const FORCE_PER_LENGTH: Self = Self::new(1, 0, -2);
     /// kg/m: mass per metre of depth.
@@ -66,9 +66,9 @@ impl Dimension {
             Self::NONE => return String::new(),
             Self::PRESSURE => return "Pa".into(),
             Self::PRESSURE_PER_LENGTH => return "Pa/m".into(),
+            Self::VISCOSITY => return "Pa s".into(),
             Self::SPECIFIC_HEAT => return "J/kg/K".into(),
             Self::VISCOSITY_PER_LENGTH => return "Pa s/m".into(),
-            Self::VISCOSITY => return "Pa s".into(),
             Self::FORCE_PER_LENGTH => return "N/m".into(),
             Self::FORCE => return "N".into(),
             _ => {}

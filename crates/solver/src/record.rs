@@ -205,6 +205,7 @@ fn values(name: &str, system: &System, surface: &OnSurface) -> Vec<f64> {
         "von_mises" => by_element(system, |state| [von_mises(&state.stress)]),
         "pressure" => by_element(system, |state| [-(state.stress[0] + state.stress[1] + state.stress[2]) / 3.0]),
         "plastic_strain" => by_element(system, |state| [state.variables[Variable::PlasticStrain as usize]]),
+        "density" => by_element(system, |state| [state.variables[Variable::Density as usize]]),
         "temperature" => by_element(system, |state| [state.variables[Variable::Temperature as usize]]),
         "damage" => by_element(system, |state| [state.variables[Variable::Damage as usize]]),
         "alive" => alive(system),

@@ -79,6 +79,10 @@ fn lists_hold_everything_in_the_registries() {
         names.push(law.name);
         names.extend(law.parameters.iter().map(|parameter| parameter.name));
     }
+    for kind in material::eos::EQUATIONS {
+        names.push(kind.name);
+        names.extend(kind.parameters.iter().map(|parameter| parameter.name));
+    }
     for name in names {
         assert!(text.contains(name), "{name} is missing in\n{text}");
     }
@@ -89,6 +93,7 @@ fn one_list_can_be_chosen() {
     for (what, title) in [
         ("elements", "Elements"),
         ("materials", "Materials"),
+        ("equations-of-state", "Equations of state"),
         ("stress-states", "Stress states"),
         ("searches", "Searches"),
         ("formulations", "Contact formulations"),

@@ -2,7 +2,7 @@
 
 use super::reader::{header, written};
 use super::{units, value};
-use embate_solver::model::describe::{Key, Kind, Need, Rule, SECTIONS, Section, TOP};
+use embate_solver::model::describe::{Key, Kind, More, Need, Rule, SECTIONS, Section, TOP};
 use embate_solver::quantity::{Dimension, Range};
 use embate_solver::{contact, element, material, output};
 use std::fmt::Write;
@@ -43,8 +43,12 @@ pub fn reference_markdown() -> String {
             let _ = writeln!(out, "And the keys of [{}](#{}).\n", group.title, group.title.to_lowercase().replace(' ', "-"));
         }
         tables_in(&mut out, section.keys);
-        if let Some(more) = section.more {
-            laws(&mut out, more.keys);
+        for more in section.more {
+            let registry = match more.by {
+                "eos" => material::eos::EQUATIONS.iter().map(|kind| (kind.name, kind.doc)).collect(),
+                _ => material::registry().iter().map(|kind| (kind.name, kind.doc)).collect(),
+            };
+            further(&mut out, more, registry);
         }
         groups_after(&mut out, section);
     }
@@ -153,10 +157,11 @@ fn words(key: &Key) -> String {
     }
 }
 
-fn laws(out: &mut String, keys: fn(&str) -> Option<Vec<Key>>) {
-    for kind in material::registry() {
-        let _ = writeln!(out, "### `law = \"{}\"`\n\n{}\n", kind.name, kind.doc);
-        let own: Vec<Key> = keys(kind.name).unwrap_or_default();
+/// The keys that come with each value of a deciding key.
+fn further(out: &mut String, more: &More, registry: Vec<(&str, &str)>) {
+    for (name, doc) in registry {
+        let _ = writeln!(out, "### `{} = \"{name}\"`\n\n{doc}\n", more.by);
+        let own: Vec<Key> = (more.keys)(name).unwrap_or_default();
         table(out, &own, &[]);
     }
 }

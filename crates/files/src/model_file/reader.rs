@@ -467,11 +467,18 @@ pub(super) fn written((by, value): (&str, &str)) -> String {
 /// The keys that a table may have, and whether these are all: not while the key that decides over the others is unknown.
 fn keys_of(section: &Section, entries: &[Entry]) -> (Vec<Key>, bool) {
     let mut keys: Vec<Key> = section.all_keys().copied().collect();
-    let Some(more) = section.more else { return (keys, true) };
-    let chosen = entries.iter().find(|entry| entry.key == more.by).map(|entry| &entry.node.value);
-    let further = if let Some(Value::Text(text)) = chosen { (more.keys)(text) } else { None };
-    let complete = further.is_some();
-    keys.extend(further.into_iter().flatten());
+    let mut complete = true;
+    for more in section.more {
+        let chosen = entries.iter().find(|entry| entry.key == more.by).map(|entry| &entry.node.value);
+        let required = section.all_keys().any(|key| key.name == more.by && key.need == Need::Required);
+        let further = if let Some(Value::Text(text)) = chosen { (more.keys)(text) } else { None };
+        complete &= further.is_some() || (chosen.is_none() && !required);
+        for key in further.into_iter().flatten() {
+            if keys.iter().all(|known| known.name != key.name) {
+                keys.push(key);
+            }
+        }
+    }
     (keys, complete)
 }
 

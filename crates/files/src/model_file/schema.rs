@@ -5,7 +5,7 @@
 use super::tree::{self, Value};
 use super::units;
 use embate_solver::material;
-use embate_solver::model::describe::{Form, Key, Kind, Need, Rule, SECTIONS, Section, TOP};
+use embate_solver::model::describe::{Form, Key, Kind, More, Need, Rule, SECTIONS, Section, TOP};
 use embate_solver::quantity::{Dimension, Range};
 
 /// Names: no ASCII character but letters, digits, `-` and `_`. Written without classes, which not every reader of schemas knows.
@@ -119,11 +119,18 @@ fn of_section(section: &Section) -> Json {
 /// One table per value of the deciding key.
 fn variants(section: &Section) -> Json {
     let names: Vec<&str> = material::registry().iter().map(|kind| kind.name).collect();
-    let Some(more) = section.more else { return Json::List(vec![of_table(section, &all(section))]) };
+    let Some((more, others)) = section.more.split_first() else { return Json::List(vec![of_table(section, &all(section))]) };
     let variant = |name: &&str| {
         let mut keys = all(section);
         keys.extend((more.keys)(name).into_iter().flatten());
+        let mut rules = Vec::new();
+        for other in others {
+            keys_by(other, &mut keys, &mut rules);
+        }
         let mut table = of_table(section, &keys);
+        if !rules.is_empty() {
+            table = table.with("allOf", Json::List(rules));
+        }
         if let Json::Object(entries) = &mut table
             && let Some((_, Json::Object(properties))) = entries.iter_mut().find(|(key, _)| key == "properties")
             && let Some((_, decides)) = properties.iter_mut().find(|(key, _)| key == more.by)
@@ -133,6 +140,34 @@ fn variants(section: &Section) -> Json {
         table
     };
     Json::List(names.iter().map(variant).collect())
+}
+
+/// Keys that come with the values of a key that may be left out: each only with its value, and there if that needs it.
+fn keys_by(more: &More, keys: &mut Vec<Key>, rules: &mut Vec<Json>) {
+    let Some(Kind::Choice(values)) = keys.iter().find(|key| key.name == more.by).map(|key| key.kind) else { return };
+    let variants: Vec<(&str, Vec<Key>)> = values().into_iter().map(|value| (value, (more.keys)(value).unwrap_or_default())).collect();
+    let known: Vec<&str> = keys.iter().map(|key| key.name).collect();
+    let own = |key: &&Key| !known.contains(&key.name);
+    let mut names: Vec<&str> = variants.iter().flat_map(|(_, keys)| keys).filter(own).map(|key| key.name).collect();
+    names.sort_unstable();
+    names.dedup();
+    for (value, here) in &variants {
+        let is = object([("properties", object([(more.by, object([("const", text(*value))]))])), ("required", texts([more.by]))]);
+        let needed = texts(here.iter().filter(|key| key.need == Need::Required).map(|key| key.name));
+        let foreign: Vec<Json> = names
+            .iter()
+            .filter(|name| here.iter().all(|key| key.name != **name))
+            .map(|name| object([("required", texts([*name]))]))
+            .collect();
+        let then = object([("required", needed), ("not", object([("anyOf", Json::List(foreign))]))]);
+        rules.push(object([("if", is), ("then", then)]));
+    }
+    rules.push(object([("dependentRequired", Json::Object(names.iter().map(|name| ((*name).to_string(), texts([more.by]))).collect()))]));
+    for key in variants.into_iter().flat_map(|(_, keys)| keys) {
+        if keys.iter().all(|known| known.name != key.name) {
+            keys.push(key);
+        }
+    }
 }
 
 fn of_table(section: &Section, keys: &[Key]) -> Json {

@@ -7,6 +7,8 @@ use embate_lanes::{BATCH, Batch};
 pub(crate) struct ElementBatch {
     /// Smallest corner mass of each element times its corners: the mass in the stable step, which holds for any later form of the element.
     pub(crate) mass_least: Batch,
+    /// Mass of each element, kg/m: density and length of the bulk viscosity.
+    pub(crate) mass: Batch,
     /// 1 for an element, 0 for a lane that only fills the batch up and for an eroded element: both are copies of a live one (`erosion.rs`).
     pub(crate) live: Batch,
     /// Stored elastic energy of each element, J/m.

@@ -138,6 +138,8 @@ where
         values.mass_least.0[lane] = N as f64 * least;
         values.live.0[lane] = if batch * BATCH + lane < self.count { 1.0 } else { 0.0 };
         values.volume.0[lane] = volume;
+        values.stored.0[lane] = self.law.stored() * volume;
+        values.mass.0[lane] = density * volume;
         self.volume_initial[batch].0[lane] = volume;
     }
 

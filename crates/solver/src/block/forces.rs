@@ -6,7 +6,7 @@
 //! 2πx_p, and the hoop stress adds Σ_p 2π w_p σ_zz det J_p N_a to the radial force.
 //!
 //! Bulk viscosity: a pressure q = ρ l (Q² l ε̇² + L c |ε̇|) where the volume shrinks (ε̇ < 0), with l² the element's area, c² = (K + 4µ/3)/ρ; the stable step
-//! shrinks by √(1 + ζ²) − ζ, ζ = L + Q² l |ε̇| / c. Source: von Neumann and Richtmyer, J. Appl. Phys. 21 (1950) 232-237; Landshoff, LA-1930 (1955).
+//! shrinks by √(1 + ζ²) − ζ, ζ = (L + 2 Q² l |ε̇| / c) l / h, the part of the critical damping that small motions of the fastest mode (ω = 2c/h) see: dq/dε̇ = ρ l c (L + 2 Q² l |ε̇| / c). Source: von Neumann and Richtmyer, J. Appl. Phys. 21 (1950) 232-237; Landshoff, LA-1930 (1955).
 
 use super::Report;
 use super::batch::ElementBatch;
@@ -142,7 +142,7 @@ where
         let mut time_step_squared = thickness_squared * mass / (geometry.volume * modulus);
         let mut pressure = zero;
         if let Some(coefficients) = self.viscosity {
-            let (q, shrink) = self.viscous(batch, at, coefficients, &geometry, modulus, mass);
+            let (q, shrink) = self.viscous(batch, at, coefficients, &geometry, [modulus, thickness_squared]);
             pressure = q;
             time_step_squared = time_step_squared * shrink;
         }
@@ -274,23 +274,22 @@ where
         at: usize,
         [linear, quadratic]: [f64; 2],
         geometry: &Geometry<L, D, N, P>,
-        modulus: L,
-        mass: L,
+        [modulus, thickness_squared]: [L; 2],
     ) -> (L, L) {
         let (zero, one) = (L::splat(0.0), L::splat(1.0));
         let element = &mut self.elements[batch];
         let (old, live) = (L::load(&element.volume, at), L::load(&element.live, at));
         let change = geometry.volume - old;
         let shrinks = change.less(zero);
-        // The lightest corner times the corners is not the mass, but near enough for a length and a density.
-        let density = mass / geometry.volume;
+        let density = L::load(&element.mass, at) / geometry.volume;
         let length = geometry.area.sqrt();
         let speed = (modulus / density).sqrt();
         let dt = L::splat(if self.time_step > 0.0 { self.time_step } else { f64::INFINITY });
         let rate = (change / ((geometry.volume + old) * L::splat(0.5) * dt)).abs();
-        let ratio = L::splat(linear) + L::splat(quadratic * quadratic) * length * rate / speed;
-        let pressure = L::select(shrinks, density * length * speed * rate * ratio, zero);
-        let damping = L::select(shrinks, ratio, zero);
+        let [linear, growing] = [L::splat(linear), L::splat(quadratic * quadratic) * length * rate / speed];
+        let pressure = L::select(shrinks, density * length * speed * rate * (linear + growing), zero);
+        let damping = (linear + growing + growing) * length / thickness_squared.sqrt();
+        let damping = L::select(shrinks, damping, zero);
         let shrink = (one + damping * damping).sqrt() - damping;
         // Trapezoidal rule, as the nodal works of the ledger.
         let work = -(change * (pressure + L::load(&element.viscous_pressure, at)) * L::splat(0.5)) * live;

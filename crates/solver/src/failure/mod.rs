@@ -75,7 +75,7 @@ mod tests {
 
     #[test]
     fn each_criterion_fails_at_its_limit_and_not_before() {
-        let state = State { stress: [3.0, 1.0, 0.5, 2.0], variables: [0.2, 300.0, 0.9], time_step: 1e-8 };
+        let state = State { stress: [3.0, 1.0, 0.5, 2.0], variables: [0.2, 300.0, 0.9, 7800.0], time_step: 1e-8 };
         let at = |name: &str, limit: f64| (by_name(name).unwrap().fails)(&state, limit)[0];
         assert!(at("plastic_strain", 0.2) && !at("plastic_strain", 0.21));
         // 2 + √(1 + 4)

@@ -57,6 +57,7 @@ impl Law for CrushableFoam {
         ],
     };
     const FAMILY: Family = Family::Rate;
+    const FLOWS_IN_VOLUME: bool = true;
     /// ε̂.
     type State<L: Lane, T: SymmetricTensor<L>> = [L; 1];
     const VARIABLES: &'static [(Variable, usize)] = &[(Variable::PlasticStrain, 0)];

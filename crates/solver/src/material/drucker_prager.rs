@@ -56,6 +56,7 @@ impl Law for DruckerPrager {
         ],
     };
     const FAMILY: Family = Family::Rate;
+    const FLOWS_IN_VOLUME: bool = true;
     /// Equivalent strain of the plastic deviator, Σ γ.
     type State<L: Lane, T: SymmetricTensor<L>> = [L; 1];
     const VARIABLES: &'static [(Variable, usize)] = &[(Variable::PlasticStrain, 0)];

@@ -9,6 +9,7 @@ mod crushable_foam;
 mod drucker_prager;
 mod arruda_boyce;
 mod elastic;
+pub mod eos;
 pub mod hardening;
 mod j2;
 mod johnson_cook;
@@ -16,6 +17,7 @@ mod mooney_rivlin;
 mod neo_hookean;
 mod ogden;
 mod orthotropic_elastic;
+mod null;
 mod parameters;
 mod plane_stress;
 pub mod points;
@@ -34,6 +36,7 @@ pub use j2::{J2, J2Ludwik, J2Swift, J2Table, J2Voce, J2With};
 pub use johnson_cook::JohnsonCook;
 pub use mooney_rivlin::MooneyRivlin;
 pub use neo_hookean::NeoHookean;
+pub use null::Null;
 pub use ogden::Ogden;
 pub use orthotropic_elastic::OrthotropicElastic;
 pub use parameters::{BULK, DENSITY, POISSON, ParameterFault, Parameters, YOUNG, bulk_and_shear};
@@ -120,6 +123,10 @@ pub trait Law: Copy + Send + Sync + 'static {
     const DISSIPATES: bool = !Self::VARIABLES.is_empty();
     /// Whether it answers alike in all directions at rest. Where it does not, bulk and shear stiffness are bounds of the waves.
     const ISOTROPIC: bool = true;
+    /// Whether its flow changes the mean stress, which no equation of state may then replace.
+    const FLOWS_IN_VOLUME: bool = false;
+    /// Whether it has no pressure of its own.
+    const NEEDS_EQUATION_OF_STATE: bool = false;
 
     /// Reads its parameters, which have been checked against [`Law::KIND`].
     fn new(parameters: &Parameters<'_>) -> Self;
@@ -182,7 +189,8 @@ laws!(
     Yeoh,
     ArrudaBoyce,
     Ogden,
-    Viscoelastic
+    Viscoelastic,
+    Null
 );
 
 /// What the law called `name` finds wrong with parameters whose ranges are right.
@@ -196,6 +204,19 @@ pub fn faults(name: &str, parameters: &Parameters<'_>) -> Vec<ParameterFault> {
         }
     }
     with_law(name, Check(parameters)).unwrap_or_default()
+}
+
+/// Whether the law called `name` needs an equation of state, and whether it may have one; `None` when there is no such law.
+#[must_use]
+pub fn equation_of_state(name: &str) -> Option<[bool; 2]> {
+    struct Ask;
+    impl LawVisitor for Ask {
+        type Output = [bool; 2];
+        fn visit<M: Law>(self) -> Self::Output {
+            [M::NEEDS_EQUATION_OF_STATE, M::FAMILY == Family::Rate && !M::FLOWS_IN_VOLUME]
+        }
+    }
+    with_law(name, Ask)
 }
 
 /// Every law.

@@ -87,11 +87,14 @@ impl PointLaw for PlaneStress {
     fn needs_volume(&self) -> bool {
         self.law.needs_volume()
     }
-    fn variables(&self) -> &'static [(Variable, usize)] {
+    fn variables(&self) -> &[(Variable, usize)] {
         self.law.variables()
     }
     fn stiffness(&self) -> [f64; 2] {
         self.law.stiffness()
+    }
+    fn stored(&self) -> f64 {
+        self.law.stored()
     }
     fn thickness(&self) -> Option<usize> {
         Some(self.law.state_width())

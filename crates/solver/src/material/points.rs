@@ -44,9 +44,13 @@ pub trait PointLaw: Send + Sync {
     /// See [`Law::NEEDS_VOLUME`].
     fn needs_volume(&self) -> bool;
     /// History values that the user sees.
-    fn variables(&self) -> &'static [(Variable, usize)];
+    fn variables(&self) -> &[(Variable, usize)];
     /// Bulk and shear stiffness at rest, Pa.
     fn stiffness(&self) -> [f64; 2];
+    /// Energy stored at the start per initial volume, J/m³: of an equation of state.
+    fn stored(&self) -> f64 {
+        0.0
+    }
     /// Writes the history of a point at the start.
     fn start(&self, state: &mut [Batch]);
     /// Place of the thickness ratio λ = t/t₀ in the history, if it changes (plane stress).
@@ -57,7 +61,7 @@ pub trait PointLaw: Send + Sync {
     fn respond(&self, level: Level, points: Points<'_>);
 }
 
-/// The law of a material for points of the plane; `None` when it is unknown.
+/// The law of a material for points of the plane, with its equation of state; `None` when one of them is unknown.
 #[must_use]
 pub fn plane(material: &Material) -> Option<Box<dyn PointLaw>> {
     struct Make<'a>(&'a Material);
@@ -68,7 +72,7 @@ pub fn plane(material: &Material) -> Option<Box<dyn PointLaw>> {
             Box::new(Erased::<M, 2> { law })
         }
     }
-    with_law(&material.law, Make(material))
+    super::eos::around(with_law(&material.law, Make(material))?, material)
 }
 
 /// The law of a material for points in plane stress.
@@ -100,7 +104,7 @@ where
     fn needs_volume(&self) -> bool {
         M::NEEDS_VOLUME
     }
-    fn variables(&self) -> &'static [(Variable, usize)] {
+    fn variables(&self) -> &[(Variable, usize)] {
         M::VARIABLES
     }
     fn stiffness(&self) -> [f64; 2] {
@@ -176,4 +180,4 @@ where
 }
 
 /// Components of a tensor of the plane.
-pub(super) const PLANE: usize = <Plane<f64> as SymmetricTensor<f64>>::COMPONENTS;
+pub(in crate::material) const PLANE: usize = <Plane<f64> as SymmetricTensor<f64>>::COMPONENTS;

@@ -119,9 +119,11 @@ pub enum Variable {
     Temperature,
     /// Damage, 0 to 1.
     Damage,
+    /// Density, kg/m³, where an equation of state keeps it.
+    Density,
 }
 
 impl Variable {
     /// How many there are.
-    pub const COUNT: usize = 3;
+    pub const COUNT: usize = 4;
 }

@@ -132,6 +132,8 @@ impl Default for Run {
 pub struct Material {
     /// Name in the material registry.
     pub law: String,
+    /// Name in the registry of equations of state; empty: none, the pressure is the law's own.
+    pub eos: String,
     /// Parameters by key, SI, `density` included.
     pub parameters: BTreeMap<String, f64>,
     /// Parameters that are lists.

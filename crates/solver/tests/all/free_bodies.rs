@@ -1,8 +1,7 @@
 //! Whole models without contact against closed forms: free fall, driven and spinning bars, waves, energy, equal bits for any threads.
 
-use crate::patches::{DENSITY, every_pair, material, modulus_along_x, stay_elastic};
+use crate::patches::{DENSITY, every_pair, material, modulus_along_x, solids, stay_elastic};
 use embate_lanes::Level;
-use embate_solver::material::LAWS;
 use embate_solver::model::{Constraint, ImportedMesh, Load, MeshGroup, Model, Part, Rectangle, Run, Shape};
 use embate_solver::simulation::{Options, Simulation};
 use std::sync::Arc;
@@ -186,7 +185,7 @@ fn a_spinning_bar_has_the_stress_of_its_spin_and_keeps_its_momenta() {
             embate_solver::simulation::Control::Continue
         }
     }
-    for law in LAWS {
+    for law in solids() {
         let mut model = bar_of_parts(law.name, [LENGTH, 0.1], [40, 2], 3.0, |[x, y]| [-SPIN * y, SPIN * x]);
         model.run.end = 3.0;
         let mut simulation = Simulation::new(&model, &SERIAL).unwrap();
@@ -250,7 +249,7 @@ fn cantilever(law: &str, safety: f64) -> f64 {
 
 #[test]
 fn the_energy_drift_of_a_swinging_cantilever_falls_with_the_square_of_the_step() {
-    for law in LAWS {
+    for law in solids() {
         let drifts = [0.8, 0.4, 0.2].map(|safety| cantilever(law.name, safety));
         println!("{}: {drifts:?}", law.name);
         assert!(drifts[0] < 0.01, "{}: {drifts:?}", law.name);
@@ -278,7 +277,7 @@ fn the_work_of_prescribed_motion_is_the_energy_of_the_body() {
 
 #[test]
 fn any_number_of_threads_and_every_instruction_set_give_the_same_state() {
-    for law in LAWS {
+    for law in solids() {
         let mut model = bar("quad4", law.name, [1.0, 1.0], [70, 65], 1.0);
         model.run.max_steps = Some(25);
         model.parts[0].velocity = [-3.0, 0.5];

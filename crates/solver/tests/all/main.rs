@@ -40,6 +40,7 @@ mod rubbers;
 mod run_control;
 mod search;
 mod self_contact;
+mod shocks;
 mod stress_states;
 mod swept;
 mod viscosity;

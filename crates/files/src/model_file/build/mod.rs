@@ -31,6 +31,7 @@ pub(super) fn model(document: &Document, name: &str, folder: &Path, faults: &mut
     model.run = run(&document.single("run"));
     let material = |record: &Record| Material {
         law: record.text("law"),
+        eos: record.text("eos"),
         parameters: record.numbers(),
         lists: record.lists(),
         failure: record.table("failure").map(Record::numbers).unwrap_or_default(),

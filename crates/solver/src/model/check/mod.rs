@@ -151,17 +151,29 @@ impl Check<'_> {
                 self.known(&format!("{path}.law"), "law", &it.law, &laws);
                 continue;
             };
-            let known: Vec<&str> = kind.parameters.iter().map(|parameter| parameter.name).collect();
-            for parameter in kind.parameters {
+            if !self.equation_of_state(&path, it) {
+                continue;
+            }
+            let own = material::eos::kind(&it.eos);
+            // What both have is the same thing, given once.
+            let law = |name: &str| kind.parameters.iter().any(|parameter| parameter.name == name);
+            let further = own.into_iter().flat_map(|own| own.parameters).filter(|parameter| !law(parameter.name));
+            let all: Vec<&Parameter> = kind.parameters.iter().chain(further).collect();
+            let known: Vec<&str> = all.iter().map(|parameter| parameter.name).collect();
+            let needs = |parameter: &Parameter| match own {
+                Some(own) if !law(parameter.name) => format!("equation of state `{}` needs `{}`", own.name, parameter.name),
+                _ => format!("law `{}` needs `{}`", it.law, parameter.name),
+            };
+            for parameter in all {
                 let path = format!("{path}.{}", parameter.name);
                 if parameter.list > 0 {
-                    self.list(&path, it, parameter);
+                    self.list(&path, it, parameter, &needs(parameter));
                     continue;
                 }
                 match it.parameters.get(parameter.name) {
                     Some(value) => self.within(&path, *value, parameter.dimension, parameter.range),
                     None if parameter.default.is_some() => {}
-                    None => self.fault(path, format!("law `{}` needs `{}`", it.law, parameter.name), parameter.doc),
+                    None => self.fault(path, needs(parameter), parameter.doc),
                 }
             }
             for (key, &value) in &it.failure {
@@ -176,21 +188,53 @@ impl Check<'_> {
             }
             let before = self.faults.len();
             for key in it.parameters.keys().chain(it.lists.keys()).filter(|key| !known.contains(&key.as_str())) {
-                self.fault(
-                    format!("{path}.{key}"),
-                    format!("law `{}` has no parameter `{}`", it.law, excerpt(key)),
-                    suggestion(key, &known),
-                );
+                let of_other =
+                    material::eos::EQUATIONS.iter().find(|other| other.parameters.iter().any(|parameter| parameter.name == key.as_str()));
+                let help = match of_other {
+                    Some(other) if own.is_none() => format!("add `eos = \"{}\"`, or leave it out", other.name),
+                    _ => suggestion(key, &known),
+                };
+                let with = own.map_or(String::new(), |own| format!(" with `eos = \"{}\"`", own.name));
+                self.fault(format!("{path}.{key}"), format!("law `{}`{with} has no parameter `{}`", it.law, excerpt(key)), help);
             }
             if self.faults.len() == before {
                 let faults = material::faults(&it.law, &Parameters::new(kind.parameters, &it.parameters, &it.lists));
-                faults.into_iter().for_each(|fault| self.fault(format!("{path}.{}", fault.name), fault.message, fault.help));
+                let own = own.map(|own| material::eos::faults(own.name, &Parameters::new(own.parameters, &it.parameters, &it.lists)));
+                let faults = faults.into_iter().chain(own.into_iter().flatten());
+                faults.for_each(|fault| self.fault(format!("{path}.{}", fault.name), fault.message, fault.help));
             }
         }
     }
 
+    /// Whether the material's equation of state is known and goes with its law.
+    fn equation_of_state(&mut self, path: &str, it: &Material) -> bool {
+        let names: Vec<&str> = material::eos::EQUATIONS.iter().map(|kind| kind.name).collect();
+        let Some([needs, may_have]) = material::equation_of_state(&it.law) else { return false };
+        let path = format!("{path}.eos");
+        if it.eos.is_empty() {
+            if needs {
+                let help = format!("give an equation of state, `eos`: {}", names.join(", "));
+                self.fault(path, format!("law `{}` has no pressure of its own", it.law), help);
+            }
+            return !needs;
+        }
+        if !may_have {
+            let message = format!(
+                "law `{}` has a pressure of its own, from its energy or its flow: an equation of state would contradict it",
+                it.law
+            );
+            self.fault(path, message, "leave `eos` out, or take a law in rate form such as `elastic` or `j2`");
+            return false;
+        }
+        if material::eos::kind(&it.eos).is_none() {
+            self.known(&path, "equation of state", &it.eos, &names);
+            return false;
+        }
+        true
+    }
+
     /// A parameter that is a list.
-    fn list(&mut self, path: &str, it: &Material, parameter: &Parameter) {
+    fn list(&mut self, path: &str, it: &Material, parameter: &Parameter, needs: &str) {
         match it.lists.get(parameter.name) {
             Some(values) if values.len() > parameter.list => {
                 let message = format!("`{}` takes at most {} values, here are {}", parameter.name, parameter.list, values.len());
@@ -205,7 +249,7 @@ impl Check<'_> {
                 }
             }
             None if parameter.default.is_some() => {}
-            None => self.fault(path, format!("law `{}` needs `{}`", it.law, parameter.name), parameter.doc),
+            None => self.fault(path, needs, parameter.doc),
         }
     }
 

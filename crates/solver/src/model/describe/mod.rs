@@ -30,8 +30,8 @@ pub struct Section {
     pub groups: &'static [&'static Group],
     /// What must hold between its own keys.
     pub rules: &'static [Rule],
-    /// More keys that depend on the value of one key.
-    pub more: Option<More>,
+    /// More keys that depend on the value of one key each.
+    pub more: &'static [More],
 }
 
 /// Keys that several sections have.
@@ -49,7 +49,7 @@ pub struct Group {
 
 impl Section {
     /// An optional inline table without anything in it, to build on.
-    pub const EMPTY: Self = Self { name: "", doc: "", form: Form::Inline, required: false, keys: &[], groups: &[], rules: &[], more: None };
+    pub const EMPTY: Self = Self { name: "", doc: "", form: Form::Inline, required: false, keys: &[], groups: &[], rules: &[], more: &[] };
 
     /// Its own keys and those that it shares.
     pub fn all_keys(&self) -> impl Iterator<Item = &'static Key> + use<> {

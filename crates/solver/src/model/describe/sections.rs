@@ -134,8 +134,14 @@ static MATERIAL: Section = Section {
     keys: &[
         key("law", Choice(laws), Required, "Name of the law."),
         key("failure", Table(&FAILURE), Optional("nothing fails"), "When elements of this material fail: they are taken out of the model."),
+        key(
+            "eos",
+            Choice(equations_of_state),
+            Optional("the law's own pressure"),
+            "Equation of state: gives the pressure in place of the law, which keeps what is without volume. Not with hyperelastic laws, nor where flow changes the volume (`drucker_prager`, `crushable_foam`); `null` needs it.",
+        ),
     ],
-    more: Some(More { by: "law", keys: law_keys }),
+    more: &[More { by: "law", keys: law_keys }, More { by: "eos", keys: equation_keys }],
     ..Section::EMPTY
 };
 
@@ -523,6 +529,10 @@ fn laws() -> Vec<&'static str> {
     material::registry().iter().map(|kind| kind.name).collect()
 }
 
+fn equations_of_state() -> Vec<&'static str> {
+    material::eos::EQUATIONS.iter().map(|kind| kind.name).collect()
+}
+
 fn elements() -> Vec<&'static str> {
     elements_of(4)
 }
@@ -545,9 +555,17 @@ fn fields() -> Vec<&'static str> {
 
 /// The keys of a law's parameters.
 fn law_keys(law: &str) -> Option<Vec<Key>> {
-    let kind = material::registry().into_iter().find(|kind| kind.name == law)?;
+    Some(parameter_keys(material::registry().into_iter().find(|kind| kind.name == law)?.parameters))
+}
+
+/// The keys of the parameters of an equation of state.
+fn equation_keys(name: &str) -> Option<Vec<Key>> {
+    Some(parameter_keys(material::eos::kind(name)?.parameters))
+}
+
+fn parameter_keys(parameters: &[Parameter]) -> Vec<Key> {
     let need = |default: Option<f64>| default.map_or(Required, Need::Value);
     let kind_of = |p: &Parameter| if p.list > 0 { Quantities(p.dimension, p.range, 1) } else { Quantity(p.dimension, p.range) };
     let need_of = |p: &Parameter| if p.list > 0 && p.default.is_some() { Optional("none") } else { need(p.default) };
-    Some(kind.parameters.iter().map(|p| key(p.name, kind_of(p), need_of(p), p.doc)).collect())
+    parameters.iter().map(|p| key(p.name, kind_of(p), need_of(p), p.doc)).collect()
 }

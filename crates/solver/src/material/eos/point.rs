@@ -1,0 +1,140 @@
+//! A rate law whose mean stress is replaced by the pressure of an equation of state, at many points.
+//!
+//! The law answers first; of its stress the deviator stays. Then, with the volume ratio v and the heat of the step (what the law dissipated, and the work of
+//! the bulk viscosity in the step before), per initial volume:
+//!
+//!     E_new = E_old + heat − ½ (p_old + p_new) Δv,   p_new = cold + heat_term E_new
+//!     p_new = (cold + heat_term (E_old + heat − ½ p_old Δv)) / (1 + ½ heat_term Δv)
+//!
+//! Elastic energy of the deviator is no heat. The block books the work of the whole stress as stored, less what was dissipated, and begins with E of the start,
+//! so the books close by construction; E itself is stored plus dissipated plus viscous energy, less the deviator's elastic part.
+
+use super::{Equation, Terms};
+use crate::material::points::{PLANE, PointLaw, Points, RESPONSE};
+use crate::material::{Family, Variable};
+use crate::tensor::{Plane, SymmetricTensor};
+use embate_lanes::{BATCH, Batch, Kernel, Lane, Level};
+
+/// Batches of history per point, after the law's own: density, energy per initial volume, pressure.
+const OWN: usize = 3;
+/// Least bulk stiffness over that at rest: the stable step of a spent gas stays finite.
+const SOFTEST: f64 = 1e-9;
+
+/// A law with an equation of state.
+pub(super) struct WithEquation<Q> {
+    law: Box<dyn PointLaw>,
+    equation: Q,
+    density: f64,
+    /// At rest.
+    bulk: f64,
+    variables: Vec<(Variable, usize)>,
+}
+
+impl<Q: Equation> WithEquation<Q> {
+    pub(super) fn new(law: Box<dyn PointLaw>, equation: Q, density: f64) -> Self {
+        let mut variables = law.variables().to_vec();
+        variables.push((Variable::Density, law.state_width()));
+        let bulk = equation.terms(1.0).bulk(1.0, equation.energy());
+        Self { law, equation, density, bulk, variables }
+    }
+}
+
+impl<Q: Equation> PointLaw for WithEquation<Q> {
+    fn family(&self) -> Family {
+        Family::Rate
+    }
+    fn state_width(&self) -> usize {
+        self.law.state_width() + OWN
+    }
+    fn needs_rotation(&self) -> bool {
+        self.law.needs_rotation()
+    }
+    fn needs_volume(&self) -> bool {
+        true
+    }
+    fn variables(&self) -> &[(Variable, usize)] {
+        &self.variables
+    }
+    fn stiffness(&self) -> [f64; 2] {
+        [self.bulk, self.law.stiffness()[1]]
+    }
+    fn stored(&self) -> f64 {
+        self.equation.energy()
+    }
+    fn start(&self, state: &mut [Batch]) {
+        let (inner, own) = state.split_at_mut(self.law.state_width());
+        self.law.start(inner);
+        let (energy, terms) = (self.equation.energy(), self.equation.terms(1.0));
+        own.copy_from_slice(&[self.density, energy, terms.pressure(energy)].map(Batch::splat));
+    }
+
+    fn respond(&self, level: Level, points: Points<'_>) {
+        let Points { time_step, strain, rotation, volume_ratio, viscous_heat, stress, state, response, room } = points;
+        let (inner, count) = (self.law.state_width(), strain.len() / PLANE);
+        let width = inner + OWN;
+        // The law's history lies between that of the equation: it gets a copy in one piece.
+        room.resize(count * inner, Batch::default());
+        for p in 0..count {
+            room[p * inner..(p + 1) * inner].copy_from_slice(&state[p * width..p * width + inner]);
+        }
+        let mut nested = Vec::new();
+        self.law.respond(
+            level,
+            Points { time_step, strain, rotation, volume_ratio, viscous_heat, stress, state: room, response, room: &mut nested },
+        );
+        for p in 0..count {
+            state[p * width..p * width + inner].copy_from_slice(&room[p * inner..(p + 1) * inner]);
+        }
+        level.run(Replace { owner: self, strain, volume_ratio, viscous_heat, stress, state, response });
+    }
+}
+
+/// Replaces the mean stresses.
+struct Replace<'a, Q> {
+    owner: &'a WithEquation<Q>,
+    strain: &'a [Batch],
+    volume_ratio: &'a [Batch],
+    viscous_heat: &'a [Batch],
+    stress: &'a mut [Batch],
+    state: &'a mut [Batch],
+    response: &'a mut [Batch],
+}
+
+impl<Q: Equation> Kernel for Replace<'_, Q> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lane>(self) {
+        let (one, half, third) = (L::splat(1.0), L::splat(0.5), L::splat(1.0 / 3.0));
+        let density = L::splat(self.owner.density);
+        let softest = L::splat(SOFTEST * self.owner.bulk);
+        let width = self.owner.law.state_width() + OWN;
+        for p in 0..self.strain.len() / PLANE {
+            let strain = &self.strain[p * PLANE..(p + 1) * PLANE];
+            let stress = &mut self.stress[p * PLANE..(p + 1) * PLANE];
+            let own = &mut self.state[(p + 1) * width - OWN..(p + 1) * width];
+            let out = &mut self.response[p * RESPONSE..(p + 1) * RESPONSE];
+            for at in (0..BATCH).step_by(L::WIDTH) {
+                let ratio = L::load(&self.volume_ratio[p], at);
+                let ratio_old = density / L::load(&own[0], at);
+                let change = ratio - ratio_old;
+                let heat = L::load(&out[1], at) * ((ratio + ratio_old) * half) + L::load(&self.viscous_heat[p], at);
+                let known = L::load(&own[1], at) + heat - half * L::load(&own[2], at) * change;
+                let terms: Terms<L> = self.owner.equation.terms(ratio);
+                let pressure = terms.pressure(known) / (one + half * terms.heat * change);
+                let energy = known - half * pressure * change;
+                (density / ratio).store(&mut own[0], at);
+                energy.store(&mut own[1], at);
+                pressure.store(&mut own[2], at);
+
+                let found = <Plane<L> as SymmetricTensor<L>>::load(stress, at);
+                let shift = -(pressure + found.trace() * third);
+                found.plus(Plane::isotropic(shift)).store(stress, at);
+                let dilatation = <Plane<L> as SymmetricTensor<L>>::load(strain, at).trace();
+                // (σ_old + σ_new):Δε with the new stress shifted.
+                (L::load(&out[0], at) + shift * dilatation).store(&mut out[0], at);
+                terms.bulk(ratio, energy).max(softest).store(&mut out[2], at);
+            }
+        }
+    }
+}

@@ -1,6 +1,8 @@
 //! Jones, Wilkins, Lee: gases of a detonated explosive.
 //!
-//!     p = A (1 − ω/(R1 v)) e^{−R1 v} + B (1 − ω/(R2 v)) e^{−R2 v} + ω E / v
+//! ```text
+//! p = A (1 − ω/(R1 v)) e^{−R1 v} + B (1 − ω/(R2 v)) e^{−R2 v} + ω E / v
+//! ```
 //!
 //! All of the explosive has burned at the start (constant-volume explosion): there is no detonation front.
 //! Source: Lee, Hornig and Kury, UCRL-50422 (1968); values in Dobratz and Crawford, UCRL-52997 (1985).

@@ -3,8 +3,10 @@
 //! The law answers first; of its stress the deviator stays. Then, with the volume ratio v and the heat of the step (what the law dissipated, and the work of
 //! the bulk viscosity in the step before), per initial volume:
 //!
-//!     E_new = E_old + heat − ½ (p_old + p_new) Δv,   p_new = cold + heat_term E_new
-//!     p_new = (cold + heat_term (E_old + heat − ½ p_old Δv)) / (1 + ½ heat_term Δv)
+//! ```text
+//! E_new = E_old + heat − ½ (p_old + p_new) Δv,   p_new = cold + heat_term E_new
+//! p_new = (cold + heat_term (E_old + heat − ½ p_old Δv)) / (1 + ½ heat_term Δv)
+//! ```
 //!
 //! Elastic energy of the deviator is no heat. The block books the work of the whole stress as stored, less what was dissipated, and begins with E of the start,
 //! so the books close by construction; E itself is stored plus dissipated plus viscous energy, less the deviator's elastic part.

@@ -77,8 +77,12 @@ impl BuiltIn for Disk {
             body.quads.extend((0..n).map(|i| [core(i, j), core(i + 1, j), core(i + 1, j + 1), core(i, j + 1)].map(node)));
         }
         // The core's outside, counter-clockwise from its lower left corner; it is layer 0.
-        let outside: Vec<[usize; 2]> =
-            (0..n).map(|k| [k, 0]).chain((0..n).map(|k| [n, k])).chain((0..n).map(|k| [n - k, n])).chain((0..n).map(|k| [0, n - k])).collect();
+        let outside: Vec<[usize; 2]> = (0..n)
+            .map(|k| [k, 0])
+            .chain((0..n).map(|k| [n, k]))
+            .chain((0..n).map(|k| [n - k, n]))
+            .chain((0..n).map(|k| [0, n - k]))
+            .collect();
         let around = 4 * n;
         let at = |layer: usize, k: usize| match (layer, k % around) {
             (0, k) => node(core(outside[k][0], outside[k][1])),

@@ -36,7 +36,12 @@ static SECTION: Section = Section {
         key("width", Quantity(Dimension::LENGTH, Positive), Required, "Width of the strip, half on either side of the line."),
         key("radius", Quantity(Dimension::LENGTH, NotNegative), Written("0"), "Radius of the middle line in its bends; 0: mitred corners."),
         key("closed", Flag, Written("false"), "Whether the last point leads back to the first."),
-        key(ELEMENTS, Integers(2, 1), Required, "Elements through the width and along the path; each straight part and each bend has at least one."),
+        key(
+            ELEMENTS,
+            Integers(2, 1),
+            Required,
+            "Elements through the width and along the path; each straight part and each bend has at least one.",
+        ),
     ],
     ..Section::EMPTY
 };
@@ -126,7 +131,11 @@ impl Path {
                 let [a, b] = [self.points[k], self.points[next]];
                 let message = format!(
                     "the bends at both ends of the part from ({:.6e}, {:.6e}) to ({:.6e}, {:.6e}) m take {:.6e} m, more than its length of {length:.6e} m",
-                    a[0], a[1], b[0], b[1], first + last
+                    a[0],
+                    a[1],
+                    b[0],
+                    b[1],
+                    first + last
                 );
                 return Err(Wrong::new("radius", message, "take a smaller radius, or move the points apart"));
             }
@@ -162,7 +171,11 @@ impl BuiltIn for Path {
         check.counts(ELEMENTS, &self.elements);
         let least = if self.closed { 3 } else { 2 };
         if self.points.len() < least {
-            check.fault("points", format!("a path of this kind has at least {least} points, not {}", self.points.len()), "give more points");
+            check.fault(
+                "points",
+                format!("a path of this kind has at least {least} points, not {}", self.points.len()),
+                "give more points",
+            );
             return;
         }
         if !sound {
@@ -177,11 +190,16 @@ impl BuiltIn for Path {
         let corners = if self.closed { 0..n } else { 1..n - 1 };
         if let Some(k) = corners.clone().find(|&k| dot(self.part(k + n - 1).0, self.part(k).0) < -0.999) {
             let [x, y] = self.points[k];
-            check.fault("points", format!("the path turns back at ({x:.6e}, {y:.6e}) m"), "give the turn a point more, so that it is a bend");
+            check.fault(
+                "points",
+                format!("the path turns back at ({x:.6e}, {y:.6e}) m"),
+                "give the turn a point more, so that it is a bend",
+            );
             return;
         }
         if self.radius > 0.0 && self.radius <= 0.5 * self.width {
-            let message = format!("a strip {} m wide can't be bent with a radius of {} m: its inside would fold over", self.width, self.radius);
+            let message =
+                format!("a strip {} m wide can't be bent with a radius of {} m: its inside would fold over", self.width, self.radius);
             check.fault("radius", message, "take a radius of more than half the width, or 0 for mitred corners");
         }
         if self.elements[1] < self.pieces_least() {

@@ -45,7 +45,12 @@ static SECTION: Section = Section {
         key("size", Quantity(Dimension::LENGTH, Positive), Required, "Length of the elements' edges."),
         key("holes", Outlines(3), Optional("none"), "Corners of each hole."),
         key("near", Points(1), Optional("none"), "Points around which elements are smaller."),
-        key("sizes", Quantities(Dimension::LENGTH, Positive, 1), Optional("`size`"), "Length of the elements' edges at each of these points."),
+        key(
+            "sizes",
+            Quantities(Dimension::LENGTH, Positive, 1),
+            Optional("`size`"),
+            "Length of the elements' edges at each of these points.",
+        ),
         key("growth", Quantity(Dimension::NONE, NotNegative), Written("0.3"), "Growth of that length by distance from them, up to `size`."),
     ],
     rules: &[Rule::Needs("near", "sizes"), Rule::Needs("sizes", "near")],

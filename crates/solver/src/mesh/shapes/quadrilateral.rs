@@ -37,8 +37,7 @@ pub struct Quadrilateral {
 pub(super) const KEY: Key = shape_key("quadrilateral", &SECTION, "A quadrilateral with straight or curved edges.");
 
 /// Keys of each edge: points, or the point of an arc.
-const EDGES: [[&str; 2]; 4] =
-    [["bottom", "bottom_arc"], ["right", "right_arc"], ["top", "top_arc"], ["left", "left_arc"]];
+const EDGES: [[&str; 2]; 4] = [["bottom", "bottom_arc"], ["right", "right_arc"], ["top", "top_arc"], ["left", "left_arc"]];
 
 static SECTION: Section = Section {
     name: "quadrilateral",
@@ -52,7 +51,12 @@ static SECTION: Section = Section {
         key("right", Points(1), Optional("straight"), "The same from the second corner to the third."),
         key("top", Points(1), Optional("straight"), "The same from the third corner to the fourth."),
         key("left", Points(1), Optional("straight"), "The same from the fourth corner to the first."),
-        key("bottom_arc", Vector(Dimension::LENGTH, Finite), Optional("straight"), "A point through which this edge is an arc of a circle."),
+        key(
+            "bottom_arc",
+            Vector(Dimension::LENGTH, Finite),
+            Optional("straight"),
+            "A point through which this edge is an arc of a circle.",
+        ),
         key("right_arc", Vector(Dimension::LENGTH, Finite), Optional("straight"), "The same for the right edge."),
         key("top_arc", Vector(Dimension::LENGTH, Finite), Optional("straight"), "The same for the top edge."),
         key("left_arc", Vector(Dimension::LENGTH, Finite), Optional("straight"), "The same for the left edge."),

@@ -95,15 +95,7 @@ impl BuiltIn for Trapezoid {
 
     #[cfg(test)]
     fn examples(n: usize) -> Vec<(Self, f64)> {
-        let even = Self {
-            corner: [1.0, -2.0],
-            bottom: 3.0,
-            top: 1.0,
-            height: 0.5,
-            shift: None,
-            elements: [n, 2],
-            grading: [1.0; 2],
-        };
+        let even = Self { corner: [1.0, -2.0], bottom: 3.0, top: 1.0, height: 0.5, shift: None, elements: [n, 2], grading: [1.0; 2] };
         vec![(even.clone(), 1.0), (Self { shift: Some(4.0), grading: [0.3, 2.0], ..even }, 1.0)]
     }
 }

@@ -48,7 +48,7 @@ pub enum Load {
         parts: Vec<String>,
         /// Acceleration, m/s².
         acceleration: [f64; 2],
-        /// Key of [`Model::curves`]: a factor.
+        /// Key of [`super::Model::curves`]: a factor.
         curve: Option<String>,
     },
     /// The centrifugal force of a frame that turns about a point: acceleration speed² (x − centre) of the mass of some parts.
@@ -59,7 +59,7 @@ pub enum Load {
         centre: [f64; 2],
         /// Angular velocity of the frame, rad/s.
         speed: f64,
-        /// Key of [`Model::curves`]: a factor of the angular velocity.
+        /// Key of [`super::Model::curves`]: a factor of the angular velocity.
         curve: Option<String>,
     },
     /// A force on a set of nodes, shared by tributary length on a surface, else equally.
@@ -68,7 +68,7 @@ pub enum Load {
         on: String,
         /// The whole force, N/m; of an axisymmetric model N.
         force: [f64; 2],
-        /// Key of [`Model::curves`]: a factor.
+        /// Key of [`super::Model::curves`]: a factor.
         curve: Option<String>,
     },
     /// A pressure on a surface, against its current normal and on its current length.
@@ -77,7 +77,7 @@ pub enum Load {
         on: String,
         /// Pressure, Pa.
         pressure: f64,
-        /// Key of [`Model::curves`]: a factor.
+        /// Key of [`super::Model::curves`]: a factor.
         curve: Option<String>,
     },
     /// Force −rate · m · v on the mass of some parts: what is quasi-static comes to rest.

@@ -1,6 +1,6 @@
 //! From a deck to a model: a model file, the mesh that it names, and a report of what became of each keyword.
 //!
-//! `keywords.rs` is the table of what is known; `material.rs`, `condition.rs`, `contact.rs` and `step.rs` read blocks into the [`Importer`];
+//! `keywords.rs` is the table of what is known; `material.rs`, `condition.rs`, `contact.rs` and `step.rs` read blocks into the `Importer`;
 //! `write.rs` makes the model file of it, `report.rs` the report. The mesh is the deck itself in one text, with sets added for what names
 //! single nodes or edges.
 

@@ -13,9 +13,9 @@
 //! Stability: while a linear spring is closed, F = −k (g^{n−1} + 2 g^n + g^{n+1})/4, so it adds k to the stiffness and k dt²/4 to the mass:
 //! (K + k) dt² ≤ 4 (M + k dt²/4) holds exactly if K dt² ≤ 4 M. The stable step of the elements alone is the stable step with contact.
 //!
-//! g^{n+½} depends on F itself and on the other springs at the same nodes. Springs that share none are in different [`islands`]; those of one are swept over in their fixed order
-//! ([`relax`]: Gauss-Seidel, normal force and friction in turn) until no force changes, and where that is slow, Newton's step predicts the forces ([`newton`], [`skyline`]). Pair forces
-//! keep both momenta exactly at any time. [`solve`] leads through the step, [`link`] has what springs act on, [`book`] the energies. Laws of the normal force are in [`super::law`],
+//! g^{n+½} depends on F itself and on the other springs at the same nodes. Springs that share none are in different `islands`; those of one are swept over in their fixed order
+//! (`relax`: Gauss-Seidel, normal force and friction in turn) until no force changes, and where that is slow, Newton's step predicts the forces (`newton`, `skyline`). Pair forces
+//! keep both momenta exactly at any time. `solve` leads through the step, `link` has what springs act on, `book` the energies. Laws of the normal force are in [`super::law`],
 //! friction is in [`friction`].
 
 pub mod friction;

@@ -7,7 +7,7 @@ use embate_lanes::{BATCH, Batch};
 pub(crate) struct ElementBatch {
     /// Smallest corner mass of each element times its corners: the mass in the stable step, which holds for any later form of the element.
     pub(crate) mass_least: Batch,
-    /// Mass of each element, kg/m: density and length of the bulk viscosity.
+    /// Mass of each element without what mass scaling added, kg/m: the density of the bulk viscosity.
     pub(crate) mass: Batch,
     /// 1 for an element, 0 for a lane that only fills the batch up and for an eroded element: both are copies of a live one (`erosion.rs`).
     pub(crate) live: Batch,
@@ -27,6 +27,39 @@ pub(crate) struct ElementBatch {
     pub(crate) viscous_pressure: Batch,
     /// Volume in the last step, m² (m³); kept only with bulk viscosity.
     pub(crate) volume: Batch,
+}
+
+impl ElementBatch {
+    /// Makes a lane a copy of lane `source` of the batch `from`, but for whether it is live. Every field is named, so that none can be forgotten.
+    pub(crate) fn copy_lane(&mut self, lane: usize, from: &Self, source: usize) {
+        let Self {
+            mass_least,
+            mass,
+            live: _,
+            stored,
+            dissipated,
+            time_step_squared,
+            hourglass,
+            viscous,
+            viscous_step,
+            viscous_pressure,
+            volume,
+        } = self;
+        for (to, from) in [
+            (mass_least, &from.mass_least),
+            (mass, &from.mass),
+            (stored, &from.stored),
+            (dissipated, &from.dissipated),
+            (time_step_squared, &from.time_step_squared),
+            (hourglass, &from.hourglass),
+            (viscous, &from.viscous),
+            (viscous_step, &from.viscous_step),
+            (viscous_pressure, &from.viscous_pressure),
+            (volume, &from.volume),
+        ] {
+            to.0[lane] = from.0[source];
+        }
+    }
 }
 
 /// Splits `items` elements into batches, the last filled up with copies of the last element.

@@ -5,12 +5,12 @@
 
 use super::batch::{ElementBatch, element_of};
 use super::erosion::Eroded;
-use super::forces::{Forces, Sums, radius_initial};
+use super::forces::{Forces, Sums};
 use super::make::BlockInput;
 use super::nodal::Nodal;
-use super::strain::{Measures, Strain, Tensor, initial_width};
+use super::strain::{Measures, Strain, Tensor, circumference, initial_width, radius};
 use super::stress_state::StressState;
-use super::strip::{STRIP, Shape, Strip};
+use super::strip::{Every, STRIP, Shape, Strip};
 use super::{Block, ElementState, Motion, Report};
 use crate::element::Element;
 use crate::failure::Criterion;
@@ -19,7 +19,6 @@ use crate::material::{Family, Variable};
 use crate::tensor::{Dim, Space, SymmetricTensor, Turn};
 use embate_lanes::{BATCH, Batch, Indices, Level};
 use rayon::prelude::*;
-use std::f64::consts::TAU;
 use std::marker::PhantomData;
 use std::sync::{Mutex, PoisonError};
 
@@ -108,9 +107,7 @@ where
         for p in 0..P {
             let determinant = Dim::<D>::determinant(&jacobians[p]);
             let shape = E::shape(E::POINTS[p]);
-            let radius = radius_initial(&x, &shape);
-            let area = determinant * E::WEIGHTS[p];
-            let point_volume = if S::AXISYMMETRIC { area * (radius * TAU) } else { area };
+            let point_volume = circumference::<S, f64, D, N>(determinant * E::WEIGHTS[p], &x, &shape);
             volume += point_volume;
             for a in 0..N {
                 corner_volumes[a] += point_volume * shape[a];
@@ -125,7 +122,7 @@ where
                 }
                 initial[D * D].0[lane] = point_volume;
                 if S::AXISYMMETRIC {
-                    initial[D * D + 1].0[lane] = radius;
+                    initial[D * D + 1].0[lane] = radius(&x, &shape);
                 }
             }
         }
@@ -156,7 +153,7 @@ where
             let stress = &mut chunk.stress[from * stress_width..to * stress_width];
             let history = &mut chunk.history[from * history_of_batch..to * history_of_batch];
             let elements = &mut chunk.elements[from..to];
-            level.run(Strain::<E, S, D, N, P> {
+            level.run(Every(Strain::<E, S, D, N, P> {
                 motion: *common.motion,
                 measures,
                 first: chunk.first + from,
@@ -167,7 +164,7 @@ where
                 stress,
                 strip,
                 kind: PhantomData,
-            });
+            }));
             common.law.respond(
                 level,
                 Points {
@@ -182,7 +179,7 @@ where
                     room: &mut strip.law,
                 },
             );
-            level.run(Forces::<E, S, D, N, P> {
+            level.run(Every(Forces::<E, S, D, N, P> {
                 element: common.element,
                 family: measures.family,
                 time_step: common.motion.time_step,
@@ -197,7 +194,7 @@ where
                 corners: &mut chunk.corners[from * N * D..to * N * D],
                 sums: &mut sums,
                 kind: PhantomData,
-            });
+            }));
         }
         sums.report()
     }

@@ -167,21 +167,7 @@ where
         }
         self.volume_initial[place[0]].0[place[1]] = self.volume_initial[source[0]].0[source[1]];
         let values = self.elements[source[0]];
-        let lane = &mut self.elements[place[0]];
-        let fields: [(&mut Batch, Batch); 9] = [
-            (&mut lane.mass_least, values.mass_least),
-            (&mut lane.stored, values.stored),
-            (&mut lane.dissipated, values.dissipated),
-            (&mut lane.time_step_squared, values.time_step_squared),
-            (&mut lane.hourglass, values.hourglass),
-            (&mut lane.viscous, values.viscous),
-            (&mut lane.viscous_step, values.viscous_step),
-            (&mut lane.viscous_pressure, values.viscous_pressure),
-            (&mut lane.volume, values.volume),
-        ];
-        for (to, from) in fields {
-            to.0[place[1]] = from.0[source[1]];
-        }
+        self.elements[place[0]].copy_lane(place[1], &values, source[1]);
     }
 
     pub(super) fn of_the_living(&self, positions: &[[f64; D]]) -> Report {

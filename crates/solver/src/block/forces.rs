@@ -10,14 +10,14 @@
 
 use super::Report;
 use super::batch::ElementBatch;
-use super::strain::{Tensor, averages, circumference, radius};
+use super::strain::{Tensor, averages, circumference};
 use super::stress_state::StressState;
-use super::strip::Strip;
+use super::strip::{Parts, Strip};
 use crate::element::{Corners, Element};
 use crate::material::Family;
 use crate::material::points::RESPONSE;
 use crate::tensor::{Dim, Matrix, Space, SymmetricTensor};
-use embate_lanes::{BATCH, Batch, Kernel, Lane};
+use embate_lanes::{Batch, Lane};
 use std::f64::consts::TAU;
 use std::marker::PhantomData;
 
@@ -89,27 +89,15 @@ struct Geometry<L, const D: usize, const N: usize, const P: usize> {
     volume: L,
 }
 
-impl<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize> Kernel for Forces<'_, E, S, D, N, P>
+impl<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize> Parts for Forces<'_, E, S, D, N, P>
 where
     Dim<D>: Space<D>,
 {
-    type Output = ();
-
     #[inline(always)]
-    fn run<L: Lane>(mut self) {
-        for batch in 0..self.elements.len() {
-            for at in (0..BATCH).step_by(L::WIDTH) {
-                self.part::<L>(batch, at);
-            }
-        }
+    fn batches(&self) -> usize {
+        self.elements.len()
     }
-}
 
-impl<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize> Forces<'_, E, S, D, N, P>
-where
-    Dim<D>: Space<D>,
-{
-    /// The elements of `batch` in lanes `at..at + WIDTH`.
     #[inline(always)]
     fn part<L: Lane>(&mut self, batch: usize, at: usize) {
         let zero = L::splat(0.0);
@@ -183,7 +171,12 @@ where
         }
         worst.store(&mut sums.determinant, at);
     }
+}
 
+impl<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize> Forces<'_, E, S, D, N, P>
+where
+    Dim<D>: Space<D>,
+{
     #[inline(always)]
     fn geometry<L: Lane>(&self, batch: usize, at: usize) -> Geometry<L, D, N, P> {
         let (zero, one) = (L::splat(0.0), L::splat(1.0));
@@ -338,9 +331,4 @@ where
         (L::load(&element.hourglass, at) + held.work).store(&mut element.hourglass, at);
         held.time_step_squared
     }
-}
-
-/// Radius of a point, for whoever makes the initial geometry.
-pub(super) fn radius_initial<const D: usize, const N: usize>(x: &[[f64; D]; N], shape: &[f64; N]) -> f64 {
-    radius::<f64, D, N>(x, shape)
 }

@@ -10,7 +10,7 @@ use super::elements::{CHUNK, Elements};
 use super::forces::{Forces, Sums};
 use super::strain::{Measures, Strain, Tensor, circumference, initial_width};
 use super::stress_state::StressState;
-use super::strip::Strip;
+use super::strip::{Every, Strip};
 use super::{Motion, Report};
 use crate::element::Element;
 use crate::material::Family;
@@ -36,6 +36,8 @@ pub(super) struct Nodal {
     weight: Vec<Batch>,
     moment: Vec<Batch>,
     mean: Vec<Batch>,
+    /// Takes the place of `mean` while that of the strains is still needed.
+    spare: Vec<Batch>,
     /// By node.
     at_nodes: Vec<f64>,
 }
@@ -72,6 +74,7 @@ impl Nodal {
             weight: room(),
             moment: room(),
             mean: room(),
+            spare: room(),
             at_nodes: vec![0.0; nodes.len()],
         }
     }
@@ -129,7 +132,8 @@ where
         let measures = Measures { family: self.law.family(), rotation: self.law.needs_rotation(), volume: self.law.needs_volume() };
         self.strain_all(nodal, motion, measures, level, parallel);
         nodal.average(parallel);
-        let means = nodal.mean.clone();
+        let mut means = std::mem::take(&mut nodal.spare);
+        std::mem::swap(&mut nodal.mean, &mut means);
         if measures.family == Family::Rate && measures.volume {
             for (batch, (weight, moment)) in nodal.weight.iter_mut().zip(&mut nodal.moment).enumerate() {
                 let ratio = &nodal.strips[batch / CHUNK].volume_ratio[batch % CHUNK];
@@ -144,6 +148,7 @@ where
             }
         }
         self.respond_all(nodal, &means, motion.time_step, measures.family, level, parallel);
+        nodal.spare = means;
         nodal.average(parallel);
         self.force_all(nodal, motion.time_step, measures.family, level, corners, parallel)
     }
@@ -159,7 +164,7 @@ where
             .collect();
         each(tasks, parallel, |(index, ((stress, strip), (weight, moment)))| {
             let (first, last) = (index * CHUNK, index * CHUNK + weight.len());
-            level.run(Strain::<E, S, D, N, P> {
+            level.run(Every(Strain::<E, S, D, N, P> {
                 motion: *motion,
                 measures,
                 first,
@@ -170,7 +175,7 @@ where
                 stress,
                 strip,
                 kind: PhantomData,
-            });
+            }));
             for batch in 0..weight.len() {
                 for lane in 0..BATCH {
                     let value = match measures.family {
@@ -262,7 +267,7 @@ where
                 }
             }
             let mut sums = Sums::new();
-            level.run(Forces::<E, S, D, N, P> {
+            level.run(Every(Forces::<E, S, D, N, P> {
                 element,
                 family,
                 time_step,
@@ -277,7 +282,7 @@ where
                 corners,
                 sums: &mut sums,
                 kind: PhantomData,
-            });
+            }));
             *report = sums.report();
         });
         self.reports.iter().fold(Report::NOTHING, |sum, &report| sum.join(report))

@@ -8,11 +8,11 @@
 use super::Motion;
 use super::batch::ElementBatch;
 use super::stress_state::StressState;
-use super::strip::Strip;
+use super::strip::{Parts, Strip};
 use crate::element::Element;
 use crate::material::Family;
 use crate::tensor::{Dim, Matrix, Space, SymmetricTensor, Turn, product, scaled};
-use embate_lanes::{BATCH, Batch, Indices, Kernel, Lane};
+use embate_lanes::{Batch, Indices, Lane};
 use std::marker::PhantomData;
 
 pub(super) type Tensor<const D: usize, L> = <Dim<D> as Space<D>>::Tensor<L>;
@@ -73,27 +73,15 @@ pub(super) struct Strain<'a, E, S, const D: usize, const N: usize, const P: usiz
     pub(super) kind: PhantomData<(E, S)>,
 }
 
-impl<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize> Kernel for Strain<'_, E, S, D, N, P>
+impl<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize> Parts for Strain<'_, E, S, D, N, P>
 where
     Dim<D>: Space<D>,
 {
-    type Output = ();
-
     #[inline(always)]
-    fn run<L: Lane>(mut self) {
-        for batch in 0..self.elements.len() {
-            for at in (0..BATCH).step_by(L::WIDTH) {
-                self.part::<L>(batch, at);
-            }
-        }
+    fn batches(&self) -> usize {
+        self.elements.len()
     }
-}
 
-impl<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize> Strain<'_, E, S, D, N, P>
-where
-    Dim<D>: Space<D>,
-{
-    /// The elements of `batch` in lanes `at..at + WIDTH`.
     #[inline(always)]
     fn part<L: Lane>(&mut self, batch: usize, at: usize) {
         let row = (self.first + batch) * N;
@@ -110,7 +98,12 @@ where
             Family::Hyperelastic => self.hyperelastic(batch, at, &x, &jacobians),
         }
     }
+}
 
+impl<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize> Strain<'_, E, S, D, N, P>
+where
+    Dim<D>: Space<D>,
+{
     /// Strain increment and rotation from the mid-step configuration; turns the stresses.
     #[inline(always)]
     fn rate<L: Lane>(&mut self, batch: usize, row: usize, at: usize, x: &[[L; D]; N], jacobians: &[Matrix<L, D>; P]) {

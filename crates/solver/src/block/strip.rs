@@ -2,8 +2,8 @@
 //!
 //! The motion is gathered and strained ([`super::strain`]), the law answers ([`crate::material::points`]), the forces follow ([`super::forces`]).
 
-use crate::material::points::{PointLaw, RESPONSE};
-use embate_lanes::Batch;
+use crate::material::points::{PointLaw, RESPONSE, Room};
+use embate_lanes::{BATCH, Batch, Kernel, Lane};
 
 /// Batches of elements in a strip.
 pub(super) const STRIP: usize = 8;
@@ -30,7 +30,7 @@ pub(super) struct Strip {
     /// What the law answered.
     pub(super) response: Vec<Batch>,
     /// Room of the law.
-    pub(super) law: Vec<Batch>,
+    pub(super) law: Room,
 }
 
 /// Numbers of values that a strip holds.
@@ -59,7 +59,31 @@ impl Strip {
             volume: room(points),
             weight: room(points),
             response: room(points * RESPONSE),
-            law: Vec::new(),
+            law: Room::default(),
+        }
+    }
+}
+
+/// A part of the element kernel: work on batches of elements, as many lanes at a time as the instruction set has.
+pub(super) trait Parts {
+    /// Batches of elements.
+    fn batches(&self) -> usize;
+    /// The elements of `batch` in lanes `at..at + WIDTH`.
+    fn part<L: Lane>(&mut self, batch: usize, at: usize);
+}
+
+/// A part for all its batches.
+pub(super) struct Every<K>(pub(super) K);
+
+impl<K: Parts> Kernel for Every<K> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lane>(mut self) {
+        for batch in 0..self.0.batches() {
+            for at in (0..BATCH).step_by(L::WIDTH) {
+                self.0.part::<L>(batch, at);
+            }
         }
     }
 }

@@ -149,13 +149,7 @@ impl Law for Chaboche {
             state.0[0] += step;
         }
         state.1 = Tensors::new(backstresses);
-        Response {
-            stress: deviator.plus(T::isotropic(trial.mean)),
-            stored: zero,
-            dissipated,
-            bulk: L::splat(self.bulk),
-            shear: L::splat(self.shear),
-        }
+        Response::rate(deviator.plus(T::isotropic(trial.mean)), dissipated, [self.bulk, self.shear])
     }
 
     fn stiffness(&self) -> [f64; 2] {

@@ -115,13 +115,7 @@ impl Law for DruckerPrager {
             mean = L::select(yields, new, mean);
             state[0] += step;
         }
-        Response {
-            stress: deviator.plus(T::isotropic(mean)),
-            stored: zero,
-            dissipated,
-            bulk: L::splat(self.bulk),
-            shear: L::splat(self.shear),
-        }
+        Response::rate(deviator.plus(T::isotropic(mean)), dissipated, [self.bulk, self.shear])
     }
 
     fn stiffness(&self) -> [f64; 2] {

@@ -32,11 +32,11 @@ impl Law for Elastic {
 
     #[inline(always)]
     fn update<L: Lane, T: SymmetricTensor<L>>(&self, kinematics: &Kinematics<L, T>, _state: &mut [L; 0]) -> Response<L, T> {
-        let (bulk, shear) = (L::splat(self.bulk), L::splat(self.shear));
+        let shear = L::splat(self.shear);
         let strain = kinematics.strain_increment;
         let lame = L::splat(self.bulk - 2.0 / 3.0 * self.shear);
         let stress = kinematics.stress_rotated.plus(strain.times(shear + shear)).plus(T::isotropic(lame * strain.trace()));
-        Response { stress, stored: L::splat(0.0), dissipated: L::splat(0.0), bulk, shear }
+        Response::rate(stress, L::splat(0.0), [self.bulk, self.shear])
     }
 
     fn stiffness(&self) -> [f64; 2] {

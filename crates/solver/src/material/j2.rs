@@ -74,13 +74,7 @@ impl<H: Hardening> Law for J2With<H> {
             deviator = trial.scaled(L::splat(1.0) - L::splat(3.0 * self.shear) * step / q, yields);
             state[0] += step;
         }
-        Response {
-            stress: deviator.plus(T::isotropic(trial.mean)),
-            stored: zero,
-            dissipated,
-            bulk: L::splat(self.bulk),
-            shear: L::splat(self.shear),
-        }
+        Response::rate(deviator.plus(T::isotropic(trial.mean)), dissipated, [self.bulk, self.shear])
     }
 
     fn stiffness(&self) -> [f64; 2] {

@@ -177,13 +177,7 @@ impl Law for JohnsonCook {
                 state[2] = L::select(yields, (state[2] + step / failure).min(one), state[2]);
             }
         }
-        Response {
-            stress: deviator.plus(T::isotropic(trial.mean)),
-            stored: zero,
-            dissipated,
-            bulk: L::splat(self.bulk),
-            shear: L::splat(self.shear),
-        }
+        Response::rate(deviator.plus(T::isotropic(trial.mean)), dissipated, [self.bulk, self.shear])
     }
 
     fn stiffness(&self) -> [f64; 2] {

@@ -105,6 +105,15 @@ pub struct Response<L: Lane, T: SymmetricTensor<L>> {
     pub shear: L,
 }
 
+impl<L: Lane, T: SymmetricTensor<L>> Response<L, T> {
+    /// Of a rate law whose stiffness does not change: `bulk` and `shear`, Pa.
+    #[inline(always)]
+    #[must_use]
+    pub fn rate(stress: T, dissipated: L, [bulk, shear]: [f64; 2]) -> Self {
+        Self { stress, stored: L::splat(0.0), dissipated, bulk: L::splat(bulk), shear: L::splat(shear) }
+    }
+}
+
 /// A material law. `update` must be `#[inline(always)]`: it becomes part of the block's kernel.
 pub trait Law: Copy + Send + Sync + 'static {
     /// Name, parameters and source.

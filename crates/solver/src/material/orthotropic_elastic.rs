@@ -151,8 +151,7 @@ impl Law for OrthotropicElastic {
             change[3 + i] = e[3 + i] * L::splat(2.0 * self.shear[i]);
         }
         let stress = kinematics.stress_rotated.plus(T::from_components(change).rotated(&state.0));
-        let [bulk, shear] = self.reported;
-        Response { stress, stored: zero, dissipated: zero, bulk: L::splat(bulk), shear: L::splat(shear) }
+        Response::rate(stress, zero, self.reported)
     }
 
     fn stiffness(&self) -> [f64; 2] {

@@ -111,7 +111,7 @@ impl PointLaw for PlaneStress {
         let width = inner + 1;
         let hyperelastic = self.law.family() == Family::Hyperelastic;
         // Strain, stress, state and ratio of the trial; then the three batches of each point's search.
-        room.resize(count * (2 * PLANE + inner + 1 + 3), Batch::default());
+        let (room, nested) = room.split(count * (2 * PLANE + inner + 1 + 3));
         let (trial_strain, rest) = room.split_at_mut(count * PLANE);
         let (trial_stress, rest) = rest.split_at_mut(count * PLANE);
         let (trial_state, rest) = rest.split_at_mut(count * inner);
@@ -120,7 +120,6 @@ impl PointLaw for PlaneStress {
             let guess = self.guess(&strain[p * PLANE..][..PLANE], &stress[p * PLANE..][..PLANE], &state[p * width + inner]);
             searches[3 * p] = guess;
         }
-        let mut nested = Vec::new();
         for call in 0..CALLS {
             trial_strain.copy_from_slice(strain);
             trial_stress.copy_from_slice(stress);
@@ -145,7 +144,7 @@ impl PointLaw for PlaneStress {
                     stress: trial_stress,
                     state: trial_state,
                     response,
-                    room: &mut nested,
+                    room: nested,
                 },
             );
             let mut found = true;

@@ -29,8 +29,23 @@ pub struct Points<'a> {
     /// [`RESPONSE`] per point. Stored: of a hyperelastic law its energy per initial volume, of a rate law (σ_old + σ_new):Δε, twice the work of the
     /// step per volume, J/m³; dissipated in the step per current volume, J/m³; bulk and shear stiffness, Pa.
     pub response: &'a mut [Batch],
-    /// Room that an adapter may use; it keeps its size from step to step.
-    pub room: &'a mut Vec<Batch>,
+    /// Room that adapters may use.
+    pub room: &'a mut Room,
+}
+
+/// Room of an adapter around a law, and of what it is around; it keeps its size from step to step.
+#[derive(Debug, Default)]
+pub struct Room {
+    own: Vec<Batch>,
+    inner: Option<Box<Room>>,
+}
+
+impl Room {
+    /// `length` batches for the adapter, with whatever they held, and the room of what it is around.
+    pub fn split(&mut self, length: usize) -> (&mut [Batch], &mut Room) {
+        self.own.resize(length, Batch::default());
+        (&mut self.own, self.inner.get_or_insert_default())
+    }
 }
 
 /// A law with its parameters, for whichever kind of point it was made for.

@@ -109,7 +109,7 @@ impl Law for Viscoelastic {
                 stress = stress.plus(change);
             }
         }
-        Response { stress, stored: zero, dissipated, bulk: L::splat(self.bulk), shear: L::splat(self.shear) }
+        Response::rate(stress, dissipated, [self.bulk, self.shear])
     }
 
     fn stiffness(&self) -> [f64; 2] {

@@ -75,14 +75,13 @@ impl<Q: Equation> PointLaw for WithEquation<Q> {
         let (inner, count) = (self.law.state_width(), strain.len() / PLANE);
         let width = inner + OWN;
         // The law's history lies between that of the equation: it gets a copy in one piece.
-        room.resize(count * inner, Batch::default());
+        let (room, nested) = room.split(count * inner);
         for p in 0..count {
             room[p * inner..(p + 1) * inner].copy_from_slice(&state[p * width..p * width + inner]);
         }
-        let mut nested = Vec::new();
         self.law.respond(
             level,
-            Points { time_step, strain, rotation, volume_ratio, viscous_heat, stress, state: room, response, room: &mut nested },
+            Points { time_step, strain, rotation, volume_ratio, viscous_heat, stress, state: room, response, room: nested },
         );
         for p in 0..count {
             state[p * width..p * width + inner].copy_from_slice(&room[p * inner..(p + 1) * inner]);

@@ -1,5 +1,5 @@
 use super::*;
-use crate::material::points::{self, Points, RESPONSE};
+use crate::material::points::{self, Points, RESPONSE, Room};
 use crate::material::{Variable, registry};
 use embate_lanes::{Batch, Level};
 
@@ -80,7 +80,7 @@ impl Point {
             stress: &mut self.stress,
             state: &mut self.state,
             response: &mut self.response,
-            room: &mut Vec::new(),
+            room: &mut Room::default(),
         };
         self.law.respond(Level::SCALAR, points);
         let middle = 0.5 * (self.ratio + ratio);
@@ -276,7 +276,7 @@ fn every_instruction_set_gives_the_same_bits() {
                     stress: &mut point.stress,
                     state: &mut point.state,
                     response: &mut point.response,
-                    room: &mut Vec::new(),
+                    room: &mut Room::default(),
                 };
                 point.law.respond(level, points);
             }

@@ -4,8 +4,8 @@ use super::{SOUND, changed, read};
 use embate_files::model_file::{load, load_text, reference_markdown, schema, starter};
 use embate_solver::model::describe::SECTIONS;
 use embate_solver::model::{
-    Cadence, ContactLaw, Drive, Formulation, Interface, Load, Model, Obstacle, Output, Partners, Penalty, PenaltySource, ProbeAt,
-    Rectangle, Ring, Run, Shape, Symmetry,
+    Cadence, ContactLaw, Drive, Formulation, Interface, Load, Model, Obstacle, Output, Partners, Penalty, PenaltySource, PictureView,
+    ProbeAt, Rectangle, Ring, Run, Shape, Symmetry,
 };
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::path::{Path, PathBuf};
@@ -65,6 +65,8 @@ fn what_is_left_out_has_the_default_of_the_solver() {
     assert_eq!(model.run, Run { end: 1e-3, ..Run::default() });
     assert_eq!(model.output, Output { fields: Cadence::Count(10), ..Output::default() });
     assert_eq!(sound(&changed("[output]\nfields = 10\n", "")).output, Output::default());
+    let view = sound(&changed("fields = 10\n", "picture_view = { corner = [\"-2 mm\", 0], size = [1, \"5 cm\"] }\n")).output.picture_view;
+    assert_eq!(view, Some(PictureView { corner: [-0.002, 0.0], size: [1.0, 0.05] }));
     assert_eq!(model.parts[0].velocity, [0.0, 0.0]);
     assert_eq!(model.contacts[0].interface, Interface::default());
     assert_eq!((model.contacts[0].name.as_str(), model.obstacles[0].name.as_str()), ("tube-plate", "obstacle"));

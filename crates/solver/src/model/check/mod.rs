@@ -364,6 +364,10 @@ impl Check<'_> {
         if !output.picture_field.is_empty() {
             self.known("output.picture_field", "field", &output.picture_field, &known);
         }
+        if let Some(view) = output.picture_view {
+            self.vector("output.picture_view.corner", view.corner);
+            self.vector("output.picture_view.size", view.size);
+        }
     }
 }
 

@@ -6,7 +6,7 @@
 //! 2πx_p, and the hoop stress adds Σ_p 2π w_p σ_zz det J_p N_a to the radial force.
 //!
 //! Bulk viscosity: a pressure q = ρ l (Q² l ε̇² + L c |ε̇|) where the volume shrinks (ε̇ < 0), with l² the element's area, c² = (K + 4µ/3)/ρ; the stable step
-//! shrinks by √(1 + ζ²) − ζ, ζ = (L + 2 Q² l |ε̇| / c) l / h, the part of the critical damping that small motions of the fastest mode (ω = 2c/h) see: dq/dε̇ = ρ l c (L + 2 Q² l |ε̇| / c). Source: von Neumann and Richtmyer, J. Appl. Phys. 21 (1950) 232-237; Landshoff, LA-1930 (1955).
+//! shrinks by √(1 + ζ²) − ζ = 1 / (√(1 + ζ²) + ζ), ζ = (L + 2 Q² l |ε̇| / c) l / h, the part of the critical damping that small motions of the fastest mode (ω = 2c/h) see: dq/dε̇ = ρ l c (L + 2 Q² l |ε̇| / c). Source: von Neumann and Richtmyer, J. Appl. Phys. 21 (1950) 232-237; Landshoff, LA-1930 (1955).
 
 use super::Report;
 use super::batch::ElementBatch;
@@ -125,20 +125,17 @@ where
         }
         let live = L::load(&self.elements[batch].live, at);
         let thickness_squared = E::thickness_squared(&geometry.x, &geometry.determinants, geometry.area);
-        // dt² = h² ρ / (K + 4µ/3) with ρ = m / V, as if all corners were as heavy as the lightest
         let mass = L::load(&self.elements[batch].mass_least, at);
-        let mut time_step_squared = thickness_squared * mass / (geometry.volume * modulus);
-        let mut pressure = zero;
+        let (mut pressure, mut stiffening) = (zero, L::splat(1.0));
         if let Some(coefficients) = self.viscosity {
-            let (q, shrink) = self.viscous(batch, at, coefficients, &geometry, [modulus, thickness_squared]);
-            pressure = q;
-            time_step_squared = time_step_squared * shrink;
+            (pressure, stiffening) = self.viscous(batch, at, coefficients, &geometry, modulus, thickness_squared);
         }
         let mut nodal = self.nodal(batch, at, &geometry, pressure);
         if E::HOURGLASS > 0 {
-            let step = self.hold_shape(batch, at, &geometry, [modulus, shear, mass], &mut nodal);
-            time_step_squared = time_step_squared.min(step);
+            stiffening = stiffening.max(self.hold_shape(batch, at, &geometry, [modulus, shear, mass], &mut nodal));
         }
+        // dt² = h² ρ / (K + 4µ/3) with ρ = m / V, as if all corners were as heavy as the lightest
+        let time_step_squared = thickness_squared[0] * mass / (thickness_squared[1] * (geometry.volume * modulus) * stiffening);
         let corners = &mut self.corners[batch * N * D..(batch + 1) * N * D];
         for a in 0..N {
             for i in 0..D {
@@ -259,7 +256,7 @@ where
         nodal
     }
 
-    /// Pressure of the bulk viscosity and the factor on the square of the stable step; books its work.
+    /// Pressure of the bulk viscosity, and the square of the stable step without it over that with it; books its work.
     #[inline(always)]
     fn viscous<L: Lane>(
         &mut self,
@@ -267,7 +264,8 @@ where
         at: usize,
         [linear, quadratic]: [f64; 2],
         geometry: &Geometry<L, D, N, P>,
-        [modulus, thickness_squared]: [L; 2],
+        modulus: L,
+        thickness_squared: [L; 2],
     ) -> (L, L) {
         let (zero, one) = (L::splat(0.0), L::splat(1.0));
         let element = &mut self.elements[batch];
@@ -281,19 +279,19 @@ where
         let rate = (change / ((geometry.volume + old) * L::splat(0.5) * dt)).abs();
         let [linear, growing] = [L::splat(linear), L::splat(quadratic * quadratic) * length * rate / speed];
         let pressure = L::select(shrinks, density * length * speed * rate * (linear + growing), zero);
-        let damping = (linear + growing + growing) * length / thickness_squared.sqrt();
+        let damping = (linear + growing + growing) * length * (thickness_squared[1] / thickness_squared[0]).sqrt();
         let damping = L::select(shrinks, damping, zero);
-        let shrink = (one + damping * damping).sqrt() - damping;
+        let stiffening = (one + damping * damping).sqrt() + damping;
         // Trapezoidal rule, as the nodal works of the ledger.
         let work = -(change * (pressure + L::load(&element.viscous_pressure, at)) * L::splat(0.5)) * live;
         pressure.store(&mut element.viscous_pressure, at);
         geometry.volume.store(&mut element.volume, at);
         work.store(&mut element.viscous_step, at);
         (L::load(&element.viscous, at) + work).store(&mut element.viscous, at);
-        (pressure, shrink * shrink)
+        (pressure, stiffening * stiffening)
     }
 
-    /// Adds the forces of hourglass control and books their work; the square of the stable step that they allow.
+    /// Adds the forces of hourglass control and books their work; the square of the stable step without it over that with it.
     #[inline(always)]
     fn hold_shape<L: Lane>(
         &mut self,
@@ -329,6 +327,6 @@ where
         }
         let element = &mut self.elements[batch];
         (L::load(&element.hourglass, at) + held.work).store(&mut element.hourglass, at);
-        held.time_step_squared
+        held.stiffening
     }
 }

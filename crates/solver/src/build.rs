@@ -13,7 +13,7 @@ pub(crate) use again::{Lent, Origin};
 
 use crate::assembly::Assembly;
 use crate::block::spring::SpringBlock;
-use crate::block::{Block, BlockInput, Motion, Report, make};
+use crate::block::{Block, BlockInput, Initial, Motion, Report, Wrong, make};
 use crate::contact::formulation::{self, Setup, Side};
 use crate::contact::law::{self, Law};
 use crate::contact::mirror::Mirrored;
@@ -294,7 +294,13 @@ impl Builder<'_> {
                 ..BlockInput::new(element, material, &group.connectivity, &self.mesh.positions)
             };
             match make(&input) {
-                Some(block) => blocks.push(block),
+                Some(mut block) => {
+                    let initial = Initial { stress: part.stress_initial.as_ref(), temperature: part.temperature_initial };
+                    if let Err(Wrong { key, message, help }) = block.begin(&initial, &self.mesh.positions) {
+                        self.faults.push(Fault::new(format!("part[{i}].{key}"), message, help));
+                    }
+                    blocks.push(block);
+                }
                 None => self.faults.push(Fault::new(format!("part[{i}]"), "its element or law is unknown", "see `embate list`")),
             }
         }

@@ -11,7 +11,7 @@ use super::nodal::Nodal;
 use super::strain::{Measures, Strain, Tensor, circumference, initial_width, radius};
 use super::stress_state::StressState;
 use super::strip::{Every, STRIP, Shape, Strip};
-use super::{Block, ElementState, Motion, Report};
+use super::{Block, ElementState, Initial, Motion, Report, Wrong};
 use crate::element::Element;
 use crate::failure::Criterion;
 use crate::material::points::{PointLaw, Points, RESPONSE};
@@ -384,6 +384,10 @@ where
 
     fn scale_mass(&mut self, element: usize, factor: f64) {
         self.make_heavier(element, factor);
+    }
+
+    fn begin(&mut self, initial: &Initial<'_>, positions: &[[f64; D]]) -> Result<(), Wrong> {
+        self.take_over(initial, positions)
     }
 
     fn is_alive(&self, element: usize) -> bool {

@@ -9,6 +9,7 @@ mod batch;
 mod elements;
 mod erosion;
 mod forces;
+mod initial;
 mod make;
 mod nodal;
 pub(crate) mod spring;
@@ -16,6 +17,7 @@ mod strain;
 pub mod stress_state;
 mod strip;
 
+pub use initial::{Initial, Wrong};
 pub use make::{BlockInput, make};
 
 use crate::failure::Criterion;
@@ -105,6 +107,11 @@ pub trait Block<const D: usize>: Send + Sync {
     fn has(&self, variable: Variable) -> bool;
     /// Makes an element heavier by a factor, for a longer stable step; before the first [`Block::advance`] that counts.
     fn scale_mass(&mut self, element: usize, factor: f64);
+    /// Gives the points what they hold at the start; before the first [`Block::advance`].
+    ///
+    /// # Errors
+    /// What keeps the law from holding it.
+    fn begin(&mut self, initial: &Initial<'_>, positions: &[[f64; D]]) -> Result<(), Wrong>;
     /// Whether an element has not been eroded.
     fn is_alive(&self, element: usize) -> bool;
     /// Elements that fail by one of the criteria in the state of the last [`Block::advance`], ascending, with the index of the first such criterion.

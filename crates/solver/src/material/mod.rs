@@ -45,7 +45,7 @@ pub use viscoelastic::Viscoelastic;
 pub use yeoh::Yeoh;
 
 use crate::quantity::Parameter;
-use crate::tensor::SymmetricTensor;
+use crate::tensor::{Solid, SymmetricTensor};
 use embate_lanes::Lane;
 
 /// A law as the registry describes it.
@@ -155,6 +155,18 @@ pub trait Law: Copy + Send + Sync + 'static {
 
     /// Bulk and shear stiffness at rest, Pa.
     fn stiffness(&self) -> [f64; 2];
+
+    /// Rate: elastic energy ½ σ:C⁻¹:σ of a stress xx yy zz xy yz zx that a point has at the start, J/m³.
+    fn energy(&self, stress: [f64; 6]) -> f64 {
+        elastic_energy(self.stiffness(), stress)
+    }
+}
+
+/// p²/2K + s:s/4µ with the stiffnesses K and µ (Pa) of a stress xx yy zz xy yz zx (Pa), J/m³; without shear stiffness the first alone.
+fn elastic_energy([bulk, shear]: [f64; 2], stress: [f64; 6]) -> f64 {
+    let (mean, deviator) = (Solid(stress).trace() / 3.0, Solid(stress).deviator());
+    let square = deviator.contract(deviator);
+    mean * mean / (2.0 * bulk) + if shear > 0.0 { square / (4.0 * shear) } else { 0.0 }
 }
 
 /// Someone who does something with every law's type: makes a block of it, lists it, tests it.

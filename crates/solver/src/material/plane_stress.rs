@@ -96,6 +96,9 @@ impl PointLaw for PlaneStress {
     fn stored(&self) -> f64 {
         self.law.stored()
     }
+    fn energy(&self, stress: [f64; 6]) -> f64 {
+        self.law.energy(stress)
+    }
     fn thickness(&self) -> Option<usize> {
         Some(self.law.state_width())
     }

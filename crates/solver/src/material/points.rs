@@ -66,6 +66,8 @@ pub trait PointLaw: Send + Sync {
     fn stored(&self) -> f64 {
         0.0
     }
+    /// See [`Law::energy`].
+    fn energy(&self, stress: [f64; 6]) -> f64;
     /// Writes the history of a point at the start.
     fn start(&self, state: &mut [Batch]);
     /// Place of the thickness ratio λ = t/t₀ in the history, if it changes (plane stress).
@@ -124,6 +126,9 @@ where
     }
     fn stiffness(&self) -> [f64; 2] {
         self.law.stiffness()
+    }
+    fn energy(&self, stress: [f64; 6]) -> f64 {
+        self.law.energy(stress)
     }
     fn start(&self, state: &mut [Batch]) {
         for at in 0..BATCH {

@@ -5,10 +5,12 @@
 pub mod check;
 pub mod describe;
 mod discrete;
+mod initial;
 mod load;
 pub mod reference;
 
 pub use discrete::{PointMass, Spring};
+pub use initial::InitialStress;
 pub use load::{Constraint, Image, Join, Load, NonReflecting, Rotation, Symmetry};
 
 use crate::block::stress_state::STRESS_STATES;
@@ -165,6 +167,10 @@ pub struct Part {
     pub velocity: [f64; 2],
     /// Initial spin about the centre of mass, rad/s, counter-clockwise.
     pub spin: f64,
+    /// Stress at the start; `None`: none.
+    pub stress_initial: Option<InitialStress>,
+    /// Temperature at the start, K; `None`: that of the material.
+    pub temperature_initial: Option<f64>,
     /// `Some`: the part is a rigid body and moves so.
     pub rigid: Option<Motion>,
     /// Factor on its mass where mass resists motion; what it weighs stays.
@@ -185,6 +191,8 @@ impl Default for Part {
             placement: Placement::default(),
             velocity: [0.0; 2],
             spin: 0.0,
+            stress_initial: None,
+            temperature_initial: None,
             rigid: None,
             mass_scale: 1.0,
         }

@@ -31,6 +31,7 @@ mod nodal_pressure;
 mod obstacles;
 mod orthotropy;
 mod pressed;
+mod prestress;
 mod plasticity;
 mod projectiles;
 mod projection;

@@ -15,7 +15,7 @@ use super::value::Datum;
 use crate::{abaqus, gmsh};
 use embate_solver::mesh::shapes::Values;
 use embate_solver::model::{
-    Cadence, Copies, ImportedMesh, MassScaling, Material, Mirror, Model, Output, Part, Partners, Placement, Probe, ProbeAt, Relaxation,
+    Cadence, Copies, ImportedMesh, InitialStress, MassScaling, Material, Mirror, Model, Output, Part, Partners, Placement, Probe, ProbeAt, Relaxation,
     Run, Shape, Symmetry,
 };
 use std::collections::BTreeSet;
@@ -87,6 +87,8 @@ fn part(record: &Record, meshes: &mut Meshes<'_>, faults: &mut Faults) -> Part {
         placement: placement(record),
         velocity: record.vector("velocity"),
         spin: record.number("spin").unwrap_or(f64::NAN),
+        stress_initial: record.table("stress_initial").map(stress_initial),
+        temperature_initial: record.number("temperature_initial"),
         rigid: motion::rigid(record),
         mass_scale: record.number("mass_scale").unwrap_or(f64::NAN),
     }
@@ -102,6 +104,12 @@ fn shape(part: &Record, meshes: &mut Meshes<'_>, faults: &mut Faults) -> Shape {
     }
     let (mesh, group) = mesh.unwrap_or((usize::MAX, String::new()));
     Shape::Group { mesh, group }
+}
+
+fn stress_initial(record: &Record) -> InitialStress {
+    let components = |it: &Record| ["xx", "yy", "zz", "xy"].map(|name| it.number(name).unwrap_or(f64::NAN));
+    let slope = |name| record.table(name).map_or([0.0; 4], components);
+    InitialStress { value: components(record), per_x: slope("per_x"), per_y: slope("per_y"), point: record.vector("point") }
 }
 
 fn placement(part: &Record) -> Placement {

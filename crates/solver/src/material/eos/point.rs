@@ -14,7 +14,7 @@
 use super::{Equation, Terms};
 use crate::material::points::{PLANE, PointLaw, Points, RESPONSE};
 use crate::material::{Family, Variable};
-use crate::tensor::{Plane, SymmetricTensor};
+use crate::tensor::{Plane, Solid, SymmetricTensor};
 use embate_lanes::{BATCH, Batch, Kernel, Lane, Level};
 
 /// Batches of history per point, after the law's own: density, energy per initial volume, pressure.
@@ -62,6 +62,10 @@ impl<Q: Equation> PointLaw for WithEquation<Q> {
     }
     fn stored(&self) -> f64 {
         self.equation.energy()
+    }
+    /// Of the deviator: the pressure is that of the equation, whose energy is [`PointLaw::stored`].
+    fn energy(&self, stress: [f64; 6]) -> f64 {
+        self.law.energy(Solid(stress).deviator().0)
     }
     fn start(&self, state: &mut [Batch]) {
         let (inner, own) = state.split_at_mut(self.law.state_width());

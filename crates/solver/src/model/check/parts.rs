@@ -1,7 +1,7 @@
 //! Faults of parts: their materials, kinds of elements and shapes.
 
 use super::Check;
-use crate::block::stress_state::STRESS_STATES;
+use crate::block::stress_state::{PlaneStress, STRESS_STATES, StressState};
 use crate::element;
 use crate::model::describe::{ELEMENTS_MAX, suggestion};
 use crate::model::reference::{dimension_word, excerpt};
@@ -27,6 +27,7 @@ impl Check<'_> {
             self.part_motion(&path, part);
             self.number(&format!("{path}.mass_scale"), part.mass_scale);
             self.shape(&path, part);
+            self.initial(&path, part);
             let count = element_count(model, part);
             if total <= ELEMENTS_MAX && total.saturating_add(count) > ELEMENTS_MAX {
                 self.fault(
@@ -55,6 +56,33 @@ impl Check<'_> {
                 message,
                 "make all parts axisymmetric, or none: forces of the whole circumference and per metre of depth can't be added",
             );
+        }
+    }
+
+    /// What a part holds at the start. Whether its law can hold it is seen when there are elements.
+    fn initial(&mut self, path: &str, part: &Part) {
+        let rigid = "the part is rigid, so nothing in it is strained or heated";
+        if let Some(stress) = &part.stress_initial {
+            let path = format!("{path}.stress_initial");
+            for (of, values) in [("", stress.value), (".per_x", stress.per_x), (".per_y", stress.per_y)] {
+                for (name, value) in ["xx", "yy", "zz", "xy"].into_iter().zip(values) {
+                    self.number(&format!("{path}{of}.{name}"), value);
+                }
+            }
+            self.vector(&format!("{path}.point"), stress.point);
+            if part.stress_state == PlaneStress::KIND.name && !stress.lacks(2) {
+                self.fault(format!("{path}.zz"), "in plane stress there is no stress across the plane", "leave it out");
+            }
+            if part.rigid.is_some() {
+                self.fault(path, rigid, "leave it out, or let the part deform");
+            }
+        }
+        if let Some(temperature) = part.temperature_initial {
+            let path = format!("{path}.temperature_initial");
+            self.number(&path, temperature);
+            if part.rigid.is_some() {
+                self.fault(path, rigid, "leave it out, or let the part deform");
+            }
         }
     }
 

@@ -4,6 +4,7 @@ use super::Kind::{Angle, Choice, Flag, Integer, Name, Quantities, Quantity, Refe
 use super::Need::{self, Default, Optional, Required};
 use super::contact::{CONTACT, OBSTACLE};
 use super::discrete::{POINT_MASS, SPRING};
+use super::initial::STRESS_INITIAL;
 use super::{Form, Key, Kind, More, Rule, Section, key};
 use crate::block::stress_state::STRESS_STATES;
 use crate::failure::CRITERIA;
@@ -192,6 +193,13 @@ static PART: Section = Section {
             Angle(Dimension::RATE, Finite),
             Default("0"),
             "Initial angular velocity about the centre of mass, counter-clockwise; not of an axisymmetric part.",
+        ),
+        key("stress_initial", Table(&STRESS_INITIAL), Optional("none"), "Stress at the start."),
+        key(
+            "temperature_initial",
+            Quantity(Dimension::TEMPERATURE, Positive),
+            Optional("that of the material"),
+            "Temperature at the start, of laws that have one (`johnson_cook`).",
         ),
         key(
             "rigid",

@@ -288,6 +288,7 @@ impl Builder<'_> {
             let element = part.element_of(group.nodes_per_element).map_or("", |kind| kind.name);
             let viscosity = self.model.run.bulk_viscosity;
             let input = BlockInput {
+                area: part.area.unwrap_or(0.0),
                 options: ElementOptions { hourglass: part.hourglass },
                 stress_state: &part.stress_state,
                 viscosity: (viscosity != [0.0; 2]).then_some(viscosity),
@@ -309,7 +310,7 @@ impl Builder<'_> {
 
     /// What the stiffness of contacts is made from: elements behind every edge, moduli and the first step.
     fn find_elements_under_surfaces(&mut self, blocks: &mut [Box<dyn Block<2>>], level: Level) {
-        for (group_index, group) in self.mesh.groups.iter().enumerate() {
+        for (group_index, group) in self.mesh.groups.iter().enumerate().filter(|(_, group)| group.has_surface()) {
             for (element, cell) in group.cells().enumerate() {
                 let x = |corner: usize| self.mesh.positions[cell[corner % cell.len()] as usize];
                 let area = 0.5 * (0..cell.len()).map(|c| x(c)[0] * x(c + 1)[1] - x(c)[1] * x(c + 1)[0]).sum::<f64>();

@@ -5,6 +5,7 @@
 //! their product. All is erased once, as `Box<dyn Block>`: one virtual call per block and step, and one per strip of 64 elements.
 //! State lives in batches of eight (`batch.rs`). Corner forces go to the assembly, which sums them in fixed order.
 
+mod bar;
 mod batch;
 mod elements;
 mod erosion;

@@ -19,11 +19,11 @@ mod ogden;
 mod orthotropic_elastic;
 mod null;
 mod parameters;
-mod plane_stress;
 pub mod points;
 mod rubber;
 mod state;
 mod trial;
+mod unloaded;
 mod viscoelastic;
 mod yeoh;
 
@@ -235,6 +235,19 @@ pub fn equation_of_state(name: &str) -> Option<[bool; 2]> {
         type Output = [bool; 2];
         fn visit<M: Law>(self) -> Self::Output {
             [M::NEEDS_EQUATION_OF_STATE, M::FAMILY == Family::Rate && !M::FLOWS_IN_VOLUME]
+        }
+    }
+    with_law(name, Ask)
+}
+
+/// Whether bars can be of the law called `name`: it answers alike in all directions, and is no fluid; `None` when there is no such law.
+#[must_use]
+pub fn bears_uniaxial_stress(name: &str) -> Option<bool> {
+    struct Ask;
+    impl LawVisitor for Ask {
+        type Output = bool;
+        fn visit<M: Law>(self) -> Self::Output {
+            M::ISOTROPIC && !M::NEEDS_EQUATION_OF_STATE
         }
     }
     with_law(name, Ask)

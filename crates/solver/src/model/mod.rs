@@ -14,11 +14,11 @@ pub use initial::InitialStress;
 pub use load::{Constraint, Image, Join, Load, NonReflecting, Rotation, Symmetry};
 
 use crate::block::stress_state::STRESS_STATES;
-use crate::element::{ELEMENTS, ElementKind};
+use crate::element::{BARS, ELEMENTS, ElementKind};
 use crate::load::curve::sine::Sine;
 pub use crate::mesh::placement::{Copies, Mirror, Placement};
 use crate::mesh::shapes::Count;
-pub use crate::mesh::shapes::{Disk, Edge, Path, Polygon, Quadrilateral, Rectangle, Ring, Shape, Trapezoid};
+pub use crate::mesh::shapes::{Disk, Edge, Path, Polygon, Quadrilateral, Rectangle, Ring, Shape, Trapezoid, Truss};
 use crate::quantity::Dimension;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -155,6 +155,8 @@ pub struct Part {
     pub element: String,
     /// The same for its triangles, if it has any.
     pub element_triangles: String,
+    /// Cross-section of its bars per metre of depth, m²/m; bars need it, and nothing else has it.
+    pub area: Option<f64>,
     /// Coefficient of its hourglass control, where it has one; `None`: that of the control's source.
     pub hourglass: Option<f64>,
     /// Name in the registry of stress states; empty: plane strain.
@@ -185,6 +187,7 @@ impl Default for Part {
             material: String::new(),
             element: "quad4".into(),
             element_triangles: "tri3".into(),
+            area: None,
             hourglass: None,
             stress_state: String::new(),
             shape: Shape::Group { mesh: usize::MAX, group: String::new() },
@@ -206,6 +209,18 @@ impl Part {
         STRESS_STATES.iter().any(|kind| kind.name == self.stress_state && kind.axisymmetric)
     }
 
+    /// Dimension of the cells of a mesh file that it is made of.
+    #[must_use]
+    pub fn cells_dimension(&self) -> u8 {
+        if self.is_of_bars() { 1 } else { 2 }
+    }
+
+    /// Whether it consists of bars: lines without a surface.
+    #[must_use]
+    pub fn is_of_bars(&self) -> bool {
+        BARS.iter().any(|kind| kind.name == self.element)
+    }
+
     /// How large its mesh will be, where it has a built-in shape.
     #[must_use]
     pub fn count(&self) -> Option<Count> {
@@ -215,7 +230,7 @@ impl Part {
     /// The element that has so many nodes; `None` when the part names none.
     #[must_use]
     pub fn element_of(&self, nodes: usize) -> Option<&'static ElementKind> {
-        ELEMENTS.iter().find(|kind| kind.nodes == nodes && (kind.name == self.element || kind.name == self.element_triangles))
+        ELEMENTS.iter().chain(BARS).find(|kind| kind.nodes == nodes && (kind.name == self.element || kind.name == self.element_triangles))
     }
 }
 

@@ -44,4 +44,5 @@ mod self_contact;
 mod shocks;
 mod stress_states;
 mod swept;
+mod trusses;
 mod viscosity;

@@ -78,6 +78,7 @@ fn part(record: &Record, meshes: &mut Meshes<'_>, faults: &mut Faults) -> Part {
         name: record.text("name"),
         material: record.text("material"),
         element: record.text("element"),
+        area: record.number("area"),
         hourglass: record.number("hourglass"),
         stress_state: record.text("stress_state"),
         element_triangles: Some(record.text("element_triangles"))

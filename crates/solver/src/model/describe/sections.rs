@@ -173,8 +173,14 @@ static PART: Section = Section {
     keys: &[
         key("name", Name, Required, "Unique name."),
         key("material", Reference, Required, "Name of a `[material.NAME]` section."),
-        key("element", Choice(elements), Default("\"quad4\""), "Kind of element: what quadrilaterals are."),
+        key("element", Choice(elements), Default("\"quad4\""), "Kind of element: what quadrilaterals are; `bar2` for bars."),
         key("element_triangles", Choice(triangles), Optional("`tri3`"), "What triangles are, where the part has some."),
+        key(
+            "area",
+            Quantity(Dimension::LENGTH, Positive),
+            Optional("only with bars"),
+            "Cross-section of bars per metre of depth, such as `\"1e-4 m\"` for one square centimetre in each metre.",
+        ),
         key(
             "hourglass",
             Quantity(Dimension::NONE, NotNegative),
@@ -542,7 +548,7 @@ fn equations_of_state() -> Vec<&'static str> {
 }
 
 fn elements() -> Vec<&'static str> {
-    elements_of(4)
+    [elements_of(4), elements_of(2)].concat()
 }
 
 fn triangles() -> Vec<&'static str> {

@@ -289,6 +289,7 @@ impl Builder<'_> {
             let viscosity = self.model.run.bulk_viscosity;
             let input = BlockInput {
                 area: part.area.unwrap_or(0.0),
+                damping: self.model.stiffness_damping(part),
                 options: ElementOptions { hourglass: part.hourglass },
                 stress_state: &part.stress_state,
                 viscosity: (viscosity != [0.0; 2]).then_some(viscosity),

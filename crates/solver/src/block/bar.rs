@@ -34,6 +34,9 @@ struct Bar {
     /// Energies, J/m.
     stored: f64,
     dissipated: f64,
+    /// Stress of the damping, Pa, and what it has taken, J/m.
+    damped: f64,
+    damping: f64,
     time_step_squared: f64,
     is_gone: bool,
 }
@@ -43,6 +46,8 @@ pub(super) struct Bars {
     law: Box<dyn PointLaw>,
     /// Cross-section at the start per metre of depth, m.
     area: f64,
+    /// Time β of the damping in proportion to the stiffness, s; 0: none.
+    damping: f64,
     bars: Vec<Bar>,
     /// Cauchy stress in the axes of the bars, Pa.
     stress: Vec<Batch>,
@@ -83,7 +88,7 @@ impl Bars {
         let mut rotation = room(ROTATION);
         rotation.chunks_exact_mut(ROTATION).for_each(unturned);
         let (stress, strain, ratio, heat, response) = (room(PLANE), room(PLANE), room(1), room(1), room(RESPONSE));
-        Some(Self { law, area: input.area, bars, stress, history, strain, ratio, heat, rotation, response, room: Room::default() })
+        Some(Self { law, area: input.area, damping: input.damping, bars, stress, history, strain, ratio, heat, rotation, response, room: Room::default() })
     }
 
     /// What the law wants to know of the step that led here, in the axes of the bars.
@@ -119,7 +124,7 @@ impl Bars {
 
     fn sum(&self) -> Report {
         let of = |bar: &Bar| {
-            let gone = Report { dissipated: bar.dissipated, ..Report::NOTHING };
+            let gone = Report { dissipated: bar.dissipated, damping: bar.damping, ..Report::NOTHING };
             let there = Report { time_step_squared: bar.time_step_squared, determinant: bar.length, stored: bar.stored, ..gone };
             if bar.is_gone { gone } else { there }
         };
@@ -182,7 +187,13 @@ impl Block<2> for Bars {
         for element in 0..self.bars.len() {
             let (stress, area) = (self.stress_of(element), self.area * self.section(element));
             let bar = &mut self.bars[element];
-            let force = if bar.is_gone { 0.0 } else { stress * area };
+            // Per volume, times the ratio of cross-sections already.
+            let response: [f64; RESPONSE] = std::array::from_fn(|k| self.response[element / BATCH * RESPONSE + k].0[element % BATCH]);
+            let [stored, dissipated, bulk, shear] = response;
+            let young = 9.0 * bulk * shear / (3.0 * bulk + shear);
+            let strain = 2.0 * (bar.length - bar.length_old) / (bar.length + bar.length_old);
+            let damped = if motion.time_step > 0.0 { self.damping * young * strain / motion.time_step } else { 0.0 };
+            let force = if bar.is_gone { 0.0 } else { (stress + damped) * area };
             for (corner, sign) in [(0, 1.0), (1, -1.0)] {
                 let (batch, lane) = corner_slot::<2>(2, element, corner);
                 for (d, component) in bar.direction.into_iter().enumerate() {
@@ -192,9 +203,6 @@ impl Block<2> for Bars {
             if bar.is_gone {
                 continue;
             }
-            // Per volume, times the ratio of cross-sections already.
-            let response: [f64; RESPONSE] = std::array::from_fn(|k| self.response[element / BATCH * RESPONSE + k].0[element % BATCH]);
-            let [stored, dissipated, bulk, shear] = response;
             let now = self.area * 0.5 * (bar.length + bar.length_old);
             let dissipated = dissipated * now;
             match self.law.family() {
@@ -202,8 +210,13 @@ impl Block<2> for Bars {
                 Family::Hyperelastic => bar.stored = stored * (self.area * bar.initial),
             }
             bar.dissipated += dissipated;
-            let young = 9.0 * bulk * shear / (3.0 * bulk + shear);
-            bar.time_step_squared = bar.mass * bar.length / (area * (young + stress.abs()));
+            bar.damping += 0.5 * (bar.damped + damped) * strain * (area / self.area * now);
+            bar.damped = damped;
+            let squared = bar.mass * bar.length / (area * (young + stress.abs()));
+            bar.time_step_squared = squared;
+            if self.damping > 0.0 {
+                bar.time_step_squared = ((squared + self.damping * self.damping).sqrt() - self.damping).powi(2);
+            }
         }
         self.sum()
     }

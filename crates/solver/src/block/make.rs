@@ -22,6 +22,8 @@ pub struct BlockInput<'a> {
     pub stress_state: &'a str,
     /// Law and parameters.
     pub material: &'a Material,
+    /// Time β of the damping in proportion to the stiffness, s; 0: none.
+    pub damping: f64,
     /// Linear and quadratic coefficient of the bulk viscosity; `None`: none.
     pub viscosity: Option<[f64; 2]>,
     /// Node indices, `nodes` per element.
@@ -34,7 +36,7 @@ impl<'a> BlockInput<'a> {
     /// In plane strain, without options.
     #[must_use]
     pub fn new(element: &'a str, material: &'a Material, connectivity: &'a [u32], positions: &'a [[f64; 2]]) -> Self {
-        Self { element, area: 0.0, options: ElementOptions::default(), stress_state: "", material, viscosity: None, connectivity, positions }
+        Self { element, area: 0.0, damping: 0.0, options: ElementOptions::default(), stress_state: "", material, viscosity: None, connectivity, positions }
     }
 }
 

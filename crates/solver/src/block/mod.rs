@@ -7,6 +7,7 @@
 
 mod bar;
 mod batch;
+mod damping;
 mod elements;
 mod erosion;
 mod forces;
@@ -51,12 +52,21 @@ pub struct Report {
     pub hourglass: f64,
     /// Work that the bulk viscosity has taken so far, J/m.
     pub viscous: f64,
+    /// Work that damping in proportion to the stiffness has taken so far, J/m.
+    pub damping: f64,
 }
 
 impl Report {
     /// The neutral element of [`Report::join`].
-    pub const NOTHING: Self =
-        Self { time_step_squared: f64::INFINITY, determinant: f64::INFINITY, stored: 0.0, dissipated: 0.0, hourglass: 0.0, viscous: 0.0 };
+    pub const NOTHING: Self = Self {
+        time_step_squared: f64::INFINITY,
+        determinant: f64::INFINITY,
+        stored: 0.0,
+        dissipated: 0.0,
+        hourglass: 0.0,
+        viscous: 0.0,
+        damping: 0.0,
+    };
 
     /// Both together; energies are summed in call order.
     #[must_use]
@@ -68,6 +78,7 @@ impl Report {
             dissipated: self.dissipated + other.dissipated,
             hourglass: self.hourglass + other.hourglass,
             viscous: self.viscous + other.viscous,
+            damping: self.damping + other.damping,
         }
     }
 }

@@ -240,6 +240,19 @@ pub fn equation_of_state(name: &str) -> Option<[bool; 2]> {
     with_law(name, Ask)
 }
 
+/// Whether the law called `name` is that of an isotropic solid in rate form, whose K and µ are an elastic stiffness; `None` when there is no such law.
+#[must_use]
+pub fn has_elastic_stiffness(name: &str) -> Option<bool> {
+    struct Ask;
+    impl LawVisitor for Ask {
+        type Output = bool;
+        fn visit<M: Law>(self) -> Self::Output {
+            M::FAMILY == Family::Rate && M::ISOTROPIC && !M::NEEDS_EQUATION_OF_STATE
+        }
+    }
+    with_law(name, Ask)
+}
+
 /// Whether bars can be of the law called `name`: it answers alike in all directions, and is no fluid; `None` when there is no such law.
 #[must_use]
 pub fn bears_uniaxial_stress(name: &str) -> Option<bool> {

@@ -113,6 +113,18 @@ impl Model {
     }
 }
 
+impl Model {
+    /// Time β of the damping of a part in proportion to its stiffness, s: the sum over the loads that say so.
+    #[must_use]
+    pub fn stiffness_damping(&self, part: &Part) -> f64 {
+        let of = |load: &Load| match load {
+            Load::StiffnessDamping { parts, time } if parts.is_empty() || parts.contains(&part.name) => *time,
+            _ => 0.0,
+        };
+        self.loads.iter().map(of).sum()
+    }
+}
+
 impl Default for Run {
     fn default() -> Self {
         Self {

@@ -35,6 +35,7 @@ mod prestress;
 mod plasticity;
 mod projectiles;
 mod projection;
+mod rayleigh;
 mod revolution;
 mod rigid;
 mod rubbers;

@@ -8,6 +8,9 @@
 //! p_new = (cold + heat_term (E_old + heat − ½ p_old Δv)) / (1 + ½ heat_term Δv)
 //! ```
 //!
+//! Where p_new lies below −p_t, the limit in tension, it is −p_t, and E_new follows by the first line: what the matter takes up at the limit it gives back on
+//! the same way.
+//!
 //! Elastic energy of the deviator is no heat. The block books the work of the whole stress as stored, less what was dissipated, and begins with E of the start,
 //! so the books close by construction; E itself is stored plus dissipated plus viscous energy, less the deviator's elastic part.
 
@@ -27,17 +30,19 @@ pub(super) struct WithEquation<Q> {
     law: Box<dyn PointLaw>,
     equation: Q,
     density: f64,
+    /// Least pressure, Pa.
+    least: f64,
     /// At rest.
     bulk: f64,
     variables: Vec<(Variable, usize)>,
 }
 
 impl<Q: Equation> WithEquation<Q> {
-    pub(super) fn new(law: Box<dyn PointLaw>, equation: Q, density: f64) -> Self {
+    pub(super) fn new(law: Box<dyn PointLaw>, equation: Q, density: f64, tension: f64) -> Self {
         let mut variables = law.variables().to_vec();
         variables.push((Variable::Density, law.state_width()));
         let bulk = equation.terms(1.0).bulk(1.0, equation.energy());
-        Self { law, equation, density, bulk, variables }
+        Self { law, equation, density, least: -tension, bulk, variables }
     }
 }
 
@@ -112,6 +117,7 @@ impl<Q: Equation> Kernel for Replace<'_, Q> {
     fn run<L: Lane>(self) {
         let (one, half, third) = (L::splat(1.0), L::splat(0.5), L::splat(1.0 / 3.0));
         let density = L::splat(self.owner.density);
+        let least = L::splat(self.owner.least);
         let softest = L::splat(SOFTEST * self.owner.bulk);
         let width = self.owner.law.state_width() + OWN;
         for p in 0..self.strain.len() / PLANE {
@@ -127,6 +133,7 @@ impl<Q: Equation> Kernel for Replace<'_, Q> {
                 let known = L::load(&own[1], at) + heat - half * L::load(&own[2], at) * change;
                 let terms: Terms<L> = self.owner.equation.terms(ratio);
                 let pressure = terms.pressure(known) / (one + half * terms.heat * change);
+                let pressure = L::select(pressure.less(least), least, pressure);
                 let energy = known - half * pressure * change;
                 (density / ratio).store(&mut own[0], at);
                 energy.store(&mut own[1], at);

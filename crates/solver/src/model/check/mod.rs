@@ -162,7 +162,13 @@ impl Check<'_> {
             let law = |name: &str| kind.parameters.iter().any(|parameter| parameter.name == name);
             let further = own.into_iter().flat_map(|own| own.parameters).filter(|parameter| !law(parameter.name));
             let all: Vec<&Parameter> = kind.parameters.iter().chain(further).collect();
-            let known: Vec<&str> = all.iter().map(|parameter| parameter.name).collect();
+            let limit = own.map(|_| material::eos::TENSION);
+            let known: Vec<&str> = all.iter().copied().chain(&limit).map(|parameter| parameter.name).collect();
+            if let Some(limit) = &limit
+                && let Some(value) = it.parameters.get(limit.name)
+            {
+                self.within(&format!("{path}.{}", limit.name), *value, limit.dimension, limit.range);
+            }
             let needs = |parameter: &Parameter| match own {
                 Some(own) if !law(parameter.name) => format!("equation of state `{}` needs `{}`", own.name, parameter.name),
                 _ => format!("law `{}` needs `{}`", it.law, parameter.name),
@@ -194,6 +200,9 @@ impl Check<'_> {
                 let of_other =
                     material::eos::EQUATIONS.iter().find(|other| other.parameters.iter().any(|parameter| parameter.name == key.as_str()));
                 let help = match of_other {
+                    _ if own.is_none() && key == material::eos::TENSION.name => {
+                        "it is a limit of equations of state: add `eos`, or leave it out".to_string()
+                    }
                     Some(other) if own.is_none() => format!("add `eos = \"{}\"`, or leave it out", other.name),
                     _ => suggestion(key, &known),
                 };

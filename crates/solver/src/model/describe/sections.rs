@@ -373,6 +373,12 @@ static LOAD: Section = Section {
             "Rate of a force -rate * mass * velocity on parts: what moves slowly comes to rest.",
         ),
         key(
+            "damping_stiffness",
+            Quantity(Dimension::TIME, Positive),
+            Optional("another load"),
+            "Time beta of a stress beta * C * strain rate in the elements of parts, with their elastic stiffness C: a mode of angular frequency omega is damped by beta * omega / 2 of the critical. It shortens the step from dt to sqrt(beta^2 + dt^2) - beta, and acts during the whole run.",
+        ),
+        key(
             "on",
             Reference,
             Optional("only with `force` and `pressure`"),
@@ -389,16 +395,18 @@ static LOAD: Section = Section {
         key("until", Quantity(Dimension::TIME, Positive), Optional("the end"), "Time at which it ends."),
     ],
     rules: &[
-        Rule::OneOf(&["gravity", "centrifugal", "force", "pressure", "damping"]),
+        Rule::OneOf(&["gravity", "centrifugal", "force", "pressure", "damping", "damping_stiffness"]),
         Rule::Needs("centre", "centrifugal"),
         Rule::Needs("force", "on"),
         Rule::Needs("pressure", "on"),
         Rule::NotBoth("on", "gravity"),
         Rule::NotBoth("on", "centrifugal"),
         Rule::NotBoth("on", "damping"),
+        Rule::NotBoth("on", "damping_stiffness"),
         Rule::NotBoth("parts", "force"),
         Rule::NotBoth("parts", "pressure"),
         Rule::NotBoth("curve", "damping"),
+        Rule::NotBoth("curve", "damping_stiffness"),
         Rule::Needs("from", "damping"),
         Rule::Needs("until", "damping"),
     ],
@@ -574,7 +582,10 @@ fn law_keys(law: &str) -> Option<Vec<Key>> {
 
 /// The keys of the parameters of an equation of state.
 fn equation_keys(name: &str) -> Option<Vec<Key>> {
-    Some(parameter_keys(material::eos::kind(name)?.parameters))
+    let mut keys = parameter_keys(material::eos::kind(name)?.parameters);
+    let Parameter { name, dimension, range, doc, .. } = material::eos::TENSION;
+    keys.push(key(name, Quantity(dimension, range), Optional("no limit"), doc));
+    Some(keys)
 }
 
 fn parameter_keys(parameters: &[Parameter]) -> Vec<Key> {

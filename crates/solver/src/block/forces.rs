@@ -28,6 +28,10 @@ pub(super) struct Forces<'a, E, S, const D: usize, const N: usize, const P: usiz
     pub(super) time_step: f64,
     /// Coefficients L and Q of the bulk viscosity; none: no work is done for it.
     pub(super) viscosity: Option<[f64; 2]>,
+    /// Time β of the damping in proportion to the stiffness, s; 0: none.
+    pub(super) damping: f64,
+    /// Its stresses, where they are not in those of the points; else empty.
+    pub(super) damped: &'a [Batch],
     /// Stresses of the points.
     pub(super) stress: &'a [Batch],
     /// History of the points, batches per point in it, and the place of the thickness ratio.
@@ -50,6 +54,7 @@ pub(super) struct Sums {
     dissipated: Batch,
     hourglass: Batch,
     viscous: Batch,
+    damping: Batch,
     time_step_squared: Batch,
     determinant: Batch,
 }
@@ -57,7 +62,15 @@ pub(super) struct Sums {
 impl Sums {
     pub(super) fn new() -> Self {
         let (zero, infinite) = (Batch::default(), Batch::splat(f64::INFINITY));
-        Self { stored: zero, dissipated: zero, hourglass: zero, viscous: zero, time_step_squared: infinite, determinant: infinite }
+        Self {
+            stored: zero,
+            dissipated: zero,
+            hourglass: zero,
+            viscous: zero,
+            damping: zero,
+            time_step_squared: infinite,
+            determinant: infinite,
+        }
     }
 
     pub(super) fn report(&self) -> Report {
@@ -69,6 +82,7 @@ impl Sums {
             dissipated: sum(&self.dissipated),
             hourglass: sum(&self.hourglass),
             viscous: sum(&self.viscous),
+            damping: sum(&self.damping),
         }
     }
 }
@@ -130,6 +144,11 @@ where
         if let Some(coefficients) = self.viscosity {
             (pressure, stiffening) = self.viscous(batch, at, coefficients, &geometry, modulus, thickness_squared);
         }
+        if self.damping > 0.0 {
+            let beta = L::splat(self.damping);
+            let step = (time_step_squared + beta * beta).sqrt() - beta;
+            time_step_squared = step * step;
+        }
         let mut nodal = self.nodal(batch, at, &geometry, pressure);
         if E::HOURGLASS > 0 {
             stiffening = stiffening.max(self.hold_shape(batch, at, &geometry, [modulus, shear, mass], &mut nodal));
@@ -160,6 +179,9 @@ where
         }
         if self.viscosity.is_some() {
             (L::load(&sums.viscous, at) + L::load(&element.viscous, at) * live).store(&mut sums.viscous, at);
+        }
+        if self.damping > 0.0 {
+            (L::load(&sums.damping, at) + L::load(&element.damping, at) * live).store(&mut sums.damping, at);
         }
         time_step_squared.min(L::load(&sums.time_step_squared, at)).store(&mut sums.time_step_squared, at);
         let mut worst = L::load(&sums.determinant, at);
@@ -210,6 +232,9 @@ where
         for p in 0..P {
             let point = batch * P + p;
             stress[p] = Tensor::<D, L>::load(&self.stress[point * components..(point + 1) * components], at);
+            if !self.damped.is_empty() {
+                stress[p] = stress[p].plus(Tensor::<D, L>::load(&self.damped[point * components..(point + 1) * components], at));
+            }
             weight[p] = match self.family {
                 Family::Rate => L::splat(E::WEIGHTS[p]),
                 Family::Hyperelastic => L::load(&self.strip.weight[point], at),

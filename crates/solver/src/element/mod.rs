@@ -2,10 +2,12 @@
 //!
 //! Everything else (strain, internal force, volume) follows in the block. To add an element: one file, one line in `elements!`.
 
+mod bar2;
 mod quad4;
 mod quad4_reduced;
 mod tri3;
 
+pub use bar2::BAR2;
 pub use quad4::{Quad4, Quad4Full};
 pub use quad4_reduced::{Quad4Reduced, Quad4ReducedAssumedStrain, Quad4ReducedViscous};
 pub use tri3::{Tri3, Tri3Anp};
@@ -145,8 +147,11 @@ elements!(
     Tri3Anp: 3 nodes, 1 points,
 );
 
+/// Elements that are lines: blocks of their own make them, not the kernels that [`Element`]s are compiled into.
+pub const BARS: &[ElementKind] = &[BAR2];
+
 /// Every element.
 #[must_use]
 pub fn registry() -> Vec<ElementKind> {
-    ELEMENTS.to_vec()
+    ELEMENTS.iter().chain(BARS).copied().collect()
 }

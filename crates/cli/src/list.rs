@@ -98,7 +98,9 @@ fn equations_of_state() -> String {
     let mut text = String::from("Equations of state (material.NAME.eos)\n");
     for kind in material::eos::EQUATIONS {
         entry(&mut text, kind.name, kind.doc, kind.source);
-        text.push_str(&table(&kind.parameters.iter().map(|parameter| parameter_row(parameter, "required")).collect::<Vec<_>>(), "      "));
+        let mut rows: Vec<_> = kind.parameters.iter().map(|parameter| parameter_row(parameter, "required")).collect();
+        rows.push(parameter_row(&material::eos::TENSION, "no limit"));
+        text.push_str(&table(&rows, "      "));
     }
     text
 }

@@ -201,6 +201,7 @@ const HIDDEN_CELL: u8 = 32;
 /// VTK's number of a cell shape.
 fn vtk_cell_type(kind: CellKind) -> u8 {
     match kind {
+        CellKind::Line => 3,
         CellKind::Triangle => 5,
         CellKind::Quadrilateral => 9,
     }

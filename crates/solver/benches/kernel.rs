@@ -1,6 +1,6 @@
 //! Element kernels: million element-steps per second on one core, per element, law and instruction set, beside the scalar lane in the same run.
 //!
-//! `cargo bench -p embate-solver --bench kernel`
+//! `cargo bench -p embate-solver --bench kernel [-- ELEMENT... LAW...]`: all, or some elements with some laws.
 
 use embate_lanes::{Batch, Level};
 use embate_solver::block::{Block, BlockInput, Motion, make};
@@ -85,12 +85,17 @@ fn rate(block: &mut dyn Block<2>, positions: &[[f64; 2]], velocities: &[[f64; 2]
 }
 
 fn main() {
+    let words: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with("--")).collect();
+    let wanted = |element: &str, law: &str| words.is_empty() || words.contains(&element.to_string()) && words.contains(&law.to_string());
     println!("million element-steps per second, one core, best of 9 (ratio to scalar)");
     for (elements, n) in [("in cache, 1,024 elements", 32), ("out of cache, 1,048,576 elements", 1024)] {
         println!("{elements}");
         let (positions, velocities, connectivity) = patch(n);
-        for element in ["quad4", "quad4_full", "quad4_reduced", "quad4_reduced_assumed_strain"] {
+        for element in ["quad4", "quad4_full", "quad4_reduced", "quad4_reduced_viscous", "quad4_reduced_assumed_strain"] {
             for law in LAWS.iter().map(|kind| kind.name).filter(|law| n < 100 && element == "quad4" || FEW.contains(law)) {
+                if !wanted(element, law) {
+                    continue;
+                }
                 let parameters = NUMBERS.iter().map(|(name, value)| ((*name).to_string(), *value)).collect();
                 let lists = LISTS.iter().map(|(name, list)| ((*name).to_string(), list.to_vec())).collect();
                 let material = Material { law: law.into(), parameters, lists, ..Material::default() };

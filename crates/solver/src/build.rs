@@ -13,7 +13,7 @@ pub(crate) use again::{Lent, Origin};
 
 use crate::assembly::Assembly;
 use crate::block::spring::SpringBlock;
-use crate::block::{Block, BlockInput, Motion, Report, make};
+use crate::block::{Block, BlockInput, Initial, Motion, Report, Wrong, make};
 use crate::contact::formulation::{self, Setup, Side};
 use crate::contact::law::{self, Law};
 use crate::contact::mirror::Mirrored;
@@ -288,13 +288,21 @@ impl Builder<'_> {
             let element = part.element_of(group.nodes_per_element).map_or("", |kind| kind.name);
             let viscosity = self.model.run.bulk_viscosity;
             let input = BlockInput {
+                area: part.area.unwrap_or(0.0),
+                damping: self.model.stiffness_damping(part),
                 options: ElementOptions { hourglass: part.hourglass },
                 stress_state: &part.stress_state,
                 viscosity: (viscosity != [0.0; 2]).then_some(viscosity),
                 ..BlockInput::new(element, material, &group.connectivity, &self.mesh.positions)
             };
             match make(&input) {
-                Some(block) => blocks.push(block),
+                Some(mut block) => {
+                    let initial = Initial { stress: part.stress_initial.as_ref(), temperature: part.temperature_initial };
+                    if let Err(Wrong { key, message, help }) = block.begin(&initial, &self.mesh.positions) {
+                        self.faults.push(Fault::new(format!("part[{i}].{key}"), message, help));
+                    }
+                    blocks.push(block);
+                }
                 None => self.faults.push(Fault::new(format!("part[{i}]"), "its element or law is unknown", "see `embate list`")),
             }
         }
@@ -303,7 +311,7 @@ impl Builder<'_> {
 
     /// What the stiffness of contacts is made from: elements behind every edge, moduli and the first step.
     fn find_elements_under_surfaces(&mut self, blocks: &mut [Box<dyn Block<2>>], level: Level) {
-        for (group_index, group) in self.mesh.groups.iter().enumerate() {
+        for (group_index, group) in self.mesh.groups.iter().enumerate().filter(|(_, group)| group.has_surface()) {
             for (element, cell) in group.cells().enumerate() {
                 let x = |corner: usize| self.mesh.positions[cell[corner % cell.len()] as usize];
                 let area = 0.5 * (0..cell.len()).map(|c| x(c)[0] * x(c + 1)[1] - x(c)[1] * x(c + 1)[0]).sum::<f64>();

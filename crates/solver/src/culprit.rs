@@ -39,11 +39,14 @@ impl System {
     /// The element that is most inside out. The Jacobian of a quadrilateral is smallest in a corner.
     pub(crate) fn inverted(&self) -> Error {
         let mut worst = (f64::INFINITY, 0, 0);
-        for (g, group) in self.mesh.groups.iter().enumerate() {
+        for (g, (group, block)) in self.mesh.groups.iter().zip(&self.blocks).enumerate() {
             let n = group.nodes_per_element;
             for (element, cell) in group.cells().enumerate().filter(|(element, _)| group.is_alive(*element)) {
                 let x = |corner: usize| self.positions[cell[corner % n] as usize];
-                for c in 0..n {
+                if n == 2 && block.determinant(element, &self.positions) <= 0.0 {
+                    worst = (f64::NEG_INFINITY, g, element);
+                }
+                for c in 0..if n == 2 { 0 } else { n } {
                     let (a, b, d) = (x(c), x(c + 1), x(c + n - 1));
                     let jacobian = (b[0] - a[0]) * (d[1] - a[1]) - (b[1] - a[1]) * (d[0] - a[0]);
                     if jacobian < worst.0 {

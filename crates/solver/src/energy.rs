@@ -108,7 +108,7 @@ pub struct Stores {
     pub friction: f64,
     /// Lost by damping in contacts, and by impacts on multipliers, so far.
     pub contact_damping: f64,
-    /// Lost by damping loads and into boundaries that reflect nothing so far.
+    /// Lost by damping loads, of the mass and of the stiffness, and into boundaries that reflect nothing so far.
     pub damping: f64,
     /// Elastic energy that eroded elements had, and that of contact springs on the surfaces that went with them.
     pub eroded: f64,
@@ -171,7 +171,7 @@ pub struct Entry {
     pub damping_old: f64,
     /// Part of the update that lies before the whole step: dt^{n-1} / (dt^{n-1} + dt^n); zero at time zero only.
     pub before: f64,
-    /// Stores at the whole step n without what is lost, kinetic energy as ½ Σ m v^{n-1/2}·v^{n+1/2}, at time zero as ½ Σ m v⁰·v^{1/2}.
+    /// Stores at the whole step n without what is lost but in elements (of damping what is taken there), kinetic energy as ½ Σ m v^{n-1/2}·v^{n+1/2}, at time zero as ½ Σ m v⁰·v^{1/2}.
     pub stores: Stores,
 }
 
@@ -199,7 +199,8 @@ impl Ledger {
         self.external = wholes[0];
         self.works.add(&entry.works);
         self.stores = entry.stores;
-        (self.stores.friction, self.stores.contact_damping, self.stores.damping) = (wholes[1] - entry.slip_energy, wholes[2], wholes[3]);
+        (self.stores.friction, self.stores.contact_damping, self.stores.damping) =
+            (wholes[1] - entry.slip_energy, wholes[2], entry.stores.damping + wholes[3]);
         if entry.before > 0.0 {
             // Unequal steps: v^{n-1/2} and v^{n+1/2} lie at unequal distances from n; the shift is ½ (dt^n − dt^{n-1})/(dt^n + dt^{n-1}) ΣW.
             self.stores.kinetic -= (0.5 - entry.before) * entry.works.total();

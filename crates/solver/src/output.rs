@@ -7,6 +7,8 @@ use crate::material::Variable;
 /// Shape of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CellKind {
+    /// Line of two nodes: a bar.
+    Line,
     /// Three-node triangle, counter-clockwise.
     Triangle,
     /// Four-node quadrilateral, counter-clockwise.

@@ -299,7 +299,11 @@ pub(crate) fn cells(system: &System) -> Cells {
         for (_, cell) in order {
             cells.nodes.extend(cell.iter().map(|&node| system.mesh.user_nodes[node as usize]));
             cells.offsets.push(cells.nodes.len() as u32);
-            cells.kinds.push(if cell.len() == 3 { CellKind::Triangle } else { CellKind::Quadrilateral });
+            cells.kinds.push(match cell.len() {
+                2 => CellKind::Line,
+                3 => CellKind::Triangle,
+                _ => CellKind::Quadrilateral,
+            });
             cells.parts.push(index as u32);
         }
     }

@@ -386,6 +386,7 @@ impl System {
             plastic: elements.dissipated,
             hourglass: elements.hourglass,
             bulk_viscosity: elements.viscous,
+            damping: elements.damping,
             contact: springs,
             eroded: self.erosion.as_ref().map_or(0.0, |erosion| erosion.energy),
             ..Stores::default()

@@ -376,15 +376,18 @@ pub trait Space<const D: usize> {
     fn adjugate<L: Lane>(m: &Matrix<L, D>) -> Matrix<L, D>;
     /// Symmetric part of a displacement gradient: the strain increment.
     fn symmetric<L: Lane>(gradient: &Matrix<L, D>) -> Self::Tensor<L>;
-    /// Hughes and Winget's rotation (I − ½W)⁻¹ (I + ½W) of the skew part W of a displacement gradient taken in the mid-step
-    /// configuration, [half of it, all of it]; exact (and the strain increment zero) for a rigid rotation. Half of it turns the mid-step
-    /// strain increment to the end of the step. Hughes and Winget 1980.
-    fn rotations<L: Lane>(gradient: &Matrix<L, D>) -> [<Self::Tensor<L> as SymmetricTensor<L>>::Rotation; 2];
+    /// Gradient A B⁻¹ of a displacement with the natural gradient A in the mid-step configuration with Jacobian B, and Hughes and Winget's rotation
+    /// (I − ½W)⁻¹ (I + ½W) of its skew part W, [half of it, all of it]; exact (and the strain increment zero) for a rigid rotation. Half of it turns the mid-step
+    /// strain increment to the end of the step. B is given as adjugate and determinant: one division does it all. Hughes and Winget 1980.
+    fn displaced<L: Lane>(natural: &Matrix<L, D>, adjugate: &Matrix<L, D>, determinant: L) -> (Matrix<L, D>, Turns<Self::Tensor<L>, L>);
     /// `scale` F Fᵀ, out-of-plane component `scale` in the plane.
     fn left_cauchy_green<L: Lane>(f: &Matrix<L, D>, scale: L) -> Self::Tensor<L>;
     /// T Aᵀ with the in-space part of T: `flux[i][k] = Σ_j T_ij A_kj`.
     fn flux<L: Lane>(t: &Self::Tensor<L>, a: &Matrix<L, D>) -> Matrix<L, D>;
 }
+
+/// Half a rotation, and all of it.
+pub type Turns<T, L> = [<T as SymmetricTensor<L>>::Rotation; 2];
 
 /// The type that stands for dimension `D`.
 #[derive(Clone, Copy, Debug)]
@@ -406,14 +409,17 @@ impl Space<2> for Dim<2> {
         Plane([g[0][0], g[1][1], L::splat(0.0), (g[0][1] + g[1][0]) * L::splat(0.5)])
     }
     #[inline(always)]
-    fn rotations<L: Lane>(g: &Matrix<L, 2>) -> [PlaneRotation<L>; 2] {
-        // tan(θ/2) = ω/2 with ω = ½(g_yx − g_xy)
+    fn displaced<L: Lane>(natural: &Matrix<L, 2>, adjugate: &Matrix<L, 2>, determinant: L) -> (Matrix<L, 2>, [PlaneRotation<L>; 2]) {
+        // All times det B: tan(θ/2) = ω/2 with ω = ½(g_yx − g_xy)
+        let g = product(natural, adjugate);
         let half = (g[1][0] - g[0][1]) * L::splat(0.25);
-        let square = half * half;
-        let inverse = L::splat(1.0) / (L::splat(1.0) + square);
-        let (cos, sin) = ((L::splat(1.0) - square) * inverse, (half + half) * inverse);
+        let (square, one) = (half * half, determinant * determinant);
+        let sum = one + square;
+        let inverse = L::splat(1.0) / (determinant * sum);
+        let of_sum = inverse * determinant;
+        let (cos, sin) = ((one - square) * of_sum, (half + half) * determinant * of_sum);
         // A tensor feels twice the angle: half the rotation is θ to it.
-        [PlaneRotation([cos, sin]), PlaneRotation::new(cos, sin)]
+        (scaled(g, inverse * sum), [PlaneRotation([cos, sin]), PlaneRotation::new(cos, sin)])
     }
     #[inline(always)]
     fn left_cauchy_green<L: Lane>(f: &Matrix<L, 2>, scale: L) -> Plane<L> {
@@ -510,11 +516,9 @@ mod tests {
         let step = [[c - 1.0, -s], [s, c - 1.0]];
         let mid = [[0.5 * (1.0 + c), -0.5 * s], [0.5 * s, 0.5 * (1.0 + c)]];
         let det = Dim::<2>::determinant(&mid);
-        let inverse = Dim::<2>::adjugate(&mid).map(|row| row.map(|v| v / det));
-        let gradient = product(&step, &inverse);
+        let (gradient, [PlaneRotation(half), PlaneRotation(whole)]) = Dim::<2>::displaced(&step, &Dim::<2>::adjugate(&mid), det);
         let strain = Dim::<2>::symmetric(&gradient);
         assert!(strain.contract(strain) < 1e-31);
-        let [PlaneRotation(half), PlaneRotation(whole)] = Dim::<2>::rotations(&gradient);
         // tan(θ/2) = half the spin: the mid-step spin of a rotation by θ is 2 tan(θ/2)
         for (rotation, angle) in [(half, 0.5 * angle), (whole, angle)] {
             let (s, c) = (2.0 * angle).sin_cos();

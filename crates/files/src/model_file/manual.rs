@@ -79,6 +79,7 @@ fn tables_in(out: &mut String, keys: &[Key]) {
         if let Kind::Table(inner) = key.kind {
             let _ = writeln!(out, "### `{}`\n\n{}\n", header(inner), inner.doc);
             table(out, inner.keys, inner.rules);
+            tables_in(out, inner.keys);
         }
     }
 }

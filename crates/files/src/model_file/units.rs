@@ -372,6 +372,8 @@ pub(super) fn quantity(dimension: Dimension) -> &'static str {
         Dimension::MASS => "mass",
         Dimension::FORCE => "force",
         Dimension::INERTIA_PER_LENGTH => "moment of inertia per length",
+        Dimension::TEMPERATURE => "temperature",
+        Dimension::SPECIFIC_HEAT => "specific heat",
         _ => "another dimension",
     }
 }

@@ -15,7 +15,7 @@ pub(super) struct Mesh {
 
 #[derive(Clone, Copy, Debug)]
 struct DrawnCell {
-    /// Corners; of a triangle the last is given twice.
+    /// Corners; the last is given again for those that are missing.
     nodes: [u32; 4],
     /// Number of corners.
     corners: u8,
@@ -76,6 +76,7 @@ impl Mesh {
             // Parts beyond any sensible number are a fault elsewhere; here they only must not cost memory.
             let part = cells.parts.get(index).copied().unwrap_or(0).min(cells.kinds.len() as u32);
             let (nodes, corners) = match cells.nodes.get(range[0] as usize..range[1] as usize) {
+                Some(&[a, b]) => ([a, b, b, b], 2),
                 Some(&[a, b, c]) => ([a, b, c, c], 3),
                 Some(&[a, b, c, d]) => ([a, b, c, d], 4),
                 _ => continue,
@@ -132,6 +133,9 @@ impl Mesh {
         for cell in &self.cells {
             let Some(corners) = corners(points, cell) else { continue };
             let corners = &corners[..usize::from(cell.corners)];
+            if corners.len() == 2 {
+                continue; // its edge is all that there is of a bar
+            }
             match node_levels(cell, values) {
                 Some(levels) => smooth(layer, &map, corners, &levels),
                 None => layer.fill(corners, Shade::Flat(cell_colour(cell, values, &map))),
@@ -199,7 +203,7 @@ fn edges(cells: &[DrawnCell]) -> Vec<Edge> {
     let mut sides: Vec<([u32; 2], u32)> = Vec::with_capacity(4 * cells.len());
     for (index, cell) in cells.iter().enumerate() {
         let corners = usize::from(cell.corners);
-        for k in 0..corners {
+        for k in 0..if corners == 2 { 1 } else { corners } {
             let (a, b) = (cell.nodes[k], cell.nodes[(k + 1) % corners]);
             sides.push(([a.min(b), a.max(b)], index as u32));
         }

@@ -27,6 +27,8 @@ pub struct FilmSettings {
     /// Field shown as colour: a name (`von_mises`; vectors show their size) or a component (`stress.xy`); empty: plastic strain if there is
     /// any, else the equivalent stress.
     pub field: String,
+    /// For each part whether it is rigid: nothing strains it, so fields of elements leave it grey. Parts beyond the list are not.
+    pub rigid: Vec<bool>,
     /// Width of `final.png`, pixels; the animation is at most 640 wide.
     pub width: u32,
     /// Largest height of `final.png`, pixels; flat bodies get a lower picture.
@@ -35,7 +37,16 @@ pub struct FilmSettings {
 
 impl Default for FilmSettings {
     fn default() -> Self {
-        Self { title: String::new(), mirror: [false; 2], view: None, of_revolution: false, field: String::new(), width: 960, height: 720 }
+        Self {
+            title: String::new(),
+            mirror: [false; 2],
+            view: None,
+            of_revolution: false,
+            field: String::new(),
+            rigid: Vec::new(),
+            width: 960,
+            height: 720,
+        }
     }
 }
 
@@ -140,7 +151,7 @@ impl Film {
             positions: self.shown(frame, &gone).map(|p| [(p[0] - origin[0]) as f32, (p[1] - origin[1]) as f32]).collect(),
             gone,
             obstacles: self.line_reader.lines(frame),
-            values: self.scalars.iter().map(|scalar| scalar.values(frame)).collect(),
+            values: self.scalars.iter().map(|scalar| self.values(scalar, frame)).collect(),
         });
         self.added += 1;
         while self.stored.len() > 2
@@ -148,6 +159,18 @@ impl Film {
         {
             self.thin();
         }
+    }
+
+    /// Values of a frame; not a number in elements of rigid parts.
+    fn values(&self, scalar: &Scalar, frame: &Frame<2>) -> Vec<f32> {
+        let mut values = scalar.values(frame);
+        if !scalar.at_nodes() && self.settings.rigid.contains(&true) {
+            let is_rigid = |part: &u32| self.settings.rigid.get(*part as usize).is_some_and(|&rigid| rigid);
+            for (value, _) in values.iter_mut().zip(&self.cells.parts).filter(|(_, part)| is_rigid(part)) {
+                *value = f32::NAN;
+            }
+        }
+        values
     }
 
     /// Positions of the nodes that have a cell; not a number for those whose cells are all `gone`, which fly anywhere.

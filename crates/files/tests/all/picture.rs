@@ -285,6 +285,22 @@ fn a_field_of_the_surface_is_seen_where_it_has_values() {
 }
 
 #[test]
+fn rigid_parts_have_no_colour_of_elements_but_that_of_their_nodes() {
+    let pixels = |name: &str, field: &str, rigid: Vec<bool>| {
+        let folder = folder(name);
+        film(FilmSettings { field: field.into(), rigid, ..settings() }, 3).finish(&folder).unwrap();
+        let picture = Picture::read(&folder.join("final.png"));
+        let all = (0..picture.height).flat_map(|y| (0..picture.width).map(move |x| (x, y)));
+        all.filter(|(x, y)| picture.at(*x, *y) == [178, 184, 192]).count()
+    };
+    assert!(pixels("rigid-none", "plastic_strain", vec![]) < 100);
+    let one = pixels("rigid-one", "plastic_strain", vec![false, true]);
+    let both = pixels("rigid-both", "plastic_strain", vec![true, true]);
+    assert!(one > 1000 && both > one + 1000, "{one} grey pixels with a rigid plate, {both} with a rigid tube too");
+    assert!(pixels("rigid-velocity", "velocity", vec![true, true]) < 100, "what moves has a velocity");
+}
+
+#[test]
 fn strange_frames_give_a_picture_and_no_panic() {
     let frame = |positions: Vec<[f64; 2]>| Frame { time: f64::NAN, step: 0, positions, fields: vec![], outlines: vec![] };
     let full = state(0.5).positions.len();

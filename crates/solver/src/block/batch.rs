@@ -19,6 +19,8 @@ pub(crate) struct ElementBatch {
     pub(crate) time_step_squared: Batch,
     /// Energy that hourglass control has stored and taken, J/m.
     pub(crate) hourglass: Batch,
+    /// Work that damping in proportion to the stiffness has taken, J/m.
+    pub(crate) damping: Batch,
     /// Work that the bulk viscosity has taken, J/m.
     pub(crate) viscous: Batch,
     /// The part of it in the last step, J/m.
@@ -40,6 +42,7 @@ impl ElementBatch {
             dissipated,
             time_step_squared,
             hourglass,
+            damping,
             viscous,
             viscous_step,
             viscous_pressure,
@@ -52,6 +55,7 @@ impl ElementBatch {
             (dissipated, &from.dissipated),
             (time_step_squared, &from.time_step_squared),
             (hourglass, &from.hourglass),
+            (damping, &from.damping),
             (viscous, &from.viscous),
             (viscous_step, &from.viscous_step),
             (viscous_pressure, &from.viscous_pressure),

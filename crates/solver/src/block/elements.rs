@@ -4,6 +4,7 @@
 //! are shared by threads and do not depend on their number.
 
 use super::batch::{ElementBatch, element_of};
+use super::damping::Damp;
 use super::erosion::Eroded;
 use super::forces::{Forces, Sums};
 use super::make::BlockInput;
@@ -11,7 +12,7 @@ use super::nodal::Nodal;
 use super::strain::{Measures, Strain, Tensor, circumference, initial_width, radius};
 use super::stress_state::StressState;
 use super::strip::{Every, STRIP, Shape, Strip};
-use super::{Block, ElementState, Motion, Report};
+use super::{Block, ElementState, Initial, Motion, Report, Wrong};
 use crate::element::Element;
 use crate::failure::Criterion;
 use crate::material::points::{PointLaw, Points, RESPONSE};
@@ -34,6 +35,9 @@ pub(super) struct Elements<E, S, const D: usize, const N: usize, const P: usize>
     pub(super) nodes: Indices,
     /// Cauchy stress of the points, Pa.
     pub(super) stress: Vec<Batch>,
+    /// Time β of the damping in proportion to the stiffness, s, and its stresses at the points; none: 0, and no stresses.
+    pub(super) damping: f64,
+    pub(super) damped: Vec<Batch>,
     /// What the law remembers of the points.
     pub(super) history: Vec<Batch>,
     /// Hyperelastic laws: initial geometry of the points.
@@ -58,6 +62,7 @@ pub(super) struct Elements<E, S, const D: usize, const N: usize, const P: usize>
 struct Chunk<'a> {
     first: usize,
     stress: &'a mut [Batch],
+    damped: &'a mut [Batch],
     history: &'a mut [Batch],
     initial: &'a [Batch],
     volume_initial: &'a [Batch],
@@ -74,6 +79,7 @@ struct Common<'a, E, const D: usize> {
     history_width: usize,
     thickness: usize,
     viscosity: Option<[f64; 2]>,
+    damping: f64,
     nodes: &'a Indices,
     motion: &'a Motion<'a, D>,
     level: Level,
@@ -85,16 +91,21 @@ where
 {
     pub(super) const COMPONENTS: usize = <Tensor<D, f64> as SymmetricTensor<f64>>::COMPONENTS;
 
-    fn strip(law: &dyn PointLaw, batches: usize) -> Strip {
+    fn strip(law: &dyn PointLaw, damping: f64, batches: usize) -> Strip {
         let turn = <<Tensor<D, f64> as SymmetricTensor<f64>>::Rotation as Turn<f64>>::COMPONENTS;
         let shape = Shape { nodes: N, dimensions: D, points: P, components: Self::COMPONENTS, turn, velocities: E::HOURGLASS > 0 };
-        Strip::new(&shape, law, batches)
+        Strip::new(&shape, law, damping > 0.0, batches)
     }
 
     /// Widths of a batch in stress, history, initial geometry and hourglass memory.
     pub(super) fn widths(&self) -> [usize; 4] {
         let initial = if self.law.family() == Family::Hyperelastic { P * initial_width::<S, D>() } else { 0 };
         [P * Self::COMPONENTS, P * self.law.state_width(), initial, E::HOURGLASS]
+    }
+
+    /// Width of a batch in the stresses of the damping.
+    pub(super) fn damped_width(&self) -> usize {
+        if self.damping > 0.0 { P * Self::COMPONENTS } else { 0 }
     }
 
     /// Initial geometry and masses of one lane.
@@ -179,11 +190,28 @@ where
                     room: &mut strip.law,
                 },
             );
+            // Without damping there is one batch, which stands for nothing.
+            let damped = if common.damping > 0.0 { &mut chunk.damped[from * stress_width..to * stress_width] } else { &mut [][..] };
+            if common.damping > 0.0 {
+                level.run(Every(Damp::<E, S, D, N, P> {
+                    damping: common.damping,
+                    time_step: common.motion.time_step,
+                    strip,
+                    history,
+                    history_width,
+                    thickness: common.thickness,
+                    stress: damped,
+                    elements,
+                    kind: PhantomData,
+                }));
+            }
             level.run(Every(Forces::<E, S, D, N, P> {
                 element: common.element,
                 family: measures.family,
                 time_step: common.motion.time_step,
                 viscosity: common.viscosity,
+                damping: common.damping,
+                damped,
                 stress,
                 history,
                 history_width,
@@ -214,17 +242,20 @@ impl<E: Element<D, N, P>, S: StressState, const N: usize, const P: usize, const 
 where
     Dim<D>: Space<D>,
 {
-    fn empty(law: Box<dyn PointLaw>, element: E, viscosity: Option<[f64; 2]>, connectivity: &[u32]) -> Self {
+    fn empty(law: Box<dyn PointLaw>, element: E, input: &BlockInput<'_>) -> Self {
+        let (connectivity, damping) = (input.connectivity, input.damping);
         let count = connectivity.len() / N;
         let batches = count.div_ceil(BATCH);
         let rows = (0..batches * N).map(|row| std::array::from_fn(|lane| connectivity[element_of(row / N, lane, count) * N + row % N]));
         let room = |width: usize| vec![Batch::default(); length(batches, width)];
-        let strips = vec![Mutex::new(Self::strip(law.as_ref(), STRIP))];
+        let strips = vec![Mutex::new(Self::strip(law.as_ref(), damping, STRIP))];
         let averages = E::NODAL_DILATATION && !S::PLANE_STRESS;
-        let nodal = averages.then(|| Box::new(Nodal::new(connectivity, N, Self::COMPONENTS, || Self::strip(law.as_ref(), CHUNK))));
+        let nodal = averages.then(|| Box::new(Nodal::new(connectivity, N, Self::COMPONENTS, || Self::strip(law.as_ref(), damping, CHUNK))));
         let mut block = Self {
             element,
-            viscosity,
+            viscosity: input.viscosity,
+            damping,
+            damped: room(if damping > 0.0 { P * Self::COMPONENTS } else { 0 }),
             count,
             nodes: Indices::new(rows.collect()),
             stress: room(P * Self::COMPONENTS),
@@ -254,7 +285,7 @@ where
 impl<E: Element<2, N, P>, S: StressState, const N: usize, const P: usize> Elements<E, S, 2, N, P> {
     /// From what [`super::make`] was given.
     pub(super) fn new(law: Box<dyn PointLaw>, density: f64, input: &BlockInput<'_>) -> Self {
-        let mut block = Self::empty(law, E::new(&input.options), input.viscosity, input.connectivity);
+        let mut block = Self::empty(law, E::new(&input.options), input);
         for batch in 0..block.elements.len() {
             for lane in 0..BATCH {
                 block.set_up(batch, lane, density, input.connectivity, input.positions);
@@ -264,8 +295,9 @@ impl<E: Element<2, N, P>, S: StressState, const N: usize, const P: usize> Elemen
     }
 }
 
-/// What a task is handed by the iterators: stress, history, elements, hourglass memory, corners, report.
-type Parts<'a> = (((((&'a mut [Batch], &'a mut [Batch]), &'a mut [ElementBatch]), &'a mut [Batch]), &'a mut [Batch]), &'a mut Report);
+/// What a task is handed by the iterators: stress, history, elements, hourglass memory, corners, and the report with the damping stresses.
+type Parts<'a> =
+    (((((&'a mut [Batch], &'a mut [Batch]), &'a mut [ElementBatch]), &'a mut [Batch]), &'a mut [Batch]), (&'a mut Report, &'a mut [Batch]));
 
 impl<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize> Block<D> for Elements<E, S, D, N, P>
 where
@@ -287,32 +319,34 @@ where
         }
         let threads = if parallel { rayon::current_num_threads() } else { 1 };
         while self.strips.len() < threads {
-            self.strips.push(Mutex::new(Self::strip(self.law.as_ref(), STRIP)));
+            self.strips.push(Mutex::new(Self::strip(self.law.as_ref(), self.damping, STRIP)));
         }
         let widths = self.widths();
         let law = self.law.as_ref();
         let common = Common {
             element: &self.element,
             law,
-            measures: Measures { family: law.family(), rotation: law.needs_rotation(), volume: law.needs_volume() },
+            measures: Measures { family: law.family(), rotation: law.needs_rotation() || self.damping > 0.0, volume: law.needs_volume() },
             history_width: law.state_width(),
             thickness: law.thickness().unwrap_or(0),
             viscosity: self.viscosity,
+            damping: self.damping,
             nodes: &self.nodes,
             motion,
             level,
         };
         let (initial, volume_initial, strips) = (&self.initial[..], &self.volume_initial[..], &self.strips[..]);
-        let advance = |(index, (((((stress, history), elements), hourglass), corners), report)): (usize, Parts<'_>)| {
+        let advance = |(index, (((((stress, history), elements), hourglass), corners), (report, damped))): (usize, Parts<'_>)| {
             let first = index * CHUNK;
             let last = first + elements.len();
             let thread = if parallel { rayon::current_thread_index().unwrap_or(0) } else { 0 };
             let mut strip = strips[thread].lock().unwrap_or_else(PoisonError::into_inner);
             let (initial, volume_initial) = (&initial[first * widths[2]..last * widths[2]], &volume_initial[first..last]);
-            let chunk = Chunk { first, stress, history, initial, volume_initial, elements, hourglass, corners };
+            let chunk = Chunk { first, stress, damped, history, initial, volume_initial, elements, hourglass, corners };
             *report = Self::advance_chunk(&common, chunk, &mut strip);
         };
         let [stress, history, _, hourglass] = widths.map(chunk);
+        let damped = chunk(self.damped_width());
         if parallel {
             self.stress
                 .par_chunks_mut(stress)
@@ -320,7 +354,7 @@ where
                 .zip(self.elements.par_chunks_mut(CHUNK))
                 .zip(self.hourglass.par_chunks_mut(hourglass))
                 .zip(corners.par_chunks_mut(CHUNK * N * D))
-                .zip(self.reports.par_iter_mut())
+                .zip(self.reports.par_iter_mut().zip(self.damped.par_chunks_mut(damped)))
                 .enumerate()
                 .for_each(advance);
         } else {
@@ -330,7 +364,7 @@ where
                 .zip(self.elements.chunks_mut(CHUNK))
                 .zip(self.hourglass.chunks_mut(hourglass))
                 .zip(corners.chunks_mut(CHUNK * N * D))
-                .zip(self.reports.iter_mut())
+                .zip(self.reports.iter_mut().zip(self.damped.chunks_mut(damped)))
                 .enumerate()
                 .for_each(advance);
         }
@@ -384,6 +418,10 @@ where
 
     fn scale_mass(&mut self, element: usize, factor: f64) {
         self.make_heavier(element, factor);
+    }
+
+    fn begin(&mut self, initial: &Initial<'_>, positions: &[[f64; D]]) -> Result<(), Wrong> {
+        self.take_over(initial, positions)
     }
 
     fn is_alive(&self, element: usize) -> bool {

@@ -130,6 +130,7 @@ where
                 dissipated: sound(values.dissipated.0[lane]),
                 hourglass: sound(values.hourglass.0[lane]),
                 viscous: sound(values.viscous.0[lane]),
+                damping: sound(values.damping.0[lane]),
                 ..Report::NOTHING
             };
             self.eroded.left = self.eroded.left.join(left);
@@ -154,12 +155,18 @@ where
     /// Makes a lane that counts for nothing a copy of a live element.
     fn copy(&mut self, from: usize, to: usize) {
         let [stress, history, initial, hourglass] = self.widths();
+        let damped = self.damped_width();
         let (source, place) = ([from / BATCH, from % BATCH], [to / BATCH, to % BATCH]);
         for a in 0..N {
             self.nodes.copy_lane([source[0] * N + a, source[1]], [place[0] * N + a, place[1]]);
         }
-        let lists =
-            [(&mut self.stress, stress), (&mut self.history, history), (&mut self.initial, initial), (&mut self.hourglass, hourglass)];
+        let lists = [
+            (&mut self.stress, stress),
+            (&mut self.damped, damped),
+            (&mut self.history, history),
+            (&mut self.initial, initial),
+            (&mut self.hourglass, hourglass),
+        ];
         for (list, width) in lists {
             for k in 0..width {
                 list[place[0] * width + k].0[place[1]] = list[source[0] * width + k].0[source[1]];
@@ -181,6 +188,7 @@ where
                 dissipated: values.dissipated.0[lane],
                 hourglass: values.hourglass.0[lane],
                 viscous: values.viscous.0[lane],
+                damping: values.damping.0[lane],
             });
         }
         sum

@@ -6,7 +6,7 @@
 //! 2πx_p, and the hoop stress adds Σ_p 2π w_p σ_zz det J_p N_a to the radial force.
 //!
 //! Bulk viscosity: a pressure q = ρ l (Q² l ε̇² + L c |ε̇|) where the volume shrinks (ε̇ < 0), with l² the element's area, c² = (K + 4µ/3)/ρ; the stable step
-//! shrinks by √(1 + ζ²) − ζ, ζ = (L + 2 Q² l |ε̇| / c) l / h, the part of the critical damping that small motions of the fastest mode (ω = 2c/h) see: dq/dε̇ = ρ l c (L + 2 Q² l |ε̇| / c). Source: von Neumann and Richtmyer, J. Appl. Phys. 21 (1950) 232-237; Landshoff, LA-1930 (1955).
+//! shrinks by √(1 + ζ²) − ζ = 1 / (√(1 + ζ²) + ζ), ζ = (L + 2 Q² l |ε̇| / c) l / h, the part of the critical damping that small motions of the fastest mode (ω = 2c/h) see: dq/dε̇ = ρ l c (L + 2 Q² l |ε̇| / c). Source: von Neumann and Richtmyer, J. Appl. Phys. 21 (1950) 232-237; Landshoff, LA-1930 (1955).
 
 use super::Report;
 use super::batch::ElementBatch;
@@ -28,6 +28,10 @@ pub(super) struct Forces<'a, E, S, const D: usize, const N: usize, const P: usiz
     pub(super) time_step: f64,
     /// Coefficients L and Q of the bulk viscosity; none: no work is done for it.
     pub(super) viscosity: Option<[f64; 2]>,
+    /// Time β of the damping in proportion to the stiffness, s; 0: none.
+    pub(super) damping: f64,
+    /// Its stresses, where they are not in those of the points; else empty.
+    pub(super) damped: &'a [Batch],
     /// Stresses of the points.
     pub(super) stress: &'a [Batch],
     /// History of the points, batches per point in it, and the place of the thickness ratio.
@@ -50,6 +54,7 @@ pub(super) struct Sums {
     dissipated: Batch,
     hourglass: Batch,
     viscous: Batch,
+    damping: Batch,
     time_step_squared: Batch,
     determinant: Batch,
 }
@@ -57,7 +62,15 @@ pub(super) struct Sums {
 impl Sums {
     pub(super) fn new() -> Self {
         let (zero, infinite) = (Batch::default(), Batch::splat(f64::INFINITY));
-        Self { stored: zero, dissipated: zero, hourglass: zero, viscous: zero, time_step_squared: infinite, determinant: infinite }
+        Self {
+            stored: zero,
+            dissipated: zero,
+            hourglass: zero,
+            viscous: zero,
+            damping: zero,
+            time_step_squared: infinite,
+            determinant: infinite,
+        }
     }
 
     pub(super) fn report(&self) -> Report {
@@ -69,6 +82,7 @@ impl Sums {
             dissipated: sum(&self.dissipated),
             hourglass: sum(&self.hourglass),
             viscous: sum(&self.viscous),
+            damping: sum(&self.damping),
         }
     }
 }
@@ -125,20 +139,22 @@ where
         }
         let live = L::load(&self.elements[batch].live, at);
         let thickness_squared = E::thickness_squared(&geometry.x, &geometry.determinants, geometry.area);
-        // dt² = h² ρ / (K + 4µ/3) with ρ = m / V, as if all corners were as heavy as the lightest
         let mass = L::load(&self.elements[batch].mass_least, at);
-        let mut time_step_squared = thickness_squared * mass / (geometry.volume * modulus);
-        let mut pressure = zero;
+        let (mut pressure, mut stiffening) = (zero, L::splat(1.0));
         if let Some(coefficients) = self.viscosity {
-            let (q, shrink) = self.viscous(batch, at, coefficients, &geometry, [modulus, thickness_squared]);
-            pressure = q;
-            time_step_squared = time_step_squared * shrink;
+            (pressure, stiffening) = self.viscous(batch, at, coefficients, &geometry, modulus, thickness_squared);
+        }
+        if self.damping > 0.0 {
+            let beta = L::splat(self.damping);
+            let step = (time_step_squared + beta * beta).sqrt() - beta;
+            time_step_squared = step * step;
         }
         let mut nodal = self.nodal(batch, at, &geometry, pressure);
         if E::HOURGLASS > 0 {
-            let step = self.hold_shape(batch, at, &geometry, [modulus, shear, mass], &mut nodal);
-            time_step_squared = time_step_squared.min(step);
+            stiffening = stiffening.max(self.hold_shape(batch, at, &geometry, [modulus, shear, mass], &mut nodal));
         }
+        // dt² = h² ρ / (K + 4µ/3) with ρ = m / V, as if all corners were as heavy as the lightest
+        let time_step_squared = thickness_squared[0] * mass / (thickness_squared[1] * (geometry.volume * modulus) * stiffening);
         let corners = &mut self.corners[batch * N * D..(batch + 1) * N * D];
         for a in 0..N {
             for i in 0..D {
@@ -163,6 +179,9 @@ where
         }
         if self.viscosity.is_some() {
             (L::load(&sums.viscous, at) + L::load(&element.viscous, at) * live).store(&mut sums.viscous, at);
+        }
+        if self.damping > 0.0 {
+            (L::load(&sums.damping, at) + L::load(&element.damping, at) * live).store(&mut sums.damping, at);
         }
         time_step_squared.min(L::load(&sums.time_step_squared, at)).store(&mut sums.time_step_squared, at);
         let mut worst = L::load(&sums.determinant, at);
@@ -213,6 +232,9 @@ where
         for p in 0..P {
             let point = batch * P + p;
             stress[p] = Tensor::<D, L>::load(&self.stress[point * components..(point + 1) * components], at);
+            if !self.damped.is_empty() {
+                stress[p] = stress[p].plus(Tensor::<D, L>::load(&self.damped[point * components..(point + 1) * components], at));
+            }
             weight[p] = match self.family {
                 Family::Rate => L::splat(E::WEIGHTS[p]),
                 Family::Hyperelastic => L::load(&self.strip.weight[point], at),
@@ -259,7 +281,7 @@ where
         nodal
     }
 
-    /// Pressure of the bulk viscosity and the factor on the square of the stable step; books its work.
+    /// Pressure of the bulk viscosity, and the square of the stable step without it over that with it; books its work.
     #[inline(always)]
     fn viscous<L: Lane>(
         &mut self,
@@ -267,7 +289,8 @@ where
         at: usize,
         [linear, quadratic]: [f64; 2],
         geometry: &Geometry<L, D, N, P>,
-        [modulus, thickness_squared]: [L; 2],
+        modulus: L,
+        thickness_squared: [L; 2],
     ) -> (L, L) {
         let (zero, one) = (L::splat(0.0), L::splat(1.0));
         let element = &mut self.elements[batch];
@@ -281,19 +304,19 @@ where
         let rate = (change / ((geometry.volume + old) * L::splat(0.5) * dt)).abs();
         let [linear, growing] = [L::splat(linear), L::splat(quadratic * quadratic) * length * rate / speed];
         let pressure = L::select(shrinks, density * length * speed * rate * (linear + growing), zero);
-        let damping = (linear + growing + growing) * length / thickness_squared.sqrt();
+        let damping = (linear + growing + growing) * length * (thickness_squared[1] / thickness_squared[0]).sqrt();
         let damping = L::select(shrinks, damping, zero);
-        let shrink = (one + damping * damping).sqrt() - damping;
+        let stiffening = (one + damping * damping).sqrt() + damping;
         // Trapezoidal rule, as the nodal works of the ledger.
         let work = -(change * (pressure + L::load(&element.viscous_pressure, at)) * L::splat(0.5)) * live;
         pressure.store(&mut element.viscous_pressure, at);
         geometry.volume.store(&mut element.volume, at);
         work.store(&mut element.viscous_step, at);
         (L::load(&element.viscous, at) + work).store(&mut element.viscous, at);
-        (pressure, shrink * shrink)
+        (pressure, stiffening * stiffening)
     }
 
-    /// Adds the forces of hourglass control and books their work; the square of the stable step that they allow.
+    /// Adds the forces of hourglass control and books their work; the square of the stable step without it over that with it.
     #[inline(always)]
     fn hold_shape<L: Lane>(
         &mut self,
@@ -329,6 +352,6 @@ where
         }
         let element = &mut self.elements[batch];
         (L::load(&element.hourglass, at) + held.work).store(&mut element.hourglass, at);
-        held.time_step_squared
+        held.stiffening
     }
 }

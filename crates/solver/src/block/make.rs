@@ -1,9 +1,10 @@
 //! Makes a block from an element kind, a stress state, a law and a connectivity: the one place where element and stress state meet and are erased.
 
 use super::Block;
+use super::bar::Bars;
 use super::elements::Elements;
 use super::stress_state::{StressState, StressStateVisitor, with_stress_state};
-use crate::element::{Element, ElementOptions, ElementVisitor, with_element};
+use crate::element::{BAR2, Element, ElementOptions, ElementVisitor, with_element};
 use crate::material::{Parameters, points};
 use crate::model::Material;
 use std::marker::PhantomData;
@@ -13,12 +14,16 @@ use std::marker::PhantomData;
 pub struct BlockInput<'a> {
     /// Name in the element registry.
     pub element: &'a str,
+    /// Cross-section of bars per metre of depth, m.
+    pub area: f64,
     /// Its options.
     pub options: ElementOptions,
     /// Name in the registry of stress states; empty: plane strain.
     pub stress_state: &'a str,
     /// Law and parameters.
     pub material: &'a Material,
+    /// Time β of the damping in proportion to the stiffness, s; 0: none.
+    pub damping: f64,
     /// Linear and quadratic coefficient of the bulk viscosity; `None`: none.
     pub viscosity: Option<[f64; 2]>,
     /// Node indices, `nodes` per element.
@@ -31,13 +36,26 @@ impl<'a> BlockInput<'a> {
     /// In plane strain, without options.
     #[must_use]
     pub fn new(element: &'a str, material: &'a Material, connectivity: &'a [u32], positions: &'a [[f64; 2]]) -> Self {
-        Self { element, options: ElementOptions::default(), stress_state: "", material, viscosity: None, connectivity, positions }
+        Self {
+            element,
+            area: 0.0,
+            damping: 0.0,
+            options: ElementOptions::default(),
+            stress_state: "",
+            material,
+            viscosity: None,
+            connectivity,
+            positions,
+        }
     }
 }
 
 /// Makes the block; `None` when the element, the stress state or the law is unknown.
 #[must_use]
 pub fn make(input: &BlockInput<'_>) -> Option<Box<dyn Block<2>>> {
+    if input.element == BAR2.name {
+        return Some(Box::new(Bars::new(input)?));
+    }
     with_element(input.element, ChosenElement(input)).flatten().flatten()
 }
 

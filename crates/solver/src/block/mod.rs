@@ -5,10 +5,13 @@
 //! their product. All is erased once, as `Box<dyn Block>`: one virtual call per block and step, and one per strip of 64 elements.
 //! State lives in batches of eight (`batch.rs`). Corner forces go to the assembly, which sums them in fixed order.
 
+mod bar;
 mod batch;
+mod damping;
 mod elements;
 mod erosion;
 mod forces;
+mod initial;
 mod make;
 mod nodal;
 pub(crate) mod spring;
@@ -16,6 +19,7 @@ mod strain;
 pub mod stress_state;
 mod strip;
 
+pub use initial::{Initial, Wrong};
 pub use make::{BlockInput, make};
 
 use crate::failure::Criterion;
@@ -48,12 +52,21 @@ pub struct Report {
     pub hourglass: f64,
     /// Work that the bulk viscosity has taken so far, J/m.
     pub viscous: f64,
+    /// Work that damping in proportion to the stiffness has taken so far, J/m.
+    pub damping: f64,
 }
 
 impl Report {
     /// The neutral element of [`Report::join`].
-    pub const NOTHING: Self =
-        Self { time_step_squared: f64::INFINITY, determinant: f64::INFINITY, stored: 0.0, dissipated: 0.0, hourglass: 0.0, viscous: 0.0 };
+    pub const NOTHING: Self = Self {
+        time_step_squared: f64::INFINITY,
+        determinant: f64::INFINITY,
+        stored: 0.0,
+        dissipated: 0.0,
+        hourglass: 0.0,
+        viscous: 0.0,
+        damping: 0.0,
+    };
 
     /// Both together; energies are summed in call order.
     #[must_use]
@@ -65,6 +78,7 @@ impl Report {
             dissipated: self.dissipated + other.dissipated,
             hourglass: self.hourglass + other.hourglass,
             viscous: self.viscous + other.viscous,
+            damping: self.damping + other.damping,
         }
     }
 }
@@ -105,6 +119,11 @@ pub trait Block<const D: usize>: Send + Sync {
     fn has(&self, variable: Variable) -> bool;
     /// Makes an element heavier by a factor, for a longer stable step; before the first [`Block::advance`] that counts.
     fn scale_mass(&mut self, element: usize, factor: f64);
+    /// Gives the points what they hold at the start; before the first [`Block::advance`].
+    ///
+    /// # Errors
+    /// What keeps the law from holding it.
+    fn begin(&mut self, initial: &Initial<'_>, positions: &[[f64; D]]) -> Result<(), Wrong>;
     /// Whether an element has not been eroded.
     fn is_alive(&self, element: usize) -> bool;
     /// Elements that fail by one of the criteria in the state of the last [`Block::advance`], ascending, with the index of the first such criterion.

@@ -6,6 +6,7 @@
 //! Source: Bonet and Burton, Commun. Numer. Meth. Engng 14 (1998) 437-449.
 
 use super::batch::ElementBatch;
+use super::damping::Damp;
 use super::elements::{CHUNK, Elements};
 use super::forces::{Forces, Sums};
 use super::strain::{Measures, Strain, Tensor, circumference, initial_width};
@@ -129,7 +130,11 @@ where
         corners: &mut [Batch],
         parallel: bool,
     ) -> Report {
-        let measures = Measures { family: self.law.family(), rotation: self.law.needs_rotation(), volume: self.law.needs_volume() };
+        let measures = Measures {
+            family: self.law.family(),
+            rotation: self.law.needs_rotation() || self.damping > 0.0,
+            volume: self.law.needs_volume(),
+        };
         self.strain_all(nodal, motion, measures, level, parallel);
         nodal.average(parallel);
         let mut means = std::mem::take(&mut nodal.spare);
@@ -192,14 +197,16 @@ where
     /// Stresses from the averaged strains; their pressures, to be averaged.
     fn respond_all(&mut self, nodal: &mut Nodal, means: &[Batch], time_step: f64, family: Family, level: Level, parallel: bool) {
         let (components, width) = (Self::COMPONENTS, self.law.state_width());
-        let (law, elements) = (self.law.as_ref(), &self.elements);
+        let (law, damping, thickness) = (self.law.as_ref(), self.damping, self.law.thickness().unwrap_or(0));
+        let damped_chunk = if damping > 0.0 { CHUNK * components } else { 1 };
         // A law without history has one batch per chunk, which stands for nothing.
         let history = if width == 0 { 1 } else { CHUNK * width };
         let tasks = (self.stress.chunks_mut(CHUNK * components).zip(self.history.chunks_mut(history)).zip(&mut nodal.strips))
             .zip(nodal.weight.chunks_mut(CHUNK).zip(nodal.moment.chunks_mut(CHUNK)))
+            .zip(self.elements.chunks_mut(CHUNK).zip(self.damped.chunks_mut(damped_chunk)))
             .enumerate()
             .collect();
-        each(tasks, parallel, |(index, (((stress, history), strip), (weight, moment)))| {
+        each(tasks, parallel, |(index, ((((stress, history), strip), (weight, moment)), (elements, damped)))| {
             let (first, count) = (index * CHUNK, weight.len());
             for batch in 0..count {
                 for lane in 0..BATCH {
@@ -220,14 +227,30 @@ where
                     room: &mut strip.law,
                 },
             );
+            if damping > 0.0 {
+                level.run(Every(Damp::<E, S, D, N, P> {
+                    damping,
+                    time_step,
+                    strip,
+                    history: &history[..count * width],
+                    history_width: width,
+                    thickness,
+                    stress: damped,
+                    elements,
+                    kind: PhantomData,
+                }));
+            }
             for batch in 0..count {
                 for lane in 0..BATCH {
-                    let pressure = Tensor::<D, f64>::load(&stress[batch * components..][..components], lane).trace() / 3.0;
+                    let mut pressure = Tensor::<D, f64>::load(&stress[batch * components..][..components], lane).trace() / 3.0;
+                    if damping > 0.0 {
+                        pressure += Tensor::<D, f64>::load(&damped[batch * components..][..components], lane).trace() / 3.0;
+                    }
                     let volume = match family {
                         Family::Rate => volume::<E, S, D, N, P>(strip, batch, lane),
                         Family::Hyperelastic => strip.volume[batch].0[lane],
                     };
-                    weight[batch].0[lane] = volume * elements[first + batch].live.0[lane];
+                    weight[batch].0[lane] = volume * elements[batch].live.0[lane];
                     moment[batch].0[lane] = weight[batch].0[lane] * pressure;
                 }
             }
@@ -246,6 +269,7 @@ where
     ) -> Report {
         let (components, width, thickness) = (Self::COMPONENTS, self.law.state_width(), self.law.thickness().unwrap_or(0));
         let (element, viscosity, all_stress, all_history) = (&self.element, self.viscosity, &self.stress, &self.history);
+        let (damping, all_damped) = (self.damping, &self.damped);
         let means = &nodal.mean;
         let tasks = (self.elements.chunks_mut(CHUNK).zip(nodal.stress.chunks_mut(CHUNK * components)).zip(&nodal.strips))
             .zip(corners.chunks_mut(CHUNK * N * D).zip(self.reports.iter_mut()))
@@ -262,7 +286,11 @@ where
                         // The weight J̄/J belongs to the deviator alone.
                         pressure = pressure * E::WEIGHTS[0] / strip.weight[batch].0[lane];
                     }
-                    let unaveraged = Tensor::<D, f64>::load(own, lane);
+                    let mut unaveraged = Tensor::<D, f64>::load(own, lane);
+                    if damping > 0.0 {
+                        let at = (first + batch) * components;
+                        unaveraged = unaveraged.plus(Tensor::<D, f64>::load(&all_damped[at..at + components], lane));
+                    }
                     unaveraged.plus(Tensor::<D, f64>::isotropic(pressure - unaveraged.trace() / 3.0)).store(own, lane);
                 }
             }
@@ -272,6 +300,8 @@ where
                 family,
                 time_step,
                 viscosity,
+                damping,
+                damped: &[],
                 stress,
                 history: if width == 0 { &[] } else { &all_history[first * width..(first + count) * width] },
                 history_width: width,
@@ -285,7 +315,7 @@ where
             }));
             *report = sums.report();
         });
-        self.reports.iter().fold(Report::NOTHING, |sum, &report| sum.join(report))
+        self.reports.iter().fold(self.eroded.left, |sum, &report| sum.join(report))
     }
 }
 

@@ -6,7 +6,7 @@
 //! Stable step of springs alone: by Gershgorin ω² ≤ 2 Σ k / m over the springs of a node, a damper that lags half a step takes part as 2c/Δt:
 //! dt² Σ k / (2m) + dt Σ c / m ≤ 1. [`together`] joins it to that of the elements.
 
-use super::{Block, ElementState, Motion, Report, corner_slot};
+use super::{Block, ElementState, Initial, Motion, Report, Wrong, corner_slot};
 use crate::failure::Criterion;
 use crate::load::curve::table::Table;
 use crate::material::Variable;
@@ -213,6 +213,10 @@ impl Block<2> for SpringBlock {
     }
     // Springs have no mass, and break by their strength: no criterion of a material takes them out.
     fn scale_mass(&mut self, _element: usize, _factor: f64) {}
+    // They have a length without force instead.
+    fn begin(&mut self, _initial: &Initial<'_>, _positions: &[[f64; 2]]) -> Result<(), Wrong> {
+        Ok(())
+    }
     fn is_alive(&self, element: usize) -> bool {
         self.pairs[element].is_whole
     }

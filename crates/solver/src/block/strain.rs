@@ -11,7 +11,7 @@ use super::stress_state::StressState;
 use super::strip::{Parts, Strip};
 use crate::element::Element;
 use crate::material::Family;
-use crate::tensor::{Dim, Matrix, Space, SymmetricTensor, Turn, product, scaled};
+use crate::tensor::{Dim, Matrix, Space, SymmetricTensor, Turn, product};
 use embate_lanes::{Batch, Indices, Lane};
 use std::marker::PhantomData;
 
@@ -131,7 +131,7 @@ where
                 }
             }
         }
-        let mut gradients = increments;
+        let mut rotations = [[Rotation::<D, L>::none(); 2]; P];
         let (mut dilatation, mut volume) = (zero, zero);
         let mut unturned = [Tensor::<D, L>::isotropic(zero); P];
         for p in 0..P {
@@ -139,9 +139,9 @@ where
             let shape = E::shape(E::POINTS[p]);
             let own = circumference::<S, L, D, N>(determinant * L::splat(E::WEIGHTS[p]), &x_middle, &shape);
             own.store(&mut self.strip.volume[batch * P + p], at);
-            let inverse = scaled(Dim::<D>::adjugate(&middle[p]), L::splat(1.0) / determinant);
-            gradients[p] = product(&increments[p], &inverse);
-            unturned[p] = Dim::<D>::symmetric(&gradients[p]);
+            let (gradient, turns) = Dim::<D>::displaced(&increments[p], &Dim::<D>::adjugate(&middle[p]), determinant);
+            rotations[p] = turns;
+            unturned[p] = Dim::<D>::symmetric(&gradient);
             if S::AXISYMMETRIC {
                 unturned[p] = unturned[p].plus_zz(radius(&step, &shape) / radius(&x_middle, &shape));
             }
@@ -160,7 +160,7 @@ where
         let turn = <Rotation<D, L> as Turn<L>>::COMPONENTS;
         for p in 0..P {
             let point = batch * P + p;
-            let [half_way, rotation] = Dim::<D>::rotations(&gradients[p]);
+            let [half_way, rotation] = rotations[p];
             // Strain increment and old stress meet at the end of the step; without its half rotation the update is of first order only.
             let mut strain = unturned[p].rotated(&half_way);
             if averages::<E, S, D, N, P>() {

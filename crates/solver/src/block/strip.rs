@@ -17,7 +17,7 @@ pub(super) struct Strip {
     pub(super) velocities: Vec<Batch>,
     /// Strain increment, or b.
     pub(super) strain: Vec<Batch>,
-    /// Rotation over the step, for laws that want it.
+    /// Rotation over the step, for laws and damping that want it.
     pub(super) rotation: Vec<Batch>,
     /// Volume ratio.
     pub(super) volume_ratio: Vec<Batch>,
@@ -45,15 +45,15 @@ pub(super) struct Shape {
 }
 
 impl Strip {
-    /// Room for so many batches of elements.
-    pub(super) fn new(shape: &Shape, law: &dyn PointLaw, batches: usize) -> Self {
+    /// Room for so many batches of elements; `turns`: someone besides the law wants the rotations.
+    pub(super) fn new(shape: &Shape, law: &dyn PointLaw, turns: bool, batches: usize) -> Self {
         let room = |values: usize| vec![Batch::default(); batches * values];
         let Shape { nodes, dimensions, points, components, turn, velocities } = *shape;
         Self {
             nodes: room(nodes * dimensions),
             velocities: room(if velocities { nodes * dimensions } else { 0 }),
             strain: room(points * components),
-            rotation: room(if law.needs_rotation() { points * turn } else { 0 }),
+            rotation: room(if law.needs_rotation() || turns { points * turn } else { 0 }),
             volume_ratio: room(points),
             viscous_heat: room(points),
             volume: room(points),

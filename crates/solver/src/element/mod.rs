@@ -2,10 +2,12 @@
 //!
 //! Everything else (strain, internal force, volume) follows in the block. To add an element: one file, one line in `elements!`.
 
+mod bar2;
 mod quad4;
 mod quad4_reduced;
 mod tri3;
 
+pub use bar2::BAR2;
 pub use quad4::{Quad4, Quad4Full};
 pub use quad4_reduced::{Quad4Reduced, Quad4ReducedAssumedStrain, Quad4ReducedViscous};
 pub use tri3::{Tri3, Tri3Anp};
@@ -55,9 +57,9 @@ where
     fn gradients<L: Lane>(nodal: &[[L; D]; N]) -> [Matrix<L, D>; P];
     /// The transpose of [`Element::gradients`]: `out[a][i]` = Σ_p Σ_k flux_p,ik ∂N_a/∂ξ_k.
     fn divergence<L: Lane>(flux: &[Matrix<L, D>; P]) -> [[L; D]; N];
-    /// Square of the element's thickness h, m²: dt = h / c is stable for waves of speed c when every corner has the mass share 1/N.
-    /// `determinants` are those of the Jacobian at the points, `volume` their weighted sum.
-    fn thickness_squared<L: Lane>(nodal: &[[L; D]; N], determinants: &[L; P], volume: L) -> L;
+    /// Square of the element's thickness h, m², as numerator and denominator, so that the step costs one division: dt = h / c is stable for waves of speed c when
+    /// every corner has the mass share 1/N. `determinants` are those of the Jacobian at the points, `volume` their weighted sum.
+    fn thickness_squared<L: Lane>(nodal: &[[L; D]; N], determinants: &[L; P], volume: L) -> [L; 2];
     /// Exact ∫ N_a dA of every corner, or ∫ 2πx N_a dA of a body of revolution; `None`: the points' sums are exact enough.
     fn corner_volumes(_nodal: &[[f64; D]; N], _is_axisymmetric: bool) -> Option<[f64; N]> {
         None
@@ -66,7 +68,7 @@ where
     #[inline(always)]
     fn hold_shape<L: Lane>(&self, _corners: &Corners<L, D, N>, _kept: &mut [Batch], _at: usize) -> Held<L, D, N> {
         let zero = L::splat(0.0);
-        Held { forces: [[zero; D]; N], work: zero, time_step_squared: L::splat(f64::INFINITY) }
+        Held { forces: [[zero; D]; N], work: zero, stiffening: L::splat(1.0) }
     }
 }
 
@@ -107,8 +109,8 @@ pub struct Held<L, const D: usize, const N: usize> {
     pub forces: [[L; D]; N],
     /// Work taken from the nodes in the step by the trapezoidal rule, J/m.
     pub work: L,
-    /// Square of the stable step, s².
-    pub time_step_squared: L,
+    /// Square of the stable step without it over that with it, at least 1.
+    pub stiffening: L,
 }
 
 /// Someone who does something with every element's type.
@@ -145,8 +147,11 @@ elements!(
     Tri3Anp: 3 nodes, 1 points,
 );
 
+/// Elements that are lines: blocks of their own make them, not the kernels that [`Element`]s are compiled into.
+pub const BARS: &[ElementKind] = &[BAR2];
+
 /// Every element.
 #[must_use]
 pub fn registry() -> Vec<ElementKind> {
-    ELEMENTS.to_vec()
+    ELEMENTS.iter().chain(BARS).copied().collect()
 }

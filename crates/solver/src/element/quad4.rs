@@ -76,13 +76,13 @@ pub(super) fn distance_squared<L: Lane>(a: [L; 2], b: [L; 2]) -> L {
 /// with E ∝ Σ_p δ_p² / (1 + kξ_p), and ω² grows by (2 + √(1+k²)) / (3 − k²) ≤ (1 + q/2) / (1 − q), q = k²/3. Thicker elements and other forms
 /// stay below: k is the sum |j_ξ| + |j_η| of the determinant's relative slopes (`the_stable_step_bounds_the_largest_frequency` searches them all).
 #[inline(always)]
-fn thickness_squared<L: Lane>(x: &[[L; 2]; 4], determinants: &[L; 4], volume: L) -> L {
+fn thickness_squared<L: Lane>(x: &[[L; 2]; 4], determinants: &[L; 4], volume: L) -> [L; 2] {
     let half = L::splat(0.5);
     let extent = (distance_squared(x[0], x[2]) + distance_squared(x[1], x[3])) * half;
     let least = determinants[0].min(determinants[1]).min(determinants[2].min(determinants[3]));
     let taper = volume - least * L::splat(4.0);
     let (square, taper) = (volume * volume, taper * taper);
-    square * (square - taper) / (extent * (square + taper * half))
+    [square * (square - taper), extent * (square + taper * half)]
 }
 
 macro_rules! quadrilateral {
@@ -113,7 +113,7 @@ macro_rules! quadrilateral {
                 divergence(flux)
             }
             #[inline(always)]
-            fn thickness_squared<L: Lane>(nodal: &[[L; 2]; 4], determinants: &[L; 4], volume: L) -> L {
+            fn thickness_squared<L: Lane>(nodal: &[[L; 2]; 4], determinants: &[L; 4], volume: L) -> [L; 2] {
                 thickness_squared(nodal, determinants, volume)
             }
         }

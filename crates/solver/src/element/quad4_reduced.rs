@@ -2,25 +2,26 @@
 //!
 //! A nodal vector u has a constant, a linear and an hourglass part; the point feels the linear one. The amplitude of the hourglass pattern h = (1, −1, 1, −1) is
 //! q = ¼ γ·u, γ = h − Σ_j (h·x_j) b_j, b_j = ∂N/∂x_j at the centre: γ is blind to constant and linear fields on any quadrilateral. Nodes feel the forces
-//! f_a = ¼ γ_a Q, whose power is Q·q̇. Q and q̇ are kept in axes that turn with the line through the middles of two opposite sides, and q̇ is taken at mid-step, so rigid
-//! motion changes nothing. M = K + 4µ/3, V the volume, h² the square of the thickness, m the mass:
+//! f_a = ¼ γ_a Q, whose power is Q·q̇. q̇ is taken at mid-step and Q turns with the step's rotation (Hughes and Winget's, of the point), so rigid motion
+//! changes nothing. M = K + 4µ/3, V the volume, h² the square of the thickness, m the mass:
 //!
 //! - `stiffness`: Q̇ = κ k₁ q̇, k₁ = 2 M V / h². With κ = 1 the pattern swings as fast as the stretch of a square. Keeps shapes.
 //! - `viscous`: Q = 2 κ √(k₁ m) q̇: the part κ of critical damping. Shapes that are there remain.
-//! - `assumed_strain`: Q̇ = κ (V/A) Ē [[H_xx, −ν̄ H_xy], [−ν̄ H_xy, H_yy]] q̇, H_ij = ∫ h,i h,j dA ≈ A/3 (ξ,i ξ,j + η,i η,j), Ē = 2µ (1 + ν̄), ν̄ = ν/(1 − ν) or, in
-//!   plane stress, ν: what elastic bending costs, exact on rectangles (ASQBI). While the point flows, the bending stays elastic.
+//! - `assumed_strain`: Q̇ = κ (V/A) Ē [[H_xx, −ν̄ H_xy], [−ν̄ H_xy, H_yy]] q̇ in the axes along the line through the middles of two opposite sides,
+//!   H_ij = ∫ h,i h,j dA ≈ A/3 (ξ,i ξ,j + η,i η,j), Ē = 2µ (1 + ν̄), ν̄ = ν/(1 − ν) or, in plane stress, ν: what elastic bending costs, exact on rectangles (ASQBI).
+//!   While the point flows, the bending stays elastic.
 //!
 //! The stable step: the linear shapes and the pattern, each with its own largest ω² (a and b), are orthogonal on parallelograms. Else they share c² = 1 − 4/γ·γ, since
 //! h is orthogonal to every b_j; for two positive matrices whose ranges have at most this cosine c, ω² ≤ ½ (a + b + √((a − b)² + 4abc²)). A damping d that lags half a
-//! step takes part as 2 d / Δt.
+//! step takes part as 2 d / Δt. With the linear shapes' step, a Δt² = 4, and b Δt² is ½ κ γ·γ, √2 κ γ·γ, and κ Ē λ h² γ·γ / 4M with the largest eigenvalue λ of H/A.
 //!
-//! Sources: Flanagan and Belytschko, Int. J. Numer. Meth. Engng 17 (1981) 679-706; Belytschko and Bindeman, Comput. Meth. Appl. Mech. Engng 88 (1991) 311-340.
+//! Sources: Flanagan and Belytschko, Int. J. Numer. Meth. Engng 17 (1981) 679-706; Hughes and Winget, Int. J. Numer. Meth. Engng 15 (1980) 1862-1867; Belytschko and Bindeman, Comput. Meth. Appl. Mech. Engng 88 (1991) 311-340.
 
 use super::quad4::{NODES, Quad4Full, distance_squared, shape};
 use super::{Corners, Element, ElementKind, ElementOptions, Held};
-use crate::tensor::{Dim, Matrix, Space};
+use crate::tensor::{Dim, Matrix, Space, scaled};
 use embate_lanes::{Batch, Lane};
-use std::f64::consts::TAU;
+use std::f64::consts::{SQRT_2, TAU};
 
 /// What holds an element against hourglass shapes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,94 +31,111 @@ enum Control {
     AssumedStrain,
 }
 
-/// The hourglass pattern of an element.
-struct Pattern<L> {
-    gamma: [L; 4],
-    /// Unit vector through the middles of two opposite sides.
-    axis: [L; 2],
-    /// ∂(ξ, η)/∂x at the centre.
-    inverse: Matrix<L, 2>,
+/// Differences of a nodal vector: along the diagonals 1 to 3 and 4 to 2, and h·u.
+struct Differences<L> {
+    first: [L; 2],
+    second: [L; 2],
+    twist: [L; 2],
 }
 
-impl<L: Lane> Pattern<L> {
+impl<L: Lane> Differences<L> {
     #[inline(always)]
-    fn new(x: &[[L; 2]; 4]) -> Self {
-        let (one, two) = (L::splat(1.0), L::splat(2.0));
-        let (d13, d42) = ([x[2][0] - x[0][0], x[2][1] - x[0][1]], [x[3][0] - x[1][0], x[3][1] - x[1][1]]);
-        let scale = one / (d13[0] * d42[1] - d42[0] * d13[1]); // 1 / 2A
-        // ∂N/∂x and ∂N/∂y at the centre, of nodes 1 and 2; those of 3 and 4 are their negatives.
-        let b = [[-(d42[1] * scale), d42[0] * scale], [d13[1] * scale, -(d13[0] * scale)]];
-        let twist = [(x[0][0] - x[1][0]) + (x[2][0] - x[3][0]), (x[0][1] - x[1][1]) + (x[2][1] - x[3][1])];
-        let first = twist[0] * b[0][0] + twist[1] * b[0][1];
-        let second = twist[0] * b[1][0] + twist[1] * b[1][1];
-        let gamma = [one - first, -(one + second), one + first, second - one];
-        let along = [d13[0] - d42[0], d13[1] - d42[1]]; // (x2 − x1) + (x3 − x4)
-        let length = (along[0] * along[0] + along[1] * along[1]).sqrt();
-        let inverse =
-            [[(b[1][0] - b[0][0]) * two, (b[1][1] - b[0][1]) * two], [-((b[0][0] + b[1][0]) * two), -((b[0][1] + b[1][1]) * two)]];
-        Self { gamma, axis: [along[0] / length, along[1] / length], inverse }
-    }
-
-    /// Amplitude of a nodal vector, in the turning axes.
-    #[inline(always)]
-    fn amplitude(&self, u: &[[L; 2]; 4]) -> [L; 2] {
-        let mut q = [L::splat(0.0); 2];
+    fn of(u: &[[L; 2]; 4]) -> Self {
+        let zero = [L::splat(0.0); 2];
+        let mut out = Self { first: zero, second: zero, twist: zero };
         for i in 0..2 {
-            let (odd, even) = (self.gamma[0] * u[0][i] + self.gamma[2] * u[2][i], self.gamma[1] * u[1][i] + self.gamma[3] * u[3][i]);
-            q[i] = (odd + even) * L::splat(0.25);
+            out.first[i] = u[2][i] - u[0][i];
+            out.second[i] = u[1][i] - u[3][i];
+            out.twist[i] = (u[0][i] - u[1][i]) + (u[2][i] - u[3][i]);
         }
-        self.along_axes(q)
+        out
     }
 
-    /// Components in the turning axes.
+    /// Those of the vector less `part` of another one.
     #[inline(always)]
-    fn along_axes(&self, [x, y]: [L; 2]) -> [L; 2] {
-        let [c, s] = self.axis;
-        [c * x + s * y, c * y - s * x]
-    }
-
-    /// Nodal forces of a Q in the turning axes.
-    #[inline(always)]
-    fn forces(&self, [x, y]: [L; 2]) -> [[L; 2]; 4] {
-        let ([c, s], quarter) = (self.axis, L::splat(0.25));
-        let global = [(c * x - s * y) * quarter, (s * x + c * y) * quarter];
-        let mut forces = [[L::splat(0.0); 2]; 4];
-        for a in 0..4 {
-            forces[a] = [self.gamma[a] * global[0], self.gamma[a] * global[1]];
+    fn less(&self, other: &Self, part: L) -> Self {
+        let zero = [L::splat(0.0); 2];
+        let mut out = Self { first: zero, second: zero, twist: zero };
+        for i in 0..2 {
+            out.first[i] = self.first[i] - other.first[i] * part;
+            out.second[i] = self.second[i] - other.second[i] * part;
+            out.twist[i] = self.twist[i] - other.twist[i] * part;
         }
-        forces
+        out
     }
 
-    /// γ·γ
+    /// Of positions: twice the area.
     #[inline(always)]
-    fn square(&self) -> L {
-        let [a, b, c, d] = self.gamma;
-        (a * a + b * b) + (c * c + d * d)
+    fn area_twice(&self) -> L {
+        self.second[0] * self.first[1] - self.first[0] * self.second[1]
     }
 
-    /// [[H_xx, −ν̄ H_xy], [−ν̄ H_xy, H_yy]] / A in the turning axes, as its three different entries xx, yy, xy.
+    /// Of positions: the line through the middles of the sides 4 1 and 2 3, twice its length.
     #[inline(always)]
-    fn bending(&self, poisson: L) -> [L; 3] {
-        let third = L::splat(1.0 / 3.0);
-        let ([xi_x, xi_y], [eta_x, eta_y]) = (self.along_axes(self.inverse[0]), self.along_axes(self.inverse[1]));
-        [(xi_x * xi_x + eta_x * eta_x) * third, (xi_y * xi_y + eta_y * eta_y) * third, -((xi_x * xi_y + eta_x * eta_y) * third * poisson)]
+    fn along(&self) -> [L; 2] {
+        [self.first[0] + self.second[0], self.first[1] + self.second[1]]
     }
 }
 
-/// ν̄ and Ē of an elastic bending: see the head of the file.
-#[inline(always)]
-fn bending_moduli<L: Lane>(modulus: L, shear: L, is_plane_stress: bool) -> [L; 2] {
-    let (one, two) = (L::splat(1.0), L::splat(2.0));
-    // ν = (M − 2µ) / 2(M − µ), ν/(1 − ν) = (M − 2µ) / M
-    let lame = modulus - two * shear;
-    let poisson = if is_plane_stress { lame / (two * (modulus - shear)) } else { lame / modulus };
-    [poisson, two * shear * (one + poisson)]
+/// What takes nodal vectors to their gradient at the centre, all of it times 2A.
+struct Centre<L> {
+    /// ∂N/∂x and ∂N/∂y of nodes 1 and 2; those of 3 and 4 are their negatives.
+    b: Matrix<L, 2>,
 }
 
-/// h² = 2 A² / (d₁₃² + d₂₄²): ω² ≤ M V (|∇ξ|² + |∇η|²) / m at the centre, by the two blocks of [`super::quad4`].
+impl<L: Lane> Centre<L> {
+    /// From the positions.
+    #[inline(always)]
+    fn new(x: &Differences<L>) -> Self {
+        let Differences { first, second, .. } = x;
+        Self { b: [[second[1], -second[0]], [first[1], -first[0]]] }
+    }
+
+    /// ∂u/∂x: `out[i][j]` = ∂u_i/∂x_j.
+    #[inline(always)]
+    fn gradient(&self, u: &Differences<L>) -> Matrix<L, 2> {
+        let mut out = [[L::splat(0.0); 2]; 2];
+        for i in 0..2 {
+            for j in 0..2 {
+                out[i][j] = self.b[1][j] * u.second[i] - self.b[0][j] * u.first[i];
+            }
+        }
+        out
+    }
+
+    /// ∂(ξ, η)/∂x.
+    #[inline(always)]
+    fn natural(&self) -> Matrix<L, 2> {
+        let two = L::splat(2.0);
+        let [first, second] = self.b;
+        [[(second[0] - first[0]) * two, (second[1] - first[1]) * two], [-((first[0] + second[0]) * two), -((first[1] + second[1]) * two)]]
+    }
+}
+
+/// A vector turned by the angle of `[cos, sin]`.
 #[inline(always)]
-fn thickness_squared<L: Lane>(x: &[[L; 2]; 4], area: L) -> L {
-    L::splat(2.0) * area * area / (distance_squared(x[0], x[2]) + distance_squared(x[1], x[3]))
+fn turned<L: Lane>([x, y]: [L; 2], [cos, sin]: [L; 2]) -> [L; 2] {
+    [cos * x - sin * y, sin * x + cos * y]
+}
+
+/// A vector turned back.
+#[inline(always)]
+fn turned_back<L: Lane>([x, y]: [L; 2], [cos, sin]: [L; 2]) -> [L; 2] {
+    [cos * x + sin * y, cos * y - sin * x]
+}
+
+/// [[H_xx, −ν̄ H_xy], [−ν̄ H_xy, H_yy]] / A in the axes along `axis`, as its three different entries xx, yy, xy.
+#[inline(always)]
+fn bending<L: Lane>(natural: &Matrix<L, 2>, axis: [L; 2], poisson: L) -> [L; 3] {
+    let third = L::splat(1.0 / 3.0);
+    let ([xi_x, xi_y], [eta_x, eta_y]) = (turned_back(natural[0], axis), turned_back(natural[1], axis));
+    [(xi_x * xi_x + eta_x * eta_x) * third, (xi_y * xi_y + eta_y * eta_y) * third, -((xi_x * xi_y + eta_x * eta_y) * third * poisson)]
+}
+
+/// h² = 2 A² / (d₁₃² + d₂₄²), numerator and denominator: ω² ≤ M V (|∇ξ|² + |∇η|²) / m at the centre, by the two blocks of [`super::quad4`].
+#[inline(always)]
+fn thickness_squared<L: Lane>(x: &[[L; 2]; 4], area: L) -> [L; 2] {
+    [L::splat(2.0) * area * area, distance_squared(x[0], x[2]) + distance_squared(x[1], x[3])]
 }
 
 /// ∫ N_a dA at the 2 × 2 points, which one point takes for equal.
@@ -134,54 +152,129 @@ fn corner_volumes(x: &[[f64; 2]; 4], is_axisymmetric: bool) -> [f64; 4] {
     volumes
 }
 
+/// What a control adds.
+struct Answer<L> {
+    /// To Q, in mid-step directions; of dampers all of it.
+    added: [L; 2],
+    /// b Δt² over γ·γ at the stable step of the linear shapes.
+    swing: L,
+}
+
+/// The assumed strain's answer to the `change` of the amplitude.
 #[inline(always)]
-fn hold_shape<L: Lane>(control: Control, coefficient: f64, corners: &Corners<L, 2, 4>, kept: &mut [Batch], at: usize) -> Held<L, 2, 4> {
-    let (half, four, coefficient) = (L::splat(0.5), L::splat(4.0), L::splat(coefficient));
-    let Corners { x, v, modulus, shear, mass, time_step, volume, .. } = *corners;
-    let mut x_middle = x;
-    for a in 0..4 {
+fn bend<L: Lane>(coefficient: L, corners: &Corners<L, 2, 4>, middle: &Differences<L>, inverse: L, change: [L; 2]) -> Answer<L> {
+    let (half, one, two, four) = (L::splat(0.5), L::splat(1.0), L::splat(2.0), L::splat(4.0));
+    let Corners { modulus, shear, area, volume, .. } = *corners;
+    let [numerator, extent] = thickness_squared(&corners.x, area);
+    // ν = (M − 2µ) / 2(M − µ), ν/(1 − ν) = (M − 2µ) / M
+    let poisson = (modulus - two * shear) / if corners.is_plane_stress { two * (modulus - shear) } else { modulus };
+    let young = two * shear * (one + poisson);
+    let along = middle.along();
+    let scale = one / (along[0] * along[0] + along[1] * along[1]).sqrt();
+    let axis = [along[0] * scale, along[1] * scale];
+    let [xx, yy, xy] = bending(&scaled(Centre::new(middle).natural(), inverse), axis, poisson);
+    let [x, y] = turned_back(change, axis);
+    let k = coefficient * young * volume;
+    let difference = xx - yy;
+    let largest = (xx + yy + (difference * difference + four * xy * xy).sqrt()) * half;
+    Answer {
+        added: turned([k * (xx * x + xy * y), k * (xy * x + yy * y)], axis),
+        swing: coefficient * young * largest * numerator / (four * modulus * extent),
+    }
+}
+
+/// How an element moves in a step.
+struct Change<L> {
+    /// cos and sin of the angle of the rotation.
+    turn: [L; 2],
+    /// q̇, in mid-step directions.
+    rate: [L; 2],
+    /// 1 / 2A at mid-step.
+    inverse_middle: L,
+    /// 1 / 2A at the end.
+    inverse_end: L,
+}
+
+impl<L: Lane> Change<L> {
+    #[inline(always)]
+    fn new(middle: &Differences<L>, end: &Differences<L>, v: &Differences<L>, time_step: L) -> Self {
+        let (quarter, two) = (L::splat(0.25), L::splat(2.0));
+        let (area_middle, area_end) = (middle.area_twice(), end.area_twice());
+        let gradient = Centre::new(middle).gradient(v);
+        // One division: tan(θ/2) = ω/2 times 2A, with ω = ½(v_y,x − v_x,y) Δt.
+        let spin = (gradient[1][0] - gradient[0][1]) * (time_step * quarter);
+        let (square, area_square) = (spin * spin, area_middle * area_middle);
+        let sum = area_square + square;
+        let inverse = L::splat(1.0) / (area_middle * area_end * sum);
+        let (of_sum, inverse_middle) = (inverse * (area_middle * area_end), inverse * (area_end * sum));
+        let mut rate = [quarter; 2];
         for i in 0..2 {
-            x_middle[a][i] = x[a][i] - v[a][i] * time_step * half;
+            let linear = middle.twist[0] * gradient[i][0] + middle.twist[1] * gradient[i][1];
+            rate[i] = (v.twist[i] - linear * inverse_middle) * quarter;
+        }
+        Self {
+            turn: [(area_square - square) * of_sum, two * spin * area_middle * of_sum],
+            rate,
+            inverse_middle,
+            inverse_end: inverse * (area_middle * sum),
         }
     }
-    let (middle, end) = (Pattern::new(&x_middle), Pattern::new(&x));
-    let rate = middle.amplitude(&v);
-    let change = [rate[0] * time_step, rate[1] * time_step];
-    let old = [L::load(&kept[0], at), L::load(&kept[1], at)];
-    let thickness_squared = thickness_squared(&x, corners.area);
-    let stiffness = L::splat(2.0) * modulus * volume / thickness_squared;
-    let step_squared = thickness_squared * mass / (volume * modulus); // of the linear shapes
-    let share = end.square() / (four * mass); // largest ω² per stiffness of the pattern
-    let (force, swing) = match control {
+
+    /// A vector in mid-step directions at the end: the mean of the vector and the turned one, which is shorter by the square of the step's angle.
+    #[inline(always)]
+    fn half_turned(&self, u: [L; 2]) -> [L; 2] {
+        let (half, all) = (L::splat(0.5), turned(u, self.turn));
+        [(u[0] + all[0]) * half, (u[1] + all[1]) * half]
+    }
+}
+
+#[inline(always)]
+fn hold_shape<L: Lane>(control: Control, coefficient: f64, corners: &Corners<L, 2, 4>, kept: &mut [Batch], at: usize) -> Held<L, 2, 4> {
+    let (quarter, half, one, two, four) = (L::splat(0.25), L::splat(0.5), L::splat(1.0), L::splat(2.0), L::splat(4.0));
+    let Corners { modulus, mass, time_step, volume, .. } = *corners;
+    let coefficient = L::splat(coefficient);
+    let (end, v) = (Differences::of(&corners.x), Differences::of(&corners.v));
+    let middle = end.less(&v, time_step * half);
+    let moved = Change::new(&middle, &end, &v, time_step);
+    let change = [moved.rate[0] * time_step, moved.rate[1] * time_step];
+    // k₁ = 2 M V / h², h² = 2 A² / (d₁₃² + d₄₂²)
+    let extent =
+        (end.first[0] * end.first[0] + end.first[1] * end.first[1]) + (end.second[0] * end.second[0] + end.second[1] * end.second[1]);
+    let stiffness = four * modulus * volume * extent * (moved.inverse_end * moved.inverse_end);
+    let Answer { added, swing } = match control {
         Control::Stiffness => {
             let k = coefficient * stiffness;
-            ([old[0] + k * change[0], old[1] + k * change[1]], k * share * step_squared)
+            Answer { added: [k * change[0], k * change[1]], swing: half * coefficient }
         }
         Control::Viscous => {
-            let c = L::splat(2.0) * coefficient * (stiffness * mass).sqrt();
-            ([c * rate[0], c * rate[1]], L::splat(2.0) * c * share * step_squared.sqrt())
+            let c = two * coefficient * (stiffness * mass).sqrt();
+            Answer { added: [c * moved.rate[0], c * moved.rate[1]], swing: L::splat(SQRT_2) * coefficient }
         }
-        Control::AssumedStrain => {
-            let [poisson, young] = bending_moduli(modulus, shear, corners.is_plane_stress);
-            let [xx, yy, xy] = middle.bending(poisson);
-            let k = coefficient * young * volume;
-            let difference = xx - yy;
-            let largest = (xx + yy + (difference * difference + four * xy * xy).sqrt()) * half;
-            let force = [old[0] + k * (xx * change[0] + xy * change[1]), old[1] + k * (xy * change[0] + yy * change[1])];
-            (force, k * largest * share * step_squared)
-        }
+        Control::AssumedStrain => bend(coefficient, corners, &middle, moved.inverse_middle, change),
     };
+    let old = turned([L::load(&kept[0], at), L::load(&kept[1], at)], moved.turn);
+    let (added, change) = (moved.half_turned(added), moved.half_turned(change));
+    let force = if matches!(control, Control::Viscous) { added } else { [old[0] + added[0], old[1] + added[1]] };
     force[0].store(&mut kept[0], at);
     force[1].store(&mut kept[1], at);
-    // ω² Δt² of both together at the linear step; it must not be more than 4.
-    let difference = four - swing;
-    let shared = L::splat(16.0) * swing * (L::splat(1.0) - four / end.square()).max(L::splat(0.0));
-    let together = (four + swing + (difference * difference + shared).sqrt()) * half;
-    let shrink = four / together;
+    let b = Centre::new(&end).b;
+    let first = (end.twist[0] * b[0][0] + end.twist[1] * b[0][1]) * moved.inverse_end;
+    let second = (end.twist[0] * b[1][0] + end.twist[1] * b[1][1]) * moved.inverse_end;
+    let gamma = [one - first, -(one + second), one + first, second - one];
+    let quarters = [force[0] * quarter, force[1] * quarter];
+    let mut forces = [[one; 2]; 4];
+    for a in 0..4 {
+        forces[a] = [gamma[a] * quarters[0], gamma[a] * quarters[1]];
+    }
+    // γ·γ − 4; ω² Δt² of both together at the linear step, which must not be more than 4.
+    let more = two * (first * first + second * second);
+    let all = swing * (four + more);
+    let difference = four - all;
+    let together = (four + all + (difference * difference + L::splat(16.0) * swing * more).sqrt()) * L::splat(0.125);
     Held {
-        forces: end.forces(force),
+        forces,
         work: half * ((old[0] + force[0]) * change[0] + (old[1] + force[1]) * change[1]),
-        time_step_squared: step_squared * if matches!(control, Control::Viscous) { shrink * shrink } else { shrink },
+        stiffening: if matches!(control, Control::Viscous) { together * together } else { together },
     }
 }
 
@@ -231,7 +324,7 @@ macro_rules! reduced {
                 out
             }
             #[inline(always)]
-            fn thickness_squared<L: Lane>(nodal: &[[L; 2]; 4], _: &[L; 1], area: L) -> L {
+            fn thickness_squared<L: Lane>(nodal: &[[L; 2]; 4], _: &[L; 1], area: L) -> [L; 2] {
                 thickness_squared(nodal, area)
             }
             fn corner_volumes(nodal: &[[f64; 2]; 4], is_axisymmetric: bool) -> Option<[f64; 4]> {

@@ -55,7 +55,7 @@ macro_rules! triangle {
                 out
             }
             #[inline(always)]
-            fn thickness_squared<L: Lane>(x: &[[L; 2]; 3], _: &[L; 1], area: L) -> L {
+            fn thickness_squared<L: Lane>(x: &[[L; 2]; 3], _: &[L; 1], area: L) -> [L; 2] {
                 thickness_squared(x, area)
             }
             fn corner_volumes(x: &[[f64; 2]; 3], is_axisymmetric: bool) -> Option<[f64; 3]> {
@@ -92,9 +92,9 @@ triangle!(
 /// h² = 16 A² / (3 Σ ℓ²) from the sides ℓ. In two vectors orthogonal to each other and to (1, 1, 1) the stiffness has two blocks; the largest eigenvalue is at most the
 /// sum of theirs, ρc² V Σ_a |∇N_a|², and |∇N_a| = ℓ_a / 2A with the side opposite to the node: ω² ≤ c² Σ ℓ² / (4 A²) · 3 for corners of a third of the mass.
 #[inline(always)]
-pub(super) fn thickness_squared<L: Lane>(x: &[[L; 2]; 3], area: L) -> L {
+pub(super) fn thickness_squared<L: Lane>(x: &[[L; 2]; 3], area: L) -> [L; 2] {
     let sides = distance_squared(x[0], x[1]) + distance_squared(x[1], x[2]) + distance_squared(x[2], x[0]);
-    area * area * L::splat(16.0 / 3.0) / sides
+    [area * area * L::splat(16.0 / 3.0), sides]
 }
 
 /// A third of the area each; of a body of revolution ∫ 2πx N_a dA = 2π A (x_1 + x_2 + x_3 + x_a) / 12.

@@ -66,7 +66,7 @@ impl BodyForces {
                 Load::Gravity { parts, acceleration, curve } => (parts, curve, Field::Uniform(*acceleration)),
                 Load::Centrifugal { parts, speed, curve, .. } if model.is_axisymmetric() => (parts, curve, Field::Axial { speed: *speed }),
                 Load::Centrifugal { parts, centre, speed, curve } => (parts, curve, Field::Centrifugal { centre: *centre, speed: *speed }),
-                Load::Damping { .. } | Load::Force { .. } | Load::Pressure { .. } => return None,
+                Load::Damping { .. } | Load::StiffnessDamping { .. } | Load::Force { .. } | Load::Pressure { .. } => return None,
             };
             let mut shares = vec![0.0; mesh.positions.len()];
             for (part, masses) in mesh.parts.iter().zip(part_mass) {

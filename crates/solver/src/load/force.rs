@@ -49,7 +49,7 @@ impl Forces {
                 Load::Pressure { on, pressure, curve } => {
                     (mesh.surface(on, &is_mirror).map(|surface| What::Pressure(surface.segments, *pressure)), curve)
                 }
-                Load::Gravity { .. } | Load::Centrifugal { .. } | Load::Damping { .. } => continue,
+                Load::Gravity { .. } | Load::Centrifugal { .. } | Load::Damping { .. } | Load::StiffnessDamping { .. } => continue,
             };
             match what {
                 Ok(what) => loads.push(Acting { what, curve: curve.as_ref().and_then(|name| curves.find(name)) }),

@@ -6,7 +6,7 @@
 //! dissipates ∫ σ_y dε_p = (σ_y(ε_p) + ½ H Δε_p) Δε_p; the others are solved to 1e-12 of q_trial and dissipate as `trial.rs` says.
 //! Source: Wilkins, Methods in Computational Physics 3 (1964); Simo and Hughes, Computational Inelasticity (1998), box 3.2.
 
-use super::hardening::{Hardening, Linear, Ludwik, Rate, Swift, Table, Voce};
+use super::hardening::{Hardening, Kept, Linear, Ludwik, Rate, Swift, Table, Voce};
 use super::trial::{LIMIT, Newton, Trial};
 use super::{Family, Kinematics, Law, LawKind, ParameterFault, Parameters, Response, Variable, bulk_and_shear};
 use crate::tensor::SymmetricTensor;
@@ -35,8 +35,8 @@ pub struct J2With<H: Hardening> {
 impl<H: Hardening> Law for J2With<H> {
     const KIND: LawKind = H::KIND;
     const FAMILY: Family = Family::Rate;
-    /// Equivalent plastic strain.
-    type State<L: Lane, T: SymmetricTensor<L>> = [L; 1];
+    /// Equivalent plastic strain; flow stress and slope there.
+    type State<L: Lane, T: SymmetricTensor<L>> = ([L; 1], H::Kept<L>);
     const VARIABLES: &'static [(Variable, usize)] = &[(Variable::PlasticStrain, 0)];
 
     fn new(parameters: &Parameters<'_>) -> Self {
@@ -50,29 +50,35 @@ impl<H: Hardening> Law for J2With<H> {
         faults
     }
 
+    fn start<L: Lane, T: SymmetricTensor<L>>(&self) -> Self::State<L, T> {
+        let plastic = L::splat(0.0);
+        ([plastic], H::Kept::new(self.hardening.flow(plastic)))
+    }
+
     #[inline(always)]
-    fn update<L: Lane, T: SymmetricTensor<L>>(&self, kinematics: &Kinematics<L, T>, state: &mut [L; 1]) -> Response<L, T> {
+    fn update<L: Lane, T: SymmetricTensor<L>>(&self, kinematics: &Kinematics<L, T>, state: &mut Self::State<L, T>) -> Response<L, T> {
         let zero = L::splat(0.0);
         let trial = Trial::new(self.bulk, self.shear, kinematics);
-        let [flow, slope] = self.hardening.flow(state[0]);
+        let ([plastic], kept) = *state;
+        let [flow, slope] = kept.flow(&self.hardening, plastic);
         let yields = (flow * flow).less(trial.square);
         let (mut deviator, mut dissipated) = (trial.deviator, zero);
         if L::any(yields) {
             let q = trial.square.sqrt();
-            let step = match (self.rate, self.hardening.modulus()) {
+            let (step, flow_new) = match (self.rate, self.hardening.modulus()) {
                 (None, Some(modulus)) => {
                     let step = L::select(yields, (q - flow) * L::splat(1.0 / (3.0 * self.shear + modulus)), zero);
                     dissipated = (flow + L::splat(0.5 * modulus) * step) * step;
-                    step
+                    (step, [flow, slope])
                 }
-                (None, None) => self.step_static(q, state[0], [flow, slope], yields),
-                (Some(rate), _) => self.step_with_rate(&rate, kinematics.time_step, q, state[0], flow, yields),
+                (None, None) => self.step_static(q, plastic, [flow, slope], yields),
+                (Some(rate), _) => self.step_with_rate(&rate, kinematics.time_step, q, plastic, flow, yields),
             };
             if self.rate.is_some() || self.hardening.modulus().is_none() {
                 dissipated = trial.work(self.shear, kinematics.strain_increment, q, step, yields);
             }
             deviator = trial.scaled(L::splat(1.0) - L::splat(3.0 * self.shear) * step / q, yields);
-            state[0] += step;
+            *state = ([plastic + step], H::Kept::new(flow_new));
         }
         Response::rate(deviator.plus(T::isotropic(trial.mean)), dissipated, [self.bulk, self.shear])
     }
@@ -83,23 +89,23 @@ impl<H: Hardening> Law for J2With<H> {
 }
 
 impl<H: Hardening> J2With<H> {
-    /// Δε_p of q − 3µ Δε_p = σ_y(ε_p + Δε_p).
+    /// Δε_p of q − 3µ Δε_p = σ_y(ε_p + Δε_p), and the flow stress and its slope there.
     #[inline(always)]
-    fn step_static<L: Lane>(&self, q: L, plastic: L, [flow, slope]: [L; 2], yields: L::Mask) -> L {
+    fn step_static<L: Lane>(&self, q: L, plastic: L, [flow, slope]: [L; 2], yields: L::Mask) -> (L, [L; 2]) {
         let stiffness = L::splat(3.0 * self.shear);
         let mut newton = Newton::new((q - flow) / (stiffness + slope), q / stiffness, q, yields);
         for _ in 0..LIMIT {
             let [flow, slope] = self.hardening.flow(plastic + newton.at);
             if !newton.next(q - stiffness * newton.at - flow, -(stiffness + slope)) {
-                break;
+                return (newton.at, [flow, slope]);
             }
         }
-        newton.at
+        (newton.at, self.hardening.flow(plastic + newton.at))
     }
 
     /// The same with the rate. The unknown is u = (rate / C)^{1/P}: with it the equation is smooth, where Δε_p itself begins with an infinite slope.
     #[inline(always)]
-    fn step_with_rate<L: Lane>(&self, rate: &Rate, time_step: L, q: L, plastic: L, flow: L, yields: L::Mask) -> L {
+    fn step_with_rate<L: Lane>(&self, rate: &Rate, time_step: L, q: L, plastic: L, flow: L, yields: L::Mask) -> (L, [L; 2]) {
         let (stiffness, one) = (L::splat(3.0 * self.shear), L::splat(1.0));
         let high = rate.excess(q / stiffness, time_step);
         let mut newton = Newton::new((q - flow) / flow, high, q, yields);
@@ -107,13 +113,13 @@ impl<H: Hardening> J2With<H> {
         for _ in 0..LIMIT {
             let u = newton.at;
             let [strain, strain_slope] = rate.strain(u, time_step);
-            step = strain;
+            step = L::select(yields, strain, L::splat(0.0));
             let [flow, slope] = self.hardening.flow(plastic + step);
             let change = (stiffness + slope * (one + u)) * strain_slope + flow;
             if !newton.next(q - stiffness * step - flow * (one + u), -change) {
-                break;
+                return (step, [flow, slope]);
             }
         }
-        L::select(yields, step, L::splat(0.0))
+        (step, self.hardening.flow(plastic + step))
     }
 }

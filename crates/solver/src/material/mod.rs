@@ -19,11 +19,11 @@ mod ogden;
 mod orthotropic_elastic;
 mod null;
 mod parameters;
-mod plane_stress;
 pub mod points;
 mod rubber;
 mod state;
 mod trial;
+mod unloaded;
 mod viscoelastic;
 mod yeoh;
 
@@ -45,7 +45,7 @@ pub use viscoelastic::Viscoelastic;
 pub use yeoh::Yeoh;
 
 use crate::quantity::Parameter;
-use crate::tensor::SymmetricTensor;
+use crate::tensor::{Solid, SymmetricTensor};
 use embate_lanes::Lane;
 
 /// A law as the registry describes it.
@@ -155,6 +155,18 @@ pub trait Law: Copy + Send + Sync + 'static {
 
     /// Bulk and shear stiffness at rest, Pa.
     fn stiffness(&self) -> [f64; 2];
+
+    /// Rate: elastic energy ½ σ:C⁻¹:σ of a stress xx yy zz xy yz zx that a point has at the start, J/m³.
+    fn energy(&self, stress: [f64; 6]) -> f64 {
+        elastic_energy(self.stiffness(), stress)
+    }
+}
+
+/// p²/2K + s:s/4µ with the stiffnesses K and µ (Pa) of a stress xx yy zz xy yz zx (Pa), J/m³; without shear stiffness the first alone.
+fn elastic_energy([bulk, shear]: [f64; 2], stress: [f64; 6]) -> f64 {
+    let (mean, deviator) = (Solid(stress).trace() / 3.0, Solid(stress).deviator());
+    let square = deviator.contract(deviator);
+    mean * mean / (2.0 * bulk) + if shear > 0.0 { square / (4.0 * shear) } else { 0.0 }
 }
 
 /// Someone who does something with every law's type: makes a block of it, lists it, tests it.
@@ -223,6 +235,32 @@ pub fn equation_of_state(name: &str) -> Option<[bool; 2]> {
         type Output = [bool; 2];
         fn visit<M: Law>(self) -> Self::Output {
             [M::NEEDS_EQUATION_OF_STATE, M::FAMILY == Family::Rate && !M::FLOWS_IN_VOLUME]
+        }
+    }
+    with_law(name, Ask)
+}
+
+/// Whether the law called `name` is that of an isotropic solid in rate form, whose K and µ are an elastic stiffness; `None` when there is no such law.
+#[must_use]
+pub fn has_elastic_stiffness(name: &str) -> Option<bool> {
+    struct Ask;
+    impl LawVisitor for Ask {
+        type Output = bool;
+        fn visit<M: Law>(self) -> Self::Output {
+            M::FAMILY == Family::Rate && M::ISOTROPIC && !M::NEEDS_EQUATION_OF_STATE
+        }
+    }
+    with_law(name, Ask)
+}
+
+/// Whether bars can be of the law called `name`: it answers alike in all directions, and is no fluid; `None` when there is no such law.
+#[must_use]
+pub fn bears_uniaxial_stress(name: &str) -> Option<bool> {
+    struct Ask;
+    impl LawVisitor for Ask {
+        type Output = bool;
+        fn visit<M: Law>(self) -> Self::Output {
+            M::ISOTROPIC && !M::NEEDS_EQUATION_OF_STATE
         }
     }
     with_law(name, Ask)

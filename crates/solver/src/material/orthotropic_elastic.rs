@@ -15,7 +15,7 @@
 
 use super::{DENSITY, Family, Kinematics, Law, LawKind, Orientation, ParameterFault, Parameters, Response};
 use crate::quantity::{Dimension, Parameter, Range};
-use crate::tensor::{SymmetricTensor, Turn};
+use crate::tensor::{Solid, SymmetricTensor, Turn};
 use embate_lanes::Lane;
 
 /// The law with its stiffness.
@@ -156,5 +156,20 @@ impl Law for OrthotropicElastic {
 
     fn stiffness(&self) -> [f64; 2] {
         self.reported
+    }
+
+    fn energy(&self, stress: [f64; 6]) -> f64 {
+        let axes = <<Solid<f64> as SymmetricTensor<f64>>::Rotation as Turn<f64>>::about_z(self.axis[0], self.axis[1]);
+        let s = Solid(stress).rotated(&axes.inverse()).0;
+        // S = C⁻¹ of the normal part, by its adjugate (C is symmetric); shear stands alone.
+        let c = &self.normal;
+        let minor = |i: usize, j: usize| {
+            let ([a, b], [d, e]) = ([(i + 1) % 3, (i + 2) % 3], [(j + 1) % 3, (j + 2) % 3]);
+            c[a][d] * c[b][e] - c[a][e] * c[b][d]
+        };
+        let determinant = c[0][0] * minor(0, 0) + c[0][1] * minor(0, 1) + c[0][2] * minor(0, 2);
+        let normal: f64 = (0..9).map(|k| s[k / 3] * minor(k / 3, k % 3) * s[k % 3]).sum();
+        let shear: f64 = (0..3).map(|k| s[3 + k] * s[3 + k] / self.shear[k]).sum();
+        0.5 * (normal / determinant + shear)
     }
 }

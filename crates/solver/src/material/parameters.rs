@@ -25,6 +25,12 @@ impl<'a> Parameters<'a> {
         self.values.get(name).copied().or_else(default).unwrap_or(f64::NAN)
     }
 
+    /// Value of `name` where it was given.
+    #[must_use]
+    pub fn given(&self, name: &str) -> Option<f64> {
+        self.values.get(name).copied()
+    }
+
     /// The list `name`; empty where it was left out.
     #[must_use]
     pub fn list(&self, name: &str) -> &'a [f64] {

@@ -66,9 +66,11 @@ pub trait PointLaw: Send + Sync {
     fn stored(&self) -> f64 {
         0.0
     }
+    /// See [`Law::energy`].
+    fn energy(&self, stress: [f64; 6]) -> f64;
     /// Writes the history of a point at the start.
     fn start(&self, state: &mut [Batch]);
-    /// Place of the thickness ratio λ = t/t₀ in the history, if it changes (plane stress).
+    /// Place of the thickness ratio λ = t/t₀ (plane stress) or of the ratio of cross-sections (uniaxial stress) in the history.
     fn thickness(&self) -> Option<usize> {
         None
     }
@@ -93,7 +95,13 @@ pub fn plane(material: &Material) -> Option<Box<dyn PointLaw>> {
 /// The law of a material for points in plane stress.
 #[must_use]
 pub fn plane_stress(material: &Material) -> Option<Box<dyn PointLaw>> {
-    plane(material).map(|law| Box::new(super::plane_stress::PlaneStress::new(law)) as Box<dyn PointLaw>)
+    plane(material).map(|law| Box::new(super::unloaded::Unloaded::plane_stress(law)) as Box<dyn PointLaw>)
+}
+
+/// The law of a material for points under uniaxial stress along x: of bars, whose own axis x is.
+#[must_use]
+pub fn uniaxial(material: &Material) -> Option<Box<dyn PointLaw>> {
+    plane(material).map(|law| Box::new(super::unloaded::Unloaded::uniaxial(law)) as Box<dyn PointLaw>)
 }
 
 struct Erased<M, const D: usize> {
@@ -124,6 +132,9 @@ where
     }
     fn stiffness(&self) -> [f64; 2] {
         self.law.stiffness()
+    }
+    fn energy(&self, stress: [f64; 6]) -> f64 {
+        self.law.energy(stress)
     }
     fn start(&self, state: &mut [Batch]) {
         for at in 0..BATCH {

@@ -115,6 +115,11 @@ impl Law for Viscoelastic {
     fn stiffness(&self) -> [f64; 2] {
         [self.bulk, self.shear]
     }
+
+    /// What a point has at the start has relaxed: no branch holds any of it.
+    fn energy(&self, stress: [f64; 6]) -> f64 {
+        super::elastic_energy([self.bulk, self.shear_at_last()], stress)
+    }
 }
 
 /// φ = (1 − e^{−x})/x and l = ½ coth(x/2) − 1/x for x ≥ 0 with `decay` = e^{−x}; by their series where x < ½, to 1e-13 of their size.

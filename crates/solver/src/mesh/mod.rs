@@ -55,6 +55,12 @@ impl ElementGroup {
         self.cells().enumerate().filter(|(element, _)| self.is_alive(*element)).map(|(_, cell)| cell)
     }
 
+    /// Whether its elements have an area, and so a surface: bars have none.
+    #[must_use]
+    pub fn has_surface(&self) -> bool {
+        self.nodes_per_element > 2
+    }
+
     /// Whether an element has not been eroded.
     #[must_use]
     pub fn is_alive(&self, element: usize) -> bool {
@@ -108,7 +114,7 @@ impl Mesh<2> {
         for (index, part) in model.parts.iter().enumerate() {
             match &part.shape {
                 Shape::Group { mesh: file, group } => match model.meshes.get(*file) {
-                    Some(source) => mesh.add_group(source, group, &part.name, &mut imported[*file], &mut faults),
+                    Some(source) => mesh.add_group(source, group, part, &mut imported[*file], &mut faults),
                     None => faults.push(Fault::new(format!("part[{index}]"), "its mesh was not read", "")),
                 },
                 shape => mesh.add_shape(shape, part, &mut faults),
@@ -144,6 +150,9 @@ impl Mesh<2> {
             let segments = segments.iter().map(|segment| segment.map(|node| node + first)).collect();
             self.lines.insert(format!("{}.{side}", part.name), segments);
         }
+        for (name, nodes) in body.points {
+            self.points.insert(format!("{}.{name}", part.name), sorted(nodes.into_iter().map(|node| node + first)));
+        }
     }
 
     /// Adds the elements of the part that comes next, in the user's order.
@@ -164,16 +173,18 @@ impl Mesh<2> {
     }
 
     /// Adds the cells of a group; `numbers[file node]` becomes the mesh node (`u32::MAX`: not yet used).
-    fn add_group(&mut self, source: &ImportedMesh, group: &str, name: &str, numbers: &mut Vec<u32>, faults: &mut Vec<Fault>) {
+    fn add_group(&mut self, source: &ImportedMesh, group: &str, part: &Part, numbers: &mut Vec<u32>, faults: &mut Vec<Fault>) {
         numbers.resize(source.positions.len(), u32::MAX);
         let path = format!("part[{}]", self.parts.len());
-        let Some(group) = source.groups.iter().find(|g| g.name == group && g.dimension == 2) else {
+        let dimension = part.cells_dimension();
+        let Some(group) = source.groups.iter().find(|g| g.name == group && g.dimension == dimension) else {
+            let kind = if dimension == 1 { "one" } else { "two" };
             faults.push(Fault::new(
                 path,
-                format!("{} has no two-dimensional group \"{group}\"", source.source),
+                format!("{} has no {kind}-dimensional group \"{group}\"", source.source),
                 "name a group of the mesh file",
             ));
-            self.parts.push(PartMesh { name: name.to_string(), ..PartMesh::default() });
+            self.parts.push(PartMesh { name: part.name.clone(), ..PartMesh::default() });
             return;
         };
         for &node in group.cells.iter().flatten() {
@@ -185,7 +196,7 @@ impl Mesh<2> {
         }
         let number = |node: &u32| numbers[*node as usize];
         self.add_elements(group.cells.iter().map(|cell| cell.iter().map(number).collect::<Vec<u32>>()));
-        self.parts.push(PartMesh { name: name.to_string(), nodes: sorted(group.cells.iter().flatten().map(number)) });
+        self.parts.push(PartMesh { name: part.name.clone(), nodes: sorted(group.cells.iter().flatten().map(number)) });
     }
 
     /// Elements of a part.
@@ -199,9 +210,9 @@ impl Mesh<2> {
         self.groups_of(part).map(ElementGroup::elements).sum()
     }
 
-    /// Nodes of each element of the parts (all when `parts` is empty) that has not been eroded.
+    /// Nodes of each element with a surface of the parts (all when `parts` is empty) that has not been eroded.
     fn cells(&self, parts: &[String]) -> impl Iterator<Item = &[u32]> {
-        let is_of = |group: &&ElementGroup| parts.is_empty() || parts.contains(&self.parts[group.part].name);
+        let is_of = |group: &&ElementGroup| group.has_surface() && (parts.is_empty() || parts.contains(&self.parts[group.part].name));
         self.groups.iter().filter(is_of).flat_map(ElementGroup::live_cells)
     }
 
@@ -254,6 +265,11 @@ impl Mesh<2> {
     fn what_is_wrong_with(&self, cell: &[u32]) -> Option<&'static str> {
         let n = cell.len();
         let x = |corner: usize| self.positions[cell[corner % n] as usize];
+        if n == 2 {
+            // NaN too.
+            let [d, e] = [0, 1].map(|k| x(1)[k] - x(0)[k]);
+            return if d * d + e * e > 0.0 { None } else { Some("has no length") };
+        }
         let turns = || {
             (0..n).map(|c| {
                 let (a, b, d) = (x(c), x(c + 1), x(c + n - 1));
@@ -301,7 +317,7 @@ impl Mesh<2> {
             }
             node
         }
-        for cell in self.cells(&[]) {
+        for cell in self.groups.iter().flat_map(ElementGroup::live_cells) {
             for pair in cell.windows(2) {
                 let (a, b) = (top(&mut root, pair[0]), top(&mut root, pair[1]));
                 root[a.max(b) as usize] = a.min(b);

@@ -72,6 +72,10 @@ impl Placement {
             body.positions.extend(positions);
             body.quads.extend(one.quads.iter().map(|quad| quad.map(|node| node + first)));
             body.triangles.extend(one.triangles.iter().map(|triangle| triangle.map(|node| node + first)));
+            body.bars.extend(one.bars.iter().map(|bar| bar.map(|node| node + first)));
+            for ((_, all), (_, own)) in body.points.iter_mut().zip(&one.points) {
+                all.extend(own.iter().map(|node| node + first));
+            }
             for ((_, all), (_, own)) in body.sides.iter_mut().zip(&one.sides) {
                 all.extend(own.iter().map(|segment| segment.map(|node| node + first)));
             }

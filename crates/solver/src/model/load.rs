@@ -89,6 +89,13 @@ pub enum Load {
         /// Times between which it acts, s.
         active: [f64; 2],
     },
+    /// A stress β C:ε̇ in the elements of some parts, with the elastic stiffness C: what swings fast is damped.
+    StiffnessDamping {
+        /// Parts; empty: all that deform.
+        parts: Vec<String>,
+        /// β, s.
+        time: f64,
+    },
 }
 
 /// `[[non_reflecting]]`: a surface that takes waves up as if the body went on.

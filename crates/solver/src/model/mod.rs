@@ -5,18 +5,20 @@
 pub mod check;
 pub mod describe;
 mod discrete;
+mod initial;
 mod load;
 pub mod reference;
 
 pub use discrete::{PointMass, Spring};
+pub use initial::InitialStress;
 pub use load::{Constraint, Image, Join, Load, NonReflecting, Rotation, Symmetry};
 
 use crate::block::stress_state::STRESS_STATES;
-use crate::element::{ELEMENTS, ElementKind};
+use crate::element::{BARS, ELEMENTS, ElementKind};
 use crate::load::curve::sine::Sine;
 pub use crate::mesh::placement::{Copies, Mirror, Placement};
 use crate::mesh::shapes::Count;
-pub use crate::mesh::shapes::{Disk, Edge, Path, Polygon, Quadrilateral, Rectangle, Ring, Shape, Trapezoid};
+pub use crate::mesh::shapes::{Disk, Edge, Path, Polygon, Quadrilateral, Rectangle, Ring, Shape, Trapezoid, Truss};
 use crate::quantity::Dimension;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -111,6 +113,18 @@ impl Model {
     }
 }
 
+impl Model {
+    /// Time β of the damping of a part in proportion to its stiffness, s: the sum over the loads that say so.
+    #[must_use]
+    pub fn stiffness_damping(&self, part: &Part) -> f64 {
+        let of = |load: &Load| match load {
+            Load::StiffnessDamping { parts, time } if parts.is_empty() || parts.contains(&part.name) => *time,
+            _ => 0.0,
+        };
+        self.loads.iter().map(of).sum()
+    }
+}
+
 impl Default for Run {
     fn default() -> Self {
         Self {
@@ -153,6 +167,8 @@ pub struct Part {
     pub element: String,
     /// The same for its triangles, if it has any.
     pub element_triangles: String,
+    /// Cross-section of its bars per metre of depth, m²/m; bars need it, and nothing else has it.
+    pub area: Option<f64>,
     /// Coefficient of its hourglass control, where it has one; `None`: that of the control's source.
     pub hourglass: Option<f64>,
     /// Name in the registry of stress states; empty: plane strain.
@@ -165,6 +181,10 @@ pub struct Part {
     pub velocity: [f64; 2],
     /// Initial spin about the centre of mass, rad/s, counter-clockwise.
     pub spin: f64,
+    /// Stress at the start; `None`: none.
+    pub stress_initial: Option<InitialStress>,
+    /// Temperature at the start, K; `None`: that of the material.
+    pub temperature_initial: Option<f64>,
     /// `Some`: the part is a rigid body and moves so.
     pub rigid: Option<Motion>,
     /// Factor on its mass where mass resists motion; what it weighs stays.
@@ -179,12 +199,15 @@ impl Default for Part {
             material: String::new(),
             element: "quad4".into(),
             element_triangles: "tri3".into(),
+            area: None,
             hourglass: None,
             stress_state: String::new(),
             shape: Shape::Group { mesh: usize::MAX, group: String::new() },
             placement: Placement::default(),
             velocity: [0.0; 2],
             spin: 0.0,
+            stress_initial: None,
+            temperature_initial: None,
             rigid: None,
             mass_scale: 1.0,
         }
@@ -198,6 +221,18 @@ impl Part {
         STRESS_STATES.iter().any(|kind| kind.name == self.stress_state && kind.axisymmetric)
     }
 
+    /// Dimension of the cells of a mesh file that it is made of.
+    #[must_use]
+    pub fn cells_dimension(&self) -> u8 {
+        if self.is_of_bars() { 1 } else { 2 }
+    }
+
+    /// Whether it consists of bars: lines without a surface.
+    #[must_use]
+    pub fn is_of_bars(&self) -> bool {
+        BARS.iter().any(|kind| kind.name == self.element)
+    }
+
     /// How large its mesh will be, where it has a built-in shape.
     #[must_use]
     pub fn count(&self) -> Option<Count> {
@@ -207,7 +242,7 @@ impl Part {
     /// The element that has so many nodes; `None` when the part names none.
     #[must_use]
     pub fn element_of(&self, nodes: usize) -> Option<&'static ElementKind> {
-        ELEMENTS.iter().find(|kind| kind.nodes == nodes && (kind.name == self.element || kind.name == self.element_triangles))
+        ELEMENTS.iter().chain(BARS).find(|kind| kind.nodes == nodes && (kind.name == self.element || kind.name == self.element_triangles))
     }
 }
 

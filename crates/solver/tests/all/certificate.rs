@@ -137,6 +137,58 @@ fn runs_certify_themselves() {
     assert!(searches[0].report.searches < summary.steps / 2 && searches[0].pairs_swept == summary.contact.pairs_swept, "{searches:?}");
 }
 
+/// A tracker of the outside of these cells against itself, and the positions.
+fn tracker_of(cells: &[[u32; 4]], bodies: &[u32], positions: &[Vector]) -> Tracker {
+    let surface = Surface::outside(cells.iter().map(<[u32; 4]>::as_slice)).unwrap();
+    Tracker::new(vec![Target { surface, mirrors: vec![] }], &[(0, 0)], (registry::<2>()[0].make)(), positions).with_bodies(bodies, &[])
+}
+
+#[test]
+fn corners_that_begin_exactly_on_each_other_go_in_and_out_again() {
+    for quarter in 0..4 {
+        let (sin, cos) = (0.5 * TAU / 2.0 * f64::from(quarter)).sin_cos();
+        let turned = |[x, y]: Vector| [cos.round() * x - sin.round() * y, sin.round() * x + cos.round() * y];
+        let shape = [[0.0, 0.0], [1.0, 1.0], [0.0, 2.0], [-1.0, 1.0], [0.0, 0.0], [-0.3, -0.4], [0.0, -0.8], [0.3, -0.4]];
+        let at = |way: f64| -> Vec<Vector> { (0..).zip(shape).map(|(k, [x, y])| turned([x, if k < 4 { y } else { y + way }])).collect() };
+        let mut tracker = tracker_of(&[[0, 1, 2, 3], [4, 5, 6, 7]], &[0, 0, 0, 0, 1, 1, 1, 1], &at(0.0));
+        let mut old = at(0.0);
+        for way in [0.0, 0.02, 0.03, 0.01, -0.01, -0.02, -0.01] {
+            let new = at(way);
+            let touches = tracker.track(Sweep { old: &old, new: &new }, 0.0).to_vec();
+            for node in [0, 4] {
+                let is_inside = touches.iter().any(|touch| touch.node == node && !touch.own && touch.projection.gap < 0.0);
+                assert_eq!(is_inside, way > 0.0, "node {node} at {way}, turned {quarter} times: {touches:?}");
+            }
+            old = new;
+        }
+        assert_eq!(tracker.certificate().unverified, 0, "turned {quarter} times");
+    }
+}
+
+#[test]
+fn who_leaves_one_face_of_an_overlapping_crack_is_held_by_the_other() {
+    // A block with a crack from above whose faces overlap by 4 mm, and a tip that comes down into both.
+    let block =
+        [[-1.0, -1.0], [0.0, -1.0], [1.0, -1.0], [-1.0, 0.0], [0.0, 0.0], [1.0, 0.0], [-1.0, 1.0], [2e-3, 1.0], [-2e-3, 1.0], [1.0, 1.0]];
+    let tip = [[0.0, 1.05], [0.2, 1.5], [0.0, 1.9], [-0.2, 1.5]];
+    let at = |way: Vector| -> Vec<Vector> { block.into_iter().chain(tip.map(|[x, y]| [x + way[0], y + way[1]])).collect() };
+    let cells = [[0, 1, 4, 3], [1, 2, 5, 4], [3, 4, 7, 6], [4, 5, 9, 8], [10, 11, 12, 13]];
+    let bodies: Vec<u32> = (0..14).map(|node| u32::from(node >= 10)).collect();
+    let mut old = at([0.0; 2]);
+    let mut tracker = tracker_of(&cells, &bodies, &old);
+    for (way, depth) in [([0.0, 0.0], None), ([0.0, -0.1], Some(0.05)), ([0.0032, -0.1], Some(0.0052)), ([0.0034, -0.1], Some(0.0054))] {
+        let new = at(way);
+        let touches = tracker.track(Sweep { old: &old, new: &new }, 0.0).to_vec();
+        let inside = touches.iter().find(|touch| touch.node == 10 && touch.projection.gap < 0.0);
+        assert_eq!(inside.is_some(), depth.is_some(), "{way:?}: {touches:?}");
+        if let (Some(touch), Some(depth)) = (inside, depth) {
+            assert!(-touch.projection.gap <= depth, "{way:?}: {touch:?}");
+        }
+        old = new;
+    }
+    assert_eq!(tracker.certificate().unverified, 0);
+}
+
 #[test]
 fn a_contact_that_transmits_nothing_is_mentioned() {
     let mut model = model(1e-5);

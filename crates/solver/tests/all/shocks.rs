@@ -163,3 +163,33 @@ fn what_does_not_go_together_is_told() {
     plain.materials.get_mut("soft").unwrap().parameters.insert("gamma".into(), 1.4);
     assert!(faults(&plain).join("\n").contains("add `eos = \"ideal_gas\"`"));
 }
+
+#[test]
+fn water_that_is_pulled_off_a_wall_pulls_back_with_its_limit_and_no_more() {
+    // Without a limit the wall would feel ρ c v = 15 bar; with one the rest of the water is held back by 1 bar, until the wave has run through.
+    let (speed_of_sound, length, limit, wall) = (f64::sqrt(2.2e9 / 1e3), 1.0, 1e5, 1.0);
+    let water = fluid("linear", &[("density", 1e3), ("bulk_modulus", 2.2e9), ("tension", limit)]);
+    let end = 0.9 * length / speed_of_sound;
+    let mut model = piston(water, [length, 0.02], 200, wall, end);
+    model.run.bulk_viscosity = [0.0; 2];
+    model.constraints[0].velocity[0] = Some((-wall).into());
+    let simulation = run(&model);
+    let momentum = 1e3 * length * crate::bodies::value(&simulation, "tube.vx");
+    // The wall's own nodes have half an element.
+    let expected = -limit * end - 1e3 * 0.5 * length / 200.0 * wall;
+    assert!((momentum / expected - 1.0).abs() < 0.01, "{momentum} for {expected}");
+    let least = field(&simulation, "pressure").into_iter().fold(0.0, f64::min);
+    assert!((least + limit).abs() < 1e-6 * limit, "{least}");
+    // What the wall spends is all there.
+    let work = limit * wall * end * 0.02;
+    let summary = simulation.summary();
+    assert!((simulation.ledger().external / work - 1.0).abs() < 0.05 && summary.energy_drift < 0.01, "{summary:?} {work}");
+    let mut wrong = model.clone();
+    wrong.materials.get_mut("soft").unwrap().parameters.insert("tension".into(), -1.0);
+    assert!(faults(&wrong)[0].contains("tension"), "{:?}", faults(&wrong));
+    let solid = wrong.materials.get_mut("soft").unwrap();
+    (solid.law, solid.eos) = ("elastic".into(), String::new());
+    solid.parameters =
+        [("density", 1.0), ("young", 1.0), ("poisson", 0.3), ("tension", 1.0)].map(|(name, value)| (name.to_string(), value)).into();
+    assert!(faults(&wrong)[0].contains("add `eos`"), "{:?}", faults(&wrong));
+}

@@ -9,7 +9,7 @@ pub(super) fn load(record: &Record, faults: &mut Faults) -> Load {
     let (parts, on) = (record.texts("parts"), record.text("on"));
     let curve = record.datum("curve").map(|_| record.text("curve"));
     let number = |name| record.number(name).unwrap_or(f64::NAN);
-    let kinds = ["gravity", "centrifugal", "force", "pressure", "damping"];
+    let kinds = ["gravity", "centrifugal", "force", "pressure", "damping", "damping_stiffness"];
     let kind = kinds.into_iter().find(|name| record.written(name).is_some());
     if record.datum("on").is_none() {
         faults.cover(&record.key("on"));
@@ -19,6 +19,7 @@ pub(super) fn load(record: &Record, faults: &mut Faults) -> Load {
         Some("force") => Load::Force { on, force: record.vector("force"), curve },
         Some("pressure") => Load::Pressure { on, pressure: number("pressure"), curve },
         Some("damping") => Load::Damping { parts, rate: number("damping"), active: motion::window(record, ["from", "until"], faults) },
+        Some("damping_stiffness") => Load::StiffnessDamping { parts, time: number("damping_stiffness") },
         gravity => {
             if gravity.is_none() {
                 faults.cover(&record.key("gravity"));

@@ -15,8 +15,8 @@ use super::value::Datum;
 use crate::{abaqus, gmsh};
 use embate_solver::mesh::shapes::Values;
 use embate_solver::model::{
-    Cadence, Copies, ImportedMesh, MassScaling, Material, Mirror, Model, Output, Part, Partners, PictureView, Placement, Probe, ProbeAt,
-    Relaxation, Run, Shape, Symmetry,
+    Cadence, Copies, ImportedMesh, InitialStress, MassScaling, Material, Mirror, Model, Output, Part, Partners, PictureView, Placement,
+    Probe, ProbeAt, Relaxation, Run, Shape, Symmetry,
 };
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -78,6 +78,7 @@ fn part(record: &Record, meshes: &mut Meshes<'_>, faults: &mut Faults) -> Part {
         name: record.text("name"),
         material: record.text("material"),
         element: record.text("element"),
+        area: record.number("area"),
         hourglass: record.number("hourglass"),
         stress_state: record.text("stress_state"),
         element_triangles: Some(record.text("element_triangles"))
@@ -87,6 +88,8 @@ fn part(record: &Record, meshes: &mut Meshes<'_>, faults: &mut Faults) -> Part {
         placement: placement(record),
         velocity: record.vector("velocity"),
         spin: record.number("spin").unwrap_or(f64::NAN),
+        stress_initial: record.table("stress_initial").map(stress_initial),
+        temperature_initial: record.number("temperature_initial"),
         rigid: motion::rigid(record),
         mass_scale: record.number("mass_scale").unwrap_or(f64::NAN),
     }
@@ -102,6 +105,12 @@ fn shape(part: &Record, meshes: &mut Meshes<'_>, faults: &mut Faults) -> Shape {
     }
     let (mesh, group) = mesh.unwrap_or((usize::MAX, String::new()));
     Shape::Group { mesh, group }
+}
+
+fn stress_initial(record: &Record) -> InitialStress {
+    let components = |it: &Record| ["xx", "yy", "zz", "xy"].map(|name| it.number(name).unwrap_or(f64::NAN));
+    let slope = |name| record.table(name).map_or([0.0; 4], components);
+    InitialStress { value: components(record), per_x: slope("per_x"), per_y: slope("per_y"), point: record.vector("point") }
 }
 
 fn placement(part: &Record) -> Placement {

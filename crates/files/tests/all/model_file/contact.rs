@@ -204,6 +204,7 @@ fn constraints_move_nodes_in_every_way() {
 #[test]
 fn a_load_can_damp() {
     let load = |lines: &str| sound(&and(&format!("[[load]]\n{lines}"))).loads.pop().unwrap();
+    assert_eq!(load("damping_stiffness = \"2 us\""), Load::StiffnessDamping { parts: vec![], time: 2e-6 });
     assert_eq!(load("damping = 100"), Load::Damping { parts: vec![], rate: 100.0, active: [0.0, f64::INFINITY] });
     let part = load("damping = \"1 1/ms\"\nparts = \"ball\"\nfrom = \"1 ms\"\nuntil = \"2 ms\"");
     assert_eq!(part, Load::Damping { parts: vec!["ball".into()], rate: 1000.0, active: [0.001, 0.002] });

@@ -110,7 +110,14 @@ impl<'a> View<'a> {
                 group.memory = inside.segment;
                 return Some(inside);
             }
-            certificate.unverified += u64::from(nearest.is_none_or(|nearest| nearest.gap.abs() > self.rounding));
+            if nearest.is_none_or(|nearest| nearest.gap.abs() > self.rounding) {
+                // The faces of a closed crack overlap: who leaves through one of them is still behind the other.
+                if let Some(inside) = self.behind(x, group, candidates) {
+                    group.memory = inside.segment;
+                    return Some(inside);
+                }
+                certificate.unverified += 1;
+            }
         }
         let (nearest, ahead) = match entries[0] {
             // In and out again through another face.
@@ -169,6 +176,13 @@ impl<'a> View<'a> {
         let around = if nearest.weights[1] > 0.5 { &surface.next } else { &surface.previous }[nearest.segment as usize];
         let other = (around != NONE).then(|| self.target.project(x, around, self.sweep.new)).flatten();
         other.filter(|other| other.gap < 0.0).unwrap_or(nearest)
+    }
+
+    /// The projection on the face of another body that a node is least behind.
+    fn behind(&self, x: Vector, group: &Group, candidates: &[u32]) -> Option<Projection> {
+        let faces = candidates.iter().filter(|_| !group.own).filter_map(|&segment| self.target.project(x, segment, self.sweep.new));
+        let behind = faces.filter(|face| face.gap < 0.0 && self.may_hold(group, face));
+        behind.reduce(|best, other| if other.gap > best.gap { other } else { best })
     }
 
     /// The projection of a node that is beyond the end of a face near the segment `nearest`, if it is held there.

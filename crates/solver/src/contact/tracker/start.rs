@@ -76,7 +76,12 @@ impl Pass {
                 continue;
             }
             let rows = rows.get_or_insert_with(|| Rows::new(closed(), positions));
-            for (body, level) in rows.levels(x, own, positions).into_iter().filter(|&(_, level)| level > 0) {
+            for (body, level) in rows.levels(x, own, positions) {
+                // A node exactly on a corner may count as −1: what it does next is counted from there.
+                if level <= 0 {
+                    inside.extend((level < 0).then(|| self.entered(slave, node, body, level, None)));
+                    continue;
+                }
                 // Candidates are all segments within reach; who is deeper asks the whole body.
                 let mut nearest = target.nearest(x, self.candidates_of(slave, body), positions);
                 if nearest.is_none() {

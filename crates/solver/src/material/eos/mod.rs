@@ -89,6 +89,15 @@ pub trait Equation: Copy + Send + Sync + 'static {
 pub(super) const ENERGY: Parameter =
     Parameter::new("energy_initial", "E_0", Dimension::PRESSURE, Range::NotNegative, "energy at the start per initial volume, J/m^3");
 
+/// What every equation may have besides: the limit of its pressure in tension. Left out: none.
+pub const TENSION: Parameter = Parameter::new(
+    "tension",
+    "p_t",
+    Dimension::PRESSURE,
+    Range::NotNegative,
+    "largest tension that the pressure reaches: 0 for a liquid that cavitates, the spall strength of a solid",
+);
+
 /// Someone who does something with an equation's type.
 trait EquationVisitor {
     type Output;
@@ -129,6 +138,14 @@ pub fn faults(name: &str, parameters: &Parameters<'_>) -> Vec<ParameterFault> {
             let mut faults = Q::faults(self.0);
             let equation = Q::new(self.0);
             let bulk = equation.terms(1.0).bulk(1.0, equation.energy());
+            let (pressure, limit) = (equation.terms(1.0).pressure(equation.energy()), limit(self.0));
+            if faults.is_empty() && pressure < -limit {
+                faults.push(ParameterFault {
+                    name: TENSION.name,
+                    message: format!("at the start the pressure is {pressure:.3e} Pa, a tension beyond the limit of {limit:.3e} Pa"),
+                    help: "raise the limit, or begin with less tension".to_string(),
+                });
+            }
             if faults.is_empty() && !(bulk > 0.0 && bulk.is_finite()) {
                 faults.push(ParameterFault {
                     name: "eos",
@@ -142,6 +159,11 @@ pub fn faults(name: &str, parameters: &Parameters<'_>) -> Vec<ParameterFault> {
     with_equation(name, Check(parameters)).unwrap_or_default()
 }
 
+/// The limit in tension of parameters, Pa; infinite where there is none.
+fn limit(parameters: &Parameters<'_>) -> f64 {
+    parameters.given(TENSION.name).unwrap_or(f64::INFINITY)
+}
+
 /// `law` with the pressure of the material's equation of state; as it is where there is none.
 pub(super) fn around(law: Box<dyn PointLaw>, material: &Material) -> Option<Box<dyn PointLaw>> {
     struct Make<'a>(Box<dyn PointLaw>, &'a Material);
@@ -149,7 +171,7 @@ pub(super) fn around(law: Box<dyn PointLaw>, material: &Material) -> Option<Box<
         type Output = Box<dyn PointLaw>;
         fn visit<Q: Equation>(self) -> Self::Output {
             let parameters = Parameters::new(Q::KIND.parameters, &self.1.parameters, &self.1.lists);
-            Box::new(point::WithEquation::new(self.0, Q::new(&parameters), parameters.value("density")))
+            Box::new(point::WithEquation::new(self.0, Q::new(&parameters), parameters.value("density"), limit(&parameters)))
         }
     }
     if material.eos.is_empty() { Some(law) } else { with_equation(&material.eos, Make(law, material)) }

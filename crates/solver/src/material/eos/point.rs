@@ -8,13 +8,16 @@
 //! p_new = (cold + heat_term (E_old + heat − ½ p_old Δv)) / (1 + ½ heat_term Δv)
 //! ```
 //!
+//! Where p_new lies below −p_t, the limit in tension, it is −p_t, and E_new follows by the first line: what the matter takes up at the limit it gives back on
+//! the same way.
+//!
 //! Elastic energy of the deviator is no heat. The block books the work of the whole stress as stored, less what was dissipated, and begins with E of the start,
 //! so the books close by construction; E itself is stored plus dissipated plus viscous energy, less the deviator's elastic part.
 
 use super::{Equation, Terms};
 use crate::material::points::{PLANE, PointLaw, Points, RESPONSE};
 use crate::material::{Family, Variable};
-use crate::tensor::{Plane, SymmetricTensor};
+use crate::tensor::{Plane, Solid, SymmetricTensor};
 use embate_lanes::{BATCH, Batch, Kernel, Lane, Level};
 
 /// Batches of history per point, after the law's own: density, energy per initial volume, pressure.
@@ -27,17 +30,19 @@ pub(super) struct WithEquation<Q> {
     law: Box<dyn PointLaw>,
     equation: Q,
     density: f64,
+    /// Least pressure, Pa.
+    least: f64,
     /// At rest.
     bulk: f64,
     variables: Vec<(Variable, usize)>,
 }
 
 impl<Q: Equation> WithEquation<Q> {
-    pub(super) fn new(law: Box<dyn PointLaw>, equation: Q, density: f64) -> Self {
+    pub(super) fn new(law: Box<dyn PointLaw>, equation: Q, density: f64, tension: f64) -> Self {
         let mut variables = law.variables().to_vec();
         variables.push((Variable::Density, law.state_width()));
         let bulk = equation.terms(1.0).bulk(1.0, equation.energy());
-        Self { law, equation, density, bulk, variables }
+        Self { law, equation, density, least: -tension, bulk, variables }
     }
 }
 
@@ -62,6 +67,10 @@ impl<Q: Equation> PointLaw for WithEquation<Q> {
     }
     fn stored(&self) -> f64 {
         self.equation.energy()
+    }
+    /// Of the deviator: the pressure is that of the equation, whose energy is [`PointLaw::stored`].
+    fn energy(&self, stress: [f64; 6]) -> f64 {
+        self.law.energy(Solid(stress).deviator().0)
     }
     fn start(&self, state: &mut [Batch]) {
         let (inner, own) = state.split_at_mut(self.law.state_width());
@@ -108,6 +117,7 @@ impl<Q: Equation> Kernel for Replace<'_, Q> {
     fn run<L: Lane>(self) {
         let (one, half, third) = (L::splat(1.0), L::splat(0.5), L::splat(1.0 / 3.0));
         let density = L::splat(self.owner.density);
+        let least = L::splat(self.owner.least);
         let softest = L::splat(SOFTEST * self.owner.bulk);
         let width = self.owner.law.state_width() + OWN;
         for p in 0..self.strain.len() / PLANE {
@@ -123,6 +133,7 @@ impl<Q: Equation> Kernel for Replace<'_, Q> {
                 let known = L::load(&own[1], at) + heat - half * L::load(&own[2], at) * change;
                 let terms: Terms<L> = self.owner.equation.terms(ratio);
                 let pressure = terms.pressure(known) / (one + half * terms.heat * change);
+                let pressure = L::select(pressure.less(least), least, pressure);
                 let energy = known - half * pressure * change;
                 (density / ratio).store(&mut own[0], at);
                 energy.store(&mut own[1], at);

@@ -322,3 +322,34 @@ fn a_gas_needs_one_of_pressure_and_energy_and_every_material_a_stiffness() {
     wrong.lists.insert("coefficients".into(), vec![0.0, -1e9]);
     assert_eq!(faults_of(&wrong)[0].name, "eos");
 }
+
+#[test]
+fn the_pressure_stops_at_the_limit_in_tension_and_the_way_back_is_the_same() {
+    for equation in EQUATIONS {
+        for law in ["null", "j2"] {
+            let mut limited = material(law, equation.name);
+            let limit = 1e5;
+            limited.parameters.insert(TENSION.name.into(), limit);
+            let (mut free, mut point) = (Point::new(&material(law, equation.name)), Point::new(&limited));
+            let start = point.energy();
+            let mut way = Vec::new();
+            // Out and back, past the start.
+            for k in 1..=300 {
+                let ratio = if k <= 100 { 1.0 + 1e-4 * f64::from(k) } else { 1.01 - 1e-4 * f64::from(k - 100) };
+                free.squeeze(ratio);
+                point.squeeze(ratio);
+                way.push((point.pressure(), point.energy()));
+                let held = (-point.pressure() - limit).abs() < 1e-6 * (limit + point.stress[0].0[3].abs());
+                assert!(point.pressure() >= -limit * (1.0 + 1e-6) || held, "{} {law} {ratio}: {}", equation.name, point.pressure());
+            }
+            let stops = way.iter().filter(|(pressure, _)| (*pressure + limit).abs() < 1e-3 * limit).count();
+            // Gases have no tension to stop.
+            assert_eq!(stops > 100, free.law.stiffness()[0] > 1e9 && equation.name != "jwl", "{} {law}: {stops}", equation.name);
+            if law == "null" {
+                let balance = point.energy() - start - point.work;
+                assert!(balance.abs() < 1e-9 * point.work.abs().max(limit), "{}: {balance}", equation.name);
+                assert!(close(point.energy(), free.energy(), 1e-4), "{}: {} {}", equation.name, point.energy(), free.energy());
+            }
+        }
+    }
+}

@@ -66,6 +66,8 @@ impl Hardening for Ludwik {
         ],
     };
 
+    type Kept<L: Lane> = [L; 2];
+
     fn new(parameters: &Parameters<'_>, shear: f64) -> Self {
         let power = Power::new(parameters.value("strength"), parameters.value("hardening_exponent"), shear);
         Self { yield_stress: parameters.value("yield"), power }

@@ -19,7 +19,7 @@ pub(super) use ludwik::Power;
 pub(super) use rate::{RATE_EXPONENT, RATE_REFERENCE};
 pub(super) use table::{PLASTIC_STRAIN, STRESS};
 
-use super::{LawKind, ParameterFault, Parameters};
+use super::{LawKind, ParameterFault, Parameters, State};
 use crate::quantity::{Dimension, Parameter, Range};
 use embate_lanes::Lane;
 
@@ -30,6 +30,8 @@ pub(super) const YIELD: Parameter = Parameter::new("yield", "σ_y", Dimension::P
 pub trait Hardening: Copy + Send + Sync + 'static {
     /// The law `j2` with this hardening.
     const KIND: LawKind;
+    /// What a point keeps of [`Hardening::flow`] where it is: all of it, `[L; 2]`, or, where it costs next to nothing, nothing, `[L; 0]`.
+    type Kept<L: Lane>: Kept<L>;
 
     /// Reads its parameters; `shear` is the elastic shear modulus, Pa.
     fn new(parameters: &Parameters<'_>, shear: f64) -> Self;
@@ -46,5 +48,35 @@ pub trait Hardening: Copy + Send + Sync + 'static {
     #[inline(always)]
     fn modulus(&self) -> Option<f64> {
         None
+    }
+}
+
+/// The flow stress and its slope at the plastic strain that a point has, kept from the step that led there: a power or an exponential less in every step.
+pub trait Kept<L: Lane>: State<L> {
+    /// Keeps them.
+    fn new(flow: [L; 2]) -> Self;
+    /// Gives them back.
+    fn flow<H: Hardening>(&self, hardening: &H, plastic: L) -> [L; 2];
+}
+
+impl<L: Lane> Kept<L> for [L; 0] {
+    #[inline(always)]
+    fn new(_flow: [L; 2]) -> Self {
+        []
+    }
+    #[inline(always)]
+    fn flow<H: Hardening>(&self, hardening: &H, plastic: L) -> [L; 2] {
+        hardening.flow(plastic)
+    }
+}
+
+impl<L: Lane> Kept<L> for [L; 2] {
+    #[inline(always)]
+    fn new(flow: [L; 2]) -> Self {
+        flow
+    }
+    #[inline(always)]
+    fn flow<H: Hardening>(&self, _hardening: &H, _plastic: L) -> [L; 2] {
+        *self
     }
 }

@@ -32,6 +32,8 @@ impl Hardening for Swift {
         ],
     };
 
+    type Kept<L: Lane> = [L; 2];
+
     fn new(parameters: &Parameters<'_>, _shear: f64) -> Self {
         let value = |name| parameters.value(name);
         Self { strength: value("strength"), offset: value("strain_offset"), exponent: value("hardening_exponent") }

@@ -46,6 +46,8 @@ impl Hardening for Voce {
         ],
     };
 
+    type Kept<L: Lane> = [L; 2];
+
     fn new(parameters: &Parameters<'_>, _shear: f64) -> Self {
         let value = |name| parameters.value(name);
         Self {

@@ -25,14 +25,19 @@ pub struct Body {
     pub quads: Vec<[u32; 4]>,
     /// Triangles, counter-clockwise; elements are numbered after the quadrilaterals.
     pub triangles: Vec<[u32; 3]>,
+    /// Bars; a body of bars has nothing else.
+    pub bars: Vec<[u32; 2]>,
     /// Named sides as segments with the body on their right.
     pub sides: Vec<(String, Vec<[u32; 2]>)>,
+    /// Named sets of nodes that are no sides.
+    pub points: Vec<(String, Vec<u32>)>,
 }
 
 impl Body {
     /// Nodes of each element.
     pub fn cells(&self) -> impl Iterator<Item = &[u32]> {
-        self.quads.iter().map(<[u32; 4]>::as_slice).chain(self.triangles.iter().map(<[u32; 3]>::as_slice))
+        let areas = self.quads.iter().map(<[u32; 4]>::as_slice).chain(self.triangles.iter().map(<[u32; 3]>::as_slice));
+        areas.chain(self.bars.iter().map(<[u32; 2]>::as_slice))
     }
 }
 
@@ -106,6 +111,10 @@ pub(crate) trait BuiltIn {
     fn check(&self, check: &mut CheckOf<'_, '_>);
     /// Names of the sides that [`BuiltIn::body`] makes.
     fn sides(&self) -> Vec<String>;
+    /// Names of the sets of nodes that [`BuiltIn::body`] makes besides sides.
+    fn points(&self) -> Vec<String> {
+        Vec::new()
+    }
     /// What [`BuiltIn::body`] will make, without making it.
     fn count(&self) -> Count;
     /// The key that decides how many elements there are.
@@ -193,13 +202,14 @@ shapes!(
     quadrilateral: Quadrilateral,
     polygon: Polygon,
     path: Path,
+    truss: Truss,
 );
 
 impl Shape {
-    /// Names of the sides that `part.side` can mean.
+    /// Names of the sides, then of the sets of nodes, that `part.side` can mean.
     #[must_use]
     pub fn sides(&self) -> Vec<String> {
-        self.built_in().map_or(Vec::new(), |(shape, _)| shape.sides())
+        self.built_in().map_or(Vec::new(), |(shape, _)| shape.sides().into_iter().chain(shape.points()).collect())
     }
 
     /// How large the mesh of a built-in shape will be; `None` for a group of an imported mesh.
@@ -233,7 +243,12 @@ static MESH_SECTION: Section = Section {
     required: false,
     keys: &[
         key("file", Kind::Text, Need::Required, "Path of the file, from the model file's folder."),
-        key("group", Kind::Text, Need::Required, "Name of a two-dimensional physical group, or of an element set."),
+        key(
+            "group",
+            Kind::Text,
+            Need::Required,
+            "Name of a two-dimensional physical group (of bars a one-dimensional one), or of an element set.",
+        ),
         key("scale", Kind::Quantity(Dimension::LENGTH, Positive), Need::Default("\"1 m\""), "Length of one unit of the file."),
     ],
     ..Section::EMPTY

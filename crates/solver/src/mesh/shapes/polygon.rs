@@ -179,7 +179,7 @@ impl BuiltIn for Polygon {
             }
             first += n;
         }
-        Ok(Body { positions: made.positions, quads: Vec::new(), triangles: made.triangles, sides })
+        Ok(Body { positions: made.positions, quads: Vec::new(), triangles: made.triangles, sides, ..Body::default() })
     }
 
     #[cfg(test)]

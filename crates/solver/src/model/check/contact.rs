@@ -65,6 +65,7 @@ impl Check<'_> {
     fn bodies(&mut self, path: &str, bodies: &[String]) {
         let path = format!("{path}.bodies");
         self.part_list(&path, bodies);
+        self.with_surface(&path, bodies);
         if self.all_driven(bodies) {
             self.nothing_gives_way(path);
         }

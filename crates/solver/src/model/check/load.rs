@@ -1,6 +1,7 @@
 //! Faults of loads, boundaries that reflect nothing, and joins.
 
 use super::Check;
+use crate::material;
 use crate::model::reference::{Reference, excerpt};
 use crate::model::{Drive, Image, Load};
 use crate::quantity::{Dimension, Range};
@@ -48,6 +49,25 @@ impl Check<'_> {
                     self.number(&format!("{path}.damping"), *rate);
                     self.window(&path, ["from", "until"], *active);
                 }
+                Load::StiffnessDamping { parts, time } => {
+                    self.part_list(&format!("{path}.parts"), parts);
+                    self.number(&format!("{path}.damping_stiffness"), *time);
+                    self.stiffness_damped(&format!("{path}.damping_stiffness"), parts);
+                }
+            }
+        }
+    }
+
+    /// Parts that are damped by their stiffness need one: the same in all directions, in rate form.
+    fn stiffness_damped(&mut self, path: &str, parts: &[String]) {
+        let model = self.model;
+        let deform = model.parts.iter().filter(|part| part.rigid.is_none() && (parts.is_empty() || parts.contains(&part.name)));
+        for part in deform {
+            let Some(material) = model.materials.get(&part.material) else { continue };
+            if material::has_elastic_stiffness(&material.law) == Some(false) {
+                let message = format!("part `{}` is of law `{}`", excerpt(&part.name), material.law);
+                let help = "this damping takes isotropic solids in rate form such as `elastic` and `j2`: name those in `parts`; rubber is damped by `damping`, or as `viscoelastic`";
+                self.fault(path, message, help);
             }
         }
     }

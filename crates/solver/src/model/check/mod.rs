@@ -26,6 +26,10 @@ const FRAMES_MAX: f64 = 1e6;
 /// Most rows of a history.
 const ROWS_MAX: f64 = 1e8;
 
+/// What to do about bars where a surface is meant.
+const NO_SURFACE: &str =
+    "contact, obstacles and pressure see elements with an area only: name another part, or a strip of thin elements beside the bars";
+
 impl Model {
     /// All faults that can be told without meshing; empty for a sound model. Paths are those of the model file, such as `part[0].ring.inner`.
     #[must_use]
@@ -159,7 +163,13 @@ impl Check<'_> {
             let law = |name: &str| kind.parameters.iter().any(|parameter| parameter.name == name);
             let further = own.into_iter().flat_map(|own| own.parameters).filter(|parameter| !law(parameter.name));
             let all: Vec<&Parameter> = kind.parameters.iter().chain(further).collect();
-            let known: Vec<&str> = all.iter().map(|parameter| parameter.name).collect();
+            let limit = own.map(|_| material::eos::TENSION);
+            let known: Vec<&str> = all.iter().copied().chain(&limit).map(|parameter| parameter.name).collect();
+            if let Some(limit) = &limit
+                && let Some(value) = it.parameters.get(limit.name)
+            {
+                self.within(&format!("{path}.{}", limit.name), *value, limit.dimension, limit.range);
+            }
             let needs = |parameter: &Parameter| match own {
                 Some(own) if !law(parameter.name) => format!("equation of state `{}` needs `{}`", own.name, parameter.name),
                 _ => format!("law `{}` needs `{}`", it.law, parameter.name),
@@ -191,6 +201,9 @@ impl Check<'_> {
                 let of_other =
                     material::eos::EQUATIONS.iter().find(|other| other.parameters.iter().any(|parameter| parameter.name == key.as_str()));
                 let help = match of_other {
+                    _ if own.is_none() && key == material::eos::TENSION.name => {
+                        "it is a limit of equations of state: add `eos`, or leave it out".to_string()
+                    }
                     Some(other) if own.is_none() => format!("add `eos = \"{}\"`, or leave it out", other.name),
                     _ => suggestion(key, &known),
                 };
@@ -256,6 +269,11 @@ impl Check<'_> {
     /// A reference to a part, side or group.
     fn reference(&mut self, path: &str, name: &str, dimension: Option<u8>) -> Option<Reference> {
         match self.model.reference(name, dimension) {
+            Ok(Reference::Part(part) | Reference::Side { part, .. }) if dimension == Some(1) && self.model.parts[part].is_of_bars() => {
+                let message = format!("part `{}` is made of bars, which have no surface", excerpt(&self.model.parts[part].name));
+                self.fault(path, message, NO_SURFACE);
+                None
+            }
             Ok(found) => Some(found),
             Err((message, help)) => {
                 if !self.may_be_missing(name) {
@@ -287,6 +305,20 @@ impl Check<'_> {
             if !seen.insert(name) {
                 self.fault(path, format!("part `{}` is named twice", excerpt(name)), "name it once");
             }
+        }
+    }
+
+    /// Parts of which a surface is meant (none: all): at least one must have one, and those that are named must.
+    fn with_surface(&mut self, path: &str, parts: &[String]) {
+        let model = self.model;
+        for (index, name) in parts.iter().enumerate() {
+            if model.parts.iter().any(|part| part.name == *name && part.is_of_bars()) {
+                let message = format!("part `{}` is made of bars, which have no surface", excerpt(name));
+                self.fault(format!("{path}[{index}]"), message, NO_SURFACE);
+            }
+        }
+        if parts.is_empty() && !model.parts.is_empty() && model.parts.iter().all(Part::is_of_bars) {
+            self.fault(path, "all parts are made of bars, which have no surface", NO_SURFACE);
         }
     }
 
@@ -392,7 +424,7 @@ pub fn name_is_plain(name: &str) -> Result<(), (String, String)> {
 /// Number of nodes, where it can be told without meshing.
 fn node_count(model: &Model, part: &Part) -> Option<u128> {
     if let Shape::Group { mesh, group } = &part.shape {
-        let it = model.meshes.get(*mesh)?.groups.iter().find(|it| it.name == *group && it.dimension == 2)?;
+        let it = model.meshes.get(*mesh)?.groups.iter().find(|it| it.name == *group && it.dimension == part.cells_dimension())?;
         return Some(it.cells.iter().flatten().collect::<BTreeSet<_>>().len() as u128);
     }
     part.count().filter(|count| count.exact).map(|count| count.nodes as u128)

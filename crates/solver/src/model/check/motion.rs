@@ -178,6 +178,7 @@ impl Check<'_> {
         for (index, obstacle) in model.obstacles.iter().enumerate() {
             let path = format!("obstacle[{index}]");
             self.part_list(&format!("{path}.parts"), &obstacle.parts);
+            self.with_surface(&format!("{path}.parts"), &obstacle.parts);
             self.obstacle_shape(&path, &obstacle.shape);
             self.obstacle_motion(&path, obstacle);
             self.interface(&path, &obstacle.interface);

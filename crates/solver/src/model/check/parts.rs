@@ -1,8 +1,9 @@
 //! Faults of parts: their materials, kinds of elements and shapes.
 
 use super::Check;
-use crate::block::stress_state::STRESS_STATES;
+use crate::block::stress_state::{PlaneStress, STRESS_STATES, StressState};
 use crate::element;
+use crate::material;
 use crate::model::describe::{ELEMENTS_MAX, suggestion};
 use crate::model::reference::{dimension_word, excerpt};
 use crate::model::{Model, Part, Placement, Shape};
@@ -27,6 +28,8 @@ impl Check<'_> {
             self.part_motion(&path, part);
             self.number(&format!("{path}.mass_scale"), part.mass_scale);
             self.shape(&path, part);
+            self.initial(&path, part);
+            self.bars(&path, part);
             let count = element_count(model, part);
             if total <= ELEMENTS_MAX && total.saturating_add(count) > ELEMENTS_MAX {
                 self.fault(
@@ -58,6 +61,73 @@ impl Check<'_> {
         }
     }
 
+    /// What a part holds at the start. Whether its law can hold it is seen when there are elements.
+    fn initial(&mut self, path: &str, part: &Part) {
+        let rigid = "the part is rigid, so nothing in it is strained or heated";
+        if let Some(stress) = &part.stress_initial {
+            let path = format!("{path}.stress_initial");
+            for (of, values) in [("", stress.value), (".per_x", stress.per_x), (".per_y", stress.per_y)] {
+                for (name, value) in ["xx", "yy", "zz", "xy"].into_iter().zip(values) {
+                    self.number(&format!("{path}{of}.{name}"), value);
+                }
+            }
+            self.vector(&format!("{path}.point"), stress.point);
+            if part.stress_state == PlaneStress::KIND.name && !stress.lacks(2) {
+                self.fault(format!("{path}.zz"), "in plane stress there is no stress across the plane", "leave it out");
+            }
+            if part.rigid.is_some() {
+                self.fault(path, rigid, "leave it out, or let the part deform");
+            }
+        }
+        if let Some(temperature) = part.temperature_initial {
+            let path = format!("{path}.temperature_initial");
+            self.number(&path, temperature);
+            if part.rigid.is_some() {
+                self.fault(path, rigid, "leave it out, or let the part deform");
+            }
+        }
+    }
+
+    /// What bars need, and what they can't have.
+    fn bars(&mut self, path: &str, part: &Part) {
+        let area = format!("{path}.area");
+        if let Some(value) = part.area {
+            self.number(&area, value);
+        }
+        if !part.is_of_bars() {
+            if part.area.is_some() {
+                self.fault(
+                    area,
+                    "`area` is the cross-section of bars, but the part has none",
+                    "leave it out, or take `element = \"bar2\"`",
+                );
+            }
+            return;
+        }
+        if part.shape.built_in().is_some_and(|(shape, _)| shape.nodes_per_element() == 3) {
+            self.fault(format!("{path}.element"), "the part is made of triangles, so `bar2` can't be its element", "leave `element` out");
+            return;
+        }
+        if part.area.is_none() {
+            self.fault(area, "bars need their cross-section", "add `area = \"1e-4 m\"`: cross-section per metre of depth");
+        }
+        if !part.stress_state.is_empty() && part.stress_state != STRESS_STATES[0].name {
+            let help = "leave `stress_state` out; in a body of revolution a line is a shell, for which there is no element";
+            self.fault(format!("{path}.stress_state"), "bars have a stress along their line and no other", help);
+        }
+        if let Some(material) = self.model.materials.get(&part.material)
+            && material::bears_uniaxial_stress(&material.law) == Some(false)
+        {
+            let message = format!("bars can't be of law `{}`: it answers differently in different directions, or is a fluid", material.law);
+            self.fault(format!("{path}.material"), message, "take an isotropic solid such as `elastic` or `j2`");
+        }
+        if let Some(stress) = part.stress_initial.as_ref().filter(|stress| !(1..4).all(|component| stress.lacks(component))) {
+            let component = (1..4).find(|&component| !stress.lacks(component)).unwrap_or(1);
+            let path = format!("{path}.stress_initial.{}", ["xx", "yy", "zz", "xy"][component]);
+            self.fault(path, "bars have a stress along their line and no other", "give it as `xx`, whatever their direction");
+        }
+    }
+
     fn shape(&mut self, path: &str, part: &Part) {
         let Some((shape, key)) = part.shape.built_in() else {
             if let Shape::Group { mesh, group } = &part.shape {
@@ -71,7 +141,11 @@ impl Check<'_> {
         };
         let key = format!("{path}.{key}");
         shape.check(&mut CheckOf { check: self, path: &key });
-        let what = if shape.nodes_per_element() == 3 { "it is made of triangles" } else { "it is made of quadrilaterals" };
+        let what = match shape.nodes_per_element() {
+            2 => "it is made of bars",
+            3 => "it is made of triangles",
+            _ => "it is made of quadrilaterals",
+        };
         self.takes(path, part, shape.nodes_per_element(), &key, what);
         self.placement(path, &part.placement);
     }
@@ -107,12 +181,14 @@ impl Check<'_> {
             return;
         };
         let path = format!("{part_path}.mesh.group");
-        let known: Vec<&str> = imported.groups.iter().filter(|it| it.dimension == 2).map(|it| it.name.as_str()).collect();
-        let Some(found) = imported.groups.iter().find(|it| it.name == group && it.dimension == 2) else {
+        let dimension = part.cells_dimension();
+        let known: Vec<&str> = imported.groups.iter().filter(|it| it.dimension == dimension).map(|it| it.name.as_str()).collect();
+        let Some(found) = imported.groups.iter().find(|it| it.name == group && it.dimension == dimension) else {
             let name = excerpt(group);
             match imported.groups.iter().find(|it| it.name == group) {
                 Some(other) => {
-                    let message = format!("`{name}` in {} is {}, not of surfaces", imported.source, dimension_word(other.dimension));
+                    let wanted = if dimension == 1 { "not of lines" } else { "not of surfaces" };
+                    let message = format!("`{name}` in {} is {}, {wanted}", imported.source, dimension_word(other.dimension));
                     self.fault(path, message, suggestion("", &known));
                 }
                 None => self.fault(path, format!("{} has no group `{name}`", imported.source), suggestion(group, &known)),
@@ -139,7 +215,11 @@ impl Check<'_> {
         let lengths: BTreeSet<usize> = found.cells.iter().map(Vec::len).collect();
         for nodes in lengths {
             let count = found.cells.iter().filter(|cell| cell.len() == nodes).count();
-            let what = if nodes == 3 { "triangles".to_string() } else { format!("cells of {nodes} nodes") };
+            let what = match nodes {
+                2 => "lines".to_string(),
+                3 => "triangles".to_string(),
+                _ => format!("cells of {nodes} nodes"),
+            };
             self.takes(part_path, part, nodes, &path, &format!("group `{}` has {count} {what}", excerpt(group)));
         }
     }
@@ -178,8 +258,10 @@ fn element_count(model: &Model, part: &Part) -> u128 {
     match (&part.shape, part.count()) {
         (_, Some(count)) => count.elements as u128,
         (Shape::Group { mesh, group }, None) => {
-            let found =
-                model.meshes.get(*mesh).and_then(|imported| imported.groups.iter().find(|it| it.name == *group && it.dimension == 2));
+            let found = model
+                .meshes
+                .get(*mesh)
+                .and_then(|imported| imported.groups.iter().find(|it| it.name == *group && it.dimension == part.cells_dimension()));
             found.map_or(0, |it| it.cells.len() as u128)
         }
         _ => 0,

@@ -6,6 +6,7 @@
 
 mod contact;
 mod discrete;
+mod initial;
 mod sections;
 
 pub use sections::{ELEMENTS_MAX, MOVED, SECTIONS, TOP};

@@ -4,6 +4,7 @@ use super::Kind::{Angle, Choice, Flag, Integer, Name, Quantities, Quantity, Refe
 use super::Need::{self, Default, Optional, Required};
 use super::contact::{CONTACT, OBSTACLE};
 use super::discrete::{POINT_MASS, SPRING};
+use super::initial::STRESS_INITIAL;
 use super::{Form, Key, Kind, More, Rule, Section, key};
 use crate::block::stress_state::STRESS_STATES;
 use crate::failure::CRITERIA;
@@ -172,8 +173,14 @@ static PART: Section = Section {
     keys: &[
         key("name", Name, Required, "Unique name."),
         key("material", Reference, Required, "Name of a `[material.NAME]` section."),
-        key("element", Choice(elements), Default("\"quad4\""), "Kind of element: what quadrilaterals are."),
+        key("element", Choice(elements), Default("\"quad4\""), "Kind of element: what quadrilaterals are; `bar2` for bars."),
         key("element_triangles", Choice(triangles), Optional("`tri3`"), "What triangles are, where the part has some."),
+        key(
+            "area",
+            Quantity(Dimension::LENGTH, Positive),
+            Optional("only with bars"),
+            "Cross-section of bars per metre of depth, such as `\"1e-4 m\"` for one square centimetre in each metre.",
+        ),
         key(
             "hourglass",
             Quantity(Dimension::NONE, NotNegative),
@@ -192,6 +199,13 @@ static PART: Section = Section {
             Angle(Dimension::RATE, Finite),
             Default("0"),
             "Initial angular velocity about the centre of mass, counter-clockwise; not of an axisymmetric part.",
+        ),
+        key("stress_initial", Table(&STRESS_INITIAL), Optional("none"), "Stress at the start."),
+        key(
+            "temperature_initial",
+            Quantity(Dimension::TEMPERATURE, Positive),
+            Optional("that of the material"),
+            "Temperature at the start, of laws that have one (`johnson_cook`).",
         ),
         key(
             "rigid",
@@ -359,6 +373,12 @@ static LOAD: Section = Section {
             "Rate of a force -rate * mass * velocity on parts: what moves slowly comes to rest.",
         ),
         key(
+            "damping_stiffness",
+            Quantity(Dimension::TIME, Positive),
+            Optional("another load"),
+            "Time beta of a stress beta * C * strain rate in the elements of parts, with their elastic stiffness C: a mode of angular frequency omega is damped by beta * omega / 2 of the critical. It shortens the step from dt to sqrt(beta^2 + dt^2) - beta, and acts during the whole run.",
+        ),
+        key(
             "on",
             Reference,
             Optional("only with `force` and `pressure`"),
@@ -375,16 +395,18 @@ static LOAD: Section = Section {
         key("until", Quantity(Dimension::TIME, Positive), Optional("the end"), "Time at which it ends."),
     ],
     rules: &[
-        Rule::OneOf(&["gravity", "centrifugal", "force", "pressure", "damping"]),
+        Rule::OneOf(&["gravity", "centrifugal", "force", "pressure", "damping", "damping_stiffness"]),
         Rule::Needs("centre", "centrifugal"),
         Rule::Needs("force", "on"),
         Rule::Needs("pressure", "on"),
         Rule::NotBoth("on", "gravity"),
         Rule::NotBoth("on", "centrifugal"),
         Rule::NotBoth("on", "damping"),
+        Rule::NotBoth("on", "damping_stiffness"),
         Rule::NotBoth("parts", "force"),
         Rule::NotBoth("parts", "pressure"),
         Rule::NotBoth("curve", "damping"),
+        Rule::NotBoth("curve", "damping_stiffness"),
         Rule::Needs("from", "damping"),
         Rule::Needs("until", "damping"),
     ],
@@ -550,7 +572,7 @@ fn equations_of_state() -> Vec<&'static str> {
 }
 
 fn elements() -> Vec<&'static str> {
-    elements_of(4)
+    [elements_of(4), elements_of(2)].concat()
 }
 
 fn triangles() -> Vec<&'static str> {
@@ -576,7 +598,10 @@ fn law_keys(law: &str) -> Option<Vec<Key>> {
 
 /// The keys of the parameters of an equation of state.
 fn equation_keys(name: &str) -> Option<Vec<Key>> {
-    Some(parameter_keys(material::eos::kind(name)?.parameters))
+    let mut keys = parameter_keys(material::eos::kind(name)?.parameters);
+    let Parameter { name, dimension, range, doc, .. } = material::eos::TENSION;
+    keys.push(key(name, Quantity(dimension, range), Optional("no limit"), doc));
+    Some(keys)
 }
 
 fn parameter_keys(parameters: &[Parameter]) -> Vec<Key> {

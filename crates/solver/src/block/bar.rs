@@ -1,0 +1,339 @@
+//! Bars between two nodes: trusses and cables.
+//!
+//! A bar bears a force N = σ A along the line between its nodes; σ is the Cauchy stress of its law under uniaxial stress, in axes that go with the bar, so a rotation is no
+//! strain, whatever its size. The strain of a step is Δε = 2 (l − l_old)/(l + l_old): sums of it are ln(l/l₀) to second order in the steps, and a bar that comes back to its
+//! length comes back to its strain. Hyperelastic laws get λ = l/l₀. The cross-section follows the strain across. Work of a step: ½ (σ_old + σ_new) Δε times the volume half way.
+//!
+//! Half of the mass is at each node. Stable step: Δt² = m l / (A (E + |σ|)) with the current E = 9Kµ/(3K + µ); |σ| stands for the stiffness of a taut bar across its line.
+//! Kinematics and forces are plain sums per bar in fixed order, the law runs in lanes: the same bits everywhere.
+
+use super::initial::{self, Initial, Wrong};
+use super::make::BlockInput;
+use super::{Block, ElementState, Motion, Report, corner_slot};
+use crate::failure::{Criterion, Seen};
+use crate::material::points::{self, PointLaw, Points, RESPONSE, Room};
+use crate::material::{Family, Parameters, Variable};
+use crate::tensor::{Plane, SymmetricTensor, Turn};
+use embate_lanes::{BATCH, Batch, Level};
+
+/// Components of a tensor of the plane: xx is along the bar.
+const PLANE: usize = 4;
+
+/// One bar.
+#[derive(Clone, Copy, Debug, Default)]
+struct Bar {
+    nodes: [u32; 2],
+    /// Lengths at the start, in the step before, and now, m.
+    initial: f64,
+    length_old: f64,
+    length: f64,
+    /// Unit vector from the first node to the second.
+    direction: [f64; 2],
+    /// Mass with what mass scaling added, kg/m.
+    mass: f64,
+    /// Energies, J/m.
+    stored: f64,
+    dissipated: f64,
+    /// Stress of the damping, Pa, and what it has taken, J/m.
+    damped: f64,
+    damping: f64,
+    time_step_squared: f64,
+    is_gone: bool,
+}
+
+/// The bars of a part.
+pub(super) struct Bars {
+    law: Box<dyn PointLaw>,
+    /// Cross-section at the start per metre of depth, m.
+    area: f64,
+    /// Time β of the damping in proportion to the stiffness, s; 0: none.
+    damping: f64,
+    bars: Vec<Bar>,
+    /// Cauchy stress in the axes of the bars, Pa.
+    stress: Vec<Batch>,
+    history: Vec<Batch>,
+    /// Room for a step: strain (or b), volume ratio, no heat, response, and what the law needs.
+    strain: Vec<Batch>,
+    ratio: Vec<Batch>,
+    heat: Vec<Batch>,
+    /// No rotation, at every point.
+    rotation: Vec<Batch>,
+    response: Vec<Batch>,
+    room: Room,
+}
+
+/// Length of a bar and its direction; none where the nodes coincide.
+fn line([a, b]: [[f64; 2]; 2]) -> (f64, [f64; 2]) {
+    let d = [b[0] - a[0], b[1] - a[1]];
+    let length = (d[0] * d[0] + d[1] * d[1]).sqrt();
+    (length, if length > 0.0 { d.map(|d| d / length) } else { [0.0; 2] })
+}
+
+impl Bars {
+    /// From what [`super::make`] was given; `None` when the law is unknown.
+    pub(super) fn new(input: &BlockInput<'_>) -> Option<Self> {
+        let law = points::uniaxial(input.material)?;
+        let density = Parameters::new(&[], &input.material.parameters, &input.material.lists).value("density");
+        let bar = |nodes: &[u32; 2]| {
+            let (length, direction) = line(nodes.map(|node| input.positions[node as usize]));
+            let volume = input.area * length;
+            let stored = law.stored() * volume;
+            Bar { nodes: *nodes, initial: length, length_old: length, length, direction, mass: density * volume, stored, ..Bar::default() }
+        };
+        let bars: Vec<Bar> = input.connectivity.as_chunks::<2>().0.iter().map(bar).collect();
+        let batches = bars.len().div_ceil(BATCH);
+        let room = |width: usize| vec![Batch::default(); batches * width];
+        let mut history = room(law.state_width());
+        history.chunks_exact_mut(law.state_width()).for_each(|point| law.start(point));
+        let mut rotation = room(ROTATION);
+        rotation.chunks_exact_mut(ROTATION).for_each(unturned);
+        let (stress, strain, ratio, heat, response) = (room(PLANE), room(PLANE), room(1), room(1), room(RESPONSE));
+        Some(Self {
+            law,
+            area: input.area,
+            damping: input.damping,
+            bars,
+            stress,
+            history,
+            strain,
+            ratio,
+            heat,
+            rotation,
+            response,
+            room: Room::default(),
+        })
+    }
+
+    /// What the law wants to know of the step that led here, in the axes of the bars.
+    fn strain(&mut self, positions: &[[f64; 2]]) {
+        // What is not there is not strained.
+        let unstrained = if self.law.family() == Family::Rate { 0.0 } else { 1.0 };
+        self.ratio.fill(Batch::splat(1.0));
+        for point in self.strain.chunks_exact_mut(PLANE) {
+            point.copy_from_slice(&[unstrained, unstrained, unstrained, 0.0].map(Batch::splat));
+        }
+        for (element, bar) in self.bars.iter_mut().enumerate().filter(|(_, bar)| !bar.is_gone) {
+            let (length, direction) = line(bar.nodes.map(|node| positions[node as usize]));
+            (bar.length_old, bar.length, bar.direction) = (bar.length, length, direction);
+            let (batch, lane) = (element / BATCH, element % BATCH);
+            let stretch = length / bar.initial;
+            self.ratio[batch].0[lane] = stretch;
+            self.strain[batch * PLANE].0[lane] = match self.law.family() {
+                Family::Rate => 2.0 * (length - bar.length_old) / (length + bar.length_old),
+                Family::Hyperelastic => stretch * stretch,
+            };
+        }
+    }
+
+    /// Cross-section over that at the start.
+    fn section(&self, element: usize) -> f64 {
+        let place = self.law.thickness().unwrap_or(0);
+        self.history[element / BATCH * self.law.state_width() + place].0[element % BATCH]
+    }
+
+    fn stress_of(&self, element: usize) -> f64 {
+        self.stress[element / BATCH * PLANE].0[element % BATCH]
+    }
+
+    fn sum(&self) -> Report {
+        let of = |bar: &Bar| {
+            let gone = Report { dissipated: bar.dissipated, damping: bar.damping, ..Report::NOTHING };
+            let there = Report { time_step_squared: bar.time_step_squared, determinant: bar.length, stored: bar.stored, ..gone };
+            if bar.is_gone { gone } else { there }
+        };
+        self.bars.iter().map(of).fold(Report::NOTHING, Report::join)
+    }
+}
+
+/// Batches of a rotation.
+const ROTATION: usize = <<Plane<f64> as SymmetricTensor<f64>>::Rotation as Turn<f64>>::COMPONENTS;
+
+fn unturned(point: &mut [Batch]) {
+    (0..BATCH).for_each(|lane| <<Plane<f64> as SymmetricTensor<f64>>::Rotation as Turn<f64>>::none().store(point, lane));
+}
+
+/// A batch of bars as criteria see it.
+struct Look<'a> {
+    bars: &'a Bars,
+    batch: usize,
+}
+
+impl Seen for Look<'_> {
+    fn stress(&self) -> [Batch; 4] {
+        std::array::from_fn(|c| self.bars.stress[self.batch * PLANE + c])
+    }
+    fn variable(&self, variable: Variable) -> Batch {
+        let place = self.bars.law.variables().iter().find(|&&(own, _)| own == variable);
+        place.map_or(Batch::default(), |&(_, index)| self.bars.history[self.batch * self.bars.law.state_width() + index])
+    }
+    fn time_step_squared(&self) -> Batch {
+        let of = |lane: usize| self.bars.bars.get(self.batch * BATCH + lane).map_or(f64::INFINITY, |bar| bar.time_step_squared);
+        Batch(std::array::from_fn(of))
+    }
+}
+
+impl Block<2> for Bars {
+    fn elements(&self) -> usize {
+        self.bars.len()
+    }
+
+    fn corner_batches(&self) -> usize {
+        self.bars.len().div_ceil(BATCH) * 4
+    }
+
+    fn advance(&mut self, motion: &Motion<'_, 2>, level: Level, corners: &mut [Batch], _parallel: bool) -> Report {
+        self.strain(motion.positions);
+        self.law.respond(
+            level,
+            Points {
+                time_step: motion.time_step,
+                strain: &self.strain,
+                rotation: &self.rotation,
+                volume_ratio: &self.ratio,
+                viscous_heat: &self.heat,
+                stress: &mut self.stress,
+                state: &mut self.history,
+                response: &mut self.response,
+                room: &mut self.room,
+            },
+        );
+        for element in 0..self.bars.len() {
+            let (stress, area) = (self.stress_of(element), self.area * self.section(element));
+            let bar = &mut self.bars[element];
+            // Per volume, times the ratio of cross-sections already.
+            let response: [f64; RESPONSE] = std::array::from_fn(|k| self.response[element / BATCH * RESPONSE + k].0[element % BATCH]);
+            let [stored, dissipated, bulk, shear] = response;
+            let young = 9.0 * bulk * shear / (3.0 * bulk + shear);
+            let strain = 2.0 * (bar.length - bar.length_old) / (bar.length + bar.length_old);
+            let damped = if motion.time_step > 0.0 { self.damping * young * strain / motion.time_step } else { 0.0 };
+            let force = if bar.is_gone { 0.0 } else { (stress + damped) * area };
+            for (corner, sign) in [(0, 1.0), (1, -1.0)] {
+                let (batch, lane) = corner_slot::<2>(2, element, corner);
+                for (d, component) in bar.direction.into_iter().enumerate() {
+                    corners[batch + d].0[lane] = sign * force * component;
+                }
+            }
+            if bar.is_gone {
+                continue;
+            }
+            let now = self.area * 0.5 * (bar.length + bar.length_old);
+            let dissipated = dissipated * now;
+            match self.law.family() {
+                Family::Rate => bar.stored += 0.5 * stored * now - dissipated,
+                Family::Hyperelastic => bar.stored = stored * (self.area * bar.initial),
+            }
+            bar.dissipated += dissipated;
+            bar.damping += 0.5 * (bar.damped + damped) * strain * (area / self.area * now);
+            bar.damped = damped;
+            let squared = bar.mass * bar.length / (area * (young + stress.abs()));
+            bar.time_step_squared = squared;
+            if self.damping > 0.0 {
+                bar.time_step_squared = ((squared + self.damping * self.damping).sqrt() - self.damping).powi(2);
+            }
+        }
+        self.sum()
+    }
+
+    fn mass(&self, element: usize) -> f64 {
+        self.bars[element].mass
+    }
+
+    fn corner_mass(&self, element: usize, _corner: usize) -> f64 {
+        0.5 * self.bars[element].mass
+    }
+
+    fn time_step_squared(&self, element: usize) -> f64 {
+        self.bars[element].time_step_squared
+    }
+
+    fn state(&self, element: usize) -> ElementState {
+        let bar = &self.bars[element];
+        let [c, s] = bar.direction;
+        let stress = self.stress_of(element);
+        let mut state = ElementState { stress: [c * c * stress, s * s * stress, 0.0, c * s * stress, 0.0, 0.0], ..ElementState::default() };
+        let width = self.law.state_width();
+        for &(variable, index) in self.law.variables() {
+            state.variables[variable as usize] = self.history[element / BATCH * width + index].0[element % BATCH];
+        }
+        state.energy_density = bar.stored / (self.area * bar.initial);
+        state
+    }
+
+    fn wave_modulus(&self) -> f64 {
+        let [bulk, shear] = self.law.stiffness();
+        bulk + 4.0 / 3.0 * shear
+    }
+
+    fn bulk_modulus(&self) -> f64 {
+        self.law.stiffness()[0]
+    }
+
+    fn has(&self, variable: Variable) -> bool {
+        self.law.variables().iter().any(|&(own, _)| own == variable)
+    }
+
+    fn scale_mass(&mut self, element: usize, factor: f64) {
+        self.bars[element].mass *= factor;
+    }
+
+    fn begin(&mut self, initial: &Initial<'_>, positions: &[[f64; 2]]) -> Result<(), Wrong> {
+        if let Some(temperature) = initial.temperature {
+            initial::warm(self.law.as_ref(), &mut self.history, temperature)?;
+        }
+        let Some(stress) = initial.stress else { return Ok(()) };
+        initial::keeps_stress(self.law.as_ref())?;
+        for batch in 0..self.stress.len() / PLANE {
+            let mut places = [[0.0; 2]; BATCH];
+            for (lane, place) in places.iter_mut().enumerate() {
+                let Some(bar) = self.bars.get_mut(batch * BATCH + lane) else { continue };
+                let [a, b] = bar.nodes.map(|node| positions[node as usize]);
+                *place = [0, 1].map(|d| 0.5 * (a[d] + b[d]));
+                let along = stress.at(*place)[0];
+                self.stress[batch * PLANE].0[lane] = along;
+                bar.stored += self.law.energy([along, 0.0, 0.0, 0.0, 0.0, 0.0]) * (self.area * bar.initial);
+            }
+            let (own, width) = (&self.stress[batch * PLANE..][..PLANE], self.law.state_width());
+            let history = &self.history[batch * width..][..width];
+            if let Some((lane, stresses)) = initial::released(self.law.as_ref(), own, history, &self.rotation[..ROTATION]) {
+                return Err(initial::cannot_hold(places[lane], stresses));
+            }
+        }
+        Ok(())
+    }
+
+    fn is_alive(&self, element: usize) -> bool {
+        !self.bars[element].is_gone
+    }
+
+    fn failed(&self, criteria: &[Criterion], _parallel: bool) -> Vec<(u32, u32)> {
+        let mut failed = Vec::new();
+        for batch in 0..self.stress.len() / PLANE {
+            let seen = Look { bars: self, batch };
+            let fails: Vec<[bool; BATCH]> = criteria.iter().map(|criterion| (criterion.kind.fails)(&seen, criterion.limit)).collect();
+            let here =
+                (0..BATCH).map(|lane| batch * BATCH + lane).filter(|&element| self.bars.get(element).is_some_and(|bar| !bar.is_gone));
+            for element in here {
+                let first = fails.iter().position(|fails| fails[element % BATCH]);
+                failed.extend(first.map(|first| (element as u32, first as u32)));
+            }
+        }
+        failed
+    }
+
+    fn determinant(&self, element: usize, positions: &[[f64; 2]]) -> f64 {
+        line(self.bars[element].nodes.map(|node| positions[node as usize])).0
+    }
+
+    fn erode(&mut self, elements: &[u32]) -> Vec<f64> {
+        let take = |&element: &u32| {
+            let bar = &mut self.bars[element as usize];
+            bar.is_gone = true;
+            bar.stored
+        };
+        elements.iter().map(take).collect()
+    }
+
+    fn report(&self, _positions: &[[f64; 2]]) -> Report {
+        self.sum()
+    }
+}

@@ -1,0 +1,83 @@
+//! Damping in proportion to the stiffness (Rayleigh): a stress σ_d = β C:ε̇ besides that of the law, with the elastic stiffness C of its current K and µ.
+//!
+//! It comes after the law has answered and before forces are made. ε̇ = Δε/Δt is that of the step which led here, so it lags by half a step:
+//!
+//! ```text
+//! σ_d = β/Δt ((K − 2µ/3) tr(Δε) I + 2µ Δε),   in plane stress with λ* = 2µλ/(λ + 2µ) in place of λ = K − 2µ/3, nothing across
+//! work of the step ½ (σ_d,old + σ_d):Δε V,    stable step dt_d = √(β² + dt²) − β
+//! ```
+//!
+//! A mode of frequency ω is damped by the part ξ = βω/2 of the critical. The step is that of the lagging force: z² − (2 − dt²ω² − dt β ω²) z + 1 − dt β ω² = 0 reaches
+//! z = −1 at dt²ω² + 2 dt β ω² = 4. The sum of the works is never negative but for the first and last half step, which the trapezoidal rule of the ledger asks for.
+
+use super::batch::ElementBatch;
+use super::strain::Tensor;
+use super::stress_state::StressState;
+use super::strip::{Parts, Strip};
+use crate::element::Element;
+use crate::material::points::RESPONSE;
+use crate::tensor::{Dim, Space, SymmetricTensor, Turn};
+use embate_lanes::{Batch, Lane};
+use std::marker::PhantomData;
+
+/// Points of a strip after their law has answered.
+pub(super) struct Damp<'a, E, S, const D: usize, const N: usize, const P: usize> {
+    /// β, s.
+    pub(super) damping: f64,
+    pub(super) time_step: f64,
+    pub(super) strip: &'a Strip,
+    /// History of the points, batches per point in it, and the place of the thickness ratio.
+    pub(super) history: &'a [Batch],
+    pub(super) history_width: usize,
+    pub(super) thickness: usize,
+    /// σ_d of the points, Pa: of the last step, then of this one.
+    pub(super) stress: &'a mut [Batch],
+    pub(super) elements: &'a mut [ElementBatch],
+    pub(super) kind: PhantomData<(E, S)>,
+}
+
+impl<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize> Parts for Damp<'_, E, S, D, N, P>
+where
+    Dim<D>: Space<D>,
+{
+    #[inline(always)]
+    fn batches(&self) -> usize {
+        self.elements.len()
+    }
+
+    #[inline(always)]
+    fn part<L: Lane>(&mut self, batch: usize, at: usize) {
+        let (zero, half) = (L::splat(0.0), L::splat(0.5));
+        let components = <Tensor<D, L> as SymmetricTensor<L>>::COMPONENTS;
+        let turn = <<Tensor<D, L> as SymmetricTensor<L>>::Rotation as Turn<L>>::COMPONENTS;
+        let factor = L::splat(if self.time_step > 0.0 { self.damping / self.time_step } else { 0.0 });
+        let mut work = zero;
+        for p in 0..P {
+            let point = batch * P + p;
+            let strain = Tensor::<D, L>::load(&self.strip.strain[point * components..(point + 1) * components], at);
+            let rotation = <<Tensor<D, L> as SymmetricTensor<L>>::Rotation as Turn<L>>::load(
+                &self.strip.rotation[point * turn..(point + 1) * turn],
+                at,
+            );
+            let response = &self.strip.response[point * RESPONSE..(point + 1) * RESPONSE];
+            let (bulk, shear) = (L::load(&response[2], at), L::load(&response[3], at));
+            let twice = shear + shear;
+            let lame = bulk - shear * L::splat(2.0 / 3.0);
+            let lame = if S::PLANE_STRESS { twice * lame / (lame + twice) } else { lame };
+            let mut new = strain.times(twice * factor).plus(Tensor::<D, L>::isotropic(lame * factor * strain.trace()));
+            if S::PLANE_STRESS {
+                new = new.plus_zz(-new.zz());
+            }
+            let kept = &mut self.stress[point * components..(point + 1) * components];
+            let old = Tensor::<D, L>::load(kept, at).rotated(&rotation);
+            new.store(kept, at);
+            let mut volume = L::load(&self.strip.volume[point], at);
+            if S::PLANE_STRESS {
+                volume = volume * L::load(&self.history[point * self.history_width + self.thickness], at);
+            }
+            work += old.plus(new).contract(strain) * half * volume;
+        }
+        let element = &mut self.elements[batch];
+        (L::load(&element.damping, at) + work * L::load(&element.live, at)).store(&mut element.damping, at);
+    }
+}

@@ -1,0 +1,140 @@
+//! What the points of a block hold at the start: stress and temperature.
+//!
+//! Values come from the part of the model; a stress is asked of the law before it is kept: strained by nothing, the law must leave it as it is (a stress beyond
+//! the yield surface would be gone before the first step). The elastic energy ½ σ:C⁻¹:σ of what is kept is in the books from the start.
+
+use super::elements::Elements;
+use super::strain::Tensor;
+use super::stress_state::StressState;
+use crate::element::Element;
+use crate::material::points::{PointLaw, Points, RESPONSE, Room};
+use crate::material::{Family, Variable};
+use crate::model::InitialStress;
+use crate::tensor::{Dim, Space, SymmetricTensor, Turn};
+use embate_lanes::{BATCH, Batch, Level};
+
+/// How much a stress may change when the law sees it, over its largest component: round-off.
+const HELD: f64 = 1e-9;
+
+/// What points hold at the start.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Initial<'a> {
+    /// Stress; `None`: none.
+    pub stress: Option<&'a InitialStress>,
+    /// Temperature, K; `None`: that of the material.
+    pub temperature: Option<f64>,
+}
+
+/// What keeps a law from holding it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wrong {
+    /// The key of the part: `stress_initial` or `temperature_initial`.
+    pub key: &'static str,
+    /// The reason.
+    pub message: String,
+    /// What to do.
+    pub help: &'static str,
+}
+
+impl Wrong {
+    fn stress(message: String, help: &'static str) -> Self {
+        Self { key: "stress_initial", message, help }
+    }
+}
+
+/// Writes a temperature into the history of points.
+pub(super) fn warm(law: &dyn PointLaw, history: &mut [Batch], temperature: f64) -> Result<(), Wrong> {
+    let place = law.variables().iter().find(|(variable, _)| *variable == Variable::Temperature);
+    let Some(&(_, index)) = place else {
+        let message = "its law knows no temperature".to_string();
+        return Err(Wrong { key: "temperature_initial", message, help: "leave it out, or take a law with a temperature: `johnson_cook`" });
+    };
+    history.chunks_exact_mut(law.state_width()).for_each(|point| point[index] = Batch::splat(temperature));
+    Ok(())
+}
+
+/// Whether the law works on stresses at all.
+pub(super) fn keeps_stress(law: &dyn PointLaw) -> Result<(), Wrong> {
+    if law.family() == Family::Rate {
+        return Ok(());
+    }
+    Err(Wrong::stress(
+        "its law has its stress from the deformation, so it has none while there is no deformation".into(),
+        "leave it out and deform the part in the first part of the run, or take a law in rate form such as `elastic` or `viscoelastic`",
+    ))
+}
+
+/// Asks the law if it leaves a point's `stress` as it is: the lane and the stresses before and after, xx yy zz xy, where it does not.
+/// `rotation`: no rotation, as it is stored.
+pub(super) fn released(law: &dyn PointLaw, stress: &[Batch], history: &[Batch], rotation: &[Batch]) -> Option<(usize, [[f64; 4]; 2])> {
+    let mut after = stress.to_vec();
+    law.respond(
+        Level::SCALAR,
+        Points {
+            time_step: 0.0,
+            strain: &vec![Batch::default(); stress.len()],
+            rotation,
+            volume_ratio: &[Batch::splat(1.0)],
+            viscous_heat: &[Batch::default()],
+            stress: &mut after,
+            state: &mut history.to_vec(),
+            response: &mut [Batch::default(); RESPONSE],
+            room: &mut Room::default(),
+        },
+    );
+    let of = |all: &[Batch], lane: usize| -> [f64; 4] { std::array::from_fn(|c| all[c].0[lane]) };
+    (0..BATCH).map(|lane| (lane, [of(stress, lane), of(&after, lane)])).find(|(_, [before, after])| {
+        let size = before.iter().fold(0.0f64, |size, s| size.max(s.abs()));
+        // NaN too.
+        !before.iter().zip(after).all(|(s, t)| (s - t).abs() <= HELD * size)
+    })
+}
+
+/// In words what [`released`] found at a place, m.
+pub(super) fn cannot_hold([x, y]: [f64; 2], [before, after]: [[f64; 4]; 2]) -> Wrong {
+    let words = |[xx, yy, zz, xy]: [f64; 4]| format!("xx {xx:.4e}, yy {yy:.4e}, zz {zz:.4e}, xy {xy:.4e} Pa");
+    Wrong::stress(
+        format!("its law can't hold the stress at ({x:.4e}, {y:.4e}) m: of {} it leaves {} at once", words(before), words(after)),
+        "keep it within the yield surface; with an equation of state its mean must be minus the pressure of the equation at the start, in plane stress it has no zz",
+    )
+}
+
+impl<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize> Elements<E, S, D, N, P>
+where
+    Dim<D>: Space<D>,
+{
+    pub(super) fn take_over(&mut self, initial: &Initial<'_>, positions: &[[f64; D]]) -> Result<(), Wrong> {
+        let width = self.law.state_width();
+        if let Some(temperature) = initial.temperature {
+            warm(self.law.as_ref(), &mut self.history, temperature)?;
+        }
+        let Some(stress) = initial.stress else { return Ok(()) };
+        keeps_stress(self.law.as_ref())?;
+        let components = Self::COMPONENTS;
+        let turn = <<Tensor<D, f64> as SymmetricTensor<f64>>::Rotation as Turn<f64>>::COMPONENTS;
+        let mut rotation = vec![Batch::default(); turn];
+        (0..BATCH).for_each(|lane| <<Tensor<D, f64> as SymmetricTensor<f64>>::Rotation as Turn<f64>>::none().store(&mut rotation, lane));
+        for batch in 0..self.elements.len() {
+            for p in 0..P {
+                let mut places = [[0.0; 2]; BATCH];
+                let own = &mut self.stress[(batch * P + p) * components..][..components];
+                for (lane, place) in places.iter_mut().enumerate() {
+                    let x: [[f64; D]; N] = std::array::from_fn(|a| positions[self.nodes.row(batch * N + a)[lane] as usize]);
+                    let shape = E::shape(E::POINTS[p]);
+                    *place = std::array::from_fn(|d| (0..N).map(|a| shape[a] * x[a][d]).sum());
+                    let [xx, yy, zz, xy] = stress.at(*place);
+                    let all = [xx, yy, zz, xy, 0.0, 0.0];
+                    Tensor::<D, f64>::from_components(all).store(own, lane);
+                    let determinant = Dim::<D>::determinant(&E::gradients(&x)[p]);
+                    let volume = super::strain::circumference::<S, f64, D, N>(determinant * E::WEIGHTS[p], &x, &shape);
+                    self.elements[batch].stored.0[lane] += self.law.energy(all) * volume;
+                }
+                let history = &self.history[(batch * P + p) * width..][..width];
+                if let Some((lane, stresses)) = released(self.law.as_ref(), own, history, &rotation) {
+                    return Err(cannot_hold(places[lane], stresses));
+                }
+            }
+        }
+        Ok(())
+    }
+}

@@ -25,6 +25,8 @@ use std::marker::PhantomData;
 pub(super) struct Forces<'a, E, S, const D: usize, const N: usize, const P: usize> {
     pub(super) element: &'a E,
     pub(super) family: Family,
+    /// Whether the law bears shear at rest.
+    pub(super) is_solid: bool,
     pub(super) time_step: f64,
     /// Coefficients L and Q of the bulk viscosity; none: no work is done for it.
     pub(super) viscosity: Option<[f64; 2]>,
@@ -310,6 +312,8 @@ where
             }
         }
         let kept = &mut self.hourglass[batch * E::HOURGLASS..(batch + 1) * E::HOURGLASS];
+        // Nothing else holds the shape of a fluid; of a solid that can't change its volume, K would lock it.
+        let shape_modulus = if self.is_solid { modulus.min(L::splat(4.0) * shear) } else { modulus };
         let corners = Corners {
             x: geometry.x,
             v,
@@ -317,6 +321,7 @@ where
             volume: geometry.volume,
             modulus,
             shear,
+            shape_modulus,
             mass,
             time_step: L::splat(self.time_step),
             is_plane_stress: S::PLANE_STRESS,

@@ -5,7 +5,8 @@
 //! f_a = ¼ γ_a Q, whose power is Q·q̇. Q and q̇ are kept in axes that turn with the line through the middles of two opposite sides, and q̇ is taken at mid-step, so rigid
 //! motion changes nothing. M = K + 4µ/3, V the volume, h² the square of the thickness, m the mass:
 //!
-//! - `stiffness`: Q̇ = κ k₁ q̇, k₁ = 2 M V / h². With κ = 1 the pattern swings as fast as the stretch of a square. Keeps shapes.
+//! - `stiffness`: Q̇ = κ k₁ q̇, k₁ = 2 M' V / h². With κ = 1 and M' = M the pattern swings as fast as the stretch of a square. Keeps shapes. The source takes M' = M; here
+//!   it is at most 4µ (M at ν = 1/3, what bending costs at ν = ½), because with M a κ of 0.05 locks what is nearly incompressible. Of a fluid it is M.
 //! - `viscous`: Q = 2 κ √(k₁ m) q̇: the part κ of critical damping. Shapes that are there remain.
 //! - `assumed_strain`: Q̇ = κ (V/A) Ē [[H_xx, −ν̄ H_xy], [−ν̄ H_xy, H_yy]] q̇, H_ij = ∫ h,i h,j dA ≈ A/3 (ξ,i ξ,j + η,i η,j), Ē = 2µ (1 + ν̄), ν̄ = ν/(1 − ν) or, in
 //!   plane stress, ν: what elastic bending costs, exact on rectangles (ASQBI). While the point flows, the bending stays elastic.
@@ -137,7 +138,7 @@ fn corner_volumes(x: &[[f64; 2]; 4], is_axisymmetric: bool) -> [f64; 4] {
 #[inline(always)]
 fn hold_shape<L: Lane>(control: Control, coefficient: f64, corners: &Corners<L, 2, 4>, kept: &mut [Batch], at: usize) -> Held<L, 2, 4> {
     let (half, four, coefficient) = (L::splat(0.5), L::splat(4.0), L::splat(coefficient));
-    let Corners { x, v, modulus, shear, mass, time_step, volume, .. } = *corners;
+    let Corners { x, v, modulus, shear, shape_modulus, mass, time_step, volume, .. } = *corners;
     let mut x_middle = x;
     for a in 0..4 {
         for i in 0..2 {
@@ -149,7 +150,7 @@ fn hold_shape<L: Lane>(control: Control, coefficient: f64, corners: &Corners<L, 
     let change = [rate[0] * time_step, rate[1] * time_step];
     let old = [L::load(&kept[0], at), L::load(&kept[1], at)];
     let thickness_squared = thickness_squared(&x, corners.area);
-    let stiffness = L::splat(2.0) * modulus * volume / thickness_squared;
+    let stiffness = L::splat(2.0) * shape_modulus * volume / thickness_squared;
     let step_squared = thickness_squared * mass / (volume * modulus); // of the linear shapes
     let share = end.square() / (four * mass); // largest ω² per stiffness of the pattern
     let (force, swing) = match control {

@@ -215,7 +215,6 @@ impl<const D: usize> Cells<D> {
 
     /// Hulls of all facets, taken together in groups.
     fn group_facets(&mut self, query: &Query<'_, D>) {
-        self.groups.clear();
         self.place.clear();
         self.unbounded.clear();
         self.bounds = Extent::NONE;

@@ -95,16 +95,18 @@ pub(super) struct Compare<'a, const D: usize> {
 }
 
 impl<const D: usize> Kernel for Compare<'_, D> {
-    type Output = ();
+    /// Number of meetings; what lies behind them in the list is old.
+    type Output = usize;
     #[inline(always)]
-    fn run<L: Lane>(self) {
+    fn run<L: Lane>(self) -> usize {
         let Scratch { near, met, with_groups, .. } = self.scratch;
         let (mut first, mut end) = (0, 0);
         for (slaves, number) in self.slaves.iter().zip(0_u32..) {
             let found = &self.found[first..slaves.found];
             first = slaves.found;
-            near.clear();
-            near.resize(found.len(), 0);
+            if near.len() < found.len() {
+                near.resize(found.len(), 0);
+            }
             let mut count = 0;
             let all = 0xff >> (GROUP - slaves.count);
             for &group in found {
@@ -135,7 +137,9 @@ impl<const D: usize> Kernel for Compare<'_, D> {
                 }
             }
         }
-        self.meetings.resize(end, Meeting::default());
+        if self.meetings.len() < end {
+            self.meetings.resize(end, Meeting::default());
+        }
         let mut kept = 0;
         for meeting in &with_groups[..end] {
             let path = self.slaves[meeting.place as usize / GROUP].paths.at(meeting.place as usize);
@@ -143,6 +147,6 @@ impl<const D: usize> Kernel for Compare<'_, D> {
             self.meetings[kept] = Meeting { bits, ..*meeting };
             kept += usize::from(bits != 0);
         }
-        self.meetings.truncate(kept);
+        kept
     }
 }

@@ -22,6 +22,7 @@ impl<const D: usize> Kernel for Gather<'_, D> {
         let margin = Margin::new(query.reach);
         facets.resize(query.facets.len().div_ceil(GROUP), Hulls::NONE);
         groups.clear();
+        groups.reserve(facets.len());
         let mut begin = 0;
         for (eight, hulls) in query.facets.chunks(GROUP).zip(facets) {
             let nowhere = [[Batch::splat(f64::NAN); D]; D];

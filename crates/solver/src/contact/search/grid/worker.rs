@@ -96,7 +96,8 @@ impl<const D: usize> Worker<D> {
     fn compare(&mut self, cells: &Cells<D>, query: &Query<'_, D>, pairs: &mut Vec<Pair>, mut written: usize) -> usize {
         let Self { slaves, used, found, scratch, meetings, .. } = self;
         let Cells { instructions, groups, facets, .. } = cells;
-        instructions.run(Compare { slaves: &slaves[..*used], groups, found, facets, scratch, meetings });
+        let count = instructions.run(Compare { slaves: &slaves[..*used], groups, found, facets, scratch, meetings });
+        let meetings = &meetings[..count];
         if pairs.len() < written + GROUP * meetings.len() {
             pairs.resize(written + GROUP * meetings.len() + 1024, Pair { slave: 0, facet: 0 });
         }

@@ -258,6 +258,8 @@ pub struct Summary {
     pub steps: u64,
     /// Time reached, s.
     pub time_end: f64,
+    /// When relaxation had brought everything to rest, which ended the run, s.
+    pub rest: Option<f64>,
     /// Smallest time step taken, s.
     pub stable_time_step_min: f64,
     /// What governed that step.

@@ -455,6 +455,7 @@ impl Simulation {
             nodes: system.mesh.positions.len(),
             steps: system.step,
             time_end: system.time,
+            rest: self.system.relaxation.as_ref().and_then(|relaxation| relaxation.rest),
             stable_time_step_min: self.shortest.time_step,
             stable_time_step_governor: self.shortest.governor.clone(),
             energy_drift: system.ledger.drift(),

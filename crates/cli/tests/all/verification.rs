@@ -175,6 +175,34 @@ fn a_run_that_fails_fails_its_checks() {
 }
 
 #[test]
+fn what_has_come_to_rest_stays_as_it_is_until_the_end() {
+    // Pulled with 50 MPa: the mean displacement is half of σ L (1 − ν²) / E.
+    let pulled = |relaxation: &str| {
+        let set = [
+            "run.end=40 ms",
+            relaxation,
+            "part.block.velocity=[0, 0]",
+            "constraint=[{ on = \"block.left\", fixed = \"x\" }]",
+            "load=[{ on = \"block.right\", pressure = \"-50 MPa\" }]",
+        ];
+        format!("[variant.pulled]\nset = {set:?}\n")
+    };
+    let displacement = check(
+        "model = \"pulled\"\nquantity = { history = \"P.x\", at = \"40 ms\" }\nminus = { history = \"P.x\", at = 0 }\nexpect = 1.1375e-6\ntolerance_relative = \"0.1 %\"",
+    );
+    let answer = verify("verify-rest", &(pulled("run.relaxation={ tolerance = 1e-9 }") + &displacement), &["--out", "kept"]);
+    assert_eq!(answer.code, Some(0), "{}{}", answer.out, answer.err);
+    let summary = fs::read_to_string(Path::new(env!("CARGO_TARGET_TMPDIR")).join("verify-rest/kept/block/pulled/summary.json")).unwrap();
+    let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();
+    assert_eq!((&summary["status"], &summary["rest"]), (&"done".into(), &summary["time_end"]), "{summary}");
+    assert!(summary["rest"].as_f64().unwrap() < 2e-3, "{summary}");
+    // What was stopped otherwise has ended early.
+    let answer = verify("verify-early", &(pulled("run.max_steps=100") + &displacement), &[]);
+    assert_eq!(answer.code, Some(1), "{}{}", answer.out, answer.err);
+    assert!(answer.out.contains("ended early"), "{}", answer.out);
+}
+
+#[test]
 fn convergence_is_judged_between_two_models() {
     // Half the velocity: half the deviation from rest.
     let text = |fraction: &str| {

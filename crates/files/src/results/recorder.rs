@@ -108,7 +108,7 @@ impl<'a> Recorder<'a> {
             report.warnings.push(format!("pictures are missing: {message}"));
         }
 
-        let is_early = summary.time_end < self.end * (1.0 - 1e-9);
+        let is_early = summary.rest.is_none() && summary.time_end < self.end * (1.0 - 1e-9);
         report.error = error.or_else(|| closed.as_ref().err().map(ToString::to_string));
         report.status = match report.error {
             Some(_) => RunStatus::Failed,

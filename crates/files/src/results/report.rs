@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum RunStatus {
-    /// It reached its end time.
+    /// It reached its end time, or rest where relaxation was asked for.
     Done,
     /// It ended with an error; what was computed until then is kept.
     Failed,
@@ -89,6 +89,9 @@ pub struct Report {
     pub steps: u64,
     /// Time reached, s.
     pub time_end: f64,
+    /// When relaxation had brought everything to rest, which ended the run, s; left out where it did not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rest: Option<f64>,
     /// Wall time of the run with its output and pictures, without reading and meshing the model, s.
     pub wall_seconds: f64,
     /// User CPU time of the whole process, s; `None` where the system does not tell.
@@ -143,6 +146,7 @@ impl Report {
             nodes: summary.nodes,
             steps: summary.steps,
             time_end: summary.time_end,
+            rest: summary.rest,
             wall_seconds: 0.0,
             user_cpu_seconds: None,
             element_steps_per_second: None,

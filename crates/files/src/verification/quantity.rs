@@ -52,6 +52,14 @@ impl Samples {
         }
     }
 
+    /// What is at rest stays as it is: the last row once more at the end.
+    pub(super) fn stay_until(&mut self, end: f64) {
+        if let Some(mut row) = self.rows.last().cloned() {
+            row[0] = end;
+            self.rows.push(row);
+        }
+    }
+
     /// Whether a quantity will be there, as far as can be told before the run.
     pub(super) fn examine(&self, source: &Source, end: f64) -> Result<(), Missing> {
         if let Some(late) = source.times().into_iter().find(|time| *time > end) {

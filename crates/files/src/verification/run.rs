@@ -108,12 +108,17 @@ impl Case {
         let mut gathering = Gathering { samples, recorder, on_progress, is_stopped: false };
         let error = simulation.run(&mut gathering).err().map(|error| error.to_string());
         let Gathering { mut samples, recorder, is_stopped, .. } = gathering;
-        samples.summary = Report::of(&simulation.summary(), &model.name, &[]).value();
+        let summary = simulation.summary();
+        samples.summary = Report::of(&summary, &model.name, &[]).value();
         if let Some(recorder) = recorder {
-            recorder.finish(error.clone(), &simulation.summary(), || None).unwritten.map_or(Ok(()), Err)?;
+            recorder.finish(error.clone(), &summary, || None).unwritten.map_or(Ok(()), Err)?;
         }
         let end = simulation.time();
-        let early = (end < model.run.end * (1.0 - 1e-9)).then(|| format!("the run ended early, at {end:.4e} s"));
+        let is_early = end < model.run.end * (1.0 - 1e-9);
+        if is_early && summary.rest.is_some() {
+            samples.stay_until(model.run.end);
+        }
+        let early = (is_early && summary.rest.is_none()).then(|| format!("the run ended early, at {end:.4e} s"));
         let stopped = is_stopped.then(|| "the run was stopped".to_string());
         Ok(Ran { samples, error: error.or(stopped).or(early) })
     }

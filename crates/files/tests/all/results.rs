@@ -60,6 +60,7 @@ fn summary(steps: u64) -> Summary {
         nodes: 5,
         steps,
         time_end: steps as f64 * 1e-4,
+        rest: None,
         stable_time_step_min: 1e-4,
         stable_time_step_governor: "element 0 of part \"left\"".into(),
         energy_drift: 0.001,

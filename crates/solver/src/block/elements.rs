@@ -208,6 +208,7 @@ where
             level.run(Every(Forces::<E, S, D, N, P> {
                 element: common.element,
                 family: measures.family,
+                is_solid: common.law.stiffness()[1] > 0.0,
                 time_step: common.motion.time_step,
                 viscosity: common.viscosity,
                 damping: common.damping,

@@ -25,6 +25,8 @@ use std::marker::PhantomData;
 pub(super) struct Forces<'a, E, S, const D: usize, const N: usize, const P: usize> {
     pub(super) element: &'a E,
     pub(super) family: Family,
+    /// Whether the law bears shear at rest.
+    pub(super) is_solid: bool,
     pub(super) time_step: f64,
     /// Coefficients L and Q of the bulk viscosity; none: no work is done for it.
     pub(super) viscosity: Option<[f64; 2]>,
@@ -144,17 +146,17 @@ where
         if let Some(coefficients) = self.viscosity {
             (pressure, stiffening) = self.viscous(batch, at, coefficients, &geometry, modulus, thickness_squared);
         }
-        if self.damping > 0.0 {
-            let beta = L::splat(self.damping);
-            let step = (time_step_squared + beta * beta).sqrt() - beta;
-            time_step_squared = step * step;
-        }
         let mut nodal = self.nodal(batch, at, &geometry, pressure);
         if E::HOURGLASS > 0 {
             stiffening = stiffening.max(self.hold_shape(batch, at, &geometry, [modulus, shear, mass], &mut nodal));
         }
         // dt² = h² ρ / (K + 4µ/3) with ρ = m / V, as if all corners were as heavy as the lightest
-        let time_step_squared = thickness_squared[0] * mass / (thickness_squared[1] * (geometry.volume * modulus) * stiffening);
+        let mut time_step_squared = thickness_squared[0] * mass / (thickness_squared[1] * (geometry.volume * modulus) * stiffening);
+        if self.damping > 0.0 {
+            let beta = L::splat(self.damping);
+            let step = (time_step_squared + beta * beta).sqrt() - beta;
+            time_step_squared = step * step;
+        }
         let corners = &mut self.corners[batch * N * D..(batch + 1) * N * D];
         for a in 0..N {
             for i in 0..D {
@@ -333,6 +335,8 @@ where
             }
         }
         let kept = &mut self.hourglass[batch * E::HOURGLASS..(batch + 1) * E::HOURGLASS];
+        // Nothing else holds the shape of a fluid; of a solid that can't change its volume, K would lock it.
+        let shape_modulus = if self.is_solid { modulus.min(L::splat(4.0) * shear) } else { modulus };
         let corners = Corners {
             x: geometry.x,
             v,
@@ -340,6 +344,7 @@ where
             volume: geometry.volume,
             modulus,
             shear,
+            shape_modulus,
             mass,
             time_step: L::splat(self.time_step),
             is_plane_stress: S::PLANE_STRESS,

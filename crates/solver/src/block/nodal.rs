@@ -298,6 +298,7 @@ where
             level.run(Every(Forces::<E, S, D, N, P> {
                 element,
                 family,
+                is_solid: true,
                 time_step,
                 viscosity,
                 damping,

@@ -94,6 +94,8 @@ pub struct Corners<L, const D: usize, const N: usize> {
     pub modulus: L,
     /// µ, Pa.
     pub shear: L,
+    /// Against hourglass shapes: K + 4µ/3, of solids at most 4µ, Pa.
+    pub shape_modulus: L,
     /// Mass in the stable step, kg/m (kg).
     pub mass: L,
     /// The step, s.

@@ -5,7 +5,8 @@
 //! f_a = ¼ γ_a Q, whose power is Q·q̇. q̇ is taken at mid-step and Q turns with the step's rotation (Hughes and Winget's, of the point), so rigid motion
 //! changes nothing. M = K + 4µ/3, V the volume, h² the square of the thickness, m the mass:
 //!
-//! - `stiffness`: Q̇ = κ k₁ q̇, k₁ = 2 M V / h². With κ = 1 the pattern swings as fast as the stretch of a square. Keeps shapes.
+//! - `stiffness`: Q̇ = κ k₁ q̇, k₁ = 2 M' V / h². With κ = 1 and M' = M the pattern swings as fast as the stretch of a square. Keeps shapes. The source takes M' = M; here
+//!   it is at most 4µ (M at ν = 1/3, what bending costs at ν = ½), because with M a κ of 0.05 locks what is nearly incompressible. Of a fluid it is M.
 //! - `viscous`: Q = 2 κ √(k₁ m) q̇: the part κ of critical damping. Shapes that are there remain.
 //! - `assumed_strain`: Q̇ = κ (V/A) Ē [[H_xx, −ν̄ H_xy], [−ν̄ H_xy, H_yy]] q̇ in the axes along the line through the middles of two opposite sides,
 //!   H_ij = ∫ h,i h,j dA ≈ A/3 (ξ,i ξ,j + η,i η,j), Ē = 2µ (1 + ν̄), ν̄ = ν/(1 − ν) or, in plane stress, ν: what elastic bending costs, exact on rectangles (ASQBI).
@@ -13,7 +14,8 @@
 //!
 //! The stable step: the linear shapes and the pattern, each with its own largest ω² (a and b), are orthogonal on parallelograms. Else they share c² = 1 − 4/γ·γ, since
 //! h is orthogonal to every b_j; for two positive matrices whose ranges have at most this cosine c, ω² ≤ ½ (a + b + √((a − b)² + 4abc²)). A damping d that lags half a
-//! step takes part as 2 d / Δt. With the linear shapes' step, a Δt² = 4, and b Δt² is ½ κ γ·γ, √2 κ γ·γ, and κ Ē λ h² γ·γ / 4M with the largest eigenvalue λ of H/A.
+//! step takes part as 2 d / Δt. With the linear shapes' step, a Δt² = 4, and b Δt² is ½ κ γ·γ and √2 κ γ·γ (with M for M', which is no less), and κ Ē λ h² γ·γ / 4M with
+//! the largest eigenvalue λ of H/A.
 //!
 //! Sources: Flanagan and Belytschko, Int. J. Numer. Meth. Engng 17 (1981) 679-706; Hughes and Winget, Int. J. Numer. Meth. Engng 15 (1980) 1862-1867; Belytschko and Bindeman, Comput. Meth. Appl. Mech. Engng 88 (1991) 311-340.
 
@@ -231,7 +233,7 @@ impl<L: Lane> Change<L> {
 #[inline(always)]
 fn hold_shape<L: Lane>(control: Control, coefficient: f64, corners: &Corners<L, 2, 4>, kept: &mut [Batch], at: usize) -> Held<L, 2, 4> {
     let (quarter, half, one, two, four) = (L::splat(0.25), L::splat(0.5), L::splat(1.0), L::splat(2.0), L::splat(4.0));
-    let Corners { modulus, mass, time_step, volume, .. } = *corners;
+    let Corners { shape_modulus, mass, time_step, volume, .. } = *corners;
     let coefficient = L::splat(coefficient);
     let (end, v) = (Differences::of(&corners.x), Differences::of(&corners.v));
     let middle = end.less(&v, time_step * half);
@@ -240,7 +242,7 @@ fn hold_shape<L: Lane>(control: Control, coefficient: f64, corners: &Corners<L, 
     // k₁ = 2 M V / h², h² = 2 A² / (d₁₃² + d₄₂²)
     let extent =
         (end.first[0] * end.first[0] + end.first[1] * end.first[1]) + (end.second[0] * end.second[0] + end.second[1] * end.second[1]);
-    let stiffness = four * modulus * volume * extent * (moved.inverse_end * moved.inverse_end);
+    let stiffness = four * shape_modulus * volume * extent * (moved.inverse_end * moved.inverse_end);
     let Answer { added, swing } = match control {
         Control::Stiffness => {
             let k = coefficient * stiffness;

@@ -4,45 +4,18 @@
 //! it returns the Cauchy stress and what the ledger and the stable step need. To add a law: one file, one line in `laws!`.
 //! Blocks see laws erased, as [`points::PointLaw`]: the kernel of a law is compiled once, not once per element.
 
-mod chaboche;
-mod crushable_foam;
-mod drucker_prager;
-mod arruda_boyce;
-mod elastic;
 pub mod eos;
 pub mod hardening;
-mod j2;
-mod johnson_cook;
-mod mooney_rivlin;
-mod neo_hookean;
-mod ogden;
-mod orthotropic_elastic;
-mod null;
 mod parameters;
 pub mod points;
 mod rubber;
 mod state;
 mod trial;
 mod unloaded;
-mod viscoelastic;
-mod yeoh;
 
-pub use arruda_boyce::ArrudaBoyce;
-pub use chaboche::Chaboche;
-pub use crushable_foam::CrushableFoam;
-pub use drucker_prager::DruckerPrager;
-pub use elastic::Elastic;
-pub use j2::{J2, J2Ludwik, J2Swift, J2Table, J2Voce, J2With};
-pub use johnson_cook::JohnsonCook;
-pub use mooney_rivlin::MooneyRivlin;
-pub use neo_hookean::NeoHookean;
-pub use null::Null;
-pub use ogden::Ogden;
-pub use orthotropic_elastic::OrthotropicElastic;
+pub use j2::J2With;
 pub use parameters::{BULK, DENSITY, POISSON, ParameterFault, Parameters, YOUNG, bulk_and_shear};
 pub use state::{Orientation, State, Tensors, Variable};
-pub use viscoelastic::Viscoelastic;
-pub use yeoh::Yeoh;
 
 use crate::quantity::Parameter;
 use crate::tensor::{Solid, SymmetricTensor};
@@ -177,42 +150,40 @@ pub trait LawVisitor {
     fn visit<M: Law>(self) -> Self::Output;
 }
 
-/// The registry: one line per law.
+/// The registry: one line per file of laws.
 macro_rules! laws {
-    ($($law:ident),* $(,)?) => {
+    ($($file:ident: $($law:ident),+;)*) => {
+        $(mod $file; pub use $file::{$($law),+};)*
+
         /// Every law, in the order in which it is listed.
-        pub const LAWS: &[LawKind] = &[$(<$law as Law>::KIND),*];
+        pub const LAWS: &[LawKind] = &[$($(<$law as Law>::KIND),+),*];
 
         /// Calls `visitor` with the law called `name`; `None` when there is none.
         pub fn with_law<V: LawVisitor>(name: &str, visitor: V) -> Option<V::Output> {
             match name {
-                $(n if n == <$law as Law>::KIND.name => Some(visitor.visit::<$law>()),)*
+                $($(n if n == <$law as Law>::KIND.name => Some(visitor.visit::<$law>()),)+)*
                 _ => None,
             }
         }
     };
 }
 
-laws!(
-    Elastic,
-    OrthotropicElastic,
-    J2,
-    J2Voce,
-    J2Swift,
-    J2Ludwik,
-    J2Table,
-    Chaboche,
-    JohnsonCook,
-    DruckerPrager,
-    CrushableFoam,
-    NeoHookean,
-    MooneyRivlin,
-    Yeoh,
-    ArrudaBoyce,
-    Ogden,
-    Viscoelastic,
-    Null
-);
+laws! {
+    elastic: Elastic;
+    orthotropic_elastic: OrthotropicElastic;
+    j2: J2, J2Voce, J2Swift, J2Ludwik, J2Table;
+    chaboche: Chaboche;
+    johnson_cook: JohnsonCook;
+    drucker_prager: DruckerPrager;
+    crushable_foam: CrushableFoam;
+    neo_hookean: NeoHookean;
+    mooney_rivlin: MooneyRivlin;
+    yeoh: Yeoh;
+    arruda_boyce: ArrudaBoyce;
+    ogden: Ogden;
+    viscoelastic: Viscoelastic;
+    null: Null;
+}
 
 /// What the law called `name` finds wrong with parameters whose ranges are right.
 #[must_use]

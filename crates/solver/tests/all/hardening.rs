@@ -19,20 +19,20 @@ fn point<M: Law>(numbers: &[(&str, f64)], lists: &[(&str, &[f64])], rate: f64) -
 
 fn with_every_hardening(rate: f64, check: &mut impl Check) {
     let table: [(&str, &[f64]); 2] = [("plastic_strain", &[0.0, 0.01, 0.05, 0.2]), ("stress", &[2.0, 3.0, 4.0, 4.5])];
-    check.check(&|p| 2.0 + 30.0 * p, point::<J2>(&[("yield", 2.0), ("hardening", 30.0)], &[], rate), &|at| at.state[0]);
+    check.check(&|p| 2.0 + 30.0 * p, point::<J2>(&[("yield", 2.0), ("hardening", 30.0)], &[], rate), &|at| at.state.0[0]);
     let voce = [("yield", 2.0), ("saturation", 5.0), ("saturation_rate", 25.0), ("hardening", 3.0)];
-    check.check(&|p| 2.0 + 3.0 * (1.0 - (-25.0 * p).exp()) + 3.0 * p, point::<J2Voce>(&voce, &[], rate), &|at| at.state[0]);
+    check.check(&|p| 2.0 + 3.0 * (1.0 - (-25.0 * p).exp()) + 3.0 * p, point::<J2Voce>(&voce, &[], rate), &|at| at.state.0[0]);
     let swift = [("strength", 8.0), ("strain_offset", 0.002), ("hardening_exponent", 0.25)];
-    check.check(&|p| 8.0 * (0.002 + p).powf(0.25), point::<J2Swift>(&swift, &[], rate), &|at| at.state[0]);
+    check.check(&|p| 8.0 * (0.002 + p).powf(0.25), point::<J2Swift>(&swift, &[], rate), &|at| at.state.0[0]);
     let ludwik = [("yield", 2.0), ("strength", 5.0), ("hardening_exponent", 0.4)];
-    check.check(&|p| 2.0 + (5.0 * p.powf(0.4)).min(3000.0 * SHEAR * p), point::<J2Ludwik>(&ludwik, &[], rate), &|at| at.state[0]);
+    check.check(&|p| 2.0 + (5.0 * p.powf(0.4)).min(3000.0 * SHEAR * p), point::<J2Ludwik>(&ludwik, &[], rate), &|at| at.state.0[0]);
     let curve = |p: f64| match p {
         p if p < 0.01 => 2.0 + 100.0 * p,
         p if p < 0.05 => 3.0 + 25.0 * (p - 0.01),
         p if p < 0.2 => 4.0 + 0.5 / 0.15 * (p - 0.05),
         _ => 4.5,
     };
-    check.check(&curve, point::<J2Table>(&[], &table, rate), &|at| at.state[0]);
+    check.check(&curve, point::<J2Table>(&[], &table, rate), &|at| at.state.0[0]);
 }
 
 struct Tension;

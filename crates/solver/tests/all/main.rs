@@ -7,6 +7,7 @@ mod bodies;
 mod patches;
 mod point;
 
+mod adding;
 mod bars;
 mod blocks;
 mod certificate;

@@ -107,9 +107,14 @@ pub(crate) fn material(law: &str, poisson: f64) -> Material {
     Material { law: law.into(), parameters: parameters(kind, poisson), lists, ..Material::default() }
 }
 
-/// Every law that stands by itself: a fluid has no pressure without an equation of state.
+/// Every law that stands by itself: a fluid has no pressure without an equation of state. With the environment variable `EMBATE_LAW` only the law of that
+/// name, for who writes it.
 pub(crate) fn solids() -> impl Iterator<Item = &'static LawKind> {
-    LAWS.iter().filter(|law| equation_of_state(law.name).is_some_and(|[needs, _]| !needs))
+    let only = std::env::var("EMBATE_LAW").ok();
+    assert!(only.as_ref().is_none_or(|only| LAWS.iter().any(|law| law.name == only)), "there is no law {only:?}");
+    LAWS.iter()
+        .filter(move |law| only.as_ref().is_none_or(|only| law.name == only))
+        .filter(|law| equation_of_state(law.name).is_some_and(|[needs, _]| !needs))
 }
 
 /// Strength far beyond every load: a law that flows stays elastic.

@@ -62,5 +62,6 @@ fn a_hanging_bar_relaxes_to_its_closed_form_and_the_run_ends() {
     assert!((found / expected - 1.0).abs() < 2e-3, "{found} {expected}");
     assert!(simulation.time() < 10.0 * period, "{} {period}", simulation.time());
     assert!(summary.warnings.iter().any(|line| line.contains("at rest at")), "{summary:?}");
+    assert_eq!(summary.rest, Some(simulation.time()));
     assert!(summary.ledger_residual < 1e-12 && summary.energy_drift < 1e-2, "{summary:?}");
 }

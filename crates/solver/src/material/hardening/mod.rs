@@ -1,5 +1,5 @@
 //! Flow stress over equivalent plastic strain: the contract that each kind of hardening fulfils; `j2.rs` makes a law of each.
-//! To add one: a file here with its curve, a type in `j2.rs`, and a name in `laws!`.
+//! To add one: a file here with its curve, a type in `j2.rs`, and its name in the line of `j2` in `laws!`.
 
 mod linear;
 mod ludwik;

@@ -20,6 +20,8 @@ pub struct FilmSettings {
     pub title: String,
     /// Whether bodies are also shown mirrored at x = 0 and at y = 0 (symmetric models).
     pub mirror: [bool; 2],
+    /// Lower and upper corner of what is shown, mirror images included, m; none: all bodies, and obstacles near them.
+    pub view: Option<[[f64; 2]; 2]>,
     /// Whether forces are those of the whole circumference, and not per metre of depth.
     pub of_revolution: bool,
     /// Field shown as colour: a name (`von_mises`; vectors show their size) or a component (`stress.xy`); empty: plastic strain if there is
@@ -38,6 +40,7 @@ impl Default for FilmSettings {
         Self {
             title: String::new(),
             mirror: [false; 2],
+            view: None,
             of_revolution: false,
             field: String::new(),
             rigid: Vec::new(),
@@ -271,7 +274,7 @@ impl Film {
         // The first scalar that is not zero throughout; if all are, the last (equivalent stress before plastic strain).
         let scalar = (0..self.scalars.len()).find(|k| all(*k).any(|v| v != 0.0)).or(self.scalars.len().checked_sub(1));
         let sides = self.stored.first().map_or([1.0; 2], |first| view::sides(self.nodes(first)));
-        let view = mirrored(self.view(sides), self.settings.mirror);
+        let view = self.settings.view.unwrap_or_else(|| mirrored(self.view(sides), self.settings.mirror));
         let Some(chosen) = scalar else { return Show { scalar, range: [0.0, 1.0], key: Key::Empty, view, sides } };
         let kind = self.scalars[chosen];
         let states = kind.states();
@@ -311,8 +314,11 @@ impl Film {
         self.stored.iter().map(|frame| self.obstacles(frame, bodies, sides)).fold(bodies, joined)
     }
 
-    /// Box of the bodies in one frame and of the obstacles near them, m, within the film's view: a still picture needs no room for where they were.
+    /// Box of the bodies in one frame and of the obstacles near them, m, within the film's view: a still picture needs no room for where they were. A view that was asked for stays.
     fn view_of(&self, frame: &Stored, show: &Show) -> Extent {
+        if let Some(view) = self.settings.view {
+            return view;
+        }
         let whole = show.view;
         let origin = self.origin.unwrap_or_default();
         let own = extent(frame.positions.iter(), 0.0).map(|corner| [corner[0] + origin[0], corner[1] + origin[1]]);

@@ -160,6 +160,7 @@ pub fn film_settings(model: &Model) -> FilmSettings {
         field: model.output.picture_field.clone(),
         rigid: model.parts.iter().map(|part| part.rigid.is_some()).collect(),
         mirror: model.output.mirror,
+        view: model.output.picture_view.map(|view| [view.corner, [0, 1].map(|k| view.corner[k] + view.size[k])]),
         of_revolution: model.is_axisymmetric(),
         ..FilmSettings::default()
     }

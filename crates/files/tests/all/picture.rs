@@ -147,6 +147,19 @@ fn bodies_are_where_they_belong_and_the_background_is_white() {
 }
 
 #[test]
+fn a_view_that_is_asked_for_is_shown_and_nothing_beside_it() {
+    let folder = folder("view");
+    // Inside the plate, which fills all of it at the end; and a place without bodies.
+    for (view, is_there) in [([[0.19, -0.018], [0.24, -0.008]], true), ([[5.0, 5.0], [5.1, 5.1]], false)] {
+        film(FilmSettings { view: Some(view), ..settings() }, 3).finish(&folder).unwrap();
+        let picture = Picture::read(&folder.join("final.png"));
+        let widest = (60..picture.height - 60).map(|y| picture.body_columns(y).len()).max().unwrap();
+        assert_eq!(widest > picture.width * 4 / 5, is_there, "{widest} of {} columns", picture.width);
+        assert!(is_there || widest == 0, "{widest}");
+    }
+}
+
+#[test]
 fn the_animation_has_all_frames_and_a_reasonable_size() {
     let folder = folder("animation");
     film(settings(), 12).finish(&folder).unwrap();

@@ -674,6 +674,17 @@ pub struct Output {
     pub pictures: bool,
     /// Field that colours the pictures; empty: chosen from what the model has.
     pub picture_field: String,
+    /// What pictures show; none: the bodies, and obstacles near them.
+    pub picture_view: Option<PictureView>,
+}
+
+/// `output.picture_view`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PictureView {
+    /// Lower left corner, m.
+    pub corner: [f64; 2],
+    /// Width and height, m.
+    pub size: [f64; 2],
 }
 
 impl Default for Output {
@@ -685,6 +696,7 @@ impl Default for Output {
             mirror: [false, false],
             pictures: true,
             picture_field: String::new(),
+            picture_view: None,
         }
     }
 }

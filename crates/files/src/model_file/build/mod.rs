@@ -15,8 +15,8 @@ use super::value::Datum;
 use crate::{abaqus, gmsh};
 use embate_solver::mesh::shapes::Values;
 use embate_solver::model::{
-    Cadence, Copies, ImportedMesh, InitialStress, MassScaling, Material, Mirror, Model, Output, Part, Partners, Placement, Probe, ProbeAt, Relaxation,
-    Run, Shape, Symmetry,
+    Cadence, Copies, ImportedMesh, InitialStress, MassScaling, Material, Mirror, Model, Output, Part, Partners, PictureView, Placement,
+    Probe, ProbeAt, Relaxation, Run, Shape, Symmetry,
 };
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -204,6 +204,7 @@ fn output(record: &Record) -> Output {
         mirror: ["x", "y"].map(|axis| mirror.iter().any(|it| it == axis)),
         pictures: if let Some(Datum::Flag(flag)) = record.datum("pictures") { *flag } else { default.pictures },
         picture_field: record.text("picture_field"),
+        picture_view: record.table("picture_view").map(|it| PictureView { corner: it.vector("corner"), size: it.vector("size") }),
     }
 }
 

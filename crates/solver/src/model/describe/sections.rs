@@ -543,6 +543,22 @@ static OUTPUT: Section = Section {
         ),
         key("pictures", Flag, Default("true"), "Whether pictures and the animation are made."),
         key("picture_field", Choice(fields), Optional("what suits the model"), "Field that colours the pictures."),
+        key(
+            "picture_view",
+            Table(&PICTURE_VIEW),
+            Optional("all bodies, and obstacles near them"),
+            "What pictures and animation show; `embate check` draws the whole mesh all the same.",
+        ),
+    ],
+    ..Section::EMPTY
+};
+
+static PICTURE_VIEW: Section = Section {
+    name: "picture_view",
+    doc: "The rectangle that pictures show, mirror images included.",
+    keys: &[
+        key("corner", Vector(Dimension::LENGTH, Finite), Required, "Lower left corner."),
+        key("size", Vector(Dimension::LENGTH, Positive), Required, "Width and height."),
     ],
     ..Section::EMPTY
 };

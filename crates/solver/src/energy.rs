@@ -199,7 +199,8 @@ impl Ledger {
         self.external = wholes[0];
         self.works.add(&entry.works);
         self.stores = entry.stores;
-        (self.stores.friction, self.stores.contact_damping, self.stores.damping) = (wholes[1] - entry.slip_energy, wholes[2], entry.stores.damping + wholes[3]);
+        (self.stores.friction, self.stores.contact_damping, self.stores.damping) =
+            (wholes[1] - entry.slip_energy, wholes[2], entry.stores.damping + wholes[3]);
         if entry.before > 0.0 {
             // Unequal steps: v^{n-1/2} and v^{n+1/2} lie at unequal distances from n; the shift is ½ (dt^n − dt^{n-1})/(dt^n + dt^{n-1}) ΣW.
             self.stores.kinetic -= (0.5 - entry.before) * entry.works.total();

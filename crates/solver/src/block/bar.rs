@@ -88,7 +88,20 @@ impl Bars {
         let mut rotation = room(ROTATION);
         rotation.chunks_exact_mut(ROTATION).for_each(unturned);
         let (stress, strain, ratio, heat, response) = (room(PLANE), room(PLANE), room(1), room(1), room(RESPONSE));
-        Some(Self { law, area: input.area, damping: input.damping, bars, stress, history, strain, ratio, heat, rotation, response, room: Room::default() })
+        Some(Self {
+            law,
+            area: input.area,
+            damping: input.damping,
+            bars,
+            stress,
+            history,
+            strain,
+            ratio,
+            heat,
+            rotation,
+            response,
+            room: Room::default(),
+        })
     }
 
     /// What the law wants to know of the step that led here, in the axes of the bars.

@@ -4,8 +4,8 @@
 //! are shared by threads and do not depend on their number.
 
 use super::batch::{ElementBatch, element_of};
-use super::erosion::Eroded;
 use super::damping::Damp;
+use super::erosion::Eroded;
 use super::forces::{Forces, Sums};
 use super::make::BlockInput;
 use super::nodal::Nodal;

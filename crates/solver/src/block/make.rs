@@ -36,7 +36,17 @@ impl<'a> BlockInput<'a> {
     /// In plane strain, without options.
     #[must_use]
     pub fn new(element: &'a str, material: &'a Material, connectivity: &'a [u32], positions: &'a [[f64; 2]]) -> Self {
-        Self { element, area: 0.0, damping: 0.0, options: ElementOptions::default(), stress_state: "", material, viscosity: None, connectivity, positions }
+        Self {
+            element,
+            area: 0.0,
+            damping: 0.0,
+            options: ElementOptions::default(),
+            stress_state: "",
+            material,
+            viscosity: None,
+            connectivity,
+            positions,
+        }
     }
 }
 

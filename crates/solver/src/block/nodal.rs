@@ -130,7 +130,11 @@ where
         corners: &mut [Batch],
         parallel: bool,
     ) -> Report {
-        let measures = Measures { family: self.law.family(), rotation: self.law.needs_rotation() || self.damping > 0.0, volume: self.law.needs_volume() };
+        let measures = Measures {
+            family: self.law.family(),
+            rotation: self.law.needs_rotation() || self.damping > 0.0,
+            volume: self.law.needs_volume(),
+        };
         self.strain_all(nodal, motion, measures, level, parallel);
         nodal.average(parallel);
         let mut means = std::mem::take(&mut nodal.spare);

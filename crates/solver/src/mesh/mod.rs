@@ -212,8 +212,7 @@ impl Mesh<2> {
 
     /// Nodes of each element with a surface of the parts (all when `parts` is empty) that has not been eroded.
     fn cells(&self, parts: &[String]) -> impl Iterator<Item = &[u32]> {
-        let is_of =
-            |group: &&ElementGroup| group.has_surface() && (parts.is_empty() || parts.contains(&self.parts[group.part].name));
+        let is_of = |group: &&ElementGroup| group.has_surface() && (parts.is_empty() || parts.contains(&self.parts[group.part].name));
         self.groups.iter().filter(is_of).flat_map(ElementGroup::live_cells)
     }
 

@@ -134,7 +134,8 @@ impl System {
             let has_elements = self.has_elements();
             // Segments run against the elements behind them.
             let edges = |cell: &[u32]| (0..cell.len()).map(|c| [cell[(c + 1) % cell.len()], cell[c]]).collect::<Vec<_>>();
-            let mut backed: Vec<[u32; 2]> = self.mesh.groups.iter().filter(|group| group.has_surface()).flat_map(|group| group.live_cells()).flat_map(edges).collect();
+            let mut backed: Vec<[u32; 2]> =
+                self.mesh.groups.iter().filter(|group| group.has_surface()).flat_map(|group| group.live_cells()).flat_map(edges).collect();
             backed.sort_unstable();
             self.forces.renew(|node| !has_elements[node as usize], |segment| backed.binary_search(&segment).is_ok());
         }

@@ -189,6 +189,7 @@ fn water_that_is_pulled_off_a_wall_pulls_back_with_its_limit_and_no_more() {
     assert!(faults(&wrong)[0].contains("tension"), "{:?}", faults(&wrong));
     let solid = wrong.materials.get_mut("soft").unwrap();
     (solid.law, solid.eos) = ("elastic".into(), String::new());
-    solid.parameters = [("density", 1.0), ("young", 1.0), ("poisson", 0.3), ("tension", 1.0)].map(|(name, value)| (name.to_string(), value)).into();
+    solid.parameters =
+        [("density", 1.0), ("young", 1.0), ("poisson", 0.3), ("tension", 1.0)].map(|(name, value)| (name.to_string(), value)).into();
     assert!(faults(&wrong)[0].contains("add `eos`"), "{:?}", faults(&wrong));
 }

@@ -15,8 +15,8 @@ use super::value::Datum;
 use crate::{abaqus, gmsh};
 use embate_solver::mesh::shapes::Values;
 use embate_solver::model::{
-    Cadence, Copies, ImportedMesh, InitialStress, MassScaling, Material, Mirror, Model, Output, Part, Partners, Placement, Probe, ProbeAt, Relaxation,
-    Run, Shape, Symmetry,
+    Cadence, Copies, ImportedMesh, InitialStress, MassScaling, Material, Mirror, Model, Output, Part, Partners, Placement, Probe, ProbeAt,
+    Relaxation, Run, Shape, Symmetry,
 };
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};

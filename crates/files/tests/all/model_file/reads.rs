@@ -4,8 +4,8 @@ use super::{SOUND, changed, read};
 use embate_files::model_file::{load, load_text, reference_markdown, schema, starter};
 use embate_solver::model::describe::SECTIONS;
 use embate_solver::model::{
-    Cadence, ContactLaw, Drive, Formulation, InitialStress, Interface, Load, Model, Obstacle, Output, Partners, Penalty, PenaltySource, ProbeAt,
-    Rectangle, Ring, Run, Shape, Symmetry,
+    Cadence, ContactLaw, Drive, Formulation, InitialStress, Interface, Load, Model, Obstacle, Output, Partners, Penalty, PenaltySource,
+    ProbeAt, Rectangle, Ring, Run, Shape, Symmetry,
 };
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::path::{Path, PathBuf};
@@ -204,8 +204,12 @@ fn stress_and_temperature_at_the_start_arrive() {
     let keys = "stress_initial = { xx = \"-2 MPa\", zz = -1e6, per_y = { yy = \"20 kPa/m\", xy = 3 }, point = [0, \"5 mm\"] }\ntemperature_initial = 400\nname = \"plate\"\n";
     let model = sound(&changed("name = \"plate\"\n", keys));
     let part = &model.parts[1];
-    let stress = InitialStress { value: [-2e6, 0.0, -1e6, 0.0], per_y: [0.0, 2e4, 0.0, 3.0], point: [0.0, 5e-3], ..InitialStress::default() };
+    let stress =
+        InitialStress { value: [-2e6, 0.0, -1e6, 0.0], per_y: [0.0, 2e4, 0.0, 3.0], point: [0.0, 5e-3], ..InitialStress::default() };
     assert_eq!((part.stress_initial.as_ref(), part.temperature_initial), (Some(&stress), Some(400.0)));
     let wrong = super::faults(&changed("name = \"plate\"\n", &keys.replace("\"20 kPa/m\"", "\"20 kPa\"")));
-    assert!(wrong.iter().any(|fault| fault.path == "part[1].stress_initial.per_y.yy" && fault.message.contains("pressure per length")), "{wrong:#?}");
+    assert!(
+        wrong.iter().any(|fault| fault.path == "part[1].stress_initial.per_y.yy" && fault.message.contains("pressure per length")),
+        "{wrong:#?}"
+    );
 }

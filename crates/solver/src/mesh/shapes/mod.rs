@@ -243,7 +243,12 @@ static MESH_SECTION: Section = Section {
     required: false,
     keys: &[
         key("file", Kind::Text, Need::Required, "Path of the file, from the model file's folder."),
-        key("group", Kind::Text, Need::Required, "Name of a two-dimensional physical group (of bars a one-dimensional one), or of an element set."),
+        key(
+            "group",
+            Kind::Text,
+            Need::Required,
+            "Name of a two-dimensional physical group (of bars a one-dimensional one), or of an element set.",
+        ),
         key("scale", Kind::Quantity(Dimension::LENGTH, Positive), Need::Default("\"1 m\""), "Length of one unit of the file."),
     ],
     ..Section::EMPTY

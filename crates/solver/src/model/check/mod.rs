@@ -27,7 +27,8 @@ const FRAMES_MAX: f64 = 1e6;
 const ROWS_MAX: f64 = 1e8;
 
 /// What to do about bars where a surface is meant.
-const NO_SURFACE: &str = "contact, obstacles and pressure see elements with an area only: name another part, or a strip of thin elements beside the bars";
+const NO_SURFACE: &str =
+    "contact, obstacles and pressure see elements with an area only: name another part, or a strip of thin elements beside the bars";
 
 impl Model {
     /// All faults that can be told without meshing; empty for a sound model. Paths are those of the model file, such as `part[0].ring.inner`.

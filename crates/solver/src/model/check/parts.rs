@@ -96,7 +96,11 @@ impl Check<'_> {
         }
         if !part.is_of_bars() {
             if part.area.is_some() {
-                self.fault(area, "`area` is the cross-section of bars, but the part has none", "leave it out, or take `element = \"bar2\"`");
+                self.fault(
+                    area,
+                    "`area` is the cross-section of bars, but the part has none",
+                    "leave it out, or take `element = \"bar2\"`",
+                );
             }
             return;
         }
@@ -254,8 +258,10 @@ fn element_count(model: &Model, part: &Part) -> u128 {
     match (&part.shape, part.count()) {
         (_, Some(count)) => count.elements as u128,
         (Shape::Group { mesh, group }, None) => {
-            let found =
-                model.meshes.get(*mesh).and_then(|imported| imported.groups.iter().find(|it| it.name == *group && it.dimension == part.cells_dimension()));
+            let found = model
+                .meshes
+                .get(*mesh)
+                .and_then(|imported| imported.groups.iter().find(|it| it.name == *group && it.dimension == part.cells_dimension()));
             found.map_or(0, |it| it.cells.len() as u128)
         }
         _ => 0,

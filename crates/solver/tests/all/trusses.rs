@@ -413,7 +413,7 @@ fn what_bars_can_not_be_is_refused_with_the_reason() {
     let plane = |model: &mut Model| (model.parts[0].element, model.parts[0].area) = ("quad4".into(), None);
     refused(&plane, "part[0].truss", "made of bars, but element `quad4` has not");
     let shear = InitialStress::uniform([1.0, 0.0, 0.0, 1.0]);
-    refused(&|model| model.parts[0].stress_initial = Some(shear.clone()), "part[0].stress_initial.xy", "along their line");
+    refused(&|model| model.parts[0].stress_initial = Some(shear), "part[0].stress_initial.xy", "along their line");
     let wood = |model: &mut Model| drop(model.materials.insert("soft".into(), material("orthotropic_elastic", 0.3)));
     refused(&wood, "part[0].material", "different directions");
     refused(&|model| touch(model, "net", "block"), "contact[0].between[0]", "no surface");

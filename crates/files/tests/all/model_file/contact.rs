@@ -382,7 +382,11 @@ fn obstacles_and_moving_parts_that_make_no_sense_are_refused() {
         (and("[curve.2b]\ntime = [0]\nvalue = [0]"), "curve.2b", "must begin with a letter"),
         (and("[[load]]\ngravity = [0, -9]\nfrom = 1"), "load[1]", "has `from` but no `damping`"),
         (and("[[load]]\ndamping = 1\nfrom = 2\nuntil = 1"), "load[1].until", "it ends at 1 s, not after its beginning at 2 s"),
-        (and("[[load]]\nparts = \"ball\""), "load[1]", "needs one of `gravity`, `centrifugal`, `force`, `pressure` and `damping`"),
+        (
+            and("[[load]]\nparts = \"ball\""),
+            "load[1]",
+            "needs one of `gravity`, `centrifugal`, `force`, `pressure`, `damping` and `damping_stiffness`",
+        ),
     ]);
 }
 

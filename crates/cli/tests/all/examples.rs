@@ -1,5 +1,6 @@
 //! Every example as the README runs it, with the numbers that it promises. `examples/NAME/README.md` says where each number comes from.
 
+use crate::estimates::{Pass, column_energy, depth_of_rest};
 use crate::{embate, fresh};
 use std::f64::consts::PI;
 use std::fs;
@@ -288,6 +289,106 @@ fn a_projectile_takes_a_row_of_plates_along_and_none_lets_it_through() {
 }
 
 #[test]
+fn a_seal_snaps_into_its_groove_and_presses_as_lindley_measured() {
+    let results = run("rubber-seal", "example-rubber-seal");
+    results.is_sound(1e-4);
+    let (shear, bulk, diameter, squeeze) = (2.0 * (0.8e6 + 0.2e6), 200e6, 7e-3, 0.2_f64);
+    let young = 9.0 * bulk * shear / (3.0 * bulk + shear);
+    let poisson = (3.0 * bulk - 2.0 * shear) / (2.0 * (3.0 * bulk + shear));
+    let lindley = young / (1.0 - poisson * poisson) * diameter * (1.25 * squeeze.powf(1.5) + 50.0 * squeeze.powi(6));
+    let [cover, groove] = ["obstacle.force_y[cover]", "obstacle.force_y[groove]"].map(|name| results.mean(name, 14e-3, 16e-3));
+    is_near(-cover, lindley, 0.04 * lindley);
+    // It lies still, in the groove: its middle is half way between the bottom and the cover.
+    is_near(groove / -cover, 1.0, 1e-3);
+    let end = |name: &str| *results.column(name).last().unwrap();
+    is_near(end("ring.y"), -2.8e-3, 0.01e-3);
+    assert!(end("energy.kinetic") < 1e-6 * end("energy.internal"));
+    is_near(end("energy.external"), end("energy.internal") + end("energy.friction") + end("energy.damping"), 0.01 * end("energy.external"));
+}
+
+#[test]
+fn a_foam_pad_takes_the_energy_of_a_ball() {
+    let results = run("foam-pad", "example-foam-pad");
+    results.is_sound(1e-5);
+    let (mass, velocity, radius) = (0.5138, 7.672, 25e-3);
+    let place = results.column("obstacle.y[ball]");
+    let row = (0..place.len()).reduce(|best, k| if place[k] < place[best] { k } else { best }).unwrap();
+    let depth = 65e-3 - place[row];
+    is_near(depth, 25.1e-3, 0.25e-3);
+
+    // Columns that know nothing of each other take less: the ball would sink deeper.
+    let below = |depth: f64| {
+        let (steps, edge) = (1000, if depth < radius { (radius * radius - (radius - depth).powi(2)).sqrt() } else { radius });
+        let ring = |k: i32| {
+            let [a, b] = [k, k + 1].map(|k| edge * f64::from(k) / f64::from(steps));
+            let pressed = depth - radius + (radius * radius - 0.25 * (a + b).powi(2)).sqrt();
+            std::f64::consts::PI * (b * b - a * a) * column_energy(pressed)
+        };
+        (0..steps).map(ring).sum()
+    };
+    let deepest = depth_of_rest(mass, velocity, below);
+    is_near(deepest, 33.6e-3, 0.1e-3);
+    assert!(depth < deepest, "{depth} m, and {deepest} m without shear");
+
+    let at = |name: &str| results.column(name)[row];
+    let lost = 0.5 * mass * velocity * velocity + mass * 9.81 * depth;
+    is_near(at("energy.internal") + at("energy.friction") + at("energy.contact"), lost, 1e-3 * lost);
+    let force = results.column("obstacle.force_y[ball]").into_iter().fold(0.0_f64, |most, force| most.max(-force));
+    is_near(force / mass / 9.81, 266.0, 5.0);
+    let left = results.column("obstacle.vy[ball]").last().unwrap() / velocity;
+    assert!((0.15..0.3).contains(&left), "it leaves with {left} of its velocity");
+}
+
+#[test]
+fn a_plate_sinks_into_the_foam_pad_as_deep_as_its_flow_curve_says() {
+    let model = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/foam-pad/model.toml");
+    let text = fs::read_to_string(model).unwrap();
+    let plate =
+        text.replace("circle = { centre = [0, \"65 mm\"], radius = \"25 mm\" }", "plane = { point = [0, \"40 mm\"], normal = [0, -1] }");
+    let plate = plate.replace("mass = \"0.5138 kg\"", "mass = \"3 kg\"").replace("elements = [48, 32]", "elements = [12, 16]");
+    assert!(plate.contains("plane =") && plate.contains("3 kg") && plate.contains("[12, 16]"));
+    let folder = fresh("example-foam-plate");
+    fs::write(folder.join("model.toml"), plate).unwrap();
+    let results = run_model(&folder.join("model.toml"), folder);
+    let depth = 40e-3 - results.column("obstacle.y[ball]").into_iter().fold(1.0, f64::min);
+    let expected = depth_of_rest(3.0, 7.672, |depth| std::f64::consts::PI * 60e-3 * 60e-3 * column_energy(depth));
+    is_near(depth, expected, 0.01 * expected);
+}
+
+#[test]
+fn rolls_thin_a_strip_with_the_force_of_the_slab_theory() {
+    let results = run("strip-rolling", "example-strip-rolling");
+    results.is_sound(1e-5);
+    let pass = Pass { from: 4e-3, to: 2.8e-3, radius: 100e-3, mu: 0.15 };
+    let [plastic, torque, slip] = pass.slab();
+    // What springs back behind the rolls, δ, still presses on them: 2/3 S √(R δ) (Ford, Ellis and Bland 1951).
+    let spring_back = (1.0 - 0.33 * 0.33) * pass.strength(0.0) / 70e9 * pass.to;
+    let force = plastic + 2.0 / 3.0 * pass.strength(0.0) * (pass.radius * spring_back).sqrt();
+    is_near(-results.mean("obstacle.force_y[roll]", 1e-3, 2e-3), force, 0.04 * force);
+    is_near(results.mean("obstacle.moment[roll]", 1e-3, 2e-3), torque, 0.03 * torque);
+
+    let end = |name: &str| *results.column(name).last().unwrap();
+    let forward = results.mean("front.vx", 1.9e-3, 2e-3) / 20.0 - 1.0;
+    assert!(forward > 0.0);
+    is_near(forward, slip, 0.005);
+    is_near(end("tail_surface.y") + end("front_surface.y"), pass.to + spring_back, 5e-6);
+
+    // The piece between the probes: thinner, longer, of the same volume but for what elastic strain is left.
+    let area = |row: usize| {
+        let corners = ["tail", "front", "front_surface", "tail_surface"]
+            .map(|name| ["x", "y"].map(|axis| results.column(&format!("{name}.{axis}"))[row]));
+        (0..4).map(|k| (corners[k], corners[(k + 1) % 4])).map(|(a, b)| 0.5 * (a[0] * b[1] - b[0] * a[1])).sum::<f64>()
+    };
+    is_near(area(results.rows.len() - 1) / area(0), 1.0, 1e-3);
+    assert!(end("energy.kinetic") < 0.02 * end("energy.plastic"));
+    // All work comes through the roll: its torque times 200 rad/s.
+    let work = results.column("energy.external");
+    let (times, half) = (results.column("time"), results.rows.len() / 2);
+    let power = (work[work.len() - 1] - work[half]) / (times[times.len() - 1] - times[half]);
+    is_near(power, 200.0 * results.mean("obstacle.moment[roll]", times[half], 2e-3), 0.01 * power);
+}
+
+#[test]
 #[cfg_attr(debug_assertions, ignore = "takes half a minute without optimization; release tests run it")]
 fn a_bullet_tears_a_plate_and_flies_on_behind_a_cap() {
     let results = run("bullet", "example-bullet");
@@ -364,185 +465,4 @@ fn a_cup_is_drawn_with_the_force_of_siebel_and_keeps_its_volume() {
     let motion = results.column("energy.kinetic[blank]").into_iter().fold(0.0, f64::max);
     assert!(motion < 0.02 * end("energy.external"), "{motion} J of {} J", end("energy.external"));
     assert!(end("energy.hourglass") < 0.02 * end("energy.internal"));
-}
-
-#[test]
-fn a_seal_snaps_into_its_groove_and_presses_as_lindley_measured() {
-    let results = run("rubber-seal", "example-rubber-seal");
-    results.is_sound(1e-4);
-    let (shear, bulk, diameter, squeeze) = (2.0 * (0.8e6 + 0.2e6), 200e6, 7e-3, 0.2_f64);
-    let young = 9.0 * bulk * shear / (3.0 * bulk + shear);
-    let poisson = (3.0 * bulk - 2.0 * shear) / (2.0 * (3.0 * bulk + shear));
-    let lindley = young / (1.0 - poisson * poisson) * diameter * (1.25 * squeeze.powf(1.5) + 50.0 * squeeze.powi(6));
-    let [cover, groove] = ["obstacle.force_y[cover]", "obstacle.force_y[groove]"].map(|name| results.mean(name, 14e-3, 16e-3));
-    is_near(-cover, lindley, 0.04 * lindley);
-    // It lies still, in the groove: its middle is half way between the bottom and the cover.
-    is_near(groove / -cover, 1.0, 1e-3);
-    let end = |name: &str| *results.column(name).last().unwrap();
-    is_near(end("ring.y"), -2.8e-3, 0.01e-3);
-    assert!(end("energy.kinetic") < 1e-6 * end("energy.internal"));
-    is_near(end("energy.external"), end("energy.internal") + end("energy.friction") + end("energy.damping"), 0.01 * end("energy.external"));
-}
-
-/// Energy per area of a column of the pad of `examples/foam-pad` that is pressed by `depth`: H ∫ σ e^(−ε) dε in logarithmic strains, J/m².
-fn column_energy(depth: f64) -> f64 {
-    const CURVE: [(f64, f64); 6] = [(0.0, 0.2e6), (0.2, 0.22e6), (0.6, 0.3e6), (1.0, 0.5e6), (1.4, 1.2e6), (1.8, 4e6)];
-    let (young, height, steps) = (8e6, 40e-3, 4000);
-    let end = -(1.0 - depth / height).ln();
-    // Total strain at the points of the curve, the elastic part included.
-    let mut points = vec![(0.0, 0.0)];
-    points.extend(CURVE.map(|(plastic, stress)| (plastic + stress / young, stress)));
-    let stress = |strain: f64| {
-        let k = points.partition_point(|point| point.0 <= strain).clamp(1, points.len() - 1);
-        let (a, b) = (points[k - 1], points[k]);
-        a.1 + (strain - a.0) / (b.0 - a.0) * (b.1 - a.1)
-    };
-    let step = end / f64::from(steps);
-    (0..steps).map(|k| (f64::from(k) + 0.5) * step).map(|strain| height * stress(strain) * (-strain).exp() * step).sum()
-}
-
-/// Depth at which what falls has spent its energy in what `energy` takes, m.
-fn depth_of_rest(mass: f64, velocity: f64, energy: impl Fn(f64) -> f64) -> f64 {
-    let (mut low, mut high) = (0.0, 39e-3);
-    for _ in 0..50 {
-        let middle = 0.5 * (low + high);
-        let is_moving = energy(middle) < 0.5 * mass * velocity * velocity + mass * 9.81 * middle;
-        (low, high) = if is_moving { (middle, high) } else { (low, middle) };
-    }
-    low
-}
-
-#[test]
-fn a_foam_pad_takes_the_energy_of_a_ball() {
-    let results = run("foam-pad", "example-foam-pad");
-    results.is_sound(1e-5);
-    let (mass, velocity, radius) = (0.5138, 7.672, 25e-3);
-    let place = results.column("obstacle.y[ball]");
-    let row = (0..place.len()).reduce(|best, k| if place[k] < place[best] { k } else { best }).unwrap();
-    let depth = 65e-3 - place[row];
-    is_near(depth, 25.1e-3, 0.25e-3);
-
-    // Columns that know nothing of each other take less: the ball would sink deeper.
-    let below = |depth: f64| {
-        let (steps, edge) = (1000, if depth < radius { (radius * radius - (radius - depth).powi(2)).sqrt() } else { radius });
-        let ring = |k: i32| {
-            let [a, b] = [k, k + 1].map(|k| edge * f64::from(k) / f64::from(steps));
-            let pressed = depth - radius + (radius * radius - 0.25 * (a + b).powi(2)).sqrt();
-            std::f64::consts::PI * (b * b - a * a) * column_energy(pressed)
-        };
-        (0..steps).map(ring).sum()
-    };
-    let deepest = depth_of_rest(mass, velocity, below);
-    is_near(deepest, 33.6e-3, 0.1e-3);
-    assert!(depth < deepest, "{depth} m, and {deepest} m without shear");
-
-    let at = |name: &str| results.column(name)[row];
-    let lost = 0.5 * mass * velocity * velocity + mass * 9.81 * depth;
-    is_near(at("energy.internal") + at("energy.friction") + at("energy.contact"), lost, 1e-3 * lost);
-    let force = results.column("obstacle.force_y[ball]").into_iter().fold(0.0_f64, |most, force| most.max(-force));
-    is_near(force / mass / 9.81, 266.0, 5.0);
-    let left = results.column("obstacle.vy[ball]").last().unwrap() / velocity;
-    assert!((0.15..0.3).contains(&left), "it leaves with {left} of its velocity");
-}
-
-#[test]
-fn a_plate_sinks_into_the_foam_pad_as_deep_as_its_flow_curve_says() {
-    let model = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/foam-pad/model.toml");
-    let text = fs::read_to_string(model).unwrap();
-    let plate =
-        text.replace("circle = { centre = [0, \"65 mm\"], radius = \"25 mm\" }", "plane = { point = [0, \"40 mm\"], normal = [0, -1] }");
-    let plate = plate.replace("mass = \"0.5138 kg\"", "mass = \"3 kg\"").replace("elements = [48, 32]", "elements = [12, 16]");
-    assert!(plate.contains("plane =") && plate.contains("3 kg") && plate.contains("[12, 16]"));
-    let folder = fresh("example-foam-plate");
-    fs::write(folder.join("model.toml"), plate).unwrap();
-    let results = run_model(&folder.join("model.toml"), folder);
-    let depth = 40e-3 - results.column("obstacle.y[ball]").into_iter().fold(1.0, f64::min);
-    let expected = depth_of_rest(3.0, 7.672, |depth| std::f64::consts::PI * 60e-3 * 60e-3 * column_energy(depth));
-    is_near(depth, expected, 0.01 * expected);
-}
-
-/// A strip rolled from `from` to `to`, m, without tension between rolls of radius `radius`, m, that don't flatten, with the friction `mu`.
-struct Pass {
-    from: f64,
-    to: f64,
-    radius: f64,
-    mu: f64,
-}
-
-impl Pass {
-    fn thickness(&self, angle: f64) -> f64 {
-        self.to + 2.0 * self.radius * (1.0 - angle.cos())
-    }
-
-    /// Flow stress in plane strain of the metal of `examples/strip-rolling`, 2/√3 σ_y(2/√3 ln h₀/h), Pa.
-    fn strength(&self, angle: f64) -> f64 {
-        let factor = 2.0 / 3.0_f64.sqrt();
-        factor * (100e6 + 150e6 * factor * (self.from / self.thickness(angle)).ln())
-    }
-
-    /// Roll pressure p at each of these angles by von Kármán's equation d(h q)/dφ = 2 R p (sin φ ± µ cos φ), p = q + S, q = 0 at the first.
-    fn pressure(&self, angles: impl Iterator<Item = f64>, mu: f64) -> Vec<f64> {
-        let pressure = |angle: f64, thrust: f64| thrust / self.thickness(angle) + self.strength(angle);
-        let slope = |angle: f64, thrust: f64| 2.0 * self.radius * pressure(angle, thrust) * (angle.sin() + mu * angle.cos());
-        let (mut last, mut thrust) = (None, 0.0);
-        let mut next = |angle: f64| {
-            if let Some(last) = last {
-                let half = 0.5 * (angle - last);
-                thrust += 2.0 * half * slope(last + half, thrust + half * slope(last, thrust));
-            }
-            last = Some(angle);
-            pressure(angle, thrust)
-        };
-        angles.map(&mut next).collect()
-    }
-
-    /// Force and torque on each roll, N/m and N, and the forward slip.
-    fn slab(&self) -> [f64; 3] {
-        let (count, arc) = (4000, (1.0 - 0.5 * (self.from - self.to) / self.radius).acos());
-        let at = |k: usize| arc * (k as f64 + 0.5) / count as f64;
-        let exit = self.pressure((0..count).map(at), self.mu);
-        let mut entry = self.pressure((0..count).rev().map(at), -self.mu);
-        entry.reverse();
-        let neutral = (0..count).find(|k| exit[*k] > entry[*k]).unwrap();
-        let [mut force, mut torque] = [0.0; 2];
-        for k in 0..count {
-            let (load, friction) = (exit[k].min(entry[k]) * self.radius * arc / count as f64, if k < neutral { self.mu } else { -self.mu });
-            force += load * (at(k).cos() - friction * at(k).sin());
-            torque -= load * friction * self.radius;
-        }
-        [force, torque, self.thickness(at(neutral)) * at(neutral).cos() / self.to - 1.0]
-    }
-}
-
-#[test]
-fn rolls_thin_a_strip_with_the_force_of_the_slab_theory() {
-    let results = run("strip-rolling", "example-strip-rolling");
-    results.is_sound(1e-5);
-    let pass = Pass { from: 4e-3, to: 2.8e-3, radius: 100e-3, mu: 0.15 };
-    let [plastic, torque, slip] = pass.slab();
-    // What springs back behind the rolls, δ, still presses on them: 2/3 S √(R δ) (Ford, Ellis and Bland 1951).
-    let spring_back = (1.0 - 0.33 * 0.33) * pass.strength(0.0) / 70e9 * pass.to;
-    let force = plastic + 2.0 / 3.0 * pass.strength(0.0) * (pass.radius * spring_back).sqrt();
-    is_near(-results.mean("obstacle.force_y[roll]", 1e-3, 2e-3), force, 0.04 * force);
-    is_near(results.mean("obstacle.moment[roll]", 1e-3, 2e-3), torque, 0.03 * torque);
-
-    let end = |name: &str| *results.column(name).last().unwrap();
-    let forward = results.mean("front.vx", 1.9e-3, 2e-3) / 20.0 - 1.0;
-    assert!(forward > 0.0);
-    is_near(forward, slip, 0.005);
-    is_near(end("tail_surface.y") + end("front_surface.y"), pass.to + spring_back, 5e-6);
-
-    // The piece between the probes: thinner, longer, of the same volume but for what elastic strain is left.
-    let area = |row: usize| {
-        let corners = ["tail", "front", "front_surface", "tail_surface"]
-            .map(|name| ["x", "y"].map(|axis| results.column(&format!("{name}.{axis}"))[row]));
-        (0..4).map(|k| (corners[k], corners[(k + 1) % 4])).map(|(a, b)| 0.5 * (a[0] * b[1] - b[0] * a[1])).sum::<f64>()
-    };
-    is_near(area(results.rows.len() - 1) / area(0), 1.0, 1e-3);
-    assert!(end("energy.kinetic") < 0.02 * end("energy.plastic"));
-    // All work comes through the roll: its torque times 200 rad/s.
-    let work = results.column("energy.external");
-    let (times, half) = (results.column("time"), results.rows.len() / 2);
-    let power = (work[work.len() - 1] - work[half]) / (times[times.len() - 1] - times[half]);
-    is_near(power, 200.0 * results.mean("obstacle.moment[roll]", times[half], 2e-3), 0.01 * power);
 }

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod command_line;
+mod estimates;
 mod examples;
 mod verification;
 mod whole_runs;

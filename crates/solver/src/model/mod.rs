@@ -4,22 +4,26 @@
 
 pub mod check;
 pub mod describe;
+mod contact;
 mod discrete;
 mod initial;
 mod load;
+mod motion;
 pub mod reference;
 
+pub use contact::{
+    Contact, ContactLaw, Formulation, Friction, InitialPenetration, Interface, Obstacle, ObstacleShape, Partners, Penalty, PenaltySource,
+};
 pub use discrete::{PointMass, Spring};
 pub use initial::InitialStress;
 pub use load::{Constraint, Image, Join, Load, NonReflecting, Rotation, Symmetry};
+pub use motion::{Curve, CurveShape, Drive, Motion};
 
 use crate::block::stress_state::STRESS_STATES;
 use crate::element::{BARS, ELEMENTS, ElementKind};
-use crate::load::curve::sine::Sine;
 pub use crate::mesh::placement::{Copies, Mirror, Placement};
 use crate::mesh::shapes::Count;
 pub use crate::mesh::shapes::{Disk, Edge, Path, Polygon, Quadrilateral, Rectangle, Ring, Shape, Trapezoid, Truss};
-use crate::quantity::Dimension;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -246,79 +250,6 @@ impl Part {
     }
 }
 
-/// How a rigid body may move: per degree of freedom driven (zero is fixed), or free (`None`).
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Motion {
-    /// Velocity of its centre of mass (of an obstacle: of its reference point), m/s.
-    pub velocity: [Option<Drive>; 2],
-    /// Angular velocity, rad/s, counter-clockwise.
-    pub spin: Option<Drive>,
-}
-
-impl Motion {
-    /// No motion at all.
-    #[must_use]
-    pub fn fixed() -> Self {
-        Self { velocity: [Some(Drive::Constant(0.0)), Some(Drive::Constant(0.0))], spin: Some(Drive::Constant(0.0)) }
-    }
-}
-
-/// A prescribed velocity, m/s (or rad/s).
-#[derive(Clone, Debug, PartialEq)]
-pub enum Drive {
-    /// The same at all times.
-    Constant(f64),
-    /// Key of [`Model::curves`].
-    Curve(String),
-}
-
-impl From<f64> for Drive {
-    fn from(velocity: f64) -> Self {
-        Self::Constant(velocity)
-    }
-}
-
-/// `[curve.NAME]`: a function of time.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Curve {
-    /// What it looks like.
-    pub shape: CurveShape,
-    /// Dimension of the values as they were written; `None`: bare numbers, SI of whatever uses them.
-    pub dimension: Option<Dimension>,
-}
-
-impl Curve {
-    /// Straight lines between points, of bare numbers.
-    #[must_use]
-    pub fn table(times: Vec<f64>, values: Vec<f64>) -> Self {
-        Self { shape: CurveShape::Table { times, values, smooth: false }, dimension: None }
-    }
-}
-
-/// The shape of a curve.
-#[derive(Clone, Debug, PartialEq)]
-pub enum CurveShape {
-    /// Through points; constant before the first and after the last.
-    Table {
-        /// Times, s, strictly ascending.
-        times: Vec<f64>,
-        /// Values, SI.
-        values: Vec<f64>,
-        /// Whether smooth steps lead from point to point; else straight lines.
-        smooth: bool,
-    },
-    /// A wave.
-    Sine(Sine),
-    /// A formula of the time `t`: see [`crate::load::curve::expression`].
-    Expression(String),
-}
-
-impl Default for CurveShape {
-    fn default() -> Self {
-        Self::Table { times: Vec::new(), values: Vec::new(), smooth: false }
-    }
-}
-
 /// A mesh that came from a file: plane nodes and named groups of cells. Parts that use the same mesh share its nodes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ImportedMesh {
@@ -339,282 +270,6 @@ pub struct MeshGroup {
     pub dimension: u8,
     /// Node indices of each cell: 1 for a point, 2 for a line, 3 for a triangle, 4 for a quadrilateral (counter-clockwise or not).
     pub cells: Vec<Vec<u32>>,
-}
-
-/// What a contact makes of its surfaces.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Formulation {
-    /// Nodes against segments; each surface is slave once and target once in every force evaluation.
-    #[default]
-    DoublePass,
-    /// Nodes against segments; only the nodes of `slave` (0 or 1: index into the two surfaces) are checked against the other surface.
-    SinglePass {
-        /// Index of the slave surface.
-        slave: usize,
-    },
-    /// Segments against segments, integrated over their common part.
-    Segment,
-    /// Disks in the elements under the surfaces against each other (Belytschko and Neal 1991).
-    Pinball,
-}
-
-impl Formulation {
-    /// Name in the model file and in [`crate::contact::formulation::FORMULATIONS`].
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::DoublePass => "double_pass",
-            Self::SinglePass { .. } => "single_pass",
-            Self::Segment => "segment",
-            Self::Pinball => "pinball",
-        }
-    }
-}
-
-/// What an automatic penalty is made from.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum PenaltySource {
-    /// Modulus of plane waves K + 4µ/3 over the height of the element under the surface.
-    #[default]
-    WaveModulus,
-    /// Bulk modulus over the height of the element under the surface.
-    BulkModulus,
-    /// Mass over the square of the first stable step.
-    TimeStep,
-}
-
-/// How stiff a penalty contact is.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Penalty {
-    /// `scale` times what `source` says.
-    Automatic {
-        /// Where it comes from.
-        source: PenaltySource,
-        /// Factor, 1 by default.
-        scale: f64,
-    },
-    /// Stiffness per slave node and metre of depth, N/m/m = Pa (the paper's k_n).
-    PerNode(f64),
-    /// Pressure per penetration, Pa/m; a node has its tributary length's share.
-    Pressure(f64),
-}
-
-impl Penalty {
-    /// `scale` times the stiffness of the elements under the surface.
-    #[must_use]
-    pub fn automatic(scale: f64) -> Self {
-        Self::Automatic { source: PenaltySource::default(), scale }
-    }
-}
-
-impl Default for Penalty {
-    fn default() -> Self {
-        Self::automatic(1.0)
-    }
-}
-
-/// What keeps the surfaces apart.
-#[derive(Clone, Debug, PartialEq)]
-pub enum ContactLaw {
-    /// A force proportional to the penetration.
-    Penalty(Penalty),
-    /// A pressure as a function of the gap.
-    PressureGap {
-        /// Gaps, m, strictly ascending; negative is penetration.
-        gaps: Vec<f64>,
-        /// Pressures, Pa, descending to zero at the last gap.
-        pressures: Vec<f64>,
-    },
-    /// Whatever force it takes to have no penetration at the end of the step.
-    Multiplier,
-}
-
-impl Default for ContactLaw {
-    fn default() -> Self {
-        Self::Penalty(Penalty::default())
-    }
-}
-
-/// Coulomb friction: |τ| ≤ min(µ(v) p + c v, τ_max) at slip rate v, µ(v) = µ_d + (µ_s − µ_d) exp(−β v).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Friction {
-    /// µ_s.
-    pub coefficient: f64,
-    /// µ_d; `None`: as the static one.
-    pub dynamic: Option<f64>,
-    /// β, s/m.
-    pub decay: f64,
-    /// c, Pa s/m.
-    pub viscosity: f64,
-    /// τ_max, Pa; infinite: none.
-    pub limit: f64,
-}
-
-/// What is done with penetrations at the start.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum InitialPenetration {
-    /// The model is refused.
-    #[default]
-    Error,
-    /// The gap at the start counts as zero until the surfaces part.
-    Ignore,
-    /// Nodes are moved to the surface before anything is strained.
-    PushOut,
-}
-
-/// What happens between two surfaces, whatever they belong to.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Interface {
-    /// Normal law.
-    pub law: ContactLaw,
-    /// Viscous damping of closed contacts, fraction of critical.
-    pub damping: f64,
-    /// Friction; `None`: none.
-    pub friction: Option<Friction>,
-    /// Penetrations at the start.
-    pub initial_penetration: InitialPenetration,
-    /// Distance that the surfaces keep, m.
-    pub thickness: f64,
-    /// Times between which it acts, s.
-    pub active: [f64; 2],
-}
-
-impl Default for Interface {
-    fn default() -> Self {
-        Self {
-            law: ContactLaw::default(),
-            damping: 0.0,
-            friction: None,
-            initial_penetration: InitialPenetration::default(),
-            thickness: 0.0,
-            active: [0.0, f64::INFINITY],
-        }
-    }
-}
-
-impl From<Penalty> for Interface {
-    /// A penalty contact without anything else.
-    fn from(penalty: Penalty) -> Self {
-        Self { law: ContactLaw::Penalty(penalty), ..Self::default() }
-    }
-}
-
-/// Who meets whom in a contact.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Partners {
-    /// Two surfaces: each a part (its whole outside), `part.side`, or a one-dimensional group of a mesh file.
-    Between([String; 2]),
-    /// The outside of these parts (empty: of all), each against each and against itself.
-    Bodies(Vec<String>),
-}
-
-impl Default for Partners {
-    fn default() -> Self {
-        Self::Between(Default::default())
-    }
-}
-
-/// `[[contact]]`: surfaces that can't go through each other.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Contact {
-    /// Unique name.
-    pub name: String,
-    /// The surfaces.
-    pub partners: Partners,
-    /// Nodes, segments or pinballs.
-    pub formulation: Formulation,
-    /// Law, friction and so on.
-    pub interface: Interface,
-    /// `Some`: what touches at the start stays together until the traction (Pa) exceeds this.
-    pub tied: Option<f64>,
-    /// Name in the search registry; empty: `grid`.
-    pub search: String,
-}
-
-impl Contact {
-    /// A penalty contact between two surfaces, everything else by default.
-    #[must_use]
-    pub fn between(name: &str, first: &str, second: &str) -> Self {
-        Self { name: name.into(), partners: Partners::Between([first.into(), second.into()]), ..Self::default() }
-    }
-}
-
-/// Shape of a rigid obstacle. Its free side is where the normal points.
-#[derive(Clone, Debug, PartialEq)]
-pub enum ObstacleShape {
-    /// A straight line.
-    Plane {
-        /// A point of the line, m; its middle where it has a length.
-        point: [f64; 2],
-        /// Normal that points to the free side; any length.
-        normal: [f64; 2],
-        /// Length, m; infinite without.
-        length: Option<f64>,
-    },
-    /// A circle.
-    Circle {
-        /// Centre, m.
-        centre: [f64; 2],
-        /// Radius, m.
-        radius: f64,
-        /// Whether bodies are inside of it.
-        hollow: bool,
-    },
-    /// Straight lines from point to point, the obstacle on their right.
-    Polyline {
-        /// Points, m; the first once more at the end: closed.
-        points: Vec<[f64; 2]>,
-    },
-}
-
-/// `[[obstacle]]`: a rigid body without elements.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Obstacle {
-    /// Unique name.
-    pub name: String,
-    /// Parts that can't cross it; empty: all.
-    pub parts: Vec<String>,
-    /// Shape.
-    pub shape: ObstacleShape,
-    /// How it moves.
-    pub motion: Motion,
-    /// Reference point of rotation and moments, m; `None`: the plane's point, the circle's centre, the mean of the polyline's points.
-    pub reference: Option<[f64; 2]>,
-    /// Mass per metre of depth, kg/m; needed where it is free to move.
-    pub mass: Option<f64>,
-    /// Moment of inertia about the reference point per metre of depth, kg m; needed where it is free to turn.
-    pub inertia: Option<f64>,
-    /// Initial velocity where it is free, m/s.
-    pub velocity: [f64; 2],
-    /// Initial spin where it is free, rad/s.
-    pub spin: f64,
-    /// Law, friction and so on.
-    pub interface: Interface,
-}
-
-impl Obstacle {
-    /// A fixed plane without end that stops all parts; `normal` points to the free side.
-    #[must_use]
-    pub fn wall(name: &str, point: [f64; 2], normal: [f64; 2]) -> Self {
-        Self::fixed(name, ObstacleShape::Plane { point, normal, length: None })
-    }
-
-    /// A fixed obstacle that stops all parts.
-    #[must_use]
-    pub fn fixed(name: &str, shape: ObstacleShape) -> Self {
-        Self {
-            name: name.into(),
-            parts: Vec::new(),
-            shape,
-            motion: Motion::fixed(),
-            reference: None,
-            mass: None,
-            inertia: None,
-            velocity: [0.0; 2],
-            spin: 0.0,
-            interface: Interface::default(),
-        }
-    }
 }
 
 /// `[[probe]]`: what is recorded in the history.

@@ -4,6 +4,7 @@
 //! come from the registries. The reader, the range checks, "did you mean", the JSON schema and the tables of `docs/model-file.md` are made from them by
 //! iteration. A new key is one line there and its use in the builder of `embate-files`.
 
+mod conditions;
 mod contact;
 mod discrete;
 mod initial;

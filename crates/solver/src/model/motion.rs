@@ -27,7 +27,7 @@ impl Motion {
 pub enum Drive {
     /// The same at all times.
     Constant(f64),
-    /// Key of [`Model::curves`].
+    /// Key of [`super::Model::curves`].
     Curve(String),
 }
 

@@ -241,6 +241,50 @@ fn a_pressure_wave_runs_with_the_speed_of_sound() {
     });
 }
 
+#[test]
+fn waves_are_as_slow_as_their_mesh_and_step_make_them() {
+    // Between guides and fixed ends the mode sin kx of a row of elements of length h is one of a chain of masses and springs: after n steps by central
+    // differences its displacement is Δt V sin(nθ) / sin θ with sin(θ/2) = (c Δt / h) sin(kh/2), for long waves and for those of two elements.
+    const ELEMENTS: usize = 16;
+    const SIZE: f64 = 0.05;
+    const SPEED: f64 = 1e-6;
+    for element in ["quad4", "quad4_full", "quad4_reduced", "quad4_reduced_assumed_strain"] {
+        for mode in [1, 5, 10, 15] {
+            let k = mode as f64 * std::f64::consts::PI / (ELEMENTS as f64 * SIZE);
+            // Each node gets the mean of the elements beside it, cos(kh/2) of the wave.
+            let length = ELEMENTS as f64 * SIZE;
+            let wave = |[x, _]: [f64; 2]| [SPEED * (k * (x + 0.5 * length)).sin() / (0.5 * k * SIZE).cos(), 0.0];
+            let mut model = bar_of_parts("elastic", [length, SIZE], [ELEMENTS, 1], 1.0, wave);
+            model.parts.iter_mut().for_each(|part| part.element = element.into());
+            let ends = [0, ELEMENTS].map(|i| vec![i as u32, (i + ELEMENTS + 1) as u32]);
+            let rows = [0, ELEMENTS + 1].map(|first| (0..ELEMENTS).map(|i| vec![(first + i) as u32, (first + i + 1) as u32]).collect());
+            let mesh = Arc::get_mut(&mut model.meshes[0]).unwrap();
+            mesh.groups.push(MeshGroup { name: "ends".into(), dimension: 1, cells: ends.into() });
+            mesh.groups.push(MeshGroup {
+                name: "guides".into(),
+                dimension: 1,
+                cells: rows.into_iter().flat_map(|row: Vec<_>| row).collect(),
+            });
+            hold(&mut model, "ends", [Some(0.0), None]);
+            hold(&mut model, "guides", [None, Some(0.0)]);
+            let c = (modulus_along_x(element, &model.materials["m"]) / DENSITY).sqrt();
+            let mut simulation = simulation(&model);
+            let start = simulation.frame().positions;
+            simulation.advance(f64::INFINITY, 100).unwrap();
+            let steps = simulation.steps() as f64;
+            let dt = simulation.time() / steps;
+            let theta = 2.0 * (c * dt / SIZE * (0.5 * k * SIZE).sin()).asin();
+            let displacement = field(&simulation, "displacement");
+            for (u, [x, _]) in displacement.chunks_exact(2).zip(start) {
+                let expected = dt * SPEED * (steps * theta).sin() / theta.sin() * (k * (x + 0.5 * length)).sin();
+                // Faster motion is not linear, slower motion is lost in the digits of the positions: 1e-6 both.
+                let error = (u[0] - expected) / (dt * SPEED / theta.sin());
+                assert!(error.abs() < 1e-5, "{element}, mode {mode}, x = {x}: {error}");
+            }
+        }
+    }
+}
+
 /// Largest drift of a swinging cantilever at a fraction of the stable step.
 fn cantilever(law: &str, safety: f64) -> f64 {
     let mut model = bar("quad4", law, [2.0, 0.4], [16, 4], 0.6);

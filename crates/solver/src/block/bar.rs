@@ -259,17 +259,8 @@ impl Block<2> for Bars {
         state
     }
 
-    fn wave_modulus(&self) -> f64 {
-        let [bulk, shear] = self.law.stiffness();
-        bulk + 4.0 / 3.0 * shear
-    }
-
-    fn bulk_modulus(&self) -> f64 {
-        self.law.stiffness()[0]
-    }
-
-    fn has(&self, variable: Variable) -> bool {
-        self.law.variables().iter().any(|&(own, _)| own == variable)
+    fn law(&self) -> Option<&dyn PointLaw> {
+        Some(self.law.as_ref())
     }
 
     fn scale_mass(&mut self, element: usize, factor: f64) {

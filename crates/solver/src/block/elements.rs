@@ -15,8 +15,8 @@ use super::strip::{Every, STRIP, Shape, Strip};
 use super::{Block, ElementState, Initial, Motion, Report, Wrong};
 use crate::element::Element;
 use crate::failure::Criterion;
+use crate::material::Family;
 use crate::material::points::{PointLaw, Points, RESPONSE};
-use crate::material::{Family, Variable};
 use crate::tensor::{Dim, Space, SymmetricTensor, Turn};
 use embate_lanes::{BATCH, Batch, Indices, Level};
 use rayon::prelude::*;
@@ -404,17 +404,8 @@ where
         state
     }
 
-    fn wave_modulus(&self) -> f64 {
-        let [bulk, shear] = self.law.stiffness();
-        bulk + 4.0 / 3.0 * shear
-    }
-
-    fn bulk_modulus(&self) -> f64 {
-        self.law.stiffness()[0]
-    }
-
-    fn has(&self, variable: Variable) -> bool {
-        self.law.variables().iter().any(|&(own, _)| own == variable)
+    fn law(&self) -> Option<&dyn PointLaw> {
+        Some(self.law.as_ref())
     }
 
     fn scale_mass(&mut self, element: usize, factor: f64) {

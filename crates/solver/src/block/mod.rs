@@ -24,6 +24,7 @@ pub use make::{BlockInput, make};
 
 use crate::failure::Criterion;
 use crate::material::Variable;
+use crate::material::points::PointLaw;
 use embate_lanes::{Batch, Level};
 
 /// Node motion that a block gathers from: end of step positions and the velocities that led there.
@@ -111,12 +112,20 @@ pub trait Block<const D: usize>: Send + Sync {
     fn time_step_squared(&self, element: usize) -> f64;
     /// Mean state of an element.
     fn state(&self, element: usize) -> ElementState;
+    /// The law of its points; springs have none.
+    fn law(&self) -> Option<&dyn PointLaw>;
     /// P-wave modulus K + 4µ/3 at rest, Pa: stiffness of the material under a contact surface.
-    fn wave_modulus(&self) -> f64;
+    fn wave_modulus(&self) -> f64 {
+        self.law().map(PointLaw::stiffness).map_or(0.0, |[bulk, shear]| bulk + 4.0 / 3.0 * shear)
+    }
     /// Bulk modulus K at rest, Pa.
-    fn bulk_modulus(&self) -> f64;
+    fn bulk_modulus(&self) -> f64 {
+        self.law().map_or(0.0, |law| law.stiffness()[0])
+    }
     /// Whether the law shows this.
-    fn has(&self, variable: Variable) -> bool;
+    fn has(&self, variable: Variable) -> bool {
+        self.law().is_some_and(|law| law.variables().iter().any(|&(own, _)| own == variable))
+    }
     /// Makes an element heavier by a factor, for a longer stable step; before the first [`Block::advance`] that counts.
     fn scale_mass(&mut self, element: usize, factor: f64);
     /// Gives the points what they hold at the start; before the first [`Block::advance`].

@@ -9,7 +9,7 @@
 use super::{Block, ElementState, Initial, Motion, Report, Wrong, corner_slot};
 use crate::failure::Criterion;
 use crate::load::curve::table::Table;
-use crate::material::Variable;
+use crate::material::points::PointLaw;
 use crate::model::Spring;
 use embate_lanes::{BATCH, Batch, Level};
 
@@ -202,14 +202,8 @@ impl Block<2> for SpringBlock {
     fn state(&self, _element: usize) -> ElementState {
         ElementState::default()
     }
-    fn wave_modulus(&self) -> f64 {
-        0.0
-    }
-    fn bulk_modulus(&self) -> f64 {
-        0.0
-    }
-    fn has(&self, _variable: Variable) -> bool {
-        false
+    fn law(&self) -> Option<&dyn PointLaw> {
+        None
     }
     // Springs have no mass, and break by their strength: no criterion of a material takes them out.
     fn scale_mass(&mut self, _element: usize, _factor: f64) {}

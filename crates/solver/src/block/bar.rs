@@ -7,10 +7,11 @@
 //! Half of the mass is at each node. Stable step: Δt² = m l / (A (E + |σ|)) with the current E = 9Kµ/(3K + µ); |σ| stands for the stiffness of a taut bar across its line.
 //! Kinematics and forces are plain sums per bar in fixed order, the law runs in lanes: the same bits everywhere.
 
+use super::damping;
 use super::initial::{self, Initial, Wrong};
 use super::make::BlockInput;
 use super::{Block, ElementState, Motion, Report, corner_slot};
-use crate::failure::{Criterion, Seen};
+use crate::failure::{Criterion, Seen, failing};
 use crate::material::points::{self, PointLaw, Points, RESPONSE, Room};
 use crate::material::{Family, Parameters, Variable};
 use crate::tensor::{Plane, SymmetricTensor, Turn};
@@ -39,6 +40,13 @@ struct Bar {
     damping: f64,
     time_step_squared: f64,
     is_gone: bool,
+}
+
+impl Bar {
+    /// Strain increment of the step that led here, exact to second order in it.
+    fn strain(&self) -> f64 {
+        2.0 * (self.length - self.length_old) / (self.length + self.length_old)
+    }
 }
 
 /// The bars of a part.
@@ -119,7 +127,7 @@ impl Bars {
             let stretch = length / bar.initial;
             self.ratio[batch].0[lane] = stretch;
             self.strain[batch * PLANE].0[lane] = match self.law.family() {
-                Family::Rate => 2.0 * (length - bar.length_old) / (length + bar.length_old),
+                Family::Rate => bar.strain(),
                 Family::Hyperelastic => stretch * stretch,
             };
         }
@@ -163,8 +171,8 @@ impl Seen for Look<'_> {
         std::array::from_fn(|c| self.bars.stress[self.batch * PLANE + c])
     }
     fn variable(&self, variable: Variable) -> Batch {
-        let place = self.bars.law.variables().iter().find(|&&(own, _)| own == variable);
-        place.map_or(Batch::default(), |&(_, index)| self.bars.history[self.batch * self.bars.law.state_width() + index])
+        let place = self.bars.law.place(variable);
+        place.map_or(Batch::default(), |index| self.bars.history[self.batch * self.bars.law.state_width() + index])
     }
     fn time_step_squared(&self) -> Batch {
         let of = |lane: usize| self.bars.bars.get(self.batch * BATCH + lane).map_or(f64::INFINITY, |bar| bar.time_step_squared);
@@ -204,7 +212,7 @@ impl Block<2> for Bars {
             let response: [f64; RESPONSE] = std::array::from_fn(|k| self.response[element / BATCH * RESPONSE + k].0[element % BATCH]);
             let [stored, dissipated, bulk, shear] = response;
             let young = 9.0 * bulk * shear / (3.0 * bulk + shear);
-            let strain = 2.0 * (bar.length - bar.length_old) / (bar.length + bar.length_old);
+            let strain = bar.strain();
             let damped = if motion.time_step > 0.0 { self.damping * young * strain / motion.time_step } else { 0.0 };
             let force = if bar.is_gone { 0.0 } else { (stress + damped) * area };
             for (corner, sign) in [(0, 1.0), (1, -1.0)] {
@@ -226,10 +234,7 @@ impl Block<2> for Bars {
             bar.damping += 0.5 * (bar.damped + damped) * strain * (area / self.area * now);
             bar.damped = damped;
             let squared = bar.mass * bar.length / (area * (young + stress.abs()));
-            bar.time_step_squared = squared;
-            if self.damping > 0.0 {
-                bar.time_step_squared = ((squared + self.damping * self.damping).sqrt() - self.damping).powi(2);
-            }
+            bar.time_step_squared = damping::step_squared(squared, self.damping);
         }
         self.sum()
     }
@@ -300,13 +305,8 @@ impl Block<2> for Bars {
         let mut failed = Vec::new();
         for batch in 0..self.stress.len() / PLANE {
             let seen = Look { bars: self, batch };
-            let fails: Vec<[bool; BATCH]> = criteria.iter().map(|criterion| (criterion.kind.fails)(&seen, criterion.limit)).collect();
-            let here =
-                (0..BATCH).map(|lane| batch * BATCH + lane).filter(|&element| self.bars.get(element).is_some_and(|bar| !bar.is_gone));
-            for element in here {
-                let first = fails.iter().position(|fails| fails[element % BATCH]);
-                failed.extend(first.map(|first| (element as u32, first as u32)));
-            }
+            let live = |lane: usize| self.bars.get(batch * BATCH + lane).is_some_and(|bar| !bar.is_gone);
+            failed.extend(failing(criteria, &seen, live).map(|(lane, first)| ((batch * BATCH + lane) as u32, first)));
         }
         failed
     }

@@ -20,6 +20,18 @@ use crate::tensor::{Dim, Space, SymmetricTensor, Turn};
 use embate_lanes::{Batch, Lane};
 use std::marker::PhantomData;
 
+/// Square of the stable step with damping from that without, s²: dt_d² of the head of the file.
+#[inline(always)]
+pub(super) fn step_squared<L: Lane>(time_step_squared: L, damping: f64) -> L {
+    if damping > 0.0 {
+        let beta = L::splat(damping);
+        let step = (time_step_squared + beta * beta).sqrt() - beta;
+        step * step
+    } else {
+        time_step_squared
+    }
+}
+
 /// Points of a strip after their law has answered.
 pub(super) struct Damp<'a, E, S, const D: usize, const N: usize, const P: usize> {
     /// β, s.

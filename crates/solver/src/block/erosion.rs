@@ -8,7 +8,7 @@ use super::elements::{CHUNK, Elements};
 use super::stress_state::StressState;
 use super::{Block, ElementState, Report};
 use crate::element::Element;
-use crate::failure::{Criterion, Seen};
+use crate::failure::{Criterion, Seen, failing};
 use crate::material::Variable;
 use crate::tensor::{Dim, Space};
 use embate_lanes::{BATCH, Batch};
@@ -63,8 +63,8 @@ where
     }
 
     fn variable(&self, variable: Variable) -> Batch {
-        let place = self.block.law.variables().iter().find(|&&(own, _)| own == variable);
-        place.map_or(Batch::default(), |&(_, index)| self.mean(&self.block.history, self.block.law.state_width(), index))
+        let place = self.block.law.place(variable);
+        place.map_or(Batch::default(), |index| self.mean(&self.block.history, self.block.law.state_width(), index))
     }
 
     fn time_step_squared(&self) -> Batch {
@@ -94,12 +94,8 @@ where
             for (within, elements) in batches.iter().enumerate() {
                 let batch = index * CHUNK + within;
                 let seen = Look { block: self, batch };
-                let fails: Vec<[bool; BATCH]> = criteria.iter().map(|criterion| (criterion.kind.fails)(&seen, criterion.limit)).collect();
-                for lane in (0..BATCH).filter(|&lane| elements.live.0[lane] > 0.0) {
-                    if let Some(first) = fails.iter().position(|fails| fails[lane]) {
-                        failed.push(((batch * BATCH + lane) as u32, first as u32));
-                    }
-                }
+                let live = |lane: usize| elements.live.0[lane] > 0.0;
+                failed.extend(failing(criteria, &seen, live).map(|(lane, first)| ((batch * BATCH + lane) as u32, first)));
             }
             failed
         };

@@ -10,6 +10,7 @@
 
 use super::Report;
 use super::batch::ElementBatch;
+use super::damping::step_squared;
 use super::strain::{Tensor, averages, circumference};
 use super::stress_state::StressState;
 use super::strip::{Parts, Strip};
@@ -151,12 +152,8 @@ where
             stiffening = stiffening.max(self.hold_shape(batch, at, &geometry, [modulus, shear, mass], &mut nodal));
         }
         // dt² = h² ρ / (K + 4µ/3) with ρ = m / V, as if all corners were as heavy as the lightest
-        let mut time_step_squared = thickness_squared[0] * mass / (thickness_squared[1] * (geometry.volume * modulus) * stiffening);
-        if self.damping > 0.0 {
-            let beta = L::splat(self.damping);
-            let step = (time_step_squared + beta * beta).sqrt() - beta;
-            time_step_squared = step * step;
-        }
+        let time_step_squared = thickness_squared[0] * mass / (thickness_squared[1] * (geometry.volume * modulus) * stiffening);
+        let time_step_squared = step_squared(time_step_squared, self.damping);
         let corners = &mut self.corners[batch * N * D..(batch + 1) * N * D];
         for a in 0..N {
             for i in 0..D {

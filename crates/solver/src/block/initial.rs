@@ -44,8 +44,7 @@ impl Wrong {
 
 /// Writes a temperature into the history of points.
 pub(super) fn warm(law: &dyn PointLaw, history: &mut [Batch], temperature: f64) -> Result<(), Wrong> {
-    let place = law.variables().iter().find(|(variable, _)| *variable == Variable::Temperature);
-    let Some(&(_, index)) = place else {
+    let Some(index) = law.place(Variable::Temperature) else {
         let message = "its law knows no temperature".to_string();
         return Err(Wrong { key: "temperature_initial", message, help: "leave it out, or take a law with a temperature: `johnson_cook`" });
     };

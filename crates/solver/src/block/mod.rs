@@ -124,7 +124,7 @@ pub trait Block<const D: usize>: Send + Sync {
     }
     /// Whether the law shows this.
     fn has(&self, variable: Variable) -> bool {
-        self.law().is_some_and(|law| law.variables().iter().any(|&(own, _)| own == variable))
+        self.law().is_some_and(|law| law.place(variable).is_some())
     }
     /// Makes an element heavier by a factor, for a longer stable step; before the first [`Block::advance`] that counts.
     fn scale_mass(&mut self, element: usize, factor: f64);

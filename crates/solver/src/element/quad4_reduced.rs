@@ -164,10 +164,16 @@ struct Answer<L> {
 
 /// The assumed strain's answer to the `change` of the amplitude.
 #[inline(always)]
-fn bend<L: Lane>(coefficient: L, corners: &Corners<L, 2, 4>, middle: &Differences<L>, inverse: L, change: [L; 2]) -> Answer<L> {
+fn bend<L: Lane>(
+    coefficient: L,
+    corners: &Corners<L, 2, 4>,
+    [numerator, extent]: [L; 2],
+    middle: &Differences<L>,
+    inverse: L,
+    change: [L; 2],
+) -> Answer<L> {
     let (half, one, two, four) = (L::splat(0.5), L::splat(1.0), L::splat(2.0), L::splat(4.0));
-    let Corners { modulus, shear, area, volume, .. } = *corners;
-    let [numerator, extent] = thickness_squared(&corners.x, area);
+    let Corners { modulus, shear, volume, .. } = *corners;
     // ν = (M − 2µ) / 2(M − µ), ν/(1 − ν) = (M − 2µ) / M
     let poisson = (modulus - two * shear) / if corners.is_plane_stress { two * (modulus - shear) } else { modulus };
     let young = two * shear * (one + poisson);
@@ -239,10 +245,9 @@ fn hold_shape<L: Lane>(control: Control, coefficient: f64, corners: &Corners<L, 
     let middle = end.less(&v, time_step * half);
     let moved = Change::new(&middle, &end, &v, time_step);
     let change = [moved.rate[0] * time_step, moved.rate[1] * time_step];
-    // k₁ = 2 M V / h², h² = 2 A² / (d₁₃² + d₄₂²)
-    let extent =
-        (end.first[0] * end.first[0] + end.first[1] * end.first[1]) + (end.second[0] * end.second[0] + end.second[1] * end.second[1]);
-    let stiffness = four * shape_modulus * volume * extent * (moved.inverse_end * moved.inverse_end);
+    // k₁ = 2 M V / h², with 1 / 2A already there
+    let thickness_squared = thickness_squared(&corners.x, corners.area);
+    let stiffness = four * shape_modulus * volume * thickness_squared[1] * (moved.inverse_end * moved.inverse_end);
     let Answer { added, swing } = match control {
         Control::Stiffness => {
             let k = coefficient * stiffness;
@@ -252,7 +257,7 @@ fn hold_shape<L: Lane>(control: Control, coefficient: f64, corners: &Corners<L, 
             let c = two * coefficient * (stiffness * mass).sqrt();
             Answer { added: [c * moved.rate[0], c * moved.rate[1]], swing: L::splat(SQRT_2) * coefficient }
         }
-        Control::AssumedStrain => bend(coefficient, corners, &middle, moved.inverse_middle, change),
+        Control::AssumedStrain => bend(coefficient, corners, thickness_squared, &middle, moved.inverse_middle, change),
     };
     let old = turned([L::load(&kept[0], at), L::load(&kept[1], at)], moved.turn);
     let (added, change) = (moved.half_turned(added), moved.half_turned(change));

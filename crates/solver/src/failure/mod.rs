@@ -45,6 +45,13 @@ pub trait Seen {
     fn time_step_squared(&self) -> Batch;
 }
 
+/// Lanes of eight elements that are `live` and fail, each with the number of the first criterion that it misses.
+pub(crate) fn failing(criteria: &[Criterion], seen: &dyn Seen, live: impl Fn(usize) -> bool) -> impl Iterator<Item = (usize, u32)> {
+    let fails: Vec<[bool; BATCH]> = criteria.iter().map(|criterion| (criterion.kind.fails)(seen, criterion.limit)).collect();
+    let first: [Option<usize>; BATCH] = std::array::from_fn(|lane| fails.iter().position(|fails| fails[lane]).filter(|_| live(lane)));
+    first.into_iter().enumerate().filter_map(|(lane, first)| first.map(|first| (lane, first as u32)))
+}
+
 /// The criterion called `name`.
 #[must_use]
 pub fn by_name(name: &str) -> Option<&'static CriterionKind> {

@@ -198,43 +198,47 @@ pub fn faults(name: &str, parameters: &Parameters<'_>) -> Vec<ParameterFault> {
     with_law(name, Check(parameters)).unwrap_or_default()
 }
 
-/// Whether the law called `name` needs an equation of state, and whether it may have one; `None` when there is no such law.
-#[must_use]
-pub fn equation_of_state(name: &str) -> Option<[bool; 2]> {
+/// What a law declares of itself besides its parameters.
+#[derive(Clone, Copy, Debug)]
+struct Facts {
+    family: Family,
+    is_isotropic: bool,
+    flows_in_volume: bool,
+    needs_equation_of_state: bool,
+}
+
+fn facts(name: &str) -> Option<Facts> {
     struct Ask;
     impl LawVisitor for Ask {
-        type Output = [bool; 2];
+        type Output = Facts;
         fn visit<M: Law>(self) -> Self::Output {
-            [M::NEEDS_EQUATION_OF_STATE, M::FAMILY == Family::Rate && !M::FLOWS_IN_VOLUME]
+            Facts {
+                family: M::FAMILY,
+                is_isotropic: M::ISOTROPIC,
+                flows_in_volume: M::FLOWS_IN_VOLUME,
+                needs_equation_of_state: M::NEEDS_EQUATION_OF_STATE,
+            }
         }
     }
     with_law(name, Ask)
+}
+
+/// Whether the law called `name` needs an equation of state, and whether it may have one; `None` when there is no such law.
+#[must_use]
+pub fn equation_of_state(name: &str) -> Option<[bool; 2]> {
+    facts(name).map(|law| [law.needs_equation_of_state, law.family == Family::Rate && !law.flows_in_volume])
 }
 
 /// Whether the law called `name` is that of an isotropic solid in rate form, whose K and µ are an elastic stiffness; `None` when there is no such law.
 #[must_use]
 pub fn has_elastic_stiffness(name: &str) -> Option<bool> {
-    struct Ask;
-    impl LawVisitor for Ask {
-        type Output = bool;
-        fn visit<M: Law>(self) -> Self::Output {
-            M::FAMILY == Family::Rate && M::ISOTROPIC && !M::NEEDS_EQUATION_OF_STATE
-        }
-    }
-    with_law(name, Ask)
+    facts(name).map(|law| law.family == Family::Rate && law.is_isotropic && !law.needs_equation_of_state)
 }
 
 /// Whether bars can be of the law called `name`: it answers alike in all directions, and is no fluid; `None` when there is no such law.
 #[must_use]
 pub fn bears_uniaxial_stress(name: &str) -> Option<bool> {
-    struct Ask;
-    impl LawVisitor for Ask {
-        type Output = bool;
-        fn visit<M: Law>(self) -> Self::Output {
-            M::ISOTROPIC && !M::NEEDS_EQUATION_OF_STATE
-        }
-    }
-    with_law(name, Ask)
+    facts(name).map(|law| law.is_isotropic && !law.needs_equation_of_state)
 }
 
 /// Every law.

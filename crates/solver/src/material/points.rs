@@ -60,6 +60,10 @@ pub trait PointLaw: Send + Sync {
     fn needs_volume(&self) -> bool;
     /// History values that the user sees.
     fn variables(&self) -> &[(Variable, usize)];
+    /// Place of a value in the history of a point, if the user sees it.
+    fn place(&self, variable: Variable) -> Option<usize> {
+        self.variables().iter().find(|&&(own, _)| own == variable).map(|&(_, index)| index)
+    }
     /// Bulk and shear stiffness at rest, Pa.
     fn stiffness(&self) -> [f64; 2];
     /// Energy stored at the start per initial volume, J/m³: of an equation of state.

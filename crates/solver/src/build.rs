@@ -4,6 +4,7 @@ mod again;
 mod bodies;
 mod discrete;
 mod failure;
+mod idle;
 mod mass;
 mod mirrors;
 mod obstacles;
@@ -26,7 +27,7 @@ use crate::contact::traces::Traces;
 use crate::contact::{self, Contact, ContactKind, Formulation, search};
 use crate::element::ElementOptions;
 use crate::energy::{Ledger, Sums};
-use crate::error::Fault;
+use crate::error::{Fault, Warning};
 use crate::load::body_force::BodyForces;
 use crate::load::constraint::{Constraints, unit};
 use crate::load::curve::Curves;
@@ -51,15 +52,16 @@ const ON_AXIS: f64 = 1e-9;
 /// Below so many elements threads cost more than they bring.
 const SERIAL: usize = 4096;
 
-/// Builds the system.
+/// Builds the system; with it come all warnings of the model.
 ///
 /// # Errors
 /// All faults of the model.
-pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec<Fault>> {
+pub fn system(model: &Model, level: Level, threads: usize) -> Result<(System, Vec<Warning>), Vec<Fault>> {
     let faults = model.check();
     if !faults.is_empty() {
         return Err(faults);
     }
+    let mut warnings = model.warnings();
     let mesh = Mesh::new(model)?;
     let with_axis = with_axis(model, &mesh)?;
     let model = with_axis.as_ref().unwrap_or(model);
@@ -85,6 +87,7 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         again: false,
         mesh,
     };
+    warnings.extend(idle::warnings(model, &builder.mesh, &builder.body_of_node));
     let initial_penetrations = builder.part_at_start();
     if !builder.faults.is_empty() {
         return Err(builder.faults);
@@ -144,7 +147,7 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
     let elements: usize = blocks.iter().map(|block| block.elements()).sum();
     let has_springs = springs.is_some();
     blocks.extend(springs.map(|springs| Box::new(springs) as Box<dyn Block<2>>));
-    Ok(System {
+    let system = System {
         corners: vec![Batch::default(); assembly.corner_batches],
         rigid: mesh.groups.iter().map(|group| model.parts[group.part].rigid.is_some()).chain(has_springs.then_some(false)).collect(),
         has_springs,
@@ -189,7 +192,8 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         limits,
         level,
         of_revolution: model.is_axisymmetric(),
-    })
+    };
+    Ok((system, warnings))
 }
 
 /// An axisymmetric model with its axis as a symmetry line, if it touches that.

@@ -2,9 +2,9 @@
 //!
 //! Trial stress as in `elastic`; q = √(3/2 s:s). Where q > σ_y(ε_p), the flow stress at the end of the step is met (backward Euler):
 //! q_trial − 3µ Δε_p = σ_y(ε_p + Δε_p) R(Δε_p / Δt), s ← s (1 − 3µ Δε_p / q_trial),
-//! (3µ + dσ_y/dε_p is positive where the flow stress falls, too: one solution)
 //! with R = 1 or after Cowper and Symonds (see `hardening/rate.rs`). Linear hardening has a closed form, Δε_p = (q_trial − σ_y) / (3µ + H), and
 //! dissipates ∫ σ_y dε_p = (σ_y(ε_p) + ½ H Δε_p) Δε_p; the others are solved to 1e-12 of q_trial and dissipate as `trial.rs` says.
+//! Where the flow stress falls, 3µ + dσ_y/dε_p stays positive (`softening.rs`), so there is one solution without rate; falling linear hardening goes the way of the others.
 //! Source: Wilkins, Methods in Computational Physics 3 (1964); Simo and Hughes, Computational Inelasticity (1998), box 3.2.
 
 use super::hardening::{Hardening, Kept, Linear, Ludwik, Rate, Swift, Table, Voce};

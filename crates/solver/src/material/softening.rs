@@ -8,7 +8,7 @@
 //! ```
 //! (plate: of all states of plane stress, equal tension along x and y or shear). A slope is refused from nine tenths of it on: there a strain increment
 //! already makes ten times itself of plastic strain.
-//! Source: Hill, Journal of the Mechanics and Physics of Solids 6 (1958) 236-249; de Borst et al., Non-linear Finite Element Analysis (2012), section 4.5.
+//! Source: Hill, Journal of the Mechanics and Physics of Solids 6 (1958) 236-249; de Borst et al., Non-linear Finite Element Analysis of Solids and Structures (2012).
 
 use super::ParameterFault;
 

@@ -97,6 +97,25 @@ fn what_a_falling_line_dissipates_is_the_area_under_it() {
 }
 
 #[test]
+fn the_rate_multiplies_a_falling_flow_stress_too_until_nothing_is_left() {
+    const RATE: f64 = 50.0;
+    let law = [("yield", 2.0), ("hardening", -30.0), ("rate_reference", RATE), ("rate_exponent", 4.0)];
+    for (time_step, size) in [(1e-3, 1e-4), (1e-3, 1e-3), (1e-5, 1e-3), (1.0, 1e-2)] {
+        let mut at = Point { time_step, ..point::<J2>(&law, &[]) };
+        for _ in 0..2000 {
+            let (old, before) = (at.state.0[0], 3f64.sqrt() * at.stress[3]);
+            at.strain([0.0, 0.0, 0.0, size, 0.0, 0.0]);
+            let (step, q, trial) = (at.state.0[0] - old, 3f64.sqrt() * at.stress[3], before + 2.0 * 3f64.sqrt() * SHEAR * size);
+            assert!((trial - 3.0 * SHEAR * step - q).abs() < 1e-11 * trial, "{time_step} {size}");
+            let expected = (2.0 - 30.0 * (old + step)).max(0.0) * (1.0 + (step / (RATE * time_step)).powf(0.25));
+            let blur = 1e-11 * trial + 1e-12 * old;
+            assert!(step == 0.0 || (q - expected).abs() < blur, "{time_step} {size}: {q} for {expected} at {old} by {step}");
+        }
+        assert!(at.state.0[0] > 2.0 / 30.0 && at.mises() < 1e-10, "nothing is left: {:?}", at.stress);
+    }
+}
+
+#[test]
 fn the_return_is_solved_for_every_table_up_to_the_steepest_fall() {
     let mut numbers = Spread::new(5);
     for _ in 0..300 {

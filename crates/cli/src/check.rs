@@ -20,11 +20,13 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn check(arguments: &Arguments) -> Result<(), Failure> {
-    let model = input::load(&arguments.model)?;
-    let simulation = input::ready(&model, &Options::default())?;
-    let mut text = overview_text(&model, &simulation.overview());
-    let folder = arguments.out.clone().unwrap_or_else(|| input::default_folder(&model));
-    match draw(&model, &simulation, &folder) {
+    let loaded = input::load(&arguments.model)?;
+    let model = &loaded.model;
+    let simulation = input::ready(model, &Options::default())?;
+    input::warn(&loaded, &simulation);
+    let mut text = overview_text(model, &simulation.overview());
+    let folder = arguments.out.clone().unwrap_or_else(|| input::default_folder(model));
+    match draw(model, &simulation, &folder) {
         Ok(path) => text.push_str(&format!("picture: {}\n", path.display())),
         Err(message) => terminal::complain(&format!("warning: no picture: {message}")),
     }

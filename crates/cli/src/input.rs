@@ -1,8 +1,8 @@
 //! What `run` and `check` share: reading a model, making it ready, and where its results go.
 
-use crate::Failure;
+use crate::{Failure, terminal};
 use clap::Args;
-use embate_files::model_file;
+use embate_files::model_file::{self, Loaded};
 use embate_solver::error::{Error, Fault};
 use embate_solver::model::Model;
 use embate_solver::simulation::{Options, Simulation};
@@ -27,8 +27,8 @@ fn key_and_value(text: &str) -> Result<String, String> {
 }
 
 /// Reads a model; all faults of the file become one message.
-pub(crate) fn load(arguments: &ModelArguments) -> Result<Model, Failure> {
-    model_file::load(&arguments.model, &arguments.set).map_err(|diagnostics| {
+pub(crate) fn load(arguments: &ModelArguments) -> Result<Loaded, Failure> {
+    model_file::load_with_places(&arguments.model, &arguments.set).map_err(|diagnostics| {
         if diagnostics.rendered.is_empty() {
             Failure::Input(format!("error: {} can't be used as a model", arguments.model.display()))
         } else {
@@ -40,6 +40,14 @@ pub(crate) fn load(arguments: &ModelArguments) -> Result<Model, Failure> {
 /// Makes a model ready to step.
 pub(crate) fn ready(model: &Model, options: &Options) -> Result<Simulation, Failure> {
     Simulation::new(model, options).map_err(|error| Failure::Input(told(&error)))
+}
+
+/// Prints what the user should know of a model before he trusts its results.
+pub(crate) fn warn(loaded: &Loaded, simulation: &Simulation) {
+    let warnings = loaded.told(simulation.model_warnings());
+    if warnings.count > 0 {
+        terminal::complain(&warnings.rendered);
+    }
 }
 
 /// An error as the user reads it: one paragraph for each fault.

@@ -25,7 +25,7 @@ pub(crate) struct Arguments {
     /// Instruction set: scalar, avx2, avx512 [default: the best of this machine] (changes no result)
     #[arg(long, value_name = "LEVEL")]
     simd: Option<String>,
-    /// No progress and no summary
+    /// No progress and no summary; warnings of the model are told all the same
     #[arg(long, short)]
     quiet: bool,
     /// How contact was searched, besides the summary
@@ -52,17 +52,22 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let refuse = |folder: &Path| if arguments.force { Ok(()) } else { ResultFolder::refuse_existing(folder).map_err(in_the_way) };
     // Before any work is done.
     arguments.out.as_deref().map_or(Ok(()), refuse)?;
-    let model = input::load(&arguments.model)?;
-    let path = arguments.out.clone().unwrap_or_else(|| input::default_folder(&model));
+    let loaded = input::load(&arguments.model)?;
+    let model = &loaded.model;
+    let path = arguments.out.clone().unwrap_or_else(|| input::default_folder(model));
     refuse(&path)?;
     let options = Options { threads: arguments.threads.into(), simd: arguments.simd.clone() };
-    let mut simulation = input::ready(&model, &options)?;
+    let mut simulation = input::ready(model, &options)?;
+    // Also of a quiet run, and before it: who reads them late has waited for nothing.
+    input::warn(&loaded, &simulation);
     // Only now: a model that can't run must not cost the results of an earlier one.
     let folder = ResultFolder::create(&path, arguments.force).map_err(in_the_way)?;
-    let (report, result, is_interrupted) = record(&model, &mut simulation, folder, arguments.quiet)?;
+    let (report, result, is_interrupted) = record(model, &mut simulation, folder, arguments.quiet)?;
 
     if !arguments.quiet {
-        report.warnings.iter().for_each(|warning| terminal::complain(&format!("warning: {warning}")));
+        // Those of the model come first, and have been told.
+        let of_run = report.warnings.iter().skip(simulation.model_warnings().len());
+        of_run.for_each(|warning| terminal::complain(&format!("warning: {warning}")));
     }
     result.map_err(|error| failure_text(&error, &path)).map_err(Failure::Run)?;
     if !arguments.quiet {

@@ -4,6 +4,7 @@ mod again;
 mod bodies;
 mod discrete;
 mod failure;
+mod idle;
 mod mass;
 mod mirrors;
 mod obstacles;
@@ -25,7 +26,7 @@ use crate::contact::traces::Traces;
 use crate::contact::{self, Contact, ContactKind, Formulation, search};
 use crate::element::ElementOptions;
 use crate::energy::{Ledger, Sums};
-use crate::error::Fault;
+use crate::error::{Fault, Warning};
 use crate::load::body_force::BodyForces;
 use crate::load::constraint::{Constraints, unit};
 use crate::load::curve::Curves;
@@ -50,15 +51,16 @@ const ON_AXIS: f64 = 1e-9;
 /// Below so many elements threads cost more than they bring.
 const SERIAL: usize = 4096;
 
-/// Builds the system.
+/// Builds the system; with it come all warnings of the model.
 ///
 /// # Errors
 /// All faults of the model.
-pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec<Fault>> {
+pub fn system(model: &Model, level: Level, threads: usize) -> Result<(System, Vec<Warning>), Vec<Fault>> {
     let faults = model.check();
     if !faults.is_empty() {
         return Err(faults);
     }
+    let mut warnings = model.warnings();
     let mesh = Mesh::new(model)?;
     let with_axis = with_axis(model, &mesh)?;
     let model = with_axis.as_ref().unwrap_or(model);
@@ -84,6 +86,7 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         again: false,
         mesh,
     };
+    warnings.extend(idle::warnings(model, &builder.mesh, &builder.body_of_node));
     let initial_penetrations = builder.part_at_start();
     if !builder.faults.is_empty() {
         return Err(builder.faults);
@@ -190,7 +193,7 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         of_revolution: model.is_axisymmetric(),
     };
     system.find_free_nodes();
-    Ok(system)
+    Ok((system, warnings))
 }
 
 /// An axisymmetric model with its axis as a symmetry line, if it touches that.

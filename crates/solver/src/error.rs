@@ -1,4 +1,4 @@
-//! What can go wrong: faults of a model (all are reported at once) and failures of a run (the first ends it).
+//! What can go wrong: faults of a model (all are reported at once), warnings of one that is accepted, and failures of a run (the first ends it).
 
 use std::fmt;
 use thiserror::Error;
@@ -31,6 +31,28 @@ impl fmt::Display for Fault {
             write!(f, " ({})", self.help)?;
         }
         Ok(())
+    }
+}
+
+/// Something of a sound model that the user should know before he trusts its results: the model is accepted.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Warning {
+    /// Path of the key in the input, as in [`Fault`].
+    pub path: String,
+    /// What it is, with the value.
+    pub message: String,
+    /// What follows from it.
+    pub consequence: String,
+    /// What to do about it.
+    pub help: String,
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if !self.path.is_empty() {
+            write!(f, "{}: ", self.path)?;
+        }
+        write!(f, "{}: {} ({})", self.message, self.consequence, self.help)
     }
 }
 

@@ -4,7 +4,7 @@ use crate::build;
 use crate::contact::initial::{self, Penetration};
 use crate::contact::tracker::{Certificate, SearchReport};
 use crate::contact::{Contact, ContactKind, search};
-use crate::error::{Error, Fault};
+use crate::error::{Error, Fault, Warning};
 use crate::mesh::PartMesh;
 use crate::model::{self, Cadence, Model};
 use crate::output::{Cells, Eroded, Erosion, Frame, Summary};
@@ -97,7 +97,7 @@ pub struct Overview {
     pub initial_penetrations: Vec<String>,
     /// Probes, one line each: which node, its place, its distance from the wanted point.
     pub probes: Vec<String>,
-    /// Things the user should know.
+    /// Things the user should know besides [`Simulation::model_warnings`].
     pub warnings: Vec<String>,
 }
 
@@ -121,6 +121,7 @@ pub struct Simulation {
     pub(crate) momentum: Option<Momentum>,
     shortest: Shortest,
     pub(crate) threads: usize,
+    model_warnings: Vec<Warning>,
     pub(crate) warnings: BTreeSet<String>,
     history: Cadence,
     fields: Cadence,
@@ -154,7 +155,7 @@ impl Simulation {
             0 => std::thread::available_parallelism().map_or(1, usize::from),
             threads => threads,
         };
-        let system = build::system(model, level, threads).map_err(Error::Model)?;
+        let (system, model_warnings) = build::system(model, level, threads).map_err(Error::Model)?;
         let recorded = Recorded::new(model, &system).map_err(Error::Model)?;
         let pool = if system.team.threads() > 1 { rayon::ThreadPoolBuilder::new().num_threads(threads).build().ok() } else { None };
         let mut simulation = Self {
@@ -162,6 +163,7 @@ impl Simulation {
             recorded,
             shortest: Shortest::default(),
             threads: if pool.is_some() { threads } else { 1 },
+            model_warnings,
             warnings: BTreeSet::new(),
             history: model.output.history,
             fields: model.output.fields,
@@ -213,6 +215,12 @@ impl Simulation {
             faults.extend(initial::faults(&format!("obstacle[{index}]"), &contact.name, &found));
         }
         if faults.is_empty() { Ok(()) } else { Err(Error::Model(faults)) }
+    }
+
+    /// What the user should know of the model: it was accepted. [`Simulation::summary`] has them as texts, with those of the run.
+    #[must_use]
+    pub fn model_warnings(&self) -> &[Warning] {
+        &self.model_warnings
     }
 
     /// Time reached, s.
@@ -372,7 +380,7 @@ impl Simulation {
     }
 
     fn warnings(&self) -> Vec<String> {
-        let mut warnings: Vec<String> = self.warnings.iter().cloned().collect();
+        let mut warnings: Vec<String> = self.model_warnings.iter().map(ToString::to_string).chain(self.warnings.iter().cloned()).collect();
         for contact in &self.system.contacts {
             let Some(ties) = contact.ties() else { continue };
             let all = ties.nodes.len() + ties.broken;

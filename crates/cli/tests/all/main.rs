@@ -5,6 +5,7 @@ mod command_line;
 mod estimates;
 mod examples;
 mod verification;
+mod warnings;
 mod whole_runs;
 
 use std::ffi::OsStr;

@@ -1,9 +1,10 @@
-//! Faults of a model file as a person reads them: file, line, column, excerpt, and what to do.
+//! Faults and warnings of a model file as a person reads them: file, line, column, excerpt, and what to do.
 //!
-//! Faults come from the parser, the reader, the builder and [`Model::check`](embate_solver::model::Model::check); the texts go to a terminal.
+//! They come from the parser, the reader, the builder and [`Model::check`](embate_solver::model::Model::check); the texts go to a terminal.
 
 use super::tree::{Node, Place};
 use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet, normalize_untrusted_str};
+use embate_solver::error::Warning;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Faults of one kind beyond this number are counted, not shown.
@@ -11,20 +12,29 @@ const SHOWN_PER_KIND: usize = 20;
 /// Lines longer than this are not shown, only named.
 const LINE_MAX: usize = 400;
 
-/// All faults of a model file, ready to show.
+/// All faults of a model file, or all warnings of one that is accepted, ready to show.
 #[derive(Clone, Debug)]
 pub struct Diagnostics {
     /// Text for a terminal without colours, with file, line, column and excerpt of each fault.
     pub rendered: String,
-    /// Number of faults.
+    /// Number of faults, or of warnings.
     pub count: usize,
-    /// The faults in the order of the text.
+    /// They in the order of the text.
     pub entries: Vec<Diagnostic>,
     lines: Vec<Option<Line>>,
     kinds: Vec<String>,
+    severity: Severity,
 }
 
-/// One fault with its place.
+/// What they are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Severity {
+    #[default]
+    Fault,
+    Warning,
+}
+
+/// One fault or warning with its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
     /// File as it was named, or `--set`.
@@ -37,6 +47,8 @@ pub struct Diagnostic {
     pub path: String,
     /// What is wrong.
     pub message: String,
+    /// What follows from it, where it is a warning; empty where it is a fault.
+    pub consequence: String,
     /// What to do; may be empty.
     pub help: String,
 }
@@ -56,12 +68,13 @@ pub(crate) struct Source {
     pub(crate) text: String,
 }
 
-/// A fault on its way.
+/// A fault or warning on its way.
 #[derive(Clone, Debug)]
 struct Problem {
     kind: String,
     path: String,
     message: String,
+    consequence: String,
     help: String,
     place: Option<Place>,
 }
@@ -71,6 +84,7 @@ struct Problem {
 pub(crate) struct Faults {
     problems: Vec<Problem>,
     covered: BTreeSet<String>,
+    severity: Severity,
 }
 
 impl Faults {
@@ -82,7 +96,20 @@ impl Faults {
 
     /// A fault that leaves the values at and under `path` meaningful.
     pub(crate) fn beside(&mut self, kind: &str, path: &str, place: Option<Place>, (message, help): (String, String)) {
-        self.problems.push(Problem { kind: kind.to_string(), path: path.to_string(), message, help, place });
+        self.problems.push(Problem { kind: kind.to_string(), path: path.to_string(), message, consequence: String::new(), help, place });
+    }
+
+    /// Warnings of a model that has no faults.
+    pub(crate) fn warnings(warnings: &[Warning]) -> Self {
+        let of = |Warning { path, message, consequence, help }: &Warning| Problem {
+            kind: last_key(path),
+            path: path.clone(),
+            message: message.clone(),
+            consequence: consequence.clone(),
+            help: help.clone(),
+            place: None,
+        };
+        Self { problems: warnings.iter().map(of).collect(), severity: Severity::Warning, ..Self::default() }
     }
 
     /// Whatever is at or under this path is a placeholder.
@@ -124,13 +151,19 @@ impl Faults {
                 column,
                 path: problem.path,
                 message: problem.message,
+                consequence: problem.consequence,
                 help: problem.help,
             });
         }
-        let mut diagnostics = Diagnostics { rendered: String::new(), count: entries.len(), entries, lines, kinds };
+        let mut diagnostics = Diagnostics { rendered: String::new(), count: entries.len(), entries, lines, kinds, severity: self.severity };
         diagnostics.rendered = diagnostics.render(false);
         diagnostics
     }
+}
+
+/// Name of the key that a path ends with, without its index: what faults of one kind share.
+pub(crate) fn last_key(path: &str) -> String {
+    path.split('.').next_back().and_then(|key| key.split('[').next()).unwrap_or_default().to_string()
 }
 
 /// Byte at which each line starts.
@@ -184,7 +217,7 @@ impl Diagnostics {
         faults.into_diagnostics(&[Source { name: file, text: String::new() }], None)
     }
 
-    /// The text for a terminal, coloured if wanted: every fault with its excerpt, at most 20 of one kind.
+    /// The text for a terminal, coloured if wanted: every fault or warning with its excerpt, at most 20 of one kind; empty where there is none.
     #[must_use]
     pub fn render(&self, color: bool) -> String {
         let renderer = if color { Renderer::styled() } else { Renderer::plain() }.term_width(160);
@@ -194,7 +227,7 @@ impl Diagnostics {
             let count = shown.entry(kind).or_default();
             *count += 1;
             if *count <= SHOWN_PER_KIND {
-                text.push_str(&renderer.render(&[group(entry, line.as_ref())]));
+                text.push_str(&renderer.render(&[group(entry, line.as_ref(), self.severity)]));
                 text.push_str("\n\n");
             }
         }
@@ -202,16 +235,23 @@ impl Diagnostics {
         if hidden > 0 {
             text.push_str(&format!("and {hidden} more of the same kinds\n"));
         }
-        text.push_str(&match self.count {
-            1 => "1 fault: nothing was run\n".to_string(),
-            count => format!("{count} faults: nothing was run\n"),
+        text.push_str(&match (self.severity, self.count) {
+            (Severity::Fault, 1) => "1 fault: nothing was run\n".to_string(),
+            (Severity::Fault, count) => format!("{count} faults: nothing was run\n"),
+            (Severity::Warning, 0) => String::new(),
+            (Severity::Warning, 1) => "1 warning: the model is accepted\n".to_string(),
+            (Severity::Warning, count) => format!("{count} warnings: the model is accepted\n"),
         });
         text
     }
 }
 
-fn group<'a>(entry: &'a Diagnostic, line: Option<&'a Line>) -> Group<'a> {
-    let title = Level::ERROR.primary_title(normalize_untrusted_str(&entry.message));
+fn group<'a>(entry: &'a Diagnostic, line: Option<&'a Line>, severity: Severity) -> Group<'a> {
+    let level = match severity {
+        Severity::Fault => Level::ERROR,
+        Severity::Warning => Level::WARNING,
+    };
+    let title = level.primary_title(normalize_untrusted_str(&entry.message));
     let group = match line.map(|line| (line, &line.text)) {
         Some((line, Some(text))) => {
             let mark = AnnotationKind::Primary.span(line.start..line.end);
@@ -220,6 +260,8 @@ fn group<'a>(entry: &'a Diagnostic, line: Option<&'a Line>) -> Group<'a> {
         Some((_, None)) => title.element(Origin::path(&entry.file).line(entry.line).char_column(entry.column)),
         None => title.element(Origin::path(&entry.file)),
     };
+    let group =
+        if entry.consequence.is_empty() { group } else { group.element(Level::NOTE.message(normalize_untrusted_str(&entry.consequence))) };
     if entry.help.is_empty() { group } else { group.element(Level::HELP.message(normalize_untrusted_str(&entry.help))) }
 }
 

@@ -121,6 +121,22 @@ pub(crate) fn table(out: &mut String, keys: &[Key], rules: &[Rule]) {
 }
 
 /// What prescribes the motion of a rigid body.
+const FAULTS_AND_WARNINGS: &str = "\
+## Faults and warnings
+
+A *fault* keeps a model from being run: all are told at once, each with its line, the reason and what to do; exit code 2. A *warning* does not: the model is accepted, and
+`embate check` (exit code 0) and `embate run` tell what it is, what follows from it, and what to do, with line and excerpt. `run --quiet` tells warnings of the model, too,
+since they are no part of the summary that it leaves out; `summary.json` lists them first in `warnings`. Only what is certain before the run is a warning:
+
+| warning | where | what follows |
+|---|---|---|
+| the flow stress falls | a material with `hardening` below 0, `saturation` below `yield`, a falling table, or an `isotropic_stress` below 0 for which backstresses do not make up | strain gathers in one row of elements; results after the peak depend on their size |
+| a Poisson's ratio above 0.49 in `tri3` or `quad4_full` | parts not in plane stress; rubbers by their bulk and shear modulus | the elements lock: several times too stiff |
+| a fluid without viscosity in `quad4` or `quad4_full` | parts of law `null`, but for a `rectangle` of one row | nothing holds shapes that keep the volume: elements fold where the fluid does not flow along the mesh |
+| nothing acts on a part | no contact, obstacle, join, spring, load or motion has to do with it, nor with what shares its nodes | it stays as it is, and others go through it |
+
+";
+
 const MOTION: &str = "`{ x, y, rotation }`: each a velocity, m/s (rad/s), the name of a curve, or `\"free\"`";
 
 fn words(key: &Key) -> String {
@@ -184,6 +200,7 @@ fn registries(out: &mut String) {
 }
 
 fn overrides(out: &mut String) {
+    out.push_str(FAULTS_AND_WARNINGS);
     out.push_str("## Overrides on the command line\n\n");
     out.push_str("`--set path.to.key=value` replaces a value or adds one, as often as needed. Things of which there are several are named by number or by name:\n");
     out.push_str("`--set run.end=\"5 ms\"`, `--set part.tube.velocity='[0, \"-60 m/s\"]'`, `--set part.0.ring.elements='[2, 80]'`, `--set material.steel.poisson=0.25`.\n");

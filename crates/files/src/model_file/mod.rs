@@ -2,7 +2,7 @@
 //!
 //! The walk: text (`mod.rs`) -> tree with places (`tree.rs`) -> overrides (`set.rs`) -> checked values (`reader.rs`, `value.rs`, `units.rs`) -> model
 //! (`build.rs`) -> [`Model::check`]. What a section may hold is described once, in [`embate_solver::model::describe`]; the JSON schema (`schema.rs`) and
-//! the manual (`manual.rs`) come from there too. Faults (`diagnostics.rs`) are collected all the way and shown together.
+//! the manual (`manual.rs`) come from there too. Faults (`diagnostics.rs`) are collected all the way and shown together; warnings of a model without faults likewise.
 
 mod build;
 mod decimal;
@@ -21,11 +21,12 @@ pub use manual::reference_markdown;
 pub use schema::schema;
 pub use starter::starter;
 
-pub(crate) use diagnostics::{Faults, Source};
+pub(crate) use diagnostics::{Faults, Source, last_key};
 pub(crate) use manual::table as keys_table;
 pub(crate) use reader::{Document, Record, Vocabulary};
 pub(crate) use tree::Node;
 
+use embate_solver::error::Warning;
 use embate_solver::model::Model;
 use embate_solver::quantity::Dimension;
 use std::io::Read;
@@ -42,9 +43,34 @@ const SIZE_MAX: u64 = 16 << 20;
 /// # Errors
 /// All faults at once.
 pub fn load(path: &Path, set: &[String]) -> Result<Model, Diagnostics> {
+    load_with_places(path, set).map(|loaded| loaded.model)
+}
+
+/// [`load`], with what is needed to show warnings at their places in the file.
+///
+/// # Errors
+/// All faults at once.
+pub fn load_with_places(path: &Path, set: &[String]) -> Result<Loaded, Diagnostics> {
     let file = if path.is_dir() { path.join(FILE_NAME) } else { path.to_path_buf() };
     let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).map_or_else(|| PathBuf::from("."), Path::to_path_buf);
     load_source(&name_of(&file), source(&file)?, &folder, set)
+}
+
+/// A model as it was read, with the texts that it came from.
+#[derive(Clone, Debug)]
+pub struct Loaded {
+    /// The model, without faults.
+    pub model: Model,
+    sources: Vec<Source>,
+    root: Node,
+}
+
+impl Loaded {
+    /// Warnings of the model (those of [`Model::warnings`], of a simulation made from it) with their lines and columns; no text where there are none.
+    #[must_use]
+    pub fn told(&self, warnings: &[Warning]) -> Diagnostics {
+        Faults::warnings(warnings).into_diagnostics(&self.sources, Some(&self.root))
+    }
 }
 
 /// A file of described sections that has been read, with the text to which later faults point.
@@ -96,10 +122,18 @@ fn source(file: &Path) -> Result<Source, Diagnostics> {
 /// # Errors
 /// All faults at once.
 pub fn load_text(name: &str, text: &str, folder: &Path, set: &[String]) -> Result<Model, Diagnostics> {
+    load_text_with_places(name, text, folder, set).map(|loaded| loaded.model)
+}
+
+/// [`load_text`], with what is needed to show warnings at their places in the text.
+///
+/// # Errors
+/// All faults at once.
+pub fn load_text_with_places(name: &str, text: &str, folder: &Path, set: &[String]) -> Result<Loaded, Diagnostics> {
     load_source(name, Source { name: name.to_string(), text: text.to_string() }, folder, set)
 }
 
-fn load_source(name: &str, source: Source, folder: &Path, set: &[String]) -> Result<Model, Diagnostics> {
+fn load_source(name: &str, source: Source, folder: &Path, set: &[String]) -> Result<Loaded, Diagnostics> {
     let mut faults = Faults::default();
     let (source, mut root) = parsed(source)?;
     let mut sources = vec![source];
@@ -108,11 +142,10 @@ fn load_source(name: &str, source: Source, folder: &Path, set: &[String]) -> Res
     let model = build::model(&document, name, folder, &mut faults);
     for fault in model.check() {
         if !faults.covers(&fault.path) {
-            let kind = fault.path.split('.').next_back().and_then(|key| key.split('[').next()).unwrap_or_default().to_string();
-            faults.beside(&kind, &fault.path, None, (fault.message, fault.help));
+            faults.beside(&last_key(&fault.path), &fault.path, None, (fault.message, fault.help));
         }
     }
-    if faults.is_empty() { Ok(model) } else { Err(faults.into_diagnostics(&sources, Some(&root))) }
+    if faults.is_empty() { Ok(Loaded { model, sources, root }) } else { Err(faults.into_diagnostics(&sources, Some(&root))) }
 }
 
 /// The SI value and the dimension of a quantity such as `3 mm`; `None` if it is none.

@@ -11,7 +11,8 @@
 use super::hardening::{Hardening, Voce, YIELD};
 use super::trial::{LIMIT, Newton, Trial};
 use super::{
-    DENSITY, Family, Kinematics, Law, LawKind, POISSON, ParameterFault, Parameters, Response, Tensors, Variable, YOUNG, bulk_and_shear,
+    DENSITY, Family, Kinematics, Law, LawKind, POISSON, ParameterFault, Parameters, Response, Softening, Tensors, Variable, YOUNG,
+    bulk_and_shear,
 };
 use crate::quantity::{Dimension, Parameter, Range};
 use crate::tensor::SymmetricTensor;
@@ -60,8 +61,8 @@ impl Law for Chaboche {
                 "isotropic_stress",
                 "Q",
                 Dimension::PRESSURE,
-                Range::NotNegative,
-                "what isotropic hardening adds to the yield stress in the end",
+                Range::Finite,
+                "what isotropic hardening adds to the yield stress in the end; negative: cyclic softening, more than `-yield`",
             )
             .or(0.0),
             Parameter::new(
@@ -103,14 +104,31 @@ impl Law for Chaboche {
 
     fn faults(parameters: &Parameters<'_>) -> Vec<ParameterFault> {
         let (moduli, recalls) = (parameters.list("backstress_modulus"), parameters.list("backstress_recall"));
-        if recalls.is_empty() || recalls.len() == moduli.len() {
-            return Vec::new();
+        if !recalls.is_empty() && recalls.len() != moduli.len() {
+            return vec![ParameterFault {
+                name: "backstress_recall",
+                message: format!("there are {} recalls for {} backstress moduli", recalls.len(), moduli.len()),
+                help: "give one for each backstress, 0 for one that doesn't fade".into(),
+            }];
         }
-        vec![ParameterFault {
-            name: "backstress_recall",
-            message: format!("there are {} recalls for {} backstress moduli", recalls.len(), moduli.len()),
-            help: "give one for each backstress, 0 for one that doesn't fade".into(),
-        }]
+        let (gain, yield_stress) = (parameters.value("isotropic_stress"), parameters.value("yield"));
+        if gain <= -yield_stress {
+            return vec![ParameterFault {
+                name: "isotropic_stress",
+                message: format!("softening by {:.4e} Pa leaves nothing of the yield stress of {yield_stress:.4e} Pa", -gain),
+                help: "take more than `-yield`".into(),
+            }];
+        }
+        let it = Self::new(parameters);
+        let isotropic = Softening::von_mises("isotropic_stress", it.isotropic.steepest(), None, [it.bulk, it.shear]);
+        Softening::faults((isotropic.slope < 0.0).then_some(isotropic))
+    }
+
+    /// Where the backstresses do not make up for it: the tension of a virgin point falls.
+    fn softening(parameters: &Parameters<'_>) -> Option<Softening> {
+        let it = Self::new(parameters);
+        let slope = it.slope_least();
+        (slope < 0.0).then(|| Softening::von_mises("isotropic_stress", slope, None, [it.bulk, it.shear]))
     }
 
     #[inline(always)]
@@ -158,6 +176,30 @@ impl Law for Chaboche {
 }
 
 impl Chaboche {
+    /// Least slope of the curve of a virgin point in tension, f = b Q e^{−b ε_p} + Σ C_k e^{−γ_k ε_p}, Pa; zero where it is negative nowhere. f e^{b ε_p} is a sum of
+    /// exponentials and so convex: f is below zero in one interval. What of it begins after the slowest has fallen to a millionth is as small and does not count.
+    fn slope_least(&self) -> f64 {
+        let Voce { gain, rate, .. } = self.isotropic;
+        if gain >= 0.0 {
+            return 0.0;
+        }
+        let slope = |plastic: f64| {
+            let backstresses = self.modulus.iter().zip(&self.recall).map(|(modulus, recall)| modulus * (-recall * plastic).exp());
+            rate * gain * (-rate * plastic).exp() + backstresses.sum::<f64>()
+        };
+        let slowest = self
+            .recall
+            .iter()
+            .zip(&self.modulus)
+            .filter(|(_, modulus)| **modulus > 0.0)
+            .fold(rate, |least, (&recall, _)| recall.min(least));
+        let fastest = self.recall.iter().fold(rate, |most, &recall| recall.max(most));
+        let end = if slowest > 0.0 { 14.0 / slowest } else { 14.0 / rate };
+        // Fine enough for the fastest, coarse enough to be cheap.
+        let steps = (100.0 * end * fastest).clamp(1000.0, 100_000.0) as usize;
+        (0..=steps).map(|k| slope(end * k as f64 / steps as f64)).fold(0.0, f64::min)
+    }
+
     /// What the backstresses have become of after a plastic strain of `step`, as far as the return needs it.
     #[inline(always)]
     fn backstresses<L: Lane, T: SymmetricTensor<L>>(&self, deviator: T, old: &[T; PARTS], step: L) -> Backstresses<L, T> {

@@ -10,7 +10,9 @@
 
 use super::hardening::{Hardening, PLASTIC_STRAIN, STRESS, Table};
 use super::trial::{LIMIT, Newton, Trial};
-use super::{DENSITY, Family, Kinematics, Law, LawKind, POISSON, ParameterFault, Parameters, Response, Variable, YOUNG, bulk_and_shear};
+use super::{
+    DENSITY, Family, Kinematics, Law, LawKind, POISSON, ParameterFault, Parameters, Response, Softening, Variable, YOUNG, bulk_and_shear,
+};
 use crate::quantity::{Dimension, Parameter, Range};
 use crate::tensor::SymmetricTensor;
 use embate_lanes::Lane;
@@ -21,6 +23,8 @@ pub struct CrushableFoam {
     bulk: f64,
     shear: f64,
     curve: Table,
+    /// Whether the curve falls somewhere.
+    falls: bool,
     /// α².
     shape: f64,
     /// Largest mean stress, Pa; infinite without cutoff.
@@ -65,17 +69,26 @@ impl Law for CrushableFoam {
     fn new(parameters: &Parameters<'_>) -> Self {
         let [bulk, shear] = bulk_and_shear(parameters);
         let (plastic, cutoff) = (parameters.value("plastic_poisson"), parameters.value("tension_cutoff"));
+        let curve = Table::new(parameters, shear);
         Self {
             bulk,
             shear,
-            curve: Table::new(parameters, shear),
+            falls: curve.steepest() < 0.0,
+            curve,
             shape: 4.5 * (1.0 - 2.0 * plastic) / (1.0 + plastic),
             cutoff: if cutoff > 0.0 { cutoff } else { f64::INFINITY },
         }
     }
 
     fn faults(parameters: &Parameters<'_>) -> Vec<ParameterFault> {
-        Table::faults(parameters)
+        let faults = Table::faults(parameters);
+        if faults.is_empty() { Softening::faults(Self::softening(parameters)) } else { faults }
+    }
+
+    fn softening(parameters: &Parameters<'_>) -> Option<Softening> {
+        let it = Self::new(parameters);
+        let slope = it.curve.steepest();
+        (slope < 0.0).then(|| Softening::foam(STRESS.name, slope, [it.bulk, it.shear], it.shape, it.scale()))
     }
 
     #[inline(always)]
@@ -124,8 +137,9 @@ impl CrushableFoam {
         let (zero, one) = (L::splat(0.0), L::splat(1.0));
         let (c, shape) = (L::splat(self.scale()), L::splat(self.shape));
         let (shear, bulk) = (L::splat(3.0 * self.shear), L::splat(self.bulk * self.shape));
-        // Φ_trial ≥ Φ (1 + k g) with the softer stiffness k bounds the step; the stiffer one starts it.
-        let high = c * (equivalent - flow) / shear.min(bulk);
+        // Φ_trial ≥ Φ (1 + k g) with the softer stiffness k bounds the step, for a curve that falls with Φ = 0; the stiffer one starts it.
+        let least = if self.falls { zero } else { flow };
+        let high = c * (equivalent - least) / shear.min(bulk);
         let mut newton = Newton::new((equivalent - flow) / (shear.max(bulk) / c + slope), high, equivalent, yields);
         let mut g = zero;
         for _ in 0..LIMIT {

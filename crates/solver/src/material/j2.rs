@@ -4,11 +4,12 @@
 //! q_trial − 3µ Δε_p = σ_y(ε_p + Δε_p) R(Δε_p / Δt), s ← s (1 − 3µ Δε_p / q_trial),
 //! with R = 1 or after Cowper and Symonds (see `hardening/rate.rs`). Linear hardening has a closed form, Δε_p = (q_trial − σ_y) / (3µ + H), and
 //! dissipates ∫ σ_y dε_p = (σ_y(ε_p) + ½ H Δε_p) Δε_p; the others are solved to 1e-12 of q_trial and dissipate as `trial.rs` says.
+//! Where the flow stress falls, 3µ + dσ_y/dε_p stays positive (`softening.rs`), so there is one solution without rate; falling linear hardening goes the way of the others.
 //! Source: Wilkins, Methods in Computational Physics 3 (1964); Simo and Hughes, Computational Inelasticity (1998), box 3.2.
 
 use super::hardening::{Hardening, Kept, Linear, Ludwik, Rate, Swift, Table, Voce};
 use super::trial::{LIMIT, Newton, Trial};
-use super::{Family, Kinematics, Law, LawKind, ParameterFault, Parameters, Response, Variable, bulk_and_shear};
+use super::{Family, Kinematics, Law, LawKind, ParameterFault, Parameters, Response, Softening, Variable, bulk_and_shear};
 use crate::tensor::SymmetricTensor;
 use embate_lanes::Lane;
 
@@ -46,8 +47,16 @@ impl<H: Hardening> Law for J2With<H> {
 
     fn faults(parameters: &Parameters<'_>) -> Vec<ParameterFault> {
         let mut faults = H::faults(parameters);
+        if faults.is_empty() {
+            faults.extend(Softening::faults(Self::softening(parameters)));
+        }
         faults.extend(Rate::faults(parameters));
         faults
+    }
+
+    fn softening(parameters: &Parameters<'_>) -> Option<Softening> {
+        let (name, slope, gone_at) = H::falling(parameters)?;
+        Some(Softening::von_mises(name, slope, gone_at, bulk_and_shear(parameters)))
     }
 
     fn start<L: Lane, T: SymmetricTensor<L>>(&self) -> Self::State<L, T> {

@@ -9,12 +9,14 @@ pub mod hardening;
 mod parameters;
 pub mod points;
 mod rubber;
+mod softening;
 mod state;
 mod trial;
 mod unloaded;
 
 pub use j2::J2With;
 pub use parameters::{BULK, DENSITY, POISSON, ParameterFault, Parameters, YOUNG, bulk_and_shear};
+pub use softening::Softening;
 pub use state::{Orientation, State, Tensors, Variable};
 
 use crate::quantity::Parameter;
@@ -118,6 +120,11 @@ pub trait Law: Copy + Send + Sync + 'static {
         Vec::new()
     }
 
+    /// How its flow stress falls with plastic strain; `None` where it does not.
+    fn softening(_parameters: &Parameters<'_>) -> Option<Softening> {
+        None
+    }
+
     /// History at the start, zero unless the law says otherwise.
     fn start<L: Lane, T: SymmetricTensor<L>>(&self) -> Self::State<L, T> {
         State::zero()
@@ -196,6 +203,32 @@ pub fn faults(name: &str, parameters: &Parameters<'_>) -> Vec<ParameterFault> {
         }
     }
     with_law(name, Check(parameters)).unwrap_or_default()
+}
+
+/// How the flow stress of the law called `name` falls with plastic strain; `None` where it does not. Parameters are sound.
+#[must_use]
+pub fn softening(name: &str, parameters: &Parameters<'_>) -> Option<Softening> {
+    struct Ask<'a>(&'a Parameters<'a>);
+    impl LawVisitor for Ask<'_> {
+        type Output = Option<Softening>;
+        fn visit<M: Law>(self) -> Self::Output {
+            M::softening(self.0)
+        }
+    }
+    with_law(name, Ask(parameters)).flatten()
+}
+
+/// Bulk and shear stiffness at rest of the law called `name`, Pa; `None` when there is no such law. Parameters are sound.
+#[must_use]
+pub fn stiffness(name: &str, parameters: &Parameters<'_>) -> Option<[f64; 2]> {
+    struct Ask<'a>(&'a Parameters<'a>);
+    impl LawVisitor for Ask<'_> {
+        type Output = [f64; 2];
+        fn visit<M: Law>(self) -> Self::Output {
+            M::new(self.0).stiffness()
+        }
+    }
+    with_law(name, Ask(parameters))
 }
 
 /// What a law declares of itself besides its parameters.

@@ -3,7 +3,7 @@
 //! The block takes ½ (σ_old + σ_new):Δε as the work of a step. With the strain split into Δε = C⁻¹:(σ_new − σ_old) + Δε_p that is, to the last
 //! digit, the change of ½ σ:C⁻¹:σ plus ½ (σ_old + σ_new):Δε_p. So a law that reports the latter as its plastic work leaves exactly the elastic
 //! energy in the ledger, whatever the size of its steps; for steps in one direction it is the trapezoidal rule on the flow stress.
-//! Where |σ_old| exceeds |σ_new| (heat, less rate) and the direction turns in one step, it could be negative; then zero is reported.
+//! Where |σ_old| exceeds |σ_new| (heat, less rate, a flow stress that falls) and the direction turns in one step, it could be negative; then zero is reported.
 
 use super::Kinematics;
 use crate::tensor::SymmetricTensor;
@@ -61,6 +61,7 @@ const TOLERANCE: f64 = 1e-12;
 pub(super) const LIMIT: usize = 60;
 
 /// Newton's method for a function that is positive left of its root and negative right of it, in a bracket that halves where Newton leaves it.
+/// A flow stress that falls bends the function the other way, and Newton's steps may pass the root; each that leaves the bracket, which shrinks with every step, halves it.
 /// Lanes that have converged stand still, so that no lane depends on its neighbours.
 #[derive(Clone, Copy)]
 pub(super) struct Newton<L: Lane> {

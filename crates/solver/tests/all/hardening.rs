@@ -179,8 +179,6 @@ fn parameters_that_contradict_each_other_are_told_with_a_cure() {
     assert!(curve(&[0.0, 0.1], &[2.0]).contains("1 stresses for 2"));
     assert!(curve(&[0.1, 0.2], &[2.0, 3.0]).contains("starts at 0.1"));
     assert!(curve(&[0.0, 0.2, 0.2], &[2.0, 3.0, 4.0]).contains("0.2 comes after 0.2"));
-    assert!(curve(&[0.0, 0.2], &[2.0, 1.0]).contains("falls from 2 Pa to 1 Pa"));
-    assert!(told("j2_voce", &[("yield", 2.0), ("saturation", 1.0)], &[]).contains("below the yield stress"));
     assert!(told("j2", &[("rate_exponent", 0.2)], &[]).contains("at least 1"));
     assert!(told("chaboche", &[], &[("backstress_modulus", &[1.0]), ("backstress_recall", &[1.0, 2.0])]).contains("2 recalls for 1"));
     assert!(told("johnson_cook", &[("temperature_melt", 200.0)], &[("damage", &[1.0])]).contains("melting point"));

@@ -75,7 +75,15 @@ pub(crate) fn parameters(kind: &LawKind, poisson: f64) -> BTreeMap<String, f64> 
 
 /// What parameters may have besides [`parameters`]: each set makes a law of another kind.
 pub(crate) fn options(kind: &LawKind) -> Vec<Vec<(&'static str, f64)>> {
-    let all = [vec![], vec![("rate_reference", 50.0)], vec![("rate_coefficient", 0.02)]];
+    let all = [
+        vec![],
+        vec![("rate_reference", 50.0)],
+        vec![("rate_coefficient", 0.02)],
+        vec![("hardening", -0.3 * YOUNG)],
+        vec![("hardening", -0.3 * YOUNG), ("rate_reference", 50.0)],
+        vec![("saturation", 0.004 * YOUNG)],
+        vec![("isotropic_stress", -0.005 * YOUNG)],
+    ];
     let has = |name: &str| kind.parameters.iter().any(|parameter| parameter.name == name);
     all.into_iter().filter(|set| set.iter().all(|(name, _)| has(name))).collect()
 }

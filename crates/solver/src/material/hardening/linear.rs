@@ -1,9 +1,10 @@
-//! Linear hardening: σ_y = σ_y0 + H ε_p.
+//! Linear hardening: σ_y = max(σ_y0 + H ε_p, 0).
 //!
-//! H is the plastic modulus dσ_y/dε_p, not the tangent modulus E_t = E H / (E + H).
+//! H is the plastic modulus dσ_y/dε_p, not the tangent modulus E_t = E H / (E + H). With H < 0 the flow stress falls to zero, at ε_p = σ_y0 / |H|, and stays there:
+//! a flow stress below zero would give energy to whoever strains the material. What is left bears pressure, and no shear.
 
 use super::super::{DENSITY, LawKind, POISSON, Parameters, YOUNG};
-use super::{Hardening, RATE_EXPONENT, RATE_REFERENCE, YIELD};
+use super::{Hardening, RATE_EXPONENT, RATE_REFERENCE, YIELD, not_negative};
 use crate::quantity::{Dimension, Parameter, Range};
 use embate_lanes::Lane;
 
@@ -28,8 +29,8 @@ impl Hardening for Linear {
                 "hardening",
                 "H",
                 Dimension::PRESSURE,
-                Range::NotNegative,
-                "plastic modulus dσ_y/dε_p (not the tangent modulus)",
+                Range::Finite,
+                "plastic modulus dσ_y/dε_p (not the tangent modulus); negative: the flow stress falls, down to zero",
             )
             .or(0.0),
             RATE_REFERENCE,
@@ -43,14 +44,21 @@ impl Hardening for Linear {
         Self { yield_stress: parameters.value("yield"), modulus: parameters.value("hardening") }
     }
 
+    fn falling(parameters: &Parameters<'_>) -> Option<(&'static str, f64, Option<f64>)> {
+        let modulus = parameters.value("hardening");
+        (modulus < 0.0).then(|| ("hardening", modulus, Some(-parameters.value("yield") / modulus)))
+    }
+
     #[inline(always)]
     fn flow<L: Lane>(&self, plastic: L) -> [L; 2] {
         let modulus = L::splat(self.modulus);
-        [L::splat(self.yield_stress) + modulus * plastic, modulus]
+        let flow = [L::splat(self.yield_stress) + modulus * plastic, modulus];
+        // A branch that every point takes the same way: hardening pays nothing for it.
+        if self.modulus < 0.0 { not_negative(flow) } else { flow }
     }
 
     #[inline(always)]
     fn modulus(&self) -> Option<f64> {
-        Some(self.modulus)
+        (self.modulus >= 0.0).then_some(self.modulus)
     }
 }

@@ -26,7 +26,7 @@ use embate_lanes::Lane;
 /// Initial yield stress.
 pub(super) const YIELD: Parameter = Parameter::new("yield", "σ_y", Dimension::PRESSURE, Range::Positive, "initial yield stress");
 
-/// A flow stress σ_y(ε_p), positive and nowhere falling.
+/// A flow stress σ_y(ε_p), nowhere negative. Where it falls, it does so by less than 3µ per plastic strain: the return has one solution then.
 pub trait Hardening: Copy + Send + Sync + 'static {
     /// The law `j2` with this hardening.
     const KIND: LawKind;
@@ -41,14 +41,26 @@ pub trait Hardening: Copy + Send + Sync + 'static {
         Vec::new()
     }
 
+    /// How it falls: the parameter, the least slope (Pa), and the plastic strain at which nothing is left; `None` where it does not.
+    fn falling(_parameters: &Parameters<'_>) -> Option<(&'static str, f64, Option<f64>)> {
+        None
+    }
+
     /// [σ_y, dσ_y/dε_p] at the equivalent plastic strain, Pa. `#[inline(always)]`.
     fn flow<L: Lane>(&self, plastic: L) -> [L; 2];
 
-    /// dσ_y/dε_p if it is the same everywhere, Pa: then the return has a closed form.
+    /// dσ_y/dε_p if it is the same everywhere and not negative, Pa: then the return has a closed form.
     #[inline(always)]
     fn modulus(&self) -> Option<f64> {
         None
     }
+}
+
+/// A falling flow stress and its slope: zero, both, where it would be negative.
+#[inline(always)]
+fn not_negative<L: Lane>([stress, slope]: [L; 2]) -> [L; 2] {
+    let zero = L::splat(0.0);
+    [stress.max(zero), L::select(zero.less(stress), slope, zero)]
 }
 
 /// The flow stress and its slope at the plastic strain that a point has, kept from the step that led there: a power or an exponential less in every step.

@@ -1,6 +1,6 @@
 //! A measured curve: points (ε_p, σ_y), straight lines between them, the last stress after the last point.
 //!
-//! The first point is at ε_p = 0; stresses don't fall: a falling curve would gather all strain in one row of elements, whatever their size.
+//! The first point is at ε_p = 0. Stresses may fall, by less than the return can bear (`softening.rs`); all are positive, so something is always left.
 
 use super::super::{DENSITY, LawKind, POISSON, ParameterFault, Parameters, YOUNG};
 use super::{Hardening, RATE_EXPONENT, RATE_REFERENCE};
@@ -25,7 +25,7 @@ pub(crate) const STRESS: Parameter = Parameter::new(
     "σ_y",
     Dimension::PRESSURE,
     Range::Positive,
-    "true flow stresses of the points, as many as plastic strains, not falling; the last one holds from there on",
+    "true flow stresses of the points, as many as plastic strains; the last one holds from there on",
 )
 .list(POINTS);
 
@@ -73,15 +73,12 @@ impl Hardening for Table {
             let message = format!("{} comes after {}", strains[at], strains[at - 1]);
             return fault("plastic_strain", message, "sort the points by their plastic strain, each once");
         }
-        if let Some(at) = (1..stresses.len()).find(|&i| stresses[i] < stresses[i - 1]) {
-            let message = format!("the curve falls from {} Pa to {} Pa", stresses[at - 1], stresses[at]);
-            return fault(
-                "stress",
-                message,
-                "a falling curve gathers all strain in one row of elements; keep the stress level from the highest point on",
-            );
-        }
         Vec::new()
+    }
+
+    fn falling(parameters: &Parameters<'_>) -> Option<(&'static str, f64, Option<f64>)> {
+        let steepest = Self::new(parameters, 0.0).steepest();
+        (steepest < 0.0).then_some(("stress", steepest, None))
     }
 
     #[inline(always)]
@@ -95,5 +92,12 @@ impl Hardening for Table {
             slope = L::select(past, L::splat(self.slopes[i]), slope);
         }
         [stress + slope * (plastic - strain), slope]
+    }
+}
+
+impl Table {
+    /// Least slope of a line, Pa; zero after the last point.
+    pub(crate) fn steepest(&self) -> f64 {
+        self.slopes.iter().fold(0.0, |least, &slope| slope.min(least))
     }
 }

@@ -1,9 +1,10 @@
 //! Saturating hardening: σ_y = σ_y0 + (σ_s − σ_y0)(1 − e^{−b ε_p}) + H ε_p.
 //!
+//! A saturation below the initial yield stress, or H < 0, makes the flow stress fall; with H < 0 down to zero, where it stays (see `linear.rs`).
 //! Source: Voce, Journal of the Institute of Metals 74 (1948) 537-562; with the linear term as in Simo and Hughes (1998), box 3.2.
 
-use super::super::{DENSITY, LawKind, POISSON, ParameterFault, Parameters, YOUNG};
-use super::{Hardening, RATE_EXPONENT, RATE_REFERENCE, YIELD};
+use super::super::{DENSITY, LawKind, POISSON, Parameters, YOUNG};
+use super::{Hardening, RATE_EXPONENT, RATE_REFERENCE, YIELD, not_negative};
 use crate::quantity::{Dimension, Parameter, Range};
 use embate_lanes::{Lane, math};
 
@@ -31,7 +32,7 @@ impl Hardening for Voce {
                 "σ_s",
                 Dimension::PRESSURE,
                 Range::Positive,
-                "flow stress at which hardening ends, not below `yield`",
+                "flow stress at which hardening ends; below `yield` the material softens",
             ),
             Parameter::new(
                 "saturation_rate",
@@ -40,7 +41,7 @@ impl Hardening for Voce {
                 Range::Positive,
                 "how fast: after a plastic strain of 1/b 63 % are done",
             ),
-            Parameter::new("hardening", "H", Dimension::PRESSURE, Range::NotNegative, "plastic modulus that stays").or(0.0),
+            Parameter::new("hardening", "H", Dimension::PRESSURE, Range::Finite, "plastic modulus that stays").or(0.0),
             RATE_REFERENCE,
             RATE_EXPONENT,
         ],
@@ -58,15 +59,11 @@ impl Hardening for Voce {
         }
     }
 
-    fn faults(parameters: &Parameters<'_>) -> Vec<ParameterFault> {
-        if parameters.value("saturation") >= parameters.value("yield") {
-            return Vec::new();
-        }
-        vec![ParameterFault {
-            name: "saturation",
-            message: "the saturation stress is below the yield stress, so the material would soften".into(),
-            help: "`saturation` is the whole flow stress, not what is added to `yield`".into(),
-        }]
+    fn falling(parameters: &Parameters<'_>) -> Option<(&'static str, f64, Option<f64>)> {
+        let it = Self::new(parameters, 0.0);
+        let steepest = it.steepest();
+        let gone_at = (it.modulus < 0.0).then(|| it.gone_at());
+        (steepest < 0.0).then_some((if it.gain < 0.0 { "saturation" } else { "hardening" }, steepest, gone_at))
     }
 
     #[inline(always)]
@@ -74,6 +71,25 @@ impl Hardening for Voce {
         let left = L::splat(self.gain) * math::exp(L::splat(-self.rate) * plastic);
         let modulus = L::splat(self.modulus);
         let stress = L::splat(self.yield_stress + self.gain) - left + modulus * plastic;
-        [stress, L::splat(self.rate) * left + modulus]
+        let flow = [stress, L::splat(self.rate) * left + modulus];
+        if self.modulus < 0.0 { not_negative(flow) } else { flow }
+    }
+}
+
+impl Voce {
+    /// Least dσ_y/dε_p = H + b (σ_s − σ_y0) e^{−b ε_p}, Pa: at the start, or in the end.
+    pub(crate) fn steepest(&self) -> f64 {
+        (self.modulus + self.rate * self.gain).min(self.modulus)
+    }
+
+    /// The plastic strain at which nothing is left with H < 0, bisected to the last digits.
+    fn gone_at(&self) -> f64 {
+        let stress = |plastic: f64| self.yield_stress - self.gain * (-self.rate * plastic).exp_m1() + self.modulus * plastic;
+        let (mut low, mut high) = (0.0, (self.yield_stress + self.gain.max(0.0)) / -self.modulus);
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            if stress(middle) > 0.0 { low = middle } else { high = middle }
+        }
+        high
     }
 }

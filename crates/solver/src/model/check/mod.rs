@@ -2,12 +2,14 @@
 //!
 //! Data comes from [`Model`], whoever made it; ranges come from [`describe`] and the registries, so that they stand in one place. All faults
 //! are returned at once, each with the path of its key. Parts are in `parts.rs`, contacts in `contact.rs`, what moves in `motion.rs`, loads and joins in `load.rs`.
+//! What is no fault and should be known all the same is in `warnings.rs`.
 
 mod contact;
 mod discrete;
 mod load;
 mod motion;
 mod parts;
+mod warnings;
 
 pub(crate) use parts::CheckOf;
 

@@ -1,6 +1,7 @@
 //! Faults of parts: their materials, kinds of elements and shapes.
 
 use super::Check;
+use super::warnings::parameters;
 use crate::block::stress_state::{PlaneStress, STRESS_STATES, StressState};
 use crate::element;
 use crate::material;
@@ -30,6 +31,7 @@ impl Check<'_> {
             self.shape(&path, part);
             self.initial(&path, part);
             self.bars(&path, part);
+            self.falling(&path, part);
             let count = element_count(model, part);
             if total <= ELEMENTS_MAX && total.saturating_add(count) > ELEMENTS_MAX {
                 self.fault(
@@ -85,6 +87,21 @@ impl Check<'_> {
             if part.rigid.is_some() {
                 self.fault(path, rigid, "leave it out, or let the part deform");
             }
+        }
+    }
+
+    /// A flow stress that falls needs more stiffness against flow than a plate or a bar may have. At a point of a solid it has enough: that is a fault of the material.
+    fn falling(&mut self, path: &str, part: &Part) {
+        let Some(it) = self.model.materials.get(&part.material).filter(|_| part.rigid.is_none()) else { return };
+        let Some(softening) = parameters(it).and_then(|parameters| material::softening(&it.law, &parameters)) else { return };
+        let (stiffness, of) = match part {
+            part if part.is_of_bars() => (softening.bar, "a bar"),
+            part if part.stress_state == PlaneStress::KIND.name => (softening.plate, "plane stress"),
+            _ => return,
+        };
+        if softening.is_too_steep(stiffness) && !softening.is_too_steep(softening.solid) {
+            let (message, help) = softening.too_steep(stiffness);
+            self.fault(format!("{path}.material"), format!("`{}` in {of}: {message}", excerpt(&part.material)), help);
         }
     }
 

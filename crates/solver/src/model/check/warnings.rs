@@ -1,0 +1,103 @@
+//! What the user should know of a sound model: laws that soften, elements that lock, elements that do not hold a fluid.
+//!
+//! Only what is certain before a run: a warning that is wrong once is read no more. What needs the mesh is told by `build/idle.rs`.
+
+use crate::block::stress_state::{PlaneStress, StressState};
+use crate::element::{Element, Quad4, Quad4Full, Tri3};
+use crate::error::Warning;
+use crate::material::{self, Law, Null, Parameters};
+use crate::model::{Material, Model, Part, Shape};
+
+/// From this Poisson's ratio on elements without averaged dilatation are too stiff for any use: K is fifty times µ.
+const LOCKS: f64 = 0.49;
+
+impl Model {
+    /// What the user should know of a model without faults ([`Model::check`]), as far as it can be told without meshing; each thing once.
+    #[must_use]
+    pub fn warnings(&self) -> Vec<Warning> {
+        let mut warnings = Vec::new();
+        for (name, it) in &self.materials {
+            warnings.extend(self.softening(name, it));
+        }
+        for (index, part) in self.parts.iter().enumerate().filter(|(_, part)| part.rigid.is_none()) {
+            let Some(it) = self.materials.get(&part.material) else { continue };
+            warnings.extend(self.locking(index, part, it));
+            warnings.extend(self.fluid(index, part, it));
+        }
+        warnings
+    }
+
+    /// A material whose flow stress falls, if a part is made of it.
+    fn softening(&self, name: &str, it: &Material) -> Option<Warning> {
+        let softening = material::softening(&it.law, &parameters(it)?)?;
+        self.parts.iter().find(|part| part.material == name && part.rigid.is_none())?;
+        let gone = softening.gone_at.map_or(String::new(), |at| format!("; nothing is left of it at a plastic strain of {at:.4}"));
+        Some(Warning {
+            path: format!("material.{name}.{}", softening.name),
+            message: format!("the flow stress falls by up to {:.4e} Pa per plastic strain{gone}", -softening.slope),
+            consequence: "the equations lose ellipticity where it falls: strain gathers in one row of elements, so that forces and energies after the peak depend on \
+                          the size and direction of the elements"
+                .into(),
+            help: "fit the fall to the size of the elements, so that stress times plastic strain times that size is the energy of a crack; or let the flow stress stay \
+                   at its peak and elements fail by `failure`"
+                .into(),
+        })
+    }
+
+    /// Nearly no change of volume in elements that need one in bending and shear.
+    fn locking(&self, index: usize, part: &Part, it: &Material) -> Option<Warning> {
+        let (element, cure) = if self.has_elements(part, Tri3::KIND.name) {
+            (Tri3::KIND.name, "take `element_triangles = \"tri3_anp\"`, or quadrilaterals")
+        } else if self.has_elements(part, Quad4Full::KIND.name) {
+            (Quad4Full::KIND.name, "take `element = \"quad4\"`")
+        } else {
+            return None;
+        };
+        // An equation of state has a bulk modulus of its own.
+        if part.stress_state == PlaneStress::KIND.name || !it.eos.is_empty() || material::bears_uniaxial_stress(&it.law) != Some(true) {
+            return None;
+        }
+        let [bulk, shear] = material::stiffness(&it.law, &parameters(it)?)?;
+        let poisson = (3.0 * bulk - 2.0 * shear) / (2.0 * (3.0 * bulk + shear));
+        (poisson > LOCKS).then(|| Warning {
+            path: format!("part[{index}].material"),
+            message: format!("Poisson's ratio of `{}` is {poisson:.4}, in elements `{element}`", part.material),
+            consequence: "they lock: bending and shear of the part are several times too stiff, also with many elements".into(),
+            help: cure.into(),
+        })
+    }
+
+    /// A fluid without viscosity in elements whose shape only shear stresses hold; a single row that flows along itself needs no such.
+    fn fluid(&self, index: usize, part: &Part, it: &Material) -> Option<Warning> {
+        let element = [Quad4::KIND.name, Quad4Full::KIND.name].into_iter().find(|name| self.has_elements(part, name))?;
+        let is_row = matches!(&part.shape, Shape::Rectangle(rectangle) if rectangle.elements.contains(&1));
+        let is_thin = it.law == Null::KIND.name && parameters(it)?.value("viscosity") == 0.0;
+        (is_thin && !is_row).then(|| Warning {
+            path: format!("part[{index}].material"),
+            message: format!("`{}` is a fluid without viscosity, in elements `{element}`", part.material),
+            consequence: "its pressure is one for the whole element and holds none of the shapes that keep the volume: where it does not flow along the lines of the \
+                          mesh, elements fold and end the run"
+                .into(),
+            help: "take `element = \"quad4_reduced\"`, whose hourglass control holds them, or give the fluid a `viscosity`".into(),
+        })
+    }
+
+    /// Whether some elements of a part are of this kind.
+    fn has_elements(&self, part: &Part, name: &str) -> bool {
+        let is = |nodes: usize| part.element_of(nodes).is_some_and(|kind| kind.name == name);
+        match &part.shape {
+            Shape::Group { mesh, group } => {
+                let groups = self.meshes.get(*mesh).map_or(&[][..], |imported| &imported.groups);
+                let own = groups.iter().find(|it| it.name == *group && it.dimension == part.cells_dimension());
+                own.is_some_and(|it| it.cells.iter().any(|cell| is(cell.len())))
+            }
+            shape => shape.built_in().is_some_and(|(shape, _)| is(shape.nodes_per_element())),
+        }
+    }
+}
+
+/// The parameters of a material; `None` when there is no such law.
+pub(super) fn parameters(it: &Material) -> Option<Parameters<'_>> {
+    let kind = material::LAWS.iter().find(|kind| kind.name == it.law)?;
+    Some(Parameters::new(kind.parameters, &it.parameters, &it.lists))
+}

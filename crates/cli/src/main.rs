@@ -14,6 +14,7 @@ mod numbers;
 mod progress;
 mod run;
 mod schema;
+mod sweep;
 mod terminal;
 mod verify;
 
@@ -32,6 +33,8 @@ struct CommandLine {
 enum Command {
     /// Run a model and write its results
     Run(run::Arguments),
+    /// Run a model with many values, one run on each core, and write one table
+    Sweep(sweep::Arguments),
     /// Look at a model without running it: parts, masses, stable step, probes, penetrations, a picture
     Check(check::Arguments),
     /// List elements, materials, searches and output fields with their parameters
@@ -91,6 +94,7 @@ fn main() -> ExitCode {
 fn obey(command: &Command) -> Result<(), Failure> {
     match command {
         Command::Run(arguments) => run::run(arguments),
+        Command::Sweep(arguments) => sweep::sweep(arguments),
         Command::Check(arguments) => check::check(arguments),
         Command::List(arguments) => list::list(arguments),
         Command::New(arguments) => new::new(arguments),

@@ -3,12 +3,14 @@
 //! One file per command. Exit codes: 0 done, 1 a run failed (or a bug), 2 bad input or command line,
 //! 3 imported but not all of it acts, 130 stopped by Ctrl-C.
 
+mod bench;
 mod check;
 mod cpu;
 mod import;
 mod input;
 mod interrupt;
 mod list;
+mod machine;
 mod new;
 mod numbers;
 mod progress;
@@ -45,6 +47,8 @@ enum Command {
     Import(import::Arguments),
     /// Run the verification cases and compare with known values
     Verify(verify::Arguments),
+    /// Measure how fast this machine is: kernels, whole steps, contact, beside what its memory and arithmetic allow
+    Bench(bench::Arguments),
     /// Print the JSON schema of the model file (for completion in editors)
     Schema,
 }
@@ -100,6 +104,7 @@ fn obey(command: &Command) -> Result<(), Failure> {
         Command::New(arguments) => new::new(arguments),
         Command::Import(arguments) => import::import(arguments),
         Command::Verify(arguments) => verify::verify(arguments),
+        Command::Bench(arguments) => bench::bench(arguments),
         Command::Schema => schema::schema(),
     }
 }

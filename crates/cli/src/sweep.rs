@@ -6,7 +6,7 @@ use crate::input::{self, ModelArguments};
 use crate::interrupt::Interrupt;
 use crate::numbers::{grouped, table, with_unit};
 use crate::progress::Display;
-use crate::{Failure, cpu, terminal};
+use crate::{Failure, cpu, machine, terminal};
 use clap::Args;
 use embate_files::sweep::{Advance, Ended, Keep, PLOT_NAME, Request, Running, Sweep, SweepError, TABLE_NAME};
 use std::path::{Path, PathBuf};
@@ -60,7 +60,7 @@ pub(crate) fn sweep(arguments: &Arguments) -> Result<(), Failure> {
     let interrupt = Interrupt::watch();
     let is_stopped = || interrupt.is_pressed();
     let jobs = match arguments.jobs {
-        0 => std::thread::available_parallelism().map_or(1, usize::from),
+        0 => machine::processors(),
         jobs => jobs.into(),
     };
     let ModelArguments { model, set } = &arguments.model;

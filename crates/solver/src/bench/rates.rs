@@ -37,13 +37,20 @@ pub fn kernel(element: &str, law: &str, patch: &Patch, level: Level, seconds: f6
     let mut block = make(&input).ok_or_else(unknown)?;
     let mut corners = vec![Batch::default(); block.corner_batches()];
     let motion = Motion { positions: &patch.positions, velocities: &patch.velocities, time_step: 1e-7 };
-    let repeats = (ROUND / block.elements()).max(1);
+    let once = Instant::now();
+    black_box(block.advance(&motion, level, &mut corners, false));
+    let repeats = repeats(once.elapsed().as_secs_f64(), block.elements(), seconds);
     Ok(best_rate(seconds, || {
         for _ in 0..repeats {
             black_box(block.advance(&motion, level, &mut corners, false));
         }
         (repeats * block.elements()) as f64
     }))
+}
+
+/// How often a round does what takes so long once: so that all rounds fit into the time, and no round is longer than it needs to be.
+fn repeats(once: f64, elements: usize, seconds: f64) -> usize {
+    ((seconds / ROUNDS as f64 / once.max(1e-9)) as usize).clamp(1, (ROUND / elements).max(1))
 }
 
 /// How large the body of a measurement is.
@@ -64,14 +71,15 @@ pub fn step(element: &str, law: &str, n: usize, size: Size, options: &Options, s
     if size == Size::Large {
         return steps_of(&mut Simulation::new(&model, options)?, seconds);
     }
-    let steps = (ROUND / (n * n)).max(1) as u64;
     let (begin, mut best, mut rounds) = (Instant::now(), 0.0_f64, 0);
     while rounds < ROUNDS || begin.elapsed().as_secs_f64() < seconds {
         let mut simulation = Simulation::new(&model, options)?;
+        let warm = Instant::now();
         simulation.advance(f64::INFINITY, 10)?;
+        let steps = repeats(0.1 * warm.elapsed().as_secs_f64(), n * n, seconds).max(10);
         let start = Instant::now();
-        simulation.advance(f64::INFINITY, steps)?;
-        best = best.max((steps as usize * n * n) as f64 / start.elapsed().as_secs_f64().max(1e-9));
+        simulation.advance(f64::INFINITY, steps as u64)?;
+        best = best.max((steps * n * n) as f64 / start.elapsed().as_secs_f64().max(1e-9));
         rounds += 1;
     }
     Ok(best)

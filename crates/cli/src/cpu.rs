@@ -1,4 +1,4 @@
-//! The CPU time of this process, from the system.
+//! The CPU time of this process and of one thread, from the system.
 
 /// User CPU time of all threads so far, s; `None` where the system does not tell.
 #[cfg(unix)]
@@ -11,5 +11,19 @@ pub(crate) fn user_seconds() -> Option<f64> {
 /// User CPU time of all threads so far, s; `None` where the system does not tell.
 #[cfg(not(unix))]
 pub(crate) fn user_seconds() -> Option<f64> {
+    None
+}
+
+/// User CPU time of the calling thread so far, s; `None` where the system does not tell.
+#[cfg(target_os = "linux")]
+pub(crate) fn user_seconds_of_thread() -> Option<f64> {
+    use nix::sys::resource::{UsageWho, getrusage};
+    use nix::sys::time::TimeValLike;
+    getrusage(UsageWho::RUSAGE_THREAD).ok().map(|usage| usage.user_time().num_microseconds() as f64 * 1e-6)
+}
+
+/// User CPU time of the calling thread so far, s; `None` where the system does not tell.
+#[cfg(not(target_os = "linux"))]
+pub(crate) fn user_seconds_of_thread() -> Option<f64> {
     None
 }

@@ -3,17 +3,20 @@
 //! One file per command. Exit codes: 0 done, 1 a run failed (or a bug), 2 bad input or command line,
 //! 3 imported but not all of it acts, 130 stopped by Ctrl-C.
 
+mod bench;
 mod check;
 mod cpu;
 mod import;
 mod input;
 mod interrupt;
 mod list;
+mod machine;
 mod new;
 mod numbers;
 mod progress;
 mod run;
 mod schema;
+mod sweep;
 mod terminal;
 mod verify;
 
@@ -32,6 +35,8 @@ struct CommandLine {
 enum Command {
     /// Run a model and write its results
     Run(run::Arguments),
+    /// Run a model with many values, one run on each core, and write one table
+    Sweep(sweep::Arguments),
     /// Look at a model without running it: parts, masses, stable step, probes, penetrations, a picture
     Check(check::Arguments),
     /// List elements, materials, searches and output fields with their parameters
@@ -42,6 +47,8 @@ enum Command {
     Import(import::Arguments),
     /// Run the verification cases and compare with known values
     Verify(verify::Arguments),
+    /// Measure how fast this machine is: kernels, whole steps, contact, beside what its memory and arithmetic allow
+    Bench(bench::Arguments),
     /// Print the JSON schema of the model file (for completion in editors)
     Schema,
 }
@@ -91,11 +98,13 @@ fn main() -> ExitCode {
 fn obey(command: &Command) -> Result<(), Failure> {
     match command {
         Command::Run(arguments) => run::run(arguments),
+        Command::Sweep(arguments) => sweep::sweep(arguments),
         Command::Check(arguments) => check::check(arguments),
         Command::List(arguments) => list::list(arguments),
         Command::New(arguments) => new::new(arguments),
         Command::Import(arguments) => import::import(arguments),
         Command::Verify(arguments) => verify::verify(arguments),
+        Command::Bench(arguments) => bench::bench(arguments),
         Command::Schema => schema::schema(),
     }
 }

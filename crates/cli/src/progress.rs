@@ -44,20 +44,25 @@ impl Display {
 
     pub(crate) fn update(&mut self, progress: &Progress<'_>) {
         let done = if progress.end > 0.0 { (progress.time / progress.end).clamp(0.0, 1.0) } else { 0.0 };
+        self.show(done, || state(progress));
+    }
+
+    /// Shows that this fraction is done.
+    pub(crate) fn show(&mut self, done: f64, state: impl FnOnce() -> String) {
         match self {
             Self::Quiet => {}
             Self::Lines { next, begin } => {
                 let tenth = (10.0 * done).floor() as u64;
                 if tenth >= *next {
                     let left = begin.elapsed().as_secs_f64() * (1.0 - done) / done;
-                    terminal::complain(&format!("{:>3} %  {}  ETA {}", 10 * tenth, state(progress), with_unit(left, "s")));
+                    terminal::complain(&format!("{:>3} %  {}  ETA {}", 10 * tenth, state(), with_unit(left, "s")));
                     *next = tenth + 1;
                 }
             }
             Self::Bar { bar, updated } => {
                 if updated.elapsed() >= PAUSE {
                     bar.set_position((TICKS as f64 * done) as u64);
-                    bar.set_message(state(progress));
+                    bar.set_message(state());
                     *updated = Instant::now();
                 }
             }

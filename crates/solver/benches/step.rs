@@ -3,30 +3,9 @@
 //! A square block that flies and stretches, in cache and out of it: million element-steps per second of the elements alone and of the whole step, whose rest is
 //! assembly, nodes and the books.
 
-use embate_solver::model::{Material, Model, Part, Rectangle, Run, Shape};
+use embate_solver::bench::spinning_block;
 use embate_solver::simulation::{Options, Simulation};
 use std::time::Instant;
-
-/// A square of `n` × `n` elements that spins and flows.
-fn block(element: &str, n: usize) -> Model {
-    let mut model = Model { run: Run { end: 1.0, ..Run::default() }, ..Model::default() };
-    let parameters = [("young", 2e11), ("poisson", 0.3), ("density", 7800.0), ("yield", 1e8), ("hardening", 5e10)]
-        .map(|(key, value)| (key.to_string(), value));
-    model.materials.insert("steel".into(), Material { law: "j2".into(), parameters: parameters.into(), ..Material::default() });
-    let size = n as f64 * 1e-3;
-    let shape = Shape::Rectangle(Rectangle { corner: [-0.5 * size; 2], size: [size; 2], elements: [n, n], ..Rectangle::default() });
-    model.parts.push(Part {
-        name: "block".into(),
-        material: "steel".into(),
-        element: element.into(),
-        shape,
-        velocity: [3.0, 4.0],
-        spin: 400.0 / size,
-        ..Part::default()
-    });
-    model.output.pictures = false;
-    model
-}
 
 fn main() {
     let words: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with("--")).collect();
@@ -35,7 +14,7 @@ fn main() {
     println!("million element-steps per second of the whole step, least of the rounds of a second");
     for n in if sizes.is_empty() { vec![20, 32, 64, 100, 2000] } else { sizes } {
         for element in ["quad4", "quad4_reduced"].into_iter().filter(|element| wanted(element)) {
-            let model = block(element, n);
+            let model = spinning_block(element, "j2", n);
             let mut line = format!("  {:>9} elements  {element:<14}", n * n);
             let mut single = 0.0;
             for threads in [1, 2] {

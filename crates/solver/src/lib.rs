@@ -22,3 +22,4 @@ mod culprit;
 mod record;
 pub mod output;
 pub mod simulation;
+pub mod bench;

@@ -1,9 +1,11 @@
 //! The program as a user meets it: what it prints, which files it leaves, which exit code it gives.
 #![allow(clippy::unwrap_used)]
 
+mod bench;
 mod command_line;
 mod estimates;
 mod examples;
+mod sweep;
 mod verification;
 mod warnings;
 mod whole_runs;

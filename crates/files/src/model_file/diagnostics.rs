@@ -217,6 +217,42 @@ impl Diagnostics {
         faults.into_diagnostics(&[Source { name: file, text: String::new() }], None)
     }
 
+    /// Faults of several variants of a model as one list: what is wrong in several is told once, with the runs that have it;
+    /// run 0: no run's fault. `of`: the number of runs.
+    pub(crate) fn merged(found: Vec<(usize, Self)>, of: usize) -> Self {
+        let mut all = Self {
+            rendered: String::new(),
+            count: 0,
+            entries: Vec::new(),
+            lines: Vec::new(),
+            kinds: Vec::new(),
+            severity: Severity::Fault,
+        };
+        let mut runs: Vec<Vec<usize>> = Vec::new();
+        let mut known: BTreeMap<(String, usize, usize, String, String), usize> = BTreeMap::new();
+        for (run, one) in found {
+            for ((entry, line), kind) in one.entries.into_iter().zip(one.lines).zip(one.kinds) {
+                let identity = (entry.file.clone(), entry.line, entry.column, entry.path.clone(), entry.message.clone());
+                let at = *known.entry(identity).or_insert_with(|| {
+                    all.entries.push(entry);
+                    all.lines.push(line);
+                    all.kinds.push(kind);
+                    runs.push(Vec::new());
+                    runs.len() - 1
+                });
+                runs[at].push(run);
+            }
+        }
+        for (entry, runs) in all.entries.iter_mut().zip(&runs) {
+            if runs.len() < of && runs != &[0] {
+                entry.message.push_str(&format!(" (in {})", named(runs)));
+            }
+        }
+        all.count = all.entries.len();
+        all.rendered = all.render(false);
+        all
+    }
+
     /// The text for a terminal, coloured if wanted: every fault or warning with its excerpt, at most 20 of one kind; empty where there is none.
     #[must_use]
     pub fn render(&self, color: bool) -> String {
@@ -243,6 +279,16 @@ impl Diagnostics {
             (Severity::Warning, count) => format!("{count} warnings: the model is accepted\n"),
         });
         text
+    }
+}
+
+/// Some runs by their numbers; many: the first, and how many more.
+fn named(runs: &[usize]) -> String {
+    let shown: Vec<String> = runs.iter().take(4).map(ToString::to_string).collect();
+    match (runs.len(), shown.join(", ")) {
+        (1, shown) => format!("run {shown}"),
+        (count, shown) if count > 4 => format!("runs {shown} and {} more", count - 4),
+        (_, shown) => format!("runs {shown}"),
     }
 }
 

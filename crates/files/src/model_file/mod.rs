@@ -1,6 +1,6 @@
 //! The model file: TOML with units, read into a [`Model`].
 //!
-//! The walk: text (`mod.rs`) -> tree with places (`tree.rs`) -> overrides (`set.rs`) -> checked values (`reader.rs`, `value.rs`, `units.rs`) -> model
+//! The walk: text (`mod.rs`) -> tree with places (`tree.rs`) -> overrides (`set.rs`, `template.rs`) -> checked values (`reader.rs`, `value.rs`, `units.rs`) -> model
 //! (`build.rs`) -> [`Model::check`]. What a section may hold is described once, in [`embate_solver::model::describe`]; the JSON schema (`schema.rs`) and
 //! the manual (`manual.rs`) come from there too. Faults (`diagnostics.rs`) are collected all the way and shown together; warnings of a model without faults likewise.
 
@@ -12,6 +12,7 @@ mod reader;
 mod schema;
 mod set;
 mod starter;
+mod template;
 mod tree;
 mod units;
 mod value;
@@ -21,16 +22,17 @@ pub use manual::reference_markdown;
 pub use schema::schema;
 pub use starter::starter;
 
-pub(crate) use diagnostics::{Faults, Source, last_key};
+pub(crate) use diagnostics::{Faults, Source};
 pub(crate) use manual::table as keys_table;
 pub(crate) use reader::{Document, Record, Vocabulary};
+pub(crate) use template::{Change, Template};
 pub(crate) use tree::Node;
 
 use embate_solver::error::Warning;
 use embate_solver::model::Model;
 use embate_solver::quantity::Dimension;
 use std::io::Read;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Name of the model file in a folder.
 pub const FILE_NAME: &str = "model.toml";
@@ -51,9 +53,7 @@ pub fn load(path: &Path, set: &[String]) -> Result<Model, Diagnostics> {
 /// # Errors
 /// All faults at once.
 pub fn load_with_places(path: &Path, set: &[String]) -> Result<Loaded, Diagnostics> {
-    let file = if path.is_dir() { path.join(FILE_NAME) } else { path.to_path_buf() };
-    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).map_or_else(|| PathBuf::from("."), Path::to_path_buf);
-    load_source(&name_of(&file), source(&file)?, &folder, set)
+    Template::load(path, set)?.loaded(&[])
 }
 
 /// A model as it was read, with the texts that it came from.
@@ -130,27 +130,33 @@ pub fn load_text(name: &str, text: &str, folder: &Path, set: &[String]) -> Resul
 /// # Errors
 /// All faults at once.
 pub fn load_text_with_places(name: &str, text: &str, folder: &Path, set: &[String]) -> Result<Loaded, Diagnostics> {
-    load_source(name, Source { name: name.to_string(), text: text.to_string() }, folder, set)
-}
-
-fn load_source(name: &str, source: Source, folder: &Path, set: &[String]) -> Result<Loaded, Diagnostics> {
-    let mut faults = Faults::default();
-    let (source, mut root) = parsed(source)?;
-    let mut sources = vec![source];
-    set::apply(&mut root, set, &mut sources, &mut faults);
-    let document = reader::read(&root, &reader::MODEL, &mut faults);
-    let model = build::model(&document, name, folder, &mut faults);
-    for fault in model.check() {
-        if !faults.covers(&fault.path) {
-            faults.beside(&last_key(&fault.path), &fault.path, None, (fault.message, fault.help));
-        }
-    }
-    if faults.is_empty() { Ok(Loaded { model, sources, root }) } else { Err(faults.into_diagnostics(&sources, Some(&root))) }
+    Template::of(name, Source { name: name.to_string(), text: text.to_string() }, folder, set)?.loaded(&[])
 }
 
 /// The SI value and the dimension of a quantity such as `3 mm`; `None` if it is none.
 pub(crate) fn quantity_in_si(text: &str) -> Option<(f64, Dimension)> {
     units::read(text, units::Wanted { name: "quantity", dimensions: &[], angle: false }).ok()
+}
+
+/// The SI value of a quantity or an angle, and its unit in SI; `None` if it is none.
+pub(crate) fn value_in_si(text: &str) -> Option<(f64, String)> {
+    let (value, dimension) = units::read(text, units::Wanted { name: "value", dimensions: &[], angle: true }).ok()?;
+    let (_, unit) = number_and_unit(text)?;
+    let is_angle = ["deg", "rad", "rpm"].iter().any(|word| unit.contains(word));
+    Some((
+        value,
+        match dimension {
+            Dimension::NONE if is_angle => "rad".to_string(),
+            Dimension::RATE if is_angle => "rad/s".to_string(),
+            dimension => dimension.unit(),
+        },
+    ))
+}
+
+/// The number that a text begins with, and its unit as written; `None` if it does not begin with a number.
+pub(crate) fn number_and_unit(text: &str) -> Option<(f64, &str)> {
+    let (number, unit) = decimal::Decimal::read(text.trim())?;
+    Some((number.scaled(1, 1, 0), unit.trim()))
 }
 
 /// The tree of a text.

@@ -27,11 +27,7 @@ fn one(root: &mut Node, text: &str, source: usize) -> Result<(), Wrong> {
     let Some((path, written)) = text.split_once('=') else {
         return Err(("there is no `=` between a key and its value".to_string(), form.to_string()));
     };
-    let steps: Vec<String> =
-        path.replace('[', ".").replace(']', "").split('.').map(|step| step.trim().trim_matches('"').to_string()).collect();
-    if steps.iter().any(String::is_empty) || steps.len() > DEPTH_MAX {
-        return Err((format!("{} is not the path of a key", super::units::shorten(path)), form.to_string()));
-    }
+    let steps = steps(path, form)?;
     let offset = path.len() + 1 + (written.len() - written.trim_start().len());
     let written = written.trim();
     let place = Place { source, start: offset, end: offset + written.len() };
@@ -44,6 +40,49 @@ fn one(root: &mut Node, text: &str, source: usize) -> Result<(), Wrong> {
         return Err((format!("the model has no [[{first}]]"), "only things that the file has can be changed".to_string()));
     }
     put(root, &steps, value, key, "")
+}
+
+/// Gives a key that the model may have another value: unlike an override, it makes no table of its own.
+pub(super) fn replace(root: &mut Node, path: &str, value: Node, key: Place) -> Result<(), Wrong> {
+    let steps = steps(path, "write it like material.steel.young, as the keys stand in the model file")?;
+    exists(root, &steps)?;
+    put(root, &steps, value, key, "")
+}
+
+/// The steps of a path.
+fn steps(path: &str, form: &str) -> Result<Vec<String>, Wrong> {
+    let steps: Vec<String> =
+        path.replace('[', ".").replace(']', "").split('.').map(|step| step.trim().trim_matches('"').to_string()).collect();
+    if steps.iter().any(String::is_empty) || steps.len() > DEPTH_MAX {
+        return Err((format!("{} is not the path of a key", super::units::shorten(path)), form.to_string()));
+    }
+    Ok(steps)
+}
+
+/// Whether everything above the last step is there; sections that stand once may be missing.
+fn exists(root: &Node, steps: &[String]) -> Result<(), Wrong> {
+    let (mut here, mut above) = (root, "the model".to_string());
+    for (depth, step) in steps.iter().enumerate().take(steps.len().saturating_sub(1)) {
+        here = match &here.value {
+            Value::Table(entries) => match entries.iter().find(|entry| entry.key == *step) {
+                Some(entry) => &entry.node,
+                None if depth == 0 && section(step).is_some_and(|section| matches!(section.form, Form::Single | Form::Inline)) => {
+                    return Ok(());
+                }
+                None => {
+                    let known: Vec<&str> = entries.iter().map(|entry| entry.key.as_str()).collect();
+                    return Err((format!("{above} has no `{step}`"), suggestion(step, &known)));
+                }
+            },
+            Value::List(items) => match index(items, step) {
+                Some(at) => &items[at],
+                None => return Err(missing(items, step, above.trim_matches('`'))),
+            },
+            _ => return Ok(()), // told by `put`
+        };
+        above = format!("`{}`", steps[..=depth].join("."));
+    }
+    Ok(())
 }
 
 /// Walks one step down, or puts the value.

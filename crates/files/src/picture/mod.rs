@@ -17,6 +17,7 @@ mod raster;
 mod scale;
 mod scene;
 mod svg;
+pub(crate) mod sweep;
 
 mod text;
 mod view;

@@ -2,7 +2,7 @@
 //! Columns and rows are those of `history.csv`; this file chooses and names curves, `svg` draws them.
 
 use super::colour::{DISTINCT, Rgb, TEXT};
-use super::svg::{Curve, Panel, chart};
+use super::svg::{Curve, Group, Panel, chart};
 use super::{PictureError, write_whole};
 use std::path::Path;
 
@@ -16,8 +16,8 @@ use std::path::Path;
 /// [`PictureError::Io`] if a file can't be written.
 pub fn plots(columns: &[String], rows: &[Vec<f64>], title: &str, of_revolution: bool, folder: &Path) -> Result<(), PictureError> {
     let table = Table { columns, rows, of_revolution };
-    write_text(&folder.join("energy.svg"), &chart(&titled(title, "energy"), &[energy(&table)]))?;
-    write_text(&folder.join("history.svg"), &chart(&titled(title, "history"), &history(&table)))
+    write_text(&folder.join("energy.svg"), &chart(&titled(title, "energy"), &[Group::over_time(vec![energy(&table)])]))?;
+    write_text(&folder.join("history.svg"), &chart(&titled(title, "history"), &[Group::over_time(history(&table))]))
 }
 
 fn titled(title: &str, what: &str) -> String {
@@ -89,7 +89,7 @@ fn energy(table: &Table<'_>) -> Panel {
         let colour = fixed.map_or_else(|| DISTINCT[(5 + curves.len()) % DISTINCT.len()], |(_, colour)| *colour);
         let width = if name == "total" { 2.4 } else { 1.8 };
         let dashes = if fixed.is_some() { "" } else { "6 4" };
-        curves.push(Curve { name: name.replace('_', " "), colour, dashes, width, points: table.points(column) });
+        curves.push(Curve { name: name.replace('_', " "), colour, dashes, width, dots: false, points: table.points(column) });
     }
     let remark = if zero.is_empty() { String::new() } else { format!("zero throughout: {}", zero.join(", ")) };
     let si = if table.of_revolution { "J" } else { "J/m" };
@@ -198,6 +198,7 @@ impl Quantity {
             colour: DISTINCT[index % DISTINCT.len()],
             dashes: if index < DISTINCT.len() { "" } else { "6 4" },
             width: 1.6,
+            dots: false,
             points: points(*column),
         };
         let curves: Vec<Curve> = shown.iter().take(CURVES_MAX).enumerate().map(curve).collect();

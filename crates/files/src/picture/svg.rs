@@ -1,10 +1,43 @@
-//! Line charts as SVG: panels one above the other over one time axis, names at the ends of the curves, right of the plot.
-//! Panels come from `plots`; the text goes to a file. Any viewer's sans-serif font will do: room is kept for the widest in use.
+//! Line charts as SVG: panels one above the other over one axis or several, names at the ends of the curves, right of the plot.
+//! Panels come from `plots` and `sweep`; the text goes to a file. Any viewer's sans-serif font will do: room is kept for the widest in use.
 
 use super::colour::{self, BORDER, GRID, Rgb, TEXT, TEXT_FAINT};
-use super::scale::{Ticks, Unit, ticks, unit};
+use super::scale::{Ticks, Unit, number, ticks, unit};
 use super::text::{self, Weight};
 use std::fmt::Write;
+
+/// How values lie on an axis.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Spacing {
+    /// Equal differences have equal distances.
+    Even,
+    /// Equal factors have equal distances; all values are positive.
+    Factors,
+    /// The values are places in this list.
+    Names(Vec<String>),
+}
+
+/// An axis below one or several panels.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Abscissa {
+    pub(super) name: String,
+    pub(super) si: String,
+    pub(super) spacing: Spacing,
+}
+
+/// Panels over one axis.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Group {
+    pub(super) abscissa: Abscissa,
+    pub(super) panels: Vec<Panel>,
+}
+
+impl Group {
+    /// Panels over time.
+    pub(super) fn over_time(panels: Vec<Panel>) -> Self {
+        Self { abscissa: Abscissa { name: "time".into(), si: "s".into(), spacing: Spacing::Even }, panels }
+    }
+}
 
 /// One curve.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,8 +46,11 @@ pub(super) struct Curve {
     pub(super) colour: Rgb,
     /// Dash pattern; empty: drawn through.
     pub(super) dashes: &'static str,
+    /// Zero: no line.
     pub(super) width: f64,
-    /// Time and value in SI; values that are not finite interrupt the curve.
+    /// Whether each point has a dot.
+    pub(super) dots: bool,
+    /// Time or input, and value, in SI; values that are not finite interrupt the curve.
     pub(super) points: Vec<[f64; 2]>,
 }
 
@@ -40,35 +76,31 @@ const LINE: f64 = 16.0;
 const FAMILY: &str = "system-ui, 'Segoe UI', Roboto, Helvetica, Arial, sans-serif";
 
 /// The chart as the text of an SVG file.
-pub(super) fn chart(title: &str, panels: &[Panel]) -> String {
-    let times = || panels.iter().flat_map(|p| &p.curves).flat_map(|c| &c.points).map(|p| p[0]).filter(|t| t.is_finite());
-    let [start, end] = range(times(), false);
-    let time = unit("s", start.abs().max(end.abs()));
-    let label_width = panels.iter().flat_map(|p| &p.curves).map(|c| measured(&c.name)).fold(0.0, f64::max).min(190.0);
-    let frames: Vec<Frame> = panels.iter().map(Frame::new).collect();
-    let left = (frames.iter().map(|f| f.labels_width).fold(0.0, f64::max) + 30.0).min(140.0);
+pub(super) fn chart(title: &str, groups: &[Group]) -> String {
+    let panels = || groups.iter().flat_map(|group| &group.panels);
+    let label_width = panels().flat_map(|p| &p.curves).map(|c| measured(&c.name)).fold(0.0, f64::max).min(190.0);
+    let frames: Vec<Vec<Frame>> = groups.iter().map(|group| group.panels.iter().map(Frame::new).collect()).collect();
+    let left = (frames.iter().flatten().map(|f| f.labels_width).fold(0.0, f64::max) + 30.0).min(140.0);
     let right = WIDTH - label_width - 52.0;
     let mut top = 62.0;
     let mut body = String::new();
-    let time_ticks = ticks(start * time.factor, end * time.factor, 10);
-    let x = |t: f64| left + (right - left) * (t - start) / (end - start);
-    for (panel, frame) in panels.iter().zip(&frames) {
-        let bottom = top + panel.height;
-        let plot = [left, top, right, bottom];
-        for value in &time_ticks.values {
-            line(&mut body, [x(value / time.factor), top], [x(value / time.factor), bottom], GRID);
+    for (group, frames) in groups.iter().zip(&frames) {
+        let scale = Scale::new(group, [left, right]);
+        for (panel, frame) in group.panels.iter().zip(frames) {
+            let bottom = top + panel.height;
+            for (x, _) in &scale.ticks {
+                line(&mut body, [*x, top], [*x, bottom], GRID);
+            }
+            let plot = [left, top, right, bottom];
+            frame.draw(&mut body, panel, plot);
+            draw_curves(&mut body, panel, frame, plot, &|value| scale.x(value));
+            top = bottom + 52.0;
         }
-        frame.draw(&mut body, panel, plot);
-        draw_curves(&mut body, panel, frame, plot, &x);
-        top = bottom + 52.0;
+        let bottom = top - 52.0;
+        scale.draw(&mut body, bottom);
+        top = bottom + 92.0;
     }
-    let bottom = top - 52.0;
-    for (value, label) in time_ticks.values.iter().zip(time_ticks.labels()) {
-        let x = x(value / time.factor);
-        line(&mut body, [x, bottom], [x, bottom + 5.0], BORDER);
-        write_text(&mut body, &label, [x, bottom + 20.0], "middle", TEXT, "");
-    }
-    write_text(&mut body, &format!("time{}", time.bracket()), [0.5 * (left + right), bottom + 40.0], "middle", TEXT_FAINT, "");
+    let bottom = top - 92.0;
     let mut head = String::new();
     let title_text = text::fitted(title, 16.0, Weight::Bold, WIDTH as f32 - 40.0);
     write_text(&mut head, &title_text, [16.0, 27.0], "start", TEXT, " font-size=\"16\" font-weight=\"bold\"");
@@ -79,6 +111,82 @@ pub(super) fn chart(title: &str, panels: &[Panel]) -> String {
          <rect width=\"{WIDTH}\" height=\"{height}\" fill=\"#ffffff\"/>\n{head}{body}</svg>\n",
         escape(title)
     )
+}
+
+/// The x axis of a group.
+struct Scale {
+    name: String,
+    spacing: Spacing,
+    /// Values at both ends; logarithms where factors count.
+    ends: [f64; 2],
+    /// Their places.
+    places: [f64; 2],
+    /// Places and labels.
+    ticks: Vec<(f64, String)>,
+}
+
+impl Scale {
+    fn new(group: &Group, places: [f64; 2]) -> Self {
+        let Abscissa { name, si, spacing } = &group.abscissa;
+        let values = || group.panels.iter().flat_map(|p| &p.curves).flat_map(|c| &c.points).map(|p| p[0]).filter(|t| t.is_finite());
+        let ends = match spacing {
+            Spacing::Even => range(values(), false),
+            Spacing::Factors => range(values().map(f64::log10), false),
+            Spacing::Names(names) => [-0.5, names.len() as f64 - 0.5],
+        };
+        // Points with dots stand inside, not on the border.
+        let has_dots = *spacing != Spacing::Even || group.panels.iter().flat_map(|p| &p.curves).any(|c| c.dots);
+        let air = if has_dots && !matches!(spacing, Spacing::Names(_)) { 0.02 * (ends[1] - ends[0]) } else { 0.0 };
+        let ends = [ends[0] - air, ends[1] + air];
+        // Of values that differ by orders of magnitude those in the middle choose the unit.
+        let largest = if *spacing == Spacing::Factors { 10f64.powf(0.5 * (ends[0] + ends[1])) } else { ends[0].abs().max(ends[1].abs()) };
+        let unit = if matches!(spacing, Spacing::Names(_)) { unit("", 0.0) } else { unit(si, largest) };
+        let mut scale = Self { name: format!("{name}{}", unit.bracket()), spacing: spacing.clone(), ends, places, ticks: Vec::new() };
+        let tick = |value: f64, label: String| (scale.x(value), label);
+        scale.ticks = match spacing {
+            Spacing::Even => {
+                let even = ticks(ends[0] * unit.factor, ends[1] * unit.factor, 10);
+                even.values.iter().zip(even.labels()).map(|(value, label)| tick(value / unit.factor, label)).collect()
+            }
+            Spacing::Factors => factors(ends.map(|end| end + unit.factor.log10()))
+                .into_iter()
+                .map(|value| tick(value / unit.factor, number(value, value)))
+                .collect(),
+            Spacing::Names(names) => {
+                let room = (places[1] - places[0]) / names.len().max(1) as f64 - 6.0;
+                let label = |name: &String| text::fitted(name, FONT as f32, Weight::Regular, room as f32);
+                names.iter().enumerate().map(|(place, name)| tick(place as f64, label(name))).collect()
+            }
+        };
+        scale
+    }
+
+    fn x(&self, value: f64) -> f64 {
+        let value = if self.spacing == Spacing::Factors { value.log10() } else { value };
+        self.places[0] + (self.places[1] - self.places[0]) * (value - self.ends[0]) / (self.ends[1] - self.ends[0])
+    }
+
+    fn draw(&self, out: &mut String, bottom: f64) {
+        for (x, label) in &self.ticks {
+            line(out, [*x, bottom], [*x, bottom + 5.0], BORDER);
+            write_text(out, label, [*x, bottom + 20.0], "middle", TEXT, "");
+        }
+        write_text(out, &self.name, [0.5 * (self.places[0] + self.places[1]), bottom + 40.0], "middle", TEXT_FAINT, "");
+    }
+}
+
+/// Round values between two powers of ten: 1, 2, 5 and so on, or every power, or every second ...
+fn factors([low, high]: [f64; 2]) -> Vec<f64> {
+    let decades = (low.floor() as i32..=high.ceil() as i32).collect::<Vec<_>>();
+    let inside = |value: &f64| (low..=high).contains(&value.log10());
+    let of = |mantissas: &[f64]| -> Vec<f64> {
+        decades.iter().flat_map(|decade| mantissas.iter().map(move |mantissa| mantissa * 10f64.powi(*decade))).filter(inside).collect()
+    };
+    let [fine, coarse] = [of(&[1.0, 2.0, 5.0]), of(&[1.0])];
+    if fine.len() < 3 {
+        return of(&[1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0]);
+    }
+    if fine.len() <= 10 { fine } else { coarse.iter().copied().step_by(coarse.len().div_ceil(10).max(1)).collect() }
 }
 
 /// The y axis of a panel.
@@ -146,10 +254,11 @@ fn draw_curves(out: &mut String, panel: &Panel, frame: &Frame, plot: [f64; 4], x
         let place = |p: &[f64; 2]| [x(p[0]), frame.y(p[1], plot)];
         let mut path = String::new();
         for piece in thinned(&curve.points, POINTS_MAX).split(|p| !(p[0].is_finite() && p[1].is_finite())) {
-            if let [single] = piece {
-                let [x, y] = place(single);
+            for point in piece.iter().filter(|_| piece.len() == 1 || curve.dots) {
+                let [x, y] = place(point);
                 let _ = writeln!(out, "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"3\" fill=\"{}\"/>", hex(curve.colour));
-            } else {
+            }
+            if piece.len() > 1 && curve.width > 0.0 {
                 for (k, point) in piece.iter().enumerate() {
                     let [x, y] = place(point);
                     let _ = write!(path, "{}{x:.2} {y:.2}", if k == 0 { "M" } else { "L" });
@@ -159,7 +268,8 @@ fn draw_curves(out: &mut String, panel: &Panel, frame: &Frame, plot: [f64; 4], x
         if !path.is_empty() {
             let _ = writeln!(out, "<path d=\"{path}\" fill=\"none\" {style} stroke-linejoin=\"round\" stroke-linecap=\"round\"/>");
         }
-        if let Some(last) = curve.points.iter().rev().find(|p| p[0].is_finite() && p[1].is_finite()) {
+        let last = curve.points.iter().rev().find(|p| p[0].is_finite() && p[1].is_finite());
+        if let Some(last) = last.filter(|_| !curve.name.is_empty()) {
             ends.push((frame.y(last[1], plot), curve, style));
         }
     }

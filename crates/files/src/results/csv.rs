@@ -66,7 +66,7 @@ impl CsvStream {
 }
 
 /// The shortest decimal that reads back as the same number, with an exponent where it would get long.
-fn append_number(text: &mut String, value: f64) {
+pub(crate) fn append_number(text: &mut String, value: f64) {
     let size = value.abs();
     // Writing to a string can't fail.
     let _ =
@@ -74,7 +74,7 @@ fn append_number(text: &mut String, value: f64) {
 }
 
 /// A name, in quotes where it would break the line apart.
-fn append_text(text: &mut String, name: &str) {
+pub(crate) fn append_text(text: &mut String, name: &str) {
     if name.contains([',', '"', '\n', '\r']) {
         text.push('"');
         text.push_str(&name.replace('"', "\"\""));

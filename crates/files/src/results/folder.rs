@@ -54,6 +54,21 @@ impl ResultFolder {
         Ok(Self { path: path.to_path_buf() })
     }
 
+    /// Takes the results of a run away: files with the names that embate gives, and the folder if nothing else is in it.
+    ///
+    /// # Errors
+    /// As [`ResultFolder::refuse_existing`].
+    pub(crate) fn remove(path: &Path) -> Result<(), ResultsError> {
+        for file in existing(path)? {
+            fs::remove_file(&file).map_err(ResultsError::file("remove", &file))?;
+        }
+        for folder in [path.join(PICTURES), path.join(FRAMES), path.to_path_buf()] {
+            // Stays if something foreign lies in it.
+            let _ = fs::remove_dir(folder);
+        }
+        Ok(())
+    }
+
     /// Where it is.
     #[must_use]
     pub fn path(&self) -> &Path {

@@ -6,11 +6,14 @@
 
 mod atomic;
 mod csv;
+mod figures;
 mod folder;
 mod recorder;
 mod report;
 
 pub use atomic::write_whole;
+pub(crate) use csv::{append_number, append_text};
+pub(crate) use figures::{read_figures, write_figures};
 pub use folder::ResultFolder;
 pub use recorder::{OnProgress, Outcome, Recorder, film_settings};
 pub use report::{MomentumDrift, Report, RunStatus};
@@ -61,7 +64,7 @@ pub enum ResultsError {
 }
 
 impl ResultsError {
-    fn file(action: &'static str, path: impl Into<PathBuf>) -> impl FnOnce(std::io::Error) -> Self {
+    pub(crate) fn file(action: &'static str, path: impl Into<PathBuf>) -> impl FnOnce(std::io::Error) -> Self {
         let path = path.into();
         move |source| Self::File { action, path, source }
     }

@@ -186,6 +186,8 @@ pub enum How {
     Mean,
     Max,
     Min,
+    MaxAbs,
+    Last,
     Sum,
     Integral,
     FirstAbove,
@@ -197,6 +199,12 @@ pub enum How {
 }
 
 impl How {
+    /// Whether what it gives is a time.
+    #[must_use]
+    pub fn is_time(self) -> bool {
+        self.has_level() || matches!(self, Self::TimeOfMax | Self::TimeOfMin)
+    }
+
     /// Whether it needs a level.
     #[must_use]
     pub fn has_level(self) -> bool {
@@ -213,6 +221,8 @@ pub static TAKES: &[Take] = &[
     take("mean", How::Mean, [true, true], "integral over time divided by the time; of a field, sum divided by number"),
     take("max", How::Max, [true, true], "largest value"),
     take("min", How::Min, [true, true], "smallest value"),
+    take("max_abs", How::MaxAbs, [true, true], "largest size, whatever the sign"),
+    take("last", How::Last, [true, false], "value at the end"),
     take("sum", How::Sum, [false, true], "sum"),
     take("integral", How::Integral, [true, false], "integral over time, on straight lines between rows"),
     take("first_above", How::FirstAbove, [true, false], "first time at which the column is above `level`"),

@@ -14,5 +14,7 @@ mod run;
 pub use case::{Accepted, Case, Check, Combination, How, Place, Quantity, Source, TAKES, Take, Tier, With};
 pub use describe::expected_markdown;
 pub use judge::{CaseOutcome, CheckOutcome, verify};
+pub(crate) use quantity::Samples;
 pub use read::{FILE_NAME, load};
+pub(crate) use run::Gathering;
 pub use run::VerifyError;

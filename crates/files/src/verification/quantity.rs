@@ -13,15 +13,15 @@ const FRAME_TOLERANCE: f64 = 1e-2;
 
 /// What is kept of a run.
 #[derive(Debug)]
-pub(super) struct Samples {
+pub(crate) struct Samples {
     columns: Vec<String>,
-    pub(super) rows: Vec<Vec<f64>>,
+    pub(crate) rows: Vec<Vec<f64>>,
     cells: Cells,
     /// Frame at the start: positions by which nodes and elements are chosen.
     start: Frame<2>,
     /// Wanted times, and the frames nearest to them.
     frames: Vec<(f64, Option<Frame<2>>)>,
-    pub(super) summary: serde_json::Value,
+    pub(crate) summary: serde_json::Value,
 }
 
 /// Why a quantity can't be: key of its table, message, help.
@@ -29,7 +29,7 @@ type Missing = (&'static str, String, String);
 
 impl Samples {
     /// Nothing yet but what is known at the start; the frames nearest to these times will be kept.
-    pub(super) fn new(simulation: &Simulation, mut times: Vec<f64>) -> Self {
+    pub(crate) fn new(simulation: &Simulation, mut times: Vec<f64>) -> Self {
         times.sort_by(f64::total_cmp);
         times.dedup();
         Self {
@@ -40,6 +40,36 @@ impl Samples {
             frames: times.into_iter().map(|time| (time, None)).collect(),
             summary: serde_json::Value::Null,
         }
+    }
+
+    /// Of a run that has been recorded: its history and its summary, without frames.
+    pub(crate) fn recorded(columns: Vec<String>, rows: Vec<Vec<f64>>, summary: serde_json::Value) -> Self {
+        Self {
+            columns,
+            rows,
+            cells: Cells::default(),
+            start: Frame { time: 0.0, step: 0, positions: Vec::new(), fields: Vec::new(), outlines: Vec::new() },
+            frames: Vec::new(),
+            summary,
+        }
+    }
+
+    /// A text of the summary; `None` where the source is no text.
+    pub(crate) fn text(&self, source: &Source) -> Option<&str> {
+        let Source::Summary(path) = source else { return None };
+        path.split('.').try_fold(&self.summary, |here, key| here.get(key))?.as_str()
+    }
+
+    /// Names of the history's columns.
+    pub(crate) fn columns(&self) -> &[String] {
+        &self.columns
+    }
+
+    /// What a name may have meant that is neither a column nor a figure.
+    pub(crate) fn suggested(&self, name: &str) -> String {
+        let figures = self.summary.as_object().into_iter().flatten().map(|(key, _)| key.as_str());
+        let known: Vec<&str> = self.columns.iter().map(String::as_str).chain(figures).collect();
+        suggestion(name, &known)
     }
 
     /// Keeps the frame where it is nearer to a wanted time than what is there; of the time infinity, the last.
@@ -53,7 +83,7 @@ impl Samples {
     }
 
     /// What is at rest stays as it is: the last row once more at the end.
-    pub(super) fn stay_until(&mut self, end: f64) {
+    pub(crate) fn stay_until(&mut self, end: f64) {
         if let Some(mut row) = self.rows.last().cloned() {
             row[0] = end;
             self.rows.push(row);
@@ -61,7 +91,7 @@ impl Samples {
     }
 
     /// Whether a quantity will be there, as far as can be told before the run.
-    pub(super) fn examine(&self, source: &Source, end: f64) -> Result<(), Missing> {
+    pub(crate) fn examine(&self, source: &Source, end: f64) -> Result<(), Missing> {
         if let Some(late) = source.times().into_iter().find(|time| *time > end) {
             let key = if matches!(source, Source::History { during: [Some(begin), _], .. } if *begin == late) {
                 "from"
@@ -90,7 +120,7 @@ impl Samples {
     ///
     /// # Errors
     /// Why there is none.
-    pub(super) fn number(&self, source: &Source) -> Result<f64, String> {
+    pub(crate) fn number(&self, source: &Source) -> Result<f64, String> {
         let told = |(_, message, _): Missing| message;
         let value = match source {
             Source::Summary(path) => self.figure(path).map_err(told)?.ok_or_else(|| format!("`{path}` is null in summary.json"))?,
@@ -256,6 +286,8 @@ fn taken(curve: &[[f64; 2]], take: &Take, level: f64) -> Option<f64> {
         How::Integral => Some(integral()),
         How::Max => extreme(1.0).map(|point| point[1]),
         How::Min => extreme(-1.0).map(|point| point[1]),
+        How::MaxAbs => curve.iter().map(|point| point[1].abs()).reduce(f64::max),
+        How::Last => curve.last().map(|point| point[1]),
         How::TimeOfMax => extreme(1.0).map(|point| point[0]),
         How::TimeOfMin => extreme(-1.0).map(|point| point[0]),
         How::Sum => None,
@@ -293,6 +325,11 @@ fn of_field(values: &[f64], how: How) -> f64 {
         How::Sum => sum(),
         How::Max => extreme(1.0),
         How::Min => extreme(-1.0),
+        How::MaxAbs => [extreme(1.0), extreme(-1.0)]
+            .map(f64::abs)
+            .into_iter()
+            .reduce(|a, b| if a.is_nan() || a > b { a } else { b })
+            .unwrap_or(f64::NAN),
         // `read.rs` takes nothing else of a field.
         _ => f64::NAN,
     }
@@ -316,6 +353,8 @@ mod tests {
             ("mean", 0.8),
             ("max", 4.0),
             ("min", -2.0),
+            ("max_abs", 4.0),
+            ("last", -2.0),
             ("time_of_max", 2.0),
             ("time_of_min", 5.0),
             ("first_above", 0.5),

@@ -125,11 +125,11 @@ impl Case {
 }
 
 /// Listens to a run.
-struct Gathering<'a> {
-    samples: Samples,
-    recorder: Option<Recorder<'static>>,
-    on_progress: &'a mut dyn FnMut(&Progress<'_>) -> Control,
-    is_stopped: bool,
+pub(crate) struct Gathering<'a> {
+    pub(crate) samples: Samples,
+    pub(crate) recorder: Option<Recorder<'static>>,
+    pub(crate) on_progress: &'a mut dyn FnMut(&Progress<'_>) -> Control,
+    pub(crate) is_stopped: bool,
 }
 
 impl Observer for Gathering<'_> {

@@ -1,0 +1,330 @@
+//! `embate bench`: how fast this machine is: kernels, whole steps and contact, beside what its memory and its arithmetic could do at best.
+//!
+//! Bodies and rates are those of `embate_solver::bench`; here are the choice of rows, the time that each may take, the tables and the JSON.
+
+use crate::input::told;
+use crate::interrupt::Interrupt;
+use crate::numbers::{grouped, table};
+use crate::{Failure, machine, terminal};
+use clap::Args;
+use embate_files::results::write_whole;
+use embate_solver::bench::{self, Level, Patch, Size};
+use embate_solver::error::Error;
+use embate_solver::material;
+use embate_solver::model::{Contact, Partners};
+use embate_solver::simulation::{Options, Simulation};
+use serde_json::{Value, json};
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// What is measured, and for how long.
+#[derive(Args)]
+pub(crate) struct Arguments {
+    /// Every law with `quad4`, and not only the usual ones
+    #[arg(long)]
+    all: bool,
+    /// Time for all measurements together, s; making large bodies comes on top. Below 5 s these are left out
+    #[arg(long, value_name = "S", default_value_t = 20.0, value_parser = seconds)]
+    seconds: f64,
+    /// Write all figures and the machine to this file
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// No tables
+    #[arg(long, short, requires = "json")]
+    quiet: bool,
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(seconds) if (0.0..=3600.0).contains(&seconds) => Ok(seconds),
+        _ => Err("give seconds from 0 to 3600".to_string()),
+    }
+}
+
+/// Elements along a side of a body that stays in a cache, of one that does not, and of the stack of strips with contact in all.
+const SMALL: usize = 32;
+const LARGE: usize = 1024;
+const STRIPS: usize = 100_000;
+/// Memory that an element may take while large bodies are made, bytes: with some to spare.
+const BYTES_PER_ELEMENT: u64 = 2000;
+/// Shortest time for all measurements with which large bodies are measured, s.
+const SECONDS_FOR_LARGE: f64 = 5.0;
+/// Bytes of an array of the triad.
+const TRIAD: u64 = 128 << 20;
+
+const ELEMENTS: [&str; 3] = ["quad4", "quad4_full", "quad4_reduced"];
+const LAWS: [&str; 3] = ["elastic", "j2", "neo_hookean"];
+
+/// A rate of element-steps.
+struct Row {
+    element: &'static str,
+    law: &'static str,
+    elements: usize,
+    threads: usize,
+    level: &'static str,
+    /// Element-steps per second.
+    rate: f64,
+    /// Resident memory per element, bytes; of large bodies.
+    memory: Option<f64>,
+}
+
+struct Ceilings {
+    /// Threads and bytes per second.
+    triad: Vec<(usize, f64)>,
+    /// Instruction set and operations per second of one thread.
+    arithmetic: Vec<(&'static str, f64)>,
+}
+
+/// Share of contact in a step.
+struct Share {
+    elements: usize,
+    without: f64,
+    with: f64,
+}
+
+/// Measures one thing after the other; each takes its share of the time.
+struct Bench {
+    /// Time of a figure, s.
+    each: f64,
+    interrupt: Interrupt,
+    left_out: Vec<String>,
+}
+
+pub(crate) fn bench(arguments: &Arguments) -> Result<(), Failure> {
+    let begin = Instant::now();
+    let interrupt = Interrupt::watch();
+    let threads = machine::processors();
+    let has_large = arguments.seconds >= SECONDS_FOR_LARGE;
+    let laws = if arguments.all { material::registry().len() } else { LAWS.len() };
+    let count = 2 + Level::available().len() + LAWS.len() * ELEMENTS.len() + laws + 4 + if has_large { 9 } else { 1 };
+    let mut bench = Bench { each: arguments.seconds / count as f64, interrupt, left_out: Vec::new() };
+    let print = |text: &str| if arguments.quiet { Ok(()) } else { terminal::print(text) };
+
+    print(&machine_text(threads))?;
+    let ceilings = bench.ceilings(threads)?;
+    print(&ceilings_text(&ceilings))?;
+    let kernels = bench.kernels(arguments.all)?;
+    print(&rows_text("kernels alone, one thread", &kernels, &ceilings))?;
+    let steps = bench.steps(threads, has_large)?;
+    print(&rows_text("whole steps without contact and output", &steps, &ceilings))?;
+    let share = if has_large { Some(bench.contact()?) } else { None };
+    if !has_large {
+        bench.left_out.push(format!("large bodies and contact: they need --seconds {SECONDS_FOR_LARGE} or more"));
+    }
+    print(&closing_text(share.as_ref(), &bench.left_out, begin.elapsed().as_secs_f64()))?;
+    let Some(file) = &arguments.json else { return Ok(()) };
+    let value = json!({
+        "version": env!("CARGO_PKG_VERSION"),
+        "machine": {
+            "processor": machine::processor(),
+            "processors": threads,
+            "memory_available": machine::memory_available(),
+            "levels": Level::available().iter().map(|level| level.name()).collect::<Vec<_>>(),
+        },
+        "ceilings": {
+            "triad": ceilings.triad.iter().map(|(threads, rate)| json!({ "threads": threads, "bytes_per_second": rate })).collect::<Vec<_>>(),
+            "multiply_add": ceilings.arithmetic.iter().map(|(level, rate)| json!({ "level": level, "threads": 1, "operations_per_second": rate })).collect::<Vec<_>>(),
+        },
+        "kernels": kernels.iter().map(|row| row.json(&ceilings)).collect::<Vec<_>>(),
+        "steps": steps.iter().map(|row| row.json(&ceilings)).collect::<Vec<_>>(),
+        "contact": share.map(|share| json!({ "elements": share.elements, "seconds_without": share.without, "seconds_with": share.with, "share": share.fraction() })),
+        "left_out": bench.left_out,
+        "wall_seconds": begin.elapsed().as_secs_f64(),
+    });
+    let text = serde_json::to_string_pretty(&value).expect("plain numbers, texts and lists always have a JSON form") + "\n";
+    write_whole(file, text.as_bytes()).map_err(|error| Failure::Run(format!("error: {error}")))
+}
+
+impl Bench {
+    fn go_on(&self) -> Result<(), Failure> {
+        if self.interrupt.is_pressed() { Err(Failure::Interrupted) } else { Ok(()) }
+    }
+
+    fn ceilings(&mut self, threads: usize) -> Result<Ceilings, Failure> {
+        let bytes = machine::memory_available().map_or(TRIAD, |all| TRIAD.min(all / 16));
+        let mut triad = Vec::new();
+        for threads in if threads > 1 { vec![1, threads] } else { vec![1] } {
+            self.go_on()?;
+            triad.push((threads, bench::triad(Level::best(), threads, bytes as usize, self.each)));
+        }
+        let arithmetic = Level::available().into_iter().map(|level| (level.name(), bench::multiply_add(level, self.each))).collect();
+        Ok(Ceilings { triad, arithmetic })
+    }
+
+    fn kernels(&mut self, all: bool) -> Result<Vec<Row>, Failure> {
+        let patch = Patch::new(SMALL);
+        let registered: Vec<&'static str> = material::registry().iter().map(|kind| kind.name).collect();
+        let best = Level::best();
+        let usual = |element: &'static str| LAWS.map(|law| (element, law, best));
+        let mut wanted: Vec<(&str, &str, Level)> = ELEMENTS.into_iter().flat_map(usual).collect();
+        wanted.extend(Level::available().into_iter().filter(|level| *level != best).map(|level| ("quad4", "j2", level)));
+        if all {
+            wanted.extend(registered.into_iter().filter(|law| !LAWS.contains(law)).map(|law| ("quad4", law, best)));
+        }
+        let mut rows = Vec::new();
+        for (element, law, level) in wanted {
+            self.go_on()?;
+            let rate = bench::kernel(element, law, &patch, level, self.each).map_err(failed)?;
+            rows.push(Row { element, law, elements: SMALL * SMALL, threads: 1, level: level.name(), rate, memory: None });
+        }
+        Ok(rows)
+    }
+
+    fn steps(&mut self, threads: usize, has_large: bool) -> Result<Vec<Row>, Failure> {
+        let level = Level::best().name();
+        let one = Options { threads: 1, simd: None };
+        let mut rows = Vec::new();
+        for (element, law) in [("quad4", "elastic"), ("quad4", "j2"), ("quad4_reduced", "elastic"), ("quad4_reduced", "j2")] {
+            self.go_on()?;
+            let rate = bench::step(element, law, SMALL, Size::Small, &one, self.each).map_err(failed)?;
+            rows.push(Row { element, law, elements: SMALL * SMALL, threads: 1, level, rate, memory: None });
+        }
+        if !has_large {
+            return Ok(rows);
+        }
+        let n = self.large();
+        for element in ["quad4", "quad4_reduced"] {
+            for threads in if threads > 1 { vec![1, threads] } else { vec![1] } {
+                self.go_on()?;
+                let model = bench::spinning_block(element, "j2", n);
+                let before = machine::memory_used();
+                let mut simulation = Simulation::new(&model, &Options { threads, simd: None }).map_err(failed)?;
+                let rate = bench::steps_of(&mut simulation, 2.0 * self.each).map_err(failed)?;
+                let used =
+                    machine::memory_used().zip(before).and_then(|(after, before)| after.checked_sub(before)).filter(|used| *used > 0);
+                let memory = used.map(|used| used as f64 / (n * n) as f64);
+                rows.push(Row { element, law: "j2", elements: n * n, threads, level, rate, memory });
+            }
+        }
+        Ok(rows)
+    }
+
+    /// Elements along a side of a large body, as memory allows.
+    fn large(&mut self) -> usize {
+        let room = machine::memory_available().map_or(f64::INFINITY, |bytes| (bytes / BYTES_PER_ELEMENT) as f64).sqrt();
+        let n = LARGE.min(room as usize).max(SMALL);
+        if n < LARGE {
+            self.left_out.push(format!(
+                "bodies of {} elements: memory is enough for {}",
+                grouped((LARGE * LARGE) as u64),
+                grouped((n * n) as u64)
+            ));
+        }
+        n
+    }
+
+    fn contact(&mut self) -> Result<Share, Failure> {
+        self.go_on()?;
+        let plain = bench::strips(STRIPS, 2.0);
+        let mut touching = plain.clone();
+        touching.contacts.push(Contact { name: "all".into(), partners: Partners::Bodies(Vec::new()), ..Contact::default() });
+        let one = Options { threads: 1, simd: None };
+        let ([without, with], [simulation, _]) = bench::step_times([&plain, &touching], &one, 24, self.each).map_err(failed)?;
+        Ok(Share { elements: simulation.summary().elements, without, with })
+    }
+}
+
+fn failed(error: Error) -> Failure {
+    Failure::Run(told(&error))
+}
+
+impl Ceilings {
+    /// Operations per second of so many threads, if each had what one has.
+    fn arithmetic(&self, level: &str, threads: usize) -> Option<f64> {
+        self.arithmetic.iter().find(|(name, _)| *name == level).map(|(_, rate)| rate * threads as f64)
+    }
+
+    fn triad(&self, threads: usize) -> Option<f64> {
+        self.triad.iter().find(|(count, _)| *count == threads).map(|(_, rate)| *rate)
+    }
+}
+
+impl Row {
+    /// Multiplications and additions that the ceiling has time for in one element-step.
+    fn operations(&self, ceilings: &Ceilings) -> Option<f64> {
+        Some(ceilings.arithmetic(self.level, self.threads)? / self.rate)
+    }
+
+    /// Fraction of the triad's bandwidth that it takes to read each byte of the body once a step.
+    fn pass(&self, ceilings: &Ceilings) -> Option<f64> {
+        Some(self.memory? * self.rate / ceilings.triad(self.threads)?)
+    }
+
+    fn json(&self, ceilings: &Ceilings) -> Value {
+        json!({
+            "element": self.element,
+            "law": self.law,
+            "elements": self.elements,
+            "threads": self.threads,
+            "level": self.level,
+            "element_steps_per_second": self.rate,
+            "operations_at_ceiling": self.operations(ceilings),
+            "bytes_per_element": self.memory,
+            "pass_over_triad": self.pass(ceilings),
+        })
+    }
+}
+
+impl Share {
+    fn fraction(&self) -> f64 {
+        1.0 - self.without / self.with
+    }
+}
+
+fn machine_text(threads: usize) -> String {
+    let name = machine::processor();
+    let name = if name.is_empty() { String::new() } else { format!("{name}, ") };
+    let levels: Vec<&str> = Level::available().iter().map(|level| level.name()).collect();
+    format!("machine: {name}{threads} processor(s), {}\n\n", levels.join(", "))
+}
+
+fn ceilings_text(ceilings: &Ceilings) -> String {
+    let mut rows: Vec<Vec<String>> = Vec::new();
+    for (threads, rate) in &ceilings.triad {
+        rows.push(vec!["memory, triad".into(), format!("{threads} thread(s)"), format!("{:.1} GB/s", rate * 1e-9)]);
+    }
+    for (level, rate) in &ceilings.arithmetic {
+        rows.push(vec!["multiply and add".into(), (*level).to_string(), format!("{:.1} Gflop/s, one thread", rate * 1e-9)]);
+    }
+    format!("ceilings\n{}\n", table(&rows, "  "))
+}
+
+fn rows_text(title: &str, rows: &[Row], ceilings: &Ceilings) -> String {
+    let has_memory = rows.iter().any(|row| row.memory.is_some());
+    let mut head = vec!["element", "law", "elements", "threads", "level", "million/s", "operations"];
+    if has_memory {
+        head.extend(["bytes/element", "one pass of triad"]);
+    }
+    let mut lines = vec![head.into_iter().map(String::from).collect::<Vec<_>>()];
+    for row in rows {
+        let mut line = vec![
+            row.element.to_string(),
+            row.law.to_string(),
+            grouped(row.elements as u64),
+            row.threads.to_string(),
+            row.level.to_string(),
+            format!("{:.1}", row.rate * 1e-6),
+            row.operations(ceilings).map_or(String::new(), |count| format!("{count:.0}")),
+        ];
+        line.push(row.memory.map_or(String::new(), |bytes| format!("{bytes:.0}")));
+        line.push(row.pass(ceilings).map_or(String::new(), |fraction| format!("{:.0} %", 100.0 * fraction)));
+        lines.push(line);
+    }
+    format!("{title}: million element-steps per second\n{}\n", table(&lines, "  "))
+}
+
+fn closing_text(share: Option<&Share>, left_out: &[String], seconds: f64) -> String {
+    let mut text = String::new();
+    if let Some(share) = share {
+        text.push_str(&format!(
+            "contact of all strips with each other, {} elements in motion, one thread: {:.0} % of the step\n",
+            grouped(share.elements as u64),
+            100.0 * share.fraction()
+        ));
+    }
+    text.push_str("operations: multiplications and additions for which the ceiling has time in one element-step\n");
+    for what in left_out {
+        text.push_str(&format!("left out: {what}\n"));
+    }
+    text + &format!("measured in {seconds:.0} s\n")
+}

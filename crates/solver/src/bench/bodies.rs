@@ -1,0 +1,149 @@
+//! Bodies to measure with: a patch in a given motion for the kernels alone, a spinning block for whole steps, a stack of strips for contact.
+
+use crate::model::{Material, Model, Output, Part, Rectangle, Run, Shape};
+
+/// Parameters of any law: steel that flows at once and hardens strongly; rubbers and orthotropic bodies of its stiffness.
+const NUMBERS: &[(&str, f64)] = &[
+    ("density", 7800.0),
+    ("young", 2e11),
+    ("poisson", 0.3),
+    ("yield", 1e8),
+    ("hardening", 5e10),
+    ("saturation", 5e8),
+    ("saturation_rate", 20.0),
+    ("strength", 5e8),
+    ("strain_offset", 0.002),
+    ("hardening_exponent", 0.3),
+    ("isotropic_stress", 1e8),
+    ("rate_coefficient", 0.02),
+    ("temperature_melt", 1800.0),
+    ("specific_heat", 460.0),
+    ("cohesion", 1e8),
+    ("friction_angle", 0.5),
+    ("dilation_angle", 0.1),
+    ("bulk", 2e11),
+    ("shear", 8e10),
+    ("c10", 3e10),
+    ("c20", 1e10),
+    ("c30", 1e9),
+    ("c01", 1e10),
+    ("locking_stretch", 5.0),
+    ("young_1", 2e11),
+    ("young_2", 1e11),
+    ("young_3", 1e11),
+    ("poisson_12", 0.3),
+    ("poisson_23", 0.3),
+    ("poisson_31", 0.1),
+    ("shear_12", 5e10),
+    ("angle", 0.5),
+];
+const LISTS: &[(&str, &[f64])] = &[
+    ("plastic_strain", &[0.0, 0.1, 0.2, 0.5]),
+    ("stress", &[1e8, 2e8, 3e8, 4e8]),
+    ("backstress_modulus", &[5e10, 1e10, 1e9]),
+    ("backstress_recall", &[500.0, 50.0, 0.0]),
+    ("mu", &[6e10, -1e10, 1e9]),
+    ("alpha", &[2.0, -2.0, 5.0]),
+    ("shear_ratio", &[0.2, 0.3]),
+    ("relaxation_time", &[1e-3, 1e-6]),
+];
+
+/// A material of this law with parameters of this list: names that the law does not have are not read.
+#[must_use]
+pub fn material(law: &str) -> Material {
+    let parameters = NUMBERS.iter().map(|(name, value)| ((*name).to_string(), *value)).collect();
+    let lists = LISTS.iter().map(|(name, list)| ((*name).to_string(), list.to_vec())).collect();
+    Material { law: law.into(), parameters, lists, ..Material::default() }
+}
+
+/// A square of quadrilaterals in a swirling, stretching motion that yields.
+#[derive(Clone, Debug)]
+pub struct Patch {
+    /// Positions of its nodes, m.
+    pub positions: Vec<[f64; 2]>,
+    /// Their velocities, m/s.
+    pub velocities: Vec<[f64; 2]>,
+    /// Nodes of its elements, four each.
+    pub connectivity: Vec<u32>,
+}
+
+impl Patch {
+    /// `n` × `n` elements of 1 mm.
+    #[must_use]
+    pub fn new(n: usize) -> Self {
+        let node = |i: usize, j: usize| (j * (n + 1) + i) as u32;
+        let positions: Vec<[f64; 2]> = (0..(n + 1) * (n + 1)).map(|k| [(k % (n + 1)) as f64 * 1e-3, (k / (n + 1)) as f64 * 1e-3]).collect();
+        let velocities = positions.iter().map(|[x, y]| [100.0 * y + 20.0 * x, -80.0 * x + 5.0 * y]).collect();
+        let quads = (0..n * n).flat_map(|k| {
+            let (i, j) = (k % n, k / n);
+            [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)]
+        });
+        Self { positions, velocities, connectivity: quads.collect() }
+    }
+}
+
+/// Speed at the middle of the sides of a spinning block, m/s: the forces that hold it together make metals of [`material`] yield.
+const SPEED: f64 = 300.0;
+
+/// A block of `n` × `n` elements of 1 mm that spins and touches nothing.
+#[must_use]
+pub fn spinning_block(element: &str, law: &str, n: usize) -> Model {
+    let parameters =
+        crate::material::registry().into_iter().find(|kind| kind.name == law).map_or(Vec::new(), |kind| kind.parameters.to_vec());
+    let all = material(law);
+    let own = |name: &String| parameters.iter().any(|parameter| parameter.name == name);
+    let material = Material {
+        parameters: all.parameters.into_iter().filter(|(name, _)| own(name)).collect(),
+        lists: all.lists.into_iter().filter(|(name, _)| own(name)).collect(),
+        ..all
+    };
+    let size = n as f64 * 1e-3;
+    let shape = Shape::Rectangle(Rectangle { corner: [-0.5 * size; 2], size: [size; 2], elements: [n, n], ..Rectangle::default() });
+    let part = Part {
+        name: "block".into(),
+        material: "block".into(),
+        element: element.into(),
+        shape,
+        spin: SPEED / (0.5 * size),
+        ..Part::default()
+    };
+    Model {
+        name: "spinning block".into(),
+        run: Run { end: 1.0, ..Run::default() },
+        materials: [("block".to_string(), material)].into(),
+        parts: vec![part],
+        output: Output { pictures: false, ..Output::default() },
+        ..Model::default()
+    }
+}
+
+/// Elements through a strip, and along it per element through it.
+const THROUGH: usize = 20;
+/// Size of an element of a strip, m, and the gap between strips.
+const SIZE: f64 = 1e-3;
+const GAP: f64 = 1e-5;
+
+/// A stack of long strips of about so many elements, each so near to the next that every node of their long sides is in reach of the next strip; every second one
+/// moves up with this speed, the others down. There is no contact yet.
+#[must_use]
+pub fn strips(elements: usize, speed: f64) -> Model {
+    let strips = (elements as f64 / (THROUGH * THROUGH) as f64).sqrt().ceil().max(2.0) as usize;
+    let along = (elements / (strips * THROUGH)).max(1);
+    let mut model = Model { run: Run { end: 1.0, ..Run::default() }, ..Model::default() };
+    let parameters = [("young", 1e9), ("poisson", 0.3), ("density", 1e3)].map(|(key, value)| (key.to_string(), value));
+    model.materials.insert("soft".into(), Material { law: "elastic".into(), parameters: parameters.into(), ..Material::default() });
+    for strip in 0..strips {
+        let y = strip as f64 * (THROUGH as f64 * SIZE + GAP);
+        let size = [along as f64 * SIZE, THROUGH as f64 * SIZE];
+        let velocity = [0.0, if strip % 2 == 0 { speed } else { -speed }];
+        let shape = Shape::Rectangle(Rectangle {
+            corner: [0.3 * SIZE * (strip % 2) as f64, y],
+            size,
+            elements: [along, THROUGH],
+            ..Rectangle::default()
+        });
+        model.parts.push(Part { name: format!("strip{strip}"), material: "soft".into(), shape, velocity, ..Part::default() });
+    }
+    model.output.pictures = false;
+    model
+}

@@ -1,0 +1,151 @@
+//! Rates of kernels and of whole steps, in element-steps per second, and what contact adds to a step.
+
+use super::bodies::{Patch, material, spinning_block};
+use crate::block::{BlockInput, Motion, make};
+use crate::error::{Error, Fault};
+use crate::model::Model;
+use crate::simulation::{Options, Simulation};
+use embate_lanes::{Level, Team};
+use std::hint::black_box;
+use std::time::Instant;
+
+/// Rounds of a measurement, at least.
+const ROUNDS: usize = 3;
+/// Element-steps of a round of a small body, about: a millisecond, so that some rounds are undisturbed by what else the machine does.
+const ROUND: usize = 20_000;
+
+/// The best rate of rounds of `work`, which says how much it has done; after three rounds it ends when the time is up.
+pub fn best_rate(seconds: f64, mut work: impl FnMut() -> f64) -> f64 {
+    let (begin, mut best, mut rounds) = (Instant::now(), 0.0_f64, 0);
+    while rounds < ROUNDS || begin.elapsed().as_secs_f64() < seconds {
+        let start = Instant::now();
+        let done = work();
+        best = best.max(done / start.elapsed().as_secs_f64().max(1e-9));
+        rounds += 1;
+    }
+    best
+}
+
+/// Element-steps per second of the block alone, on one thread: from the motion of the nodes to the forces on them.
+///
+/// # Errors
+/// An element or law that is not in its registry.
+pub fn kernel(element: &str, law: &str, patch: &Patch, level: Level, seconds: f64) -> Result<f64, Error> {
+    let material = material(law);
+    let input = BlockInput::new(element, &material, &patch.connectivity, &patch.positions);
+    let unknown = || Error::Model(vec![Fault::new("", format!("there is no block of `{element}` with `{law}`"), "")]);
+    let mut block = make(&input).ok_or_else(unknown)?;
+    let (mut slots, mut team) = (vec![[0.0; 2]; block.slots().len()], Team::alone());
+    let motion = Motion { positions: &patch.positions, velocities: &patch.velocities, time_step: 1e-7 };
+    let once = Instant::now();
+    black_box(block.advance(&motion, level, &mut slots, &mut team));
+    let repeats = repeats(once.elapsed().as_secs_f64(), block.elements(), seconds);
+    Ok(best_rate(seconds, || {
+        for _ in 0..repeats {
+            black_box(block.advance(&motion, level, &mut slots, &mut team));
+        }
+        (repeats * block.elements()) as f64
+    }))
+}
+
+/// How often a round does what takes so long once: so that all rounds fit into the time, and no round is longer than it needs to be.
+fn repeats(once: f64, elements: usize, seconds: f64) -> usize {
+    ((seconds / ROUNDS as f64 / once.max(1e-9)) as usize).clamp(1, (ROUND / elements).max(1))
+}
+
+/// How large the body of a measurement is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Size {
+    /// It fits into a cache: each round begins with a new body.
+    Small,
+    /// One body through all rounds.
+    Large,
+}
+
+/// Element-steps per second of whole steps of a spinning block of `n` × `n` elements without contact and output.
+///
+/// # Errors
+/// An element or law that is not in its registry; a step that fails.
+pub fn step(element: &str, law: &str, n: usize, size: Size, options: &Options, seconds: f64) -> Result<f64, Error> {
+    let model = spinning_block(element, law, n);
+    if size == Size::Large {
+        return steps_of(&mut Simulation::new(&model, options)?, seconds);
+    }
+    let (begin, mut best, mut rounds) = (Instant::now(), 0.0_f64, 0);
+    while rounds < ROUNDS || begin.elapsed().as_secs_f64() < seconds {
+        let mut simulation = Simulation::new(&model, options)?;
+        let warm = Instant::now();
+        simulation.advance(f64::INFINITY, 10)?;
+        let steps = repeats(0.1 * warm.elapsed().as_secs_f64(), n * n, seconds).max(10);
+        let start = Instant::now();
+        simulation.advance(f64::INFINITY, steps as u64)?;
+        best = best.max((steps * n * n) as f64 / start.elapsed().as_secs_f64().max(1e-9));
+        rounds += 1;
+    }
+    Ok(best)
+}
+
+/// Element-steps per second of a simulation that goes on, by rounds of a step.
+///
+/// # Errors
+/// A step that fails.
+pub fn steps_of(simulation: &mut Simulation, seconds: f64) -> Result<f64, Error> {
+    let elements = simulation.summary().elements as f64;
+    simulation.advance(f64::INFINITY, 2)?;
+    let mut failed = None;
+    let rate = best_rate(seconds, || {
+        failed = failed.take().or(simulation.advance(f64::INFINITY, 1).err());
+        elements
+    });
+    failed.map_or(Ok(rate), Err)
+}
+
+/// Shortest time of a step, s, of two models that take turns, so that what else the machine does meets both: so many rounds, or until the time is up.
+///
+/// # Errors
+/// A model that is not sound, a step that fails.
+pub fn step_times(models: [&Model; 2], options: &Options, rounds: usize, seconds: f64) -> Result<([f64; 2], [Simulation; 2]), Error> {
+    let [one, other] = models;
+    let mut simulations = [Simulation::new(one, options)?, Simulation::new(other, options)?];
+    let mut shortest = [f64::INFINITY; 2];
+    let begin = Instant::now();
+    for round in 0..rounds {
+        if round >= ROUNDS && begin.elapsed().as_secs_f64() >= seconds {
+            break;
+        }
+        for (simulation, shortest) in simulations.iter_mut().zip(&mut shortest) {
+            simulation.advance(f64::INFINITY, 1)?;
+            let start = Instant::now();
+            simulation.advance(f64::INFINITY, 3)?;
+            *shortest = shortest.min(start.elapsed().as_secs_f64() / 3.0);
+        }
+    }
+    Ok((shortest, simulations))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::material::LAWS;
+
+    #[test]
+    fn every_law_can_be_measured_in_a_kernel_and_the_usual_ones_in_a_whole_step() {
+        let patch = Patch::new(4);
+        for law in LAWS {
+            let rate = kernel("quad4", law.name, &patch, Level::best(), 0.0).unwrap();
+            assert!(rate.is_finite() && rate > 0.0, "{}", law.name);
+        }
+        for element in ["quad4", "quad4_reduced"] {
+            for law in ["elastic", "j2", "neo_hookean"] {
+                let rate = step(element, law, 16, Size::Small, &Options::default(), 0.0).unwrap();
+                assert!(rate.is_finite() && rate > 0.0, "{element} {law}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_not_there_is_told() {
+        assert!(kernel("quad5", "j2", &Patch::new(2), Level::SCALAR, 0.0).is_err());
+        assert!(step("quad4", "j3", 2, Size::Small, &Options::default(), 0.0).is_err());
+    }
+}

@@ -6,5 +6,6 @@ pub mod model_file;
 mod outline;
 pub mod picture;
 pub mod results;
+pub mod threads;
 pub mod verification;
 pub mod vtu;

@@ -85,10 +85,10 @@ fn columns() -> Vec<String> {
 /// Ten steps with a frame and a row each, or until the caller's progress says stop.
 fn record(folder: &Path, on_progress: OnProgress<'_>, error: Option<&str>) -> Outcome {
     let folder = ResultFolder::create(folder, false).unwrap();
-    let mut recorder = Recorder::new(folder, &model(), columns(), cells(), on_progress).unwrap();
+    let mut recorder = Recorder::new(folder, &model(), columns(), cells(), 1, on_progress).unwrap();
     let mut done = 0;
     for step in 0..=10 {
-        recorder.frame(&frame(step)).unwrap();
+        recorder.frame(frame(step)).unwrap();
         recorder.row(&[step as f64 * 1e-4, 5.0]).unwrap();
         done = step;
         let progress = Progress { step, time: step as f64 * 1e-4, end: 1e-3, time_step: 1e-4, governor: "x", energy_drift: 0.0 };
@@ -238,14 +238,14 @@ fn two_runs_never_share_a_history() {
     let folder = fresh("two-runs");
     let first = ResultFolder::create(&folder, false).unwrap();
     let second = ResultFolder::create(&folder, false).unwrap();
-    let _running = Recorder::new(first, &model(), columns(), cells(), go_on()).unwrap();
-    assert!(Recorder::new(second, &model(), columns(), cells(), go_on()).is_err());
+    let _running = Recorder::new(first, &model(), columns(), cells(), 1, go_on()).unwrap();
+    assert!(Recorder::new(second, &model(), columns(), cells(), 1, go_on()).is_err());
 }
 
 #[test]
 fn a_row_of_the_wrong_length_is_an_error() {
     let folder = ResultFolder::create(&fresh("row"), false).unwrap();
-    let mut recorder = Recorder::new(folder, &model(), columns(), cells(), go_on()).unwrap();
+    let mut recorder = Recorder::new(folder, &model(), columns(), cells(), 1, go_on()).unwrap();
     assert!(recorder.row(&[1.0]).unwrap_err().to_string().contains("1 values for 2 columns"));
 }
 
@@ -253,9 +253,9 @@ fn a_row_of_the_wrong_length_is_an_error() {
 fn the_last_state_is_not_written_twice() {
     let folder = ResultFolder::create(&fresh("twice"), false).unwrap();
     let path = folder.path().to_path_buf();
-    let mut recorder = Recorder::new(folder, &model(), columns(), cells(), go_on()).unwrap();
+    let mut recorder = Recorder::new(folder, &model(), columns(), cells(), 1, go_on()).unwrap();
     for step in [0, 5, 5] {
-        recorder.frame(&frame(step)).unwrap();
+        recorder.frame(frame(step)).unwrap();
     }
     assert_eq!(names(&path.join("fields")).len(), 2);
 }
@@ -264,9 +264,9 @@ fn the_last_state_is_not_written_twice() {
 fn a_lost_folder_is_reported_with_its_path() {
     let folder = ResultFolder::create(&fresh("lost"), false).unwrap();
     let path = folder.path().to_path_buf();
-    let mut recorder = Recorder::new(folder, &model(), columns(), cells(), go_on()).unwrap();
+    let mut recorder = Recorder::new(folder, &model(), columns(), cells(), 1, go_on()).unwrap();
     fs::remove_dir_all(&path).unwrap();
-    let error = recorder.frame(&frame(0)).unwrap_err().to_string();
+    let error = recorder.frame(frame(0)).unwrap_err().to_string();
     assert!(error.contains("lost") && error.contains("frame-00000.vtu"), "{error}");
     let outcome = recorder.finish(None, &summary(10), || None);
     assert_eq!(outcome.report.status, RunStatus::Failed);
@@ -287,9 +287,9 @@ fn frame_with_obstacles(step: u64) -> Frame<2> {
 
 fn record_obstacles(name: &str) -> PathBuf {
     let path = fresh(name);
-    let mut recorder = Recorder::new(ResultFolder::create(&path, false).unwrap(), &model(), columns(), cells(), go_on()).unwrap();
+    let mut recorder = Recorder::new(ResultFolder::create(&path, false).unwrap(), &model(), columns(), cells(), 1, go_on()).unwrap();
     for step in 0..=10 {
-        recorder.frame(&frame_with_obstacles(step)).unwrap();
+        recorder.frame(frame_with_obstacles(step)).unwrap();
         recorder.row(&[step as f64 * 1e-4, 5.0]).unwrap();
     }
     assert!(recorder.finish(None, &summary(10), || None).unwritten.is_none());

@@ -58,6 +58,8 @@ struct Plain<'a> {
 /// The numbers of an array; they become bytes block by block.
 enum Data<'a> {
     Bytes(Vec<u8>),
+    /// Whole numbers, written with 64 bits.
+    Indices(&'a [u32]),
     Numbers(&'a [f64]),
     /// `x y x y ...`, written as `x y 0 x y 0 ...`.
     PlaneVectors(&'a [f64]),
@@ -68,6 +70,7 @@ impl Data<'_> {
     fn len(&self) -> usize {
         match self {
             Self::Bytes(bytes) => bytes.len(),
+            Self::Indices(indices) => 8 * indices.len(),
             Self::Numbers(values) => 8 * values.len(),
             Self::PlaneVectors(values) => 24 * (values.len() / 2),
         }
@@ -78,6 +81,7 @@ impl Data<'_> {
         bytes.clear();
         match self {
             Self::Bytes(all) => bytes.extend_from_slice(&all[range]),
+            Self::Indices(all) => bytes.extend(all[range.start / 8..range.end / 8].iter().flat_map(|&i| i64::from(i).to_le_bytes())),
             Self::Numbers(values) => bytes.extend(values[range.start / 8..range.end / 8].iter().flat_map(|v| v.to_le_bytes())),
             Self::PlaneVectors(values) => {
                 let component = |k: usize| if k % 3 == 2 { 0.0 } else { values[2 * (k / 3) + k % 3] };
@@ -101,18 +105,25 @@ pub struct VtuWriter {
 impl VtuWriter {
     /// A writer for the frames of `cells`.
     #[must_use]
-    pub fn new(cells: &Cells) -> Self {
-        let connectivity: Vec<u8> = cells.nodes.iter().flat_map(|&n| i64::from(n).to_le_bytes()).collect();
-        let offsets: Vec<u8> = cells.offsets.iter().skip(1).flat_map(|&o| i64::from(o).to_le_bytes()).collect();
-        let types: Vec<u8> = cells.kinds.iter().map(|&kind| vtk_cell_type(kind)).collect();
-        let parts: Vec<u8> = cells.parts.iter().flat_map(|&p| p.to_le_bytes()).collect();
+    pub fn new(cells: &Cells, threads: &Threads) -> Self {
+        let array = |attributes: &str, data| Plain { attributes: attributes.into(), data };
+        let types = cells.kinds.iter().map(|&kind| vtk_cell_type(kind)).collect();
+        let parts = cells.parts.iter().flat_map(|&p| p.to_le_bytes()).collect();
+        let plain = vec![
+            array("type=\"Int64\" Name=\"connectivity\"", Data::Indices(&cells.nodes)),
+            array("type=\"Int64\" Name=\"offsets\"", Data::Indices(cells.offsets.get(1..).unwrap_or_default())),
+            array("type=\"UInt8\" Name=\"types\"", Data::Bytes(types)),
+            array("type=\"Int32\" Name=\"part\"", Data::Bytes(parts)),
+        ];
+        let mut arrays = zlib_blocks(plain, threads).into_iter();
+        let mut next = || arrays.next().expect("there are as many arrays as were put in");
         Self {
             cell_count: cells.len(),
             node_last: cells.nodes.iter().copied().max(),
-            connectivity: Array { attributes: "type=\"Int64\" Name=\"connectivity\"".into(), bytes: packed(connectivity) },
-            offsets: Array { attributes: "type=\"Int64\" Name=\"offsets\"".into(), bytes: packed(offsets) },
-            types: Array { attributes: "type=\"UInt8\" Name=\"types\"".into(), bytes: packed(types) },
-            parts: Array { attributes: "type=\"Int32\" Name=\"part\"".into(), bytes: packed(parts) },
+            connectivity: next(),
+            offsets: next(),
+            types: next(),
+            parts: next(),
         }
     }
 
@@ -385,7 +396,7 @@ mod tests {
 
     #[test]
     fn arrays_come_back_as_they_went_in() {
-        let file = VtuWriter::new(&cells()).bytes(&frame(), &[], &Threads::one()).unwrap();
+        let file = VtuWriter::new(&cells(), &Threads::one()).bytes(&frame(), &[], &Threads::one()).unwrap();
         let points = floats(&array(&file, "Points"));
         assert_eq!(points, [0., 0., 0., 1., 0., 0., 1., 1., 0., 0., 1., 0., 2., 0.5, 0.]);
         assert_eq!(floats(&array(&file, "velocity"))[..6], [0., 1., 0., 2., 3., 0.]);
@@ -400,7 +411,7 @@ mod tests {
 
     #[test]
     fn stress_components_have_their_names() {
-        let file = VtuWriter::new(&cells()).bytes(&frame(), &[], &Threads::one()).unwrap();
+        let file = VtuWriter::new(&cells(), &Threads::one()).bytes(&frame(), &[], &Threads::one()).unwrap();
         let text = String::from_utf8_lossy(&file);
         assert!(text.contains(
             "Name=\"stress\" NumberOfComponents=\"4\" ComponentName0=\"xx\" ComponentName1=\"yy\" ComponentName2=\"zz\" ComponentName3=\"xy\""
@@ -411,15 +422,15 @@ mod tests {
 
     #[test]
     fn only_the_wanted_fields_are_written() {
-        let file = VtuWriter::new(&cells()).bytes(&frame(), &["stress".to_string()], &Threads::one()).unwrap();
+        let file = VtuWriter::new(&cells(), &Threads::one()).bytes(&frame(), &["stress".to_string()], &Threads::one()).unwrap();
         let text = String::from_utf8_lossy(&file);
         assert!(text.contains("\"stress\"") && text.contains("\"part\"") && !text.contains("\"velocity\""));
     }
 
     #[test]
     fn equal_frames_give_equal_bytes() {
-        let once = VtuWriter::new(&cells()).bytes(&frame(), &[], &Threads::one()).unwrap();
-        assert_eq!(once, VtuWriter::new(&cells()).bytes(&frame(), &[], &Threads::one()).unwrap());
+        let once = VtuWriter::new(&cells(), &Threads::one()).bytes(&frame(), &[], &Threads::one()).unwrap();
+        assert_eq!(once, VtuWriter::new(&cells(), &Threads::one()).bytes(&frame(), &[], &Threads::one()).unwrap());
     }
 
     #[test]
@@ -432,7 +443,7 @@ mod tests {
         for nodes in [BLOCK / 24, BLOCK / 8, 40_000] {
             let positions: Vec<[f64; 2]> = (0..nodes).map(|_| [noise(), noise()]).collect();
             let frame = Frame { time: 0.0, step: 0, positions, fields: vec![], outlines: vec![] };
-            let file = VtuWriter::new(&Cells::default()).bytes(&frame, &[], &Threads::one()).unwrap();
+            let file = VtuWriter::new(&Cells::default(), &Threads::one()).bytes(&frame, &[], &Threads::one()).unwrap();
             let points = floats(&array(&file, "Points"));
             assert!(points.chunks(3).map(|p| [p[0], p[1]]).eq(frame.positions.iter().copied()));
         }
@@ -443,7 +454,7 @@ mod tests {
         let positions: Vec<[f64; 2]> = (0..60_000).map(f64::from).map(|k| [k.sin(), (0.01 * k).cos()]).collect();
         let velocity = Field { kind: field_kind("velocity").unwrap(), values: positions.as_flattened().to_vec() };
         let frame = Frame { time: 0.0, step: 0, positions, fields: vec![velocity], outlines: vec![] };
-        let file = |threads| VtuWriter::new(&Cells::default()).bytes(&frame, &[], &Threads::new(threads)).unwrap();
+        let file = |threads| VtuWriter::new(&Cells::default(), &Threads::new(threads)).bytes(&frame, &[], &Threads::new(threads)).unwrap();
         let alone = file(1);
         assert!(floats(&array(&alone, "velocity")).chunks(3).zip(&frame.positions).all(|(v, x)| v == [x[0], x[1], 0.0]));
         assert!([2, 3, 8].into_iter().all(|threads| file(threads) == alone));
@@ -464,7 +475,7 @@ mod tests {
     #[test]
     fn no_cells_are_no_problem() {
         let frame = Frame { time: 0.0, step: 0, positions: vec![], fields: vec![], outlines: vec![] };
-        let file = VtuWriter::new(&Cells::default()).bytes(&frame, &[], &Threads::one()).unwrap();
+        let file = VtuWriter::new(&Cells::default(), &Threads::one()).bytes(&frame, &[], &Threads::one()).unwrap();
         assert!(array(&file, "connectivity").is_empty());
     }
 
@@ -472,11 +483,14 @@ mod tests {
     fn a_field_of_the_wrong_length_is_an_error() {
         let mut frame = frame();
         frame.fields[1].values.pop();
-        let error = VtuWriter::new(&cells()).bytes(&frame, &[], &Threads::one()).unwrap_err();
+        let error = VtuWriter::new(&cells(), &Threads::one()).bytes(&frame, &[], &Threads::one()).unwrap_err();
         assert_eq!(error, VtuError::FieldLength { name: "stress", found: 7, expected: 8 });
         frame.fields.clear();
         frame.positions.truncate(4);
-        assert_eq!(VtuWriter::new(&cells()).bytes(&frame, &[], &Threads::one()).unwrap_err(), VtuError::NodeMissing { node: 4, nodes: 4 });
+        assert_eq!(
+            VtuWriter::new(&cells(), &Threads::one()).bytes(&frame, &[], &Threads::one()).unwrap_err(),
+            VtuError::NodeMissing { node: 4, nodes: 4 }
+        );
     }
 
     #[test]

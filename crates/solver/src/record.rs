@@ -323,10 +323,14 @@ pub(crate) fn cells(system: &System) -> Cells {
     let mut cells = Cells { offsets: vec![0], ..Cells::default() };
     for (index, part) in system.mesh.parts.iter().enumerate() {
         cells.part_names.push(part.name.clone());
-        let mut order: Vec<(u32, &[u32])> =
-            system.mesh.groups_of(index).flat_map(|group| group.user_elements.iter().copied().zip(group.cells())).collect();
-        order.sort_unstable();
-        for (_, cell) in order {
+        let groups: Vec<&ElementGroup> = system.mesh.groups_of(index).collect();
+        // Where each element is stored, by the user's number.
+        let mut places = vec![(0, 0); system.mesh.elements_of(index)];
+        for (of_part, group) in groups.iter().enumerate() {
+            group.user_elements.iter().enumerate().for_each(|(element, &user)| places[user as usize] = (of_part, element as u32));
+        }
+        for (of_part, element) in places {
+            let cell = groups[of_part].cell(element as usize);
             cells.nodes.extend(cell.iter().map(|&node| system.mesh.user_nodes[node as usize]));
             cells.offsets.push(cells.nodes.len() as u32);
             cells.kinds.push(match cell.len() {

@@ -78,7 +78,7 @@ impl Writer {
             include: model.output.include.clone(),
             columns,
             plot_rows: ThinnedRows::default(),
-            frames: Frames::new(&cells),
+            frames: Frames::new(&cells, &threads),
             film: model.output.pictures.then(|| Film::new(cells, film_settings(model))),
             threads,
         })
@@ -144,9 +144,9 @@ struct Frames {
 }
 
 impl Frames {
-    fn new(cells: &Cells) -> Self {
+    fn new(cells: &Cells, threads: &Threads) -> Self {
         Self {
-            writer: VtuWriter::new(cells),
+            writer: VtuWriter::new(cells, threads),
             written: Vec::new(),
             obstacles: Obstacles::default(),
             step_last: None,

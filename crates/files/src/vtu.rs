@@ -7,9 +7,9 @@
 //! [`crate::results`], ParaView and `tests/read_back.py` read them. `obstacles` makes a file of obstacles in the same way.
 //! Source: VTK file formats, "XML formats", `vtkZLibDataCompressor`.
 
+use crate::deflate::Packer;
 use crate::threads::Threads;
 use embate_solver::output::{CellKind, Cells, Field, FieldKind, Frame, Location};
-use flate2::{Compress, Compression, FlushCompress};
 use std::fmt::Write as _;
 use std::ops::Range;
 use thiserror::Error;
@@ -298,18 +298,18 @@ fn packed(bytes: Vec<u8>) -> Vec<u8> {
 }
 
 /// Arrays as VTK's compressed arrays: number of blocks, block size, size of the last block when it is shorter (else 0),
-/// the compressed size of each block (all 64 bits), then the zlib streams. Fast compression: what it saves more, it costs in time.
+/// the compressed size of each block (all 64 bits), then the zlib streams.
 fn zlib_blocks(arrays: Vec<Plain<'_>>, threads: &Threads) -> Vec<Array> {
     let blocks_of = |data: &Data<'_>| data.len().div_ceil(BLOCK);
     let mut pieces: Vec<(&Data<'_>, Range<usize>)> = Vec::new();
     for data in arrays.iter().map(|array| &array.data) {
         pieces.extend((0..blocks_of(data)).map(|k| (data, k * BLOCK..((k + 1) * BLOCK).min(data.len()))));
     }
-    let work = |(packer, bytes): &mut (Compress, Vec<u8>), (data, range): &(&Data<'_>, Range<usize>)| {
+    let work = |(packer, bytes): &mut (Packer, Vec<u8>), (data, range): &(&Data<'_>, Range<usize>)| {
         data.fill(range.clone(), bytes);
-        stream(packer, bytes)
+        packer.stream(bytes)
     };
-    let scratch = || (Compress::new(Compression::fast(), true), Vec::with_capacity(BLOCK));
+    let scratch = || (Packer::new(), Vec::with_capacity(BLOCK));
     let is_small = arrays.iter().map(|array| array.data.len()).sum::<usize>() < SERIAL;
     let streams = if is_small { Threads::one().map(&pieces, scratch, work) } else { threads.map(&pieces, scratch, work) };
     let mut streams = streams.into_iter();
@@ -322,20 +322,6 @@ fn zlib_blocks(arrays: Vec<Plain<'_>>, threads: &Threads) -> Vec<Array> {
         Array { attributes, bytes }
     };
     arrays.into_iter().map(array).collect()
-}
-
-/// One block as a zlib stream.
-fn stream(packer: &mut Compress, block: &[u8]) -> Vec<u8> {
-    packer.reset();
-    // What can't be packed is stored in pieces with a few bytes before each.
-    let mut stream = Vec::with_capacity(block.len() + block.len() / 1000 + 64);
-    loop {
-        let taken = packer.total_in() as usize;
-        match packer.compress_vec(&block[taken..], &mut stream, FlushCompress::Finish) {
-            Ok(flate2::Status::StreamEnd) => return stream,
-            _ => stream.reserve(BLOCK),
-        }
-    }
 }
 
 #[cfg(test)]

@@ -60,16 +60,26 @@ impl Palette {
 pub(super) type Indices = Vec<u8>;
 
 impl Palette {
-    /// A canvas in the colours of the palette.
-    pub(super) fn indices(&mut self, canvas: &Canvas) -> Indices {
+    /// A canvas in the colours of the palette. `like`: another one and its indices; rows that are the same are not looked up again.
+    pub(super) fn indices(&mut self, canvas: &Canvas, like: Option<(&Canvas, &[u8])>) -> Indices {
+        let mut indices = Vec::with_capacity(canvas.pixels.len());
         let mut last = (WHITE, self.index(WHITE));
-        let index = |pixel: &Rgb| {
-            if *pixel != last.0 {
-                last = (*pixel, self.index(*pixel));
+        for (number, row) in canvas.pixels.chunks_exact(canvas.width.max(1)).enumerate() {
+            let range = number * canvas.width..(number + 1) * canvas.width;
+            if let Some((like, known)) = like
+                && like.pixels.get(range.clone()) == Some(row)
+            {
+                indices.extend_from_slice(&known[range]);
+                continue;
             }
-            last.1
-        };
-        canvas.pixels.iter().map(index).collect()
+            indices.extend(row.iter().map(|pixel| {
+                if *pixel != last.0 {
+                    last = (*pixel, self.index(*pixel));
+                }
+                last.1
+            }));
+        }
+        indices
     }
 }
 
@@ -179,10 +189,10 @@ mod tests {
             let sink: &mut dyn Write = &mut out;
             let mut palette = Palette::new(&[]);
             let mut animation = Animation::start(sink, &canvas, &palette, Path::new("x.gif")).unwrap();
-            let empty = palette.indices(&canvas);
+            let empty = palette.indices(&canvas, None);
             animation.frames(vec![empty.clone(), empty], &[5, 5], &Threads::new(2)).unwrap();
             canvas.rectangle(10.0, 12.0, 20.0, 15.0, MAP[100], 1.0);
-            animation.frames(vec![palette.indices(&canvas)], &[150], &Threads::one()).unwrap();
+            animation.frames(vec![palette.indices(&canvas, None)], &[150], &Threads::one()).unwrap();
         }
         let mut options = gif::DecodeOptions::new();
         options.set_color_output(gif::ColorOutput::Indexed);

@@ -250,7 +250,8 @@ impl Film {
         // The first frame decides how parts look.
         let mut canvas = scene.still().clone();
         self.draw(chosen[0], &mut scene, mesh, show, notes, &mut canvas);
-        let palette = Palette::new(scene.looks());
+        let mut palette = Palette::new(scene.looks());
+        let still = palette.indices(scene.still(), None);
         let path = folder.join("animation.gif");
         write_whole(&path, |out| {
             let mut animation = Animation::start(out, &canvas, &palette, &path)?;
@@ -258,7 +259,7 @@ impl Film {
                 let scratch = || (scene.clone(), canvas.clone(), palette.clone());
                 let pictures: Vec<Indices> = threads.map(chosen, scratch, |(scene, canvas, palette), &index| {
                     self.draw(index, scene, mesh, show, notes, canvas);
-                    palette.indices(canvas)
+                    palette.indices(canvas, Some((scene.still(), &still)))
                 });
                 let delays: Vec<u16> = chosen.iter().map(|index| if index + 1 == self.stored.len() { HOLD } else { delay }).collect();
                 animation.frames(pictures, &delays, threads)?;

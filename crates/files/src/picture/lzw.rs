@@ -6,20 +6,21 @@
 
 /// Bits of the longest codes.
 const WIDEST: u32 = 12;
-/// Places of the table: a power of two, some times the codes.
-const PLACES: usize = 1 << 14;
+/// Places of the table, as a power of two: twice the codes.
+const PLACES: u32 = 13;
+/// What stands in a place where no string is.
+const EMPTY: u32 = u32::MAX;
 
 /// The strings seen so far. A string is a code and the pixel that follows it.
 #[derive(Debug)]
 pub(super) struct Table {
-    /// String and its code, `(code << 8 | pixel) << 12 | own code`, with the round in the upper bits: entries of earlier rounds count as empty.
-    places: Vec<u64>,
-    round: u64,
+    /// String and its code, `(code << 8 | pixel) << 12 | own code`.
+    places: Vec<u32>,
 }
 
 impl Default for Table {
     fn default() -> Self {
-        Self { places: vec![0; PLACES], round: 0 }
+        Self { places: vec![EMPTY; 1 << PLACES] }
     }
 }
 
@@ -52,12 +53,12 @@ impl Table {
         let (end, first) = (clear + 1, clear + 2);
         let mut bits = Bits { bytes: vec![depth as u8], pending: 0, count: 0 };
         let (mut width, mut next) = (depth + 1, first);
-        self.round += 1;
+        self.places.fill(EMPTY);
         bits.push(clear, width);
         if let Some((&pixel, rest)) = pixels.split_first() {
             let mut code = u16::from(pixel);
             for &pixel in rest {
-                let string = (u64::from(code) << 8) | u64::from(pixel);
+                let string = (u32::from(code) << 8) | u32::from(pixel);
                 if let Some(longer) = self.find_or_add(string, next) {
                     code = longer;
                     continue;
@@ -71,7 +72,7 @@ impl Table {
                 if u32::from(next) > 1 << WIDEST {
                     bits.push(clear, width);
                     (width, next) = (depth + 1, first);
-                    self.round += 1;
+                    self.places.fill(EMPTY);
                 }
                 code = u16::from(pixel);
             }
@@ -88,19 +89,18 @@ impl Table {
     }
 
     /// The code of a string; one that is not there becomes `next`.
-    fn find_or_add(&mut self, string: u64, next: u16) -> Option<u16> {
-        let wanted = (self.round << 20) | string;
-        let mut place = (string.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 50) as usize;
+    fn find_or_add(&mut self, string: u32, next: u16) -> Option<u16> {
+        let mut place = string.wrapping_mul(0x9e37_79b1) >> (32 - PLACES);
         loop {
-            let entry = self.places[place];
-            if entry >> 12 == wanted {
-                return Some((entry & 0xfff) as u16);
+            let entry = &mut self.places[place as usize];
+            if *entry >> 12 == string && *entry != EMPTY {
+                return Some((*entry & 0xfff) as u16);
             }
-            if entry >> 32 != self.round {
-                self.places[place] = (wanted << 12) | u64::from(next & 0xfff);
+            if *entry == EMPTY {
+                *entry = (string << 12) | u32::from(next & 0xfff);
                 return None;
             }
-            place = (place + 1) % PLACES;
+            place = (place + 1) % (1 << PLACES);
         }
     }
 }

@@ -143,6 +143,8 @@ fn the_summary_has_its_keys_in_order() {
             "time_end",
             "wall_seconds",
             "user_cpu_seconds",
+            "output_seconds",
+            "output_wait_seconds",
             "element_steps_per_second",
             "stable_time_step_min",
             "stable_time_step_governor",

@@ -72,6 +72,8 @@ impl Packer {
             store(bytes, &mut out.bytes);
         }
         out.bytes.extend(adler32(bytes).to_be_bytes());
+        // Streams of a whole frame wait for each other.
+        out.bytes.shrink_to_fit();
         out.bytes
     }
 

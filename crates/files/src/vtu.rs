@@ -10,7 +10,10 @@
 use crate::deflate::Packer;
 use crate::threads::Threads;
 use embate_solver::output::{CellKind, Cells, Field, FieldKind, Frame, Location};
+use flate2::Compression;
+use flate2::write::ZlibEncoder;
 use std::fmt::Write as _;
+use std::io::Write as _;
 use std::ops::Range;
 use thiserror::Error;
 
@@ -307,7 +310,7 @@ fn zlib_blocks(arrays: Vec<Plain<'_>>, threads: &Threads) -> Vec<Array> {
     }
     let work = |(packer, bytes): &mut (Packer, Vec<u8>), (data, range): &(&Data<'_>, Range<usize>)| {
         data.fill(range.clone(), bytes);
-        packer.stream(bytes)
+        if matches!(data, Data::Numbers(_) | Data::PlaneVectors(_)) { packer.stream(bytes) } else { zlib(bytes) }
     };
     let scratch = || (Packer::new(), Vec::with_capacity(BLOCK));
     let is_small = arrays.iter().map(|array| array.data.len()).sum::<usize>() < SERIAL;
@@ -322,6 +325,12 @@ fn zlib_blocks(arrays: Vec<Plain<'_>>, threads: &Threads) -> Vec<Array> {
         Array { attributes, bytes }
     };
     arrays.into_iter().map(array).collect()
+}
+
+/// A stream of bytes that are no numbers with 64 binary digits: those are packed by [`Packer`].
+fn zlib(bytes: &[u8]) -> Vec<u8> {
+    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::fast());
+    encoder.write_all(bytes).and_then(|()| encoder.finish()).expect("a vector takes every byte")
 }
 
 #[cfg(test)]

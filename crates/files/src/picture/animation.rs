@@ -38,7 +38,12 @@ impl Palette {
         of_map(&mut colours, 8, WHITE, 0.8);
         let greys = 255 - colours.len();
         colours.extend((0..greys).map(|k| mix(INK, WHITE, (k as f32 + 0.5) / greys as f32)));
-        Self { colours, nearest: vec![UNKNOWN; 1 << 18] }
+        let mut palette = Self { colours, nearest: vec![UNKNOWN; 1 << 18] };
+        // Its own colours are found exactly; of those with the same six bits the first.
+        for index in (0..palette.colours.len()).rev() {
+            palette.nearest[key(palette.colours[index])] = index as u8;
+        }
+        palette
     }
 
     fn bytes(&self) -> Vec<u8> {
@@ -46,14 +51,21 @@ impl Palette {
     }
 
     fn index(&mut self, colour: Rgb) -> u8 {
-        let key = (usize::from(colour[0] >> 2) << 12) | (usize::from(colour[1] >> 2) << 6) | usize::from(colour[2] >> 2);
+        let key = key(colour);
         if self.nearest[key] == UNKNOWN {
+            // The middle of the colours with these bits: which of them is asked for first must not matter.
+            let colour = colour.map(|c| c & !3 | 2);
             let distance = |other: &Rgb| -> i32 { (0..3).map(|k| (i32::from(other[k]) - i32::from(colour[k])).pow(2)).sum() };
             let best = self.colours.iter().enumerate().min_by_key(|(_, other)| distance(other));
             self.nearest[key] = best.map_or(0, |(index, _)| index as u8);
         }
         self.nearest[key]
     }
+}
+
+/// Six bits of each channel.
+fn key(colour: Rgb) -> usize {
+    colour.iter().fold(0, |key, c| key << 6 | usize::from(c >> 2))
 }
 
 /// The pixels of a frame as places in the palette, row by row.

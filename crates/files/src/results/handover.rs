@@ -183,3 +183,15 @@ impl Drop for Handover {
         drop(self.desk());
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_of_the_writer_is_an_error_that_says_what_happened() {
+        let nothing: Vec<u8> = Vec::new();
+        let error = guarded(|| Ok(nothing[3])).unwrap_err().to_string();
+        assert!(error.contains("out of bounds") && error.contains("bug in embate"), "{error}");
+    }
+}

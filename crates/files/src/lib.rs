@@ -1,7 +1,6 @@
 //! Formats that embate reads and writes, one a file.
 
 pub mod abaqus;
-mod deflate;
 pub mod gmsh;
 pub mod model_file;
 mod outline;

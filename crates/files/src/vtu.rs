@@ -7,7 +7,6 @@
 //! [`crate::results`], ParaView and `tests/read_back.py` read them. `obstacles` makes a file of obstacles in the same way.
 //! Source: VTK file formats, "XML formats", `vtkZLibDataCompressor`.
 
-use crate::deflate::Packer;
 use crate::threads::Threads;
 use embate_solver::output::{CellKind, Cells, Field, FieldKind, Frame, Location};
 use flate2::Compression;
@@ -301,18 +300,21 @@ fn packed(bytes: Vec<u8>) -> Vec<u8> {
 }
 
 /// Arrays as VTK's compressed arrays: number of blocks, block size, size of the last block when it is shorter (else 0),
-/// the compressed size of each block (all 64 bits), then the zlib streams.
+/// the compressed size of each block (all 64 bits), then the zlib streams. Fast compression: what slower ones save is little, because digits are noise.
 fn zlib_blocks(arrays: Vec<Plain<'_>>, threads: &Threads) -> Vec<Array> {
     let blocks_of = |data: &Data<'_>| data.len().div_ceil(BLOCK);
     let mut pieces: Vec<(&Data<'_>, Range<usize>)> = Vec::new();
     for data in arrays.iter().map(|array| &array.data) {
         pieces.extend((0..blocks_of(data)).map(|k| (data, k * BLOCK..((k + 1) * BLOCK).min(data.len()))));
     }
-    let work = |(packer, bytes): &mut (Packer, Vec<u8>), (data, range): &(&Data<'_>, Range<usize>)| {
+    let work = |(encoder, bytes): &mut (ZlibEncoder<Vec<u8>>, Vec<u8>), (data, range): &(&Data<'_>, Range<usize>)| {
         data.fill(range.clone(), bytes);
-        if matches!(data, Data::Numbers(_) | Data::PlaneVectors(_)) { packer.stream(bytes) } else { zlib(bytes) }
+        let mut stream = encoder.write_all(bytes).and_then(|()| encoder.reset(Vec::new())).expect("a vector takes every byte");
+        // Streams of a whole frame wait for each other.
+        stream.shrink_to_fit();
+        stream
     };
-    let scratch = || (Packer::new(), Vec::with_capacity(BLOCK));
+    let scratch = || (ZlibEncoder::new(Vec::new(), Compression::fast()), Vec::with_capacity(BLOCK));
     let is_small = arrays.iter().map(|array| array.data.len()).sum::<usize>() < SERIAL;
     let streams = if is_small { Threads::one().map(&pieces, scratch, work) } else { threads.map(&pieces, scratch, work) };
     let mut streams = streams.into_iter();
@@ -325,12 +327,6 @@ fn zlib_blocks(arrays: Vec<Plain<'_>>, threads: &Threads) -> Vec<Array> {
         Array { attributes, bytes }
     };
     arrays.into_iter().map(array).collect()
-}
-
-/// A stream of bytes that are no numbers with 64 binary digits: those are packed by [`Packer`].
-fn zlib(bytes: &[u8]) -> Vec<u8> {
-    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::fast());
-    encoder.write_all(bytes).and_then(|()| encoder.finish()).expect("a vector takes every byte")
 }
 
 #[cfg(test)]

@@ -65,8 +65,9 @@ impl ElementGroup {
             let first = |element: u32| &self.connectivity[element as usize * n..][..2];
             first(a).cmp(first(b))
         });
-        self.connectivity =
-            order.iter().flat_map(|&user| self.connectivity[user as usize * n..(user as usize + 1) * n].iter().copied()).collect();
+        let mut connectivity = Vec::with_capacity(self.connectivity.len());
+        order.iter().for_each(|&user| connectivity.extend_from_slice(&self.connectivity[user as usize * n..][..n]));
+        self.connectivity = connectivity;
         self.user_elements = order.iter().map(|&user| self.user_elements[user as usize]).collect();
     }
 }

@@ -51,9 +51,16 @@ pub trait Lane:
     fn load(batch: &Batch, at: usize) -> Self;
     /// Writes the values to `batch` from `at` on (a multiple of `WIDTH`, else it panics).
     fn store(self, batch: &mut Batch, at: usize);
-    /// Components of the points `points[indices[row][at..at + WIDTH]]`. Panics when `points` is shorter than
+    /// Both vectors of the points `points[indices[row][at..at + WIDTH]]`, component by component. Panics when `points` is shorter than
     /// the bound of `indices`.
-    fn gather<const D: usize>(points: &[[f64; D]], indices: &Indices, row: usize, at: usize) -> [Self; D];
+    fn gather<const D: usize>(points: &[[[f64; D]; 2]], indices: &Indices, row: usize, at: usize) -> [[Self; D]; 2];
+    /// Adds `values[a]` to `sums[indices[row + a][at..at + WIDTH]]`: lane after lane, and in each in the order of `a`, so that the sums do not depend on the
+    /// width. Panics when `sums` is shorter than the bound of `indices`.
+    fn scatter<const D: usize, const N: usize>(values: &[[Self; D]; N], sums: &mut [[f64; D]], indices: &Indices, row: usize, at: usize);
+    /// Components of `points[first..first + WIDTH]`. Panics when there are fewer.
+    fn load_points<const D: usize>(points: &[[f64; D]], first: usize) -> [Self; D];
+    /// Writes components to `points[first..first + WIDTH]`. Panics when there are fewer.
+    fn store_points<const D: usize>(values: [Self; D], points: &mut [[f64; D]], first: usize);
 
     /// Square root, correctly rounded.
     fn sqrt(self) -> Self;

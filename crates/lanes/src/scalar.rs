@@ -19,8 +19,25 @@ impl Lane for f64 {
         batch.0[at] = self;
     }
     #[inline(always)]
-    fn gather<const D: usize>(points: &[[f64; D]], indices: &Indices, row: usize, at: usize) -> [Self; D] {
-        points[indices.row(row)[at] as usize]
+    fn gather<const D: usize>(points: &[[[f64; D]; 2]], indices: &Indices, row: usize, at: usize) -> [[Self; D]; 2] {
+        points[usize::from(indices.row(row)[at])]
+    }
+    #[inline(always)]
+    fn scatter<const D: usize, const N: usize>(values: &[[Self; D]; N], sums: &mut [[f64; D]], indices: &Indices, row: usize, at: usize) {
+        for (a, value) in values.iter().enumerate() {
+            let sum = &mut sums[usize::from(indices.row(row + a)[at])];
+            for d in 0..D {
+                sum[d] += value[d];
+            }
+        }
+    }
+    #[inline(always)]
+    fn load_points<const D: usize>(points: &[[f64; D]], first: usize) -> [Self; D] {
+        points[first]
+    }
+    #[inline(always)]
+    fn store_points<const D: usize>(values: [Self; D], points: &mut [[f64; D]], first: usize) {
+        points[first] = values;
     }
     #[inline(always)]
     fn sqrt(self) -> Self {

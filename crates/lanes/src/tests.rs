@@ -75,47 +75,78 @@ fn every_operation_gives_the_same_bits_on_every_level() {
     }
 }
 
-struct Gather<'a, const D: usize>(&'a [[f64; D]], &'a Indices, usize);
+/// Gathers rows of points, adds them in a scatter of `N` rows at a time, and moves points without indices.
+struct Walk<'a, const D: usize, const N: usize> {
+    points: &'a [[[f64; D]; 2]],
+    indices: &'a Indices,
+    rows: usize,
+}
 
-impl<const D: usize> Kernel for Gather<'_, D> {
-    type Output = Vec<f64>;
+impl<const D: usize, const N: usize> Kernel for Walk<'_, D, N> {
+    type Output = [Vec<f64>; 3];
     #[inline(always)]
-    fn run<L: Lane>(self) -> Vec<f64> {
-        let mut results = Vec::new();
-        for row in 0..self.2 {
-            let mut out = [Batch::default(); D];
+    fn run<L: Lane>(self) -> [Vec<f64>; 3] {
+        let (mut gathered, mut sums) = (Vec::new(), vec![[0.0; D]; self.points.len()]);
+        for row in (0..self.rows).step_by(N) {
+            let mut out = [[[Batch::default(); D]; 2]; N];
             for at in (0..BATCH).step_by(L::WIDTH) {
-                for (component, slot) in L::gather(self.0, self.1, row, at).into_iter().zip(&mut out) {
-                    component.store(slot, at);
+                let mut values = [[L::splat(0.0); D]; N];
+                for a in 0..N {
+                    let both = L::gather(self.points, self.indices, row + a, at);
+                    values[a] = both[1];
+                    for (component, slot) in both.as_flattened().iter().zip(out[a].as_flattened_mut()) {
+                        component.store(slot, at);
+                    }
                 }
+                L::scatter(&values, &mut sums, self.indices, row, at);
             }
-            results.extend(out.iter().flat_map(|batch| batch.0));
+            gathered.extend(out.as_flattened().as_flattened().iter().flat_map(|batch| batch.0));
         }
-        results
+        let firsts: Vec<[f64; D]> = self.points.iter().map(|point| point[0]).collect();
+        let mut moved = vec![[0.0; D]; firsts.len()];
+        for first in (0..firsts.len() / BATCH * BATCH).step_by(L::WIDTH) {
+            L::store_points(L::load_points(&firsts, first).map(|value| value + value), &mut moved, first);
+        }
+        [gathered, sums.as_flattened().to_vec(), moved.as_flattened().to_vec()]
     }
 }
 
-fn gathers<const D: usize>() {
-    let points: Vec<[f64; D]> = (0..100).map(|i| std::array::from_fn(|d| (i * 10 + d) as f64)).collect();
-    let rows: Vec<[u32; BATCH]> = (0..20).map(|r| std::array::from_fn(|k| ((r * 37 + k * 11) % 100) as u32)).collect();
-    let expected: Vec<f64> = rows.iter().flat_map(|row| (0..D).flat_map(|d| row.map(|i| points[i as usize][d]))).collect();
+fn walks<const D: usize, const N: usize>() {
+    let points: Vec<[[f64; D]; 2]> =
+        (0..100).map(|i| std::array::from_fn(|k| std::array::from_fn(|d| 0.1 + (i * 10 + k * 3 + d) as f64))).collect();
+    let rows: Vec<[u16; BATCH]> = (0..5 * N).map(|r| std::array::from_fn(|k| ((r * 37 + k * 11) % 23) as u16)).collect();
+    let of = |row: &[u16; BATCH], k: usize, d: usize| row.map(|i| points[usize::from(i)][k][d]);
+    let gathered: Vec<f64> = rows.iter().flat_map(|row| (0..2 * D).flat_map(move |c| of(row, c / D, c % D))).collect();
+    let mut sums = vec![[0.0; D]; points.len()];
+    for rows in rows.chunks(N) {
+        for lane in 0..BATCH {
+            for row in rows {
+                let index = usize::from(row[lane]);
+                (0..D).for_each(|d| sums[index][d] += points[index][1][d]);
+            }
+        }
+    }
+    let moved: Vec<f64> = points.iter().enumerate().flat_map(|(i, point)| point[0].map(|x| if i < 96 { x + x } else { 0.0 })).collect();
     let indices = Indices::new(rows);
     for level in Level::available() {
-        assert_eq!(expected, level.run(Gather(&points, &indices, 20)), "{}", level.name());
+        let walk = Walk::<D, N> { points: &points, indices: &indices, rows: 5 * N };
+        assert_eq!([gathered.clone(), sums.as_flattened().to_vec(), moved.clone()], level.run(walk), "{}", level.name());
     }
 }
 
 #[test]
-fn gathers_find_the_right_points_in_the_plane_and_in_space() {
-    gathers::<2>();
-    gathers::<3>();
+fn gathers_and_scatters_find_the_right_points_in_the_plane_and_in_space() {
+    walks::<2, 4>();
+    walks::<2, 3>();
+    walks::<3, 4>();
+    walks::<3, 8>();
 }
 
 #[test]
 fn a_gather_from_too_few_points_is_refused_on_every_level() {
-    let indices = Indices::new(vec![[9; BATCH]]);
+    let indices = Indices::new(vec![[9; BATCH]; 2]);
     for level in Level::available() {
-        let refused = std::panic::catch_unwind(|| level.run(Gather(&[[0.0; 2]; 9], &indices, 1)));
+        let refused = std::panic::catch_unwind(|| level.run(Walk::<2, 1> { points: &[[[0.0; 2]; 2]; 9], indices: &indices, rows: 1 }));
         assert!(refused.is_err(), "{}", level.name());
     }
 }

@@ -1,7 +1,7 @@
 //! Lanes of four (AVX2) and eight (AVX-512) values as newtypes over the vector registers.
 //!
 //! The types are private to the crate and only reach kernels through [`crate::Level::run`], which proves that the machine has
-//! the instructions; that is what makes every intrinsic call below sound.
+//! the instructions; that is what makes every intrinsic call below sound. No closures: they are compiled for the machine's baseline.
 
 use crate::{Batch, Indices, Lane};
 use std::arch::x86_64::*;
@@ -17,28 +17,112 @@ pub struct F64x4(__m256d);
 #[repr(transparent)]
 pub struct F64x8(__m512d);
 
-/// The first two components of a point in one register.
+/// Both vectors of a point of the plane in one register.
 ///
 /// # Safety
-/// `index` must be less than `points.len()`, and `D` at least 2.
+/// `index` must be less than `points.len()`, `D` must be 2, and the machine must have AVX.
 #[inline(always)]
-unsafe fn pair<const D: usize>(points: &[[f64; D]], index: u32) -> __m128d {
-    // SAFETY: by the contract above both components lie inside the slice; unaligned loads need no alignment.
-    unsafe { _mm_loadu_pd(points.as_ptr().add(index as usize).cast::<f64>()) }
+unsafe fn point<const D: usize>(points: &[[[f64; D]; 2]], index: u16) -> __m256d {
+    // SAFETY: by the contract above all four components lie inside the slice; unaligned loads need no alignment.
+    unsafe { _mm256_loadu_pd(points.as_ptr().add(usize::from(index)).cast::<f64>()) }
 }
 
-/// The first two components of four points in one register.
+/// Two points of the plane in one register.
 ///
 /// # Safety
-/// As for [`pair`], and the machine must have AVX-512.
+/// As for [`point`], and the machine must have AVX-512.
 #[inline(always)]
-unsafe fn quad<const D: usize>(points: &[[f64; D]], index: [u32; 4]) -> __m512d {
+unsafe fn two_points<const D: usize>(points: &[[[f64; D]; 2]], low: u16, high: u16) -> __m512d {
     // SAFETY: by the contract above.
+    unsafe { _mm512_insertf64x4::<1>(_mm512_castpd256_pd512(point(points, low)), point(points, high)) }
+}
+
+/// Adds a vector of the plane to one of `sums`.
+///
+/// # Safety
+/// `index` must be less than `sums.len()`, `D` must be 2, and `pair` must be aligned to 16 bytes.
+#[inline(always)]
+unsafe fn add_pair<const D: usize>(sums: &mut [[f64; D]], index: u16, pair: &[f64; 2]) {
+    // SAFETY: by the contract above both components lie inside the slice; its loads and stores need no alignment.
     unsafe {
-        let z = _mm512_castpd128_pd512(pair(points, index[0]));
-        let z = _mm512_insertf64x2::<1>(z, pair(points, index[1]));
-        let z = _mm512_insertf64x2::<2>(z, pair(points, index[2]));
-        _mm512_insertf64x2::<3>(z, pair(points, index[3]))
+        let sum = sums.as_mut_ptr().add(usize::from(index)).cast::<f64>();
+        _mm_storeu_pd(sum, _mm_add_pd(_mm_loadu_pd(sum), _mm_load_pd(pair.as_ptr())));
+    }
+}
+
+/// Pairs of components of the lanes, as they lie in a register or two.
+#[repr(C, align(64))]
+struct Pairs<const W: usize>([[f64; 2]; W]);
+
+/// Any dimension: value by value.
+mod plain {
+    use crate::{Batch, Indices, Lane};
+
+    #[inline(always)]
+    pub(super) fn gather<L: Lane, const D: usize>(points: &[[[f64; D]; 2]], indices: &Indices, row: usize, at: usize) -> [[L; D]; 2] {
+        let indices = &indices.row(row)[at..at + L::WIDTH];
+        let mut out = [[L::splat(0.0); D]; 2];
+        for (k, vector) in out.iter_mut().enumerate() {
+            for (d, component) in vector.iter_mut().enumerate() {
+                let mut batch = Batch::default();
+                for (value, &index) in batch.0.iter_mut().zip(indices) {
+                    *value = points[usize::from(index)][k][d];
+                }
+                *component = L::load(&batch, 0);
+            }
+        }
+        out
+    }
+
+    #[inline(always)]
+    pub(super) fn scatter<L: Lane, const D: usize, const N: usize>(
+        values: &[[L; D]; N],
+        sums: &mut [[f64; D]],
+        indices: &Indices,
+        row: usize,
+        at: usize,
+    ) {
+        let mut batches = [[Batch::default(); D]; N];
+        for (vector, batches) in values.iter().zip(&mut batches) {
+            for (value, batch) in vector.iter().zip(batches) {
+                value.store(batch, 0);
+            }
+        }
+        for lane in 0..L::WIDTH {
+            for (a, batches) in batches.iter().enumerate() {
+                let sum = &mut sums[usize::from(indices.row(row + a)[at + lane])];
+                for d in 0..D {
+                    sum[d] += batches[d].0[lane];
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn load_points<L: Lane, const D: usize>(points: &[[f64; D]], first: usize) -> [L; D] {
+        let points = &points[first..first + L::WIDTH];
+        let mut out = [L::splat(0.0); D];
+        for (d, component) in out.iter_mut().enumerate() {
+            let mut batch = Batch::default();
+            for (value, point) in batch.0.iter_mut().zip(points) {
+                *value = point[d];
+            }
+            *component = L::load(&batch, 0);
+        }
+        out
+    }
+
+    #[inline(always)]
+    pub(super) fn store_points<L: Lane, const D: usize>(values: [L; D], points: &mut [[f64; D]], first: usize) {
+        let mut batches = [Batch::default(); D];
+        for (value, batch) in values.iter().zip(&mut batches) {
+            value.store(batch, 0);
+        }
+        for (lane, point) in points[first..first + L::WIDTH].iter_mut().enumerate() {
+            for (value, batch) in point.iter_mut().zip(&batches) {
+                *value = batch.0[lane];
+            }
+        }
     }
 }
 
@@ -113,32 +197,80 @@ impl Lane for F64x4 {
         unsafe { _mm256_storeu_pd(values.as_mut_ptr(), self.0) }
     }
     #[inline(always)]
-    fn gather<const D: usize>(points: &[[f64; D]], indices: &Indices, row: usize, at: usize) -> [Self; D] {
-        let index = indices.checked(points, row, at, 4);
-        let mut out = [Self::splat(0.0); D];
-        if D == 2 {
-            // SAFETY: `checked` has shown that every index is below `points.len()`; the instructions are there as for the operators.
-            let (x, y) = unsafe {
-                let even = _mm256_insertf128_pd::<1>(_mm256_castpd128_pd256(pair(points, index[0])), pair(points, index[2]));
-                let odd = _mm256_insertf128_pd::<1>(_mm256_castpd128_pd256(pair(points, index[1])), pair(points, index[3]));
-                (_mm256_unpacklo_pd(even, odd), _mm256_unpackhi_pd(even, odd))
-            };
-            out[0] = Self(x);
-            out[1] = Self(y);
-        } else {
-            for (d, component) in out.iter_mut().enumerate() {
-                // SAFETY: as for the operators.
-                *component = Self(unsafe {
-                    _mm256_set_pd(
-                        points[index[3] as usize][d],
-                        points[index[2] as usize][d],
-                        points[index[1] as usize][d],
-                        points[index[0] as usize][d],
-                    )
-                });
+    fn gather<const D: usize>(points: &[[[f64; D]; 2]], indices: &Indices, row: usize, at: usize) -> [[Self; D]; 2] {
+        if D != 2 {
+            return plain::gather(points, indices, row, at);
+        }
+        let mut out = [[Self::splat(0.0); D]; 2];
+        let [index] = indices.checked::<_, 1>(points, row, at, 4);
+        // SAFETY: `checked` has shown that every index is below `points.len()`; the instructions are there as for the operators.
+        let [x, y, u, v] = unsafe {
+            let (a, b) = (point(points, index[at]), point(points, index[at + 1]));
+            let (c, d) = (point(points, index[at + 2]), point(points, index[at + 3]));
+            let [ab, cd] = [_mm256_unpacklo_pd(a, b), _mm256_unpacklo_pd(c, d)];
+            let [ab_high, cd_high] = [_mm256_unpackhi_pd(a, b), _mm256_unpackhi_pd(c, d)];
+            [
+                _mm256_permute2f128_pd::<0x20>(ab, cd),
+                _mm256_permute2f128_pd::<0x20>(ab_high, cd_high),
+                _mm256_permute2f128_pd::<0x31>(ab, cd),
+                _mm256_permute2f128_pd::<0x31>(ab_high, cd_high),
+            ]
+        };
+        (out[0][0], out[0][1], out[1][0], out[1][1]) = (Self(x), Self(y), Self(u), Self(v));
+        out
+    }
+    #[inline(always)]
+    fn scatter<const D: usize, const N: usize>(values: &[[Self; D]; N], sums: &mut [[f64; D]], indices: &Indices, row: usize, at: usize) {
+        if D != 2 {
+            return plain::scatter(values, sums, indices, row, at);
+        }
+        let rows = indices.checked::<_, N>(sums, row, at, 4);
+        let mut pairs = [const { Pairs([[0.0; 2]; 4]) }; N];
+        for (vector, pairs) in values.iter().zip(&mut pairs) {
+            let all = pairs.0.as_flattened_mut();
+            // SAFETY: there are eight values, aligned to 64 bytes; the instructions are there as for the operators.
+            unsafe {
+                _mm256_store_pd(all[..4].as_mut_ptr(), _mm256_unpacklo_pd(vector[0].0, vector[1].0));
+                _mm256_store_pd(all[4..].as_mut_ptr(), _mm256_unpackhi_pd(vector[0].0, vector[1].0));
             }
         }
+        for lane in 0..4 {
+            for (row, pairs) in rows.iter().zip(&pairs) {
+                // SAFETY: `checked` has shown that every index is below `sums.len()`; pairs lie at multiples of 16 bytes.
+                unsafe { add_pair(sums, row[at + lane], &pairs.0[lane % 2 * 2 + lane / 2]) };
+            }
+        }
+    }
+    #[inline(always)]
+    fn load_points<const D: usize>(points: &[[f64; D]], first: usize) -> [Self; D] {
+        if D != 2 {
+            return plain::load_points(points, first);
+        }
+        let all = points[first..first + 4].as_flattened();
+        // SAFETY: the slice above holds eight values; the instructions are there as for the operators.
+        let (x, y) = unsafe {
+            let (a, b) = (_mm256_loadu_pd(all[..4].as_ptr()), _mm256_loadu_pd(all[4..].as_ptr()));
+            (
+                _mm256_permute4x64_pd::<0b11_01_10_00>(_mm256_unpacklo_pd(a, b)),
+                _mm256_permute4x64_pd::<0b11_01_10_00>(_mm256_unpackhi_pd(a, b)),
+            )
+        };
+        let mut out = [Self(x); D];
+        out[1] = Self(y);
         out
+    }
+    #[inline(always)]
+    fn store_points<const D: usize>(values: [Self; D], points: &mut [[f64; D]], first: usize) {
+        if D != 2 {
+            return plain::store_points(values, points, first);
+        }
+        let all = points[first..first + 4].as_flattened_mut();
+        // SAFETY: the slice above holds eight values; the instructions are there as for the operators.
+        unsafe {
+            let (low, high) = (_mm256_unpacklo_pd(values[0].0, values[1].0), _mm256_unpackhi_pd(values[0].0, values[1].0));
+            _mm256_storeu_pd(all[..4].as_mut_ptr(), _mm256_permute2f128_pd::<0x20>(low, high));
+            _mm256_storeu_pd(all[4..].as_mut_ptr(), _mm256_permute2f128_pd::<0x31>(low, high));
+        }
     }
     #[inline(always)]
     fn sqrt(self) -> Self {
@@ -236,28 +368,82 @@ impl Lane for F64x8 {
         unsafe { _mm512_storeu_pd(values.as_mut_ptr(), self.0) }
     }
     #[inline(always)]
-    fn gather<const D: usize>(points: &[[f64; D]], indices: &Indices, row: usize, at: usize) -> [Self; D] {
-        let index = indices.checked(points, row, at, 8);
-        let mut out = [Self::splat(0.0); D];
-        if D == 2 {
-            // SAFETY: `checked` has shown that every index is below `points.len()`; the instructions are there as for the operators.
-            let (x, y) = unsafe {
-                let even = quad(points, [index[0], index[2], index[4], index[6]]);
-                let odd = quad(points, [index[1], index[3], index[5], index[7]]);
-                (_mm512_unpacklo_pd(even, odd), _mm512_unpackhi_pd(even, odd))
-            };
-            out[0] = Self(x);
-            out[1] = Self(y);
-        } else {
-            for (d, component) in out.iter_mut().enumerate() {
-                let mut batch = Batch::default();
-                for (value, &node) in batch.0.iter_mut().zip(index) {
-                    *value = points[node as usize][d];
-                }
-                *component = Self::load(&batch, 0);
+    fn gather<const D: usize>(points: &[[[f64; D]; 2]], indices: &Indices, row: usize, at: usize) -> [[Self; D]; 2] {
+        if D != 2 {
+            return plain::gather(points, indices, row, at);
+        }
+        let mut out = [[Self::splat(0.0); D]; 2];
+        let [index] = indices.checked::<_, 1>(points, row, at, 8);
+        // SAFETY: `checked` has shown that every index is below `points.len()`; the instructions are there as for the operators.
+        let [x, y, u, v] = unsafe {
+            let (a, b) = (two_points(points, index[0], index[4]), two_points(points, index[1], index[5]));
+            let (c, d) = (two_points(points, index[2], index[6]), two_points(points, index[3], index[7]));
+            let [ab, cd] = [_mm512_unpacklo_pd(a, b), _mm512_unpacklo_pd(c, d)];
+            let [ab_high, cd_high] = [_mm512_unpackhi_pd(a, b), _mm512_unpackhi_pd(c, d)];
+            let (first, second) = (_mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13), _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15));
+            [
+                _mm512_permutex2var_pd(ab, first, cd),
+                _mm512_permutex2var_pd(ab_high, first, cd_high),
+                _mm512_permutex2var_pd(ab, second, cd),
+                _mm512_permutex2var_pd(ab_high, second, cd_high),
+            ]
+        };
+        (out[0][0], out[0][1], out[1][0], out[1][1]) = (Self(x), Self(y), Self(u), Self(v));
+        out
+    }
+    #[inline(always)]
+    fn scatter<const D: usize, const N: usize>(values: &[[Self; D]; N], sums: &mut [[f64; D]], indices: &Indices, row: usize, at: usize) {
+        if D != 2 {
+            return plain::scatter(values, sums, indices, row, at);
+        }
+        let rows = indices.checked::<_, N>(sums, row, at, 8);
+        let mut pairs = [const { Pairs([[0.0; 2]; 8]) }; N];
+        for (vector, pairs) in values.iter().zip(&mut pairs) {
+            let all = pairs.0.as_flattened_mut();
+            // SAFETY: there are sixteen values, aligned to 64 bytes; the instructions are there as for the operators.
+            unsafe {
+                _mm512_store_pd(all[..8].as_mut_ptr(), _mm512_unpacklo_pd(vector[0].0, vector[1].0));
+                _mm512_store_pd(all[8..].as_mut_ptr(), _mm512_unpackhi_pd(vector[0].0, vector[1].0));
             }
         }
+        for lane in 0..8 {
+            for (row, pairs) in rows.iter().zip(&pairs) {
+                // SAFETY: `checked` has shown that every index is below `sums.len()`; pairs lie at multiples of 16 bytes.
+                unsafe { add_pair(sums, row[lane], &pairs.0[lane % 2 * 4 + lane / 2]) };
+            }
+        }
+    }
+    #[inline(always)]
+    fn load_points<const D: usize>(points: &[[f64; D]], first: usize) -> [Self; D] {
+        if D != 2 {
+            return plain::load_points(points, first);
+        }
+        let all = points[first..first + 8].as_flattened();
+        // SAFETY: the slice above holds sixteen values; the instructions are there as for the operators.
+        let (x, y) = unsafe {
+            let (a, b) = (_mm512_loadu_pd(all[..8].as_ptr()), _mm512_loadu_pd(all[8..].as_ptr()));
+            (
+                _mm512_permutex2var_pd(a, _mm512_setr_epi64(0, 2, 4, 6, 8, 10, 12, 14), b),
+                _mm512_permutex2var_pd(a, _mm512_setr_epi64(1, 3, 5, 7, 9, 11, 13, 15), b),
+            )
+        };
+        let mut out = [Self(x); D];
+        out[1] = Self(y);
         out
+    }
+    #[inline(always)]
+    fn store_points<const D: usize>(values: [Self; D], points: &mut [[f64; D]], first: usize) {
+        if D != 2 {
+            return plain::store_points(values, points, first);
+        }
+        let all = points[first..first + 8].as_flattened_mut();
+        // SAFETY: the slice above holds sixteen values; the instructions are there as for the operators.
+        unsafe {
+            let (x, y) = (values[0].0, values[1].0);
+            let (low, high) = (_mm512_setr_epi64(0, 8, 1, 9, 2, 10, 3, 11), _mm512_setr_epi64(4, 12, 5, 13, 6, 14, 7, 15));
+            _mm512_storeu_pd(all[..8].as_mut_ptr(), _mm512_permutex2var_pd(x, low, y));
+            _mm512_storeu_pd(all[8..].as_mut_ptr(), _mm512_permutex2var_pd(x, high, y));
+        }
     }
     #[inline(always)]
     fn sqrt(self) -> Self {

@@ -14,7 +14,6 @@ pub(crate) use again::{Lent, Origin};
 use fans::{Fans, Under};
 
 use crate::assembly::Assembly;
-use crate::block::spring::SpringBlock;
 use crate::block::{Block, BlockInput, Initial, Motion, Report, Wrong, make};
 use crate::contact::formulation::{self, Setup, Side};
 use crate::contact::law::{self, Law};
@@ -44,7 +43,7 @@ use crate::rigid::Bodies;
 use crate::step::erosion::Erosion;
 use crate::step::relaxation::Relaxation;
 use crate::step::{CHUNK, Governor, Limits, System};
-use embate_lanes::{Batch, Level};
+use embate_lanes::{Level, Team};
 use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
 
@@ -130,15 +129,15 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
     if !builder.faults.is_empty() {
         return Err(builder.faults);
     }
+    blocks.iter_mut().zip(&criteria).filter(|(_, criteria)| !criteria.is_empty()).for_each(|(block, _)| block.keep_forces());
     let Builder { mesh, constraints, joins, curves, positions, mass, body_parts, bodies, terms, outlines, moduli, time_step, .. } = builder;
     let origin = || Origin { model: model.clone(), fans: Fans::of(&mesh), moduli, time_step, positions: positions.clone() };
     let erosion = criteria.iter().any(|criteria| !criteria.is_empty()).then(|| Box::new(Erosion::new(criteria, origin())));
-    let mut inputs: Vec<(&dyn Block<2>, usize, &[u32])> =
-        blocks.iter().zip(&mesh.groups).map(|(block, group)| (block.as_ref(), group.nodes_per_element, &group.connectivity[..])).collect();
-    let pairs = springs.as_ref().map(SpringBlock::connectivity);
-    inputs.extend(springs.iter().zip(&pairs).map(|(springs, pairs)| (springs as &dyn Block<2>, 2, &pairs[..])));
+    let elements: usize = blocks.iter().map(|block| block.elements()).sum();
+    let has_springs = springs.is_some();
+    blocks.extend(springs.map(|springs| Box::new(springs) as Box<dyn Block<2>>));
     let nodes = positions.len();
-    let assembly = Assembly::new(nodes, &inputs);
+    let assembly = Assembly::new(nodes, &blocks.iter().map(|block| block.slots()).collect::<Vec<_>>());
     velocities.resize(nodes, [0.0; 2]);
     // A symmetry line is no surface: pressures count the length on the model's side.
     let outside =
@@ -147,11 +146,8 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
     let run = &model.run;
     let (step, largest) = (run.step_limit.unwrap_or(0.0), run.time_step.unwrap_or(f64::INFINITY));
     let limits = Limits { end: run.end, safety: run.safety, energy: run.energy_limit, step, largest };
-    let elements: usize = blocks.iter().map(|block| block.elements()).sum();
-    let has_springs = springs.is_some();
-    blocks.extend(springs.map(|springs| Box::new(springs) as Box<dyn Block<2>>));
-    Ok(System {
-        corners: vec![Batch::default(); assembly.corner_batches],
+    let mut system = System {
+        slots: vec![[0.0; 2]; assembly.count],
         rigid: mesh.groups.iter().map(|group| model.parts[group.part].rigid.is_some()).chain(has_springs.then_some(false)).collect(),
         has_springs,
         positions_old: positions.clone(),
@@ -162,9 +158,12 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         springs: Springs::new(nodes, bodies.len()),
         reports: vec![Report::NOTHING; blocks.len()],
         sums: vec![Sums::default(); nodes.div_ceil(CHUNK)],
+        free: Vec::new(),
         of_bodies: Sums::default(),
         ledger: Ledger::default(),
         penetration_max: 0.0,
+        speed: 0.0,
+        travel: 0.0,
         initial_penetrations,
         erosion,
         mass_added,
@@ -174,7 +173,7 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         time_step_old: 0.0,
         time_step: 0.0,
         governor: Governor::Schedule,
-        parallel: threads > 1 && elements >= SERIAL,
+        team: if elements >= SERIAL { Team::new(threads) } else { Team::alone() },
         mesh,
         blocks,
         assembly,
@@ -195,7 +194,9 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<System, Vec
         limits,
         level,
         of_revolution: model.is_axisymmetric(),
-    })
+    };
+    system.find_free_nodes();
+    Ok(system)
 }
 
 /// An axisymmetric model with its axis as a symmetry line, if it touches that.
@@ -326,8 +327,8 @@ impl Builder<'_> {
                 if self.model.parts[group.part].rigid.is_some() {
                     return f64::INFINITY;
                 }
-                let mut corners = vec![Batch::default(); block.corner_batches()];
-                block.advance(&motion, level, &mut corners, false).time_step_squared
+                let mut slots = vec![[0.0; 2]; block.slots().len()];
+                block.advance(&motion, level, &mut slots, &mut Team::alone()).time_step_squared
             };
             let elements =
                 self.model.run.safety * blocks.iter_mut().zip(&self.mesh.groups).map(stable).fold(f64::INFINITY, f64::min).sqrt();

@@ -72,7 +72,9 @@ impl System {
         let bad = (0..self.positions.len()).find(|&node| !self.positions[node].iter().chain(&self.velocities[node]).all(|v| v.is_finite()));
         let (what, place) = match bad {
             Some(node) => {
-                let [x, y] = self.positions_old[node];
+                // Positions of the step before are there as long as those of this one are not.
+                let is_seen = self.positions[node].iter().all(|x| x.is_finite());
+                let [x, y] = if is_seen { self.positions[node] } else { self.positions_old[node] };
                 let name = self.mesh.user_nodes.get(node).map_or("a point of an obstacle".to_string(), |user| format!("node {user}"));
                 ("the motion of a node".to_string(), format!("{name}, last seen at ({x:.6e}, {y:.6e})"))
             }

@@ -72,6 +72,8 @@ pub struct Sums {
     pub external_old: f64,
     /// Impulses of damping loads and boundaries that reflect nothing times v^{n-1/2}, J/m.
     pub damping_old: f64,
+    /// Largest |v^{n+1/2}|² of the free nodes among them, m²/s²: no sum.
+    pub speed_squared: f64,
 }
 
 impl std::ops::AddAssign<&Self> for Sums {
@@ -86,6 +88,7 @@ impl std::ops::AddAssign<&Self> for Sums {
         self.drive += other.drive;
         self.external_old += other.external_old;
         self.damping_old += other.damping_old;
+        self.speed_squared = self.speed_squared.max(other.speed_squared);
     }
 }
 

@@ -166,10 +166,9 @@ impl Simulation {
             })?,
         };
         let threads = options.thread_count();
-        let mut system = build::system(model, level, threads).map_err(Error::Model)?;
+        let system = build::system(model, level, threads).map_err(Error::Model)?;
         let recorded = Recorded::new(model, &system).map_err(Error::Model)?;
-        let pool = if system.parallel { rayon::ThreadPoolBuilder::new().num_threads(threads).build().ok() } else { None };
-        system.parallel = pool.is_some();
+        let pool = if system.team.threads() > 1 { rayon::ThreadPoolBuilder::new().num_threads(threads).build().ok() } else { None };
         let mut simulation = Self {
             momentum: None,
             recorded,

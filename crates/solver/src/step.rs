@@ -4,6 +4,7 @@
 //! is shared by threads is cut in chunks that come from the mesh, and sums are joined in chunk order: the same bits for any number of threads.
 
 pub(crate) mod erosion;
+pub(crate) mod free;
 mod nodes;
 pub(crate) mod relaxation;
 
@@ -25,10 +26,9 @@ use crate::load::join::Joins;
 use crate::load::non_reflecting::NonReflecting;
 use crate::mesh::Mesh;
 use crate::rigid::{Acting, Bodies};
-use embate_lanes::{Batch, Level};
+use embate_lanes::{BATCH, Chunks, Level, Team};
 use erosion::Erosion;
 use nodes::Nodes;
-use rayon::prelude::*;
 use relaxation::Relaxation;
 
 /// A vector of the plane.
@@ -75,7 +75,7 @@ pub enum Governor {
 pub struct System {
     pub(crate) mesh: Mesh<2>,
     pub(crate) blocks: Vec<Box<dyn Block<2>>>,
-    pub(crate) assembly: Assembly<2>,
+    pub(crate) assembly: Assembly,
     pub(crate) mass: Vec<f64>,
     /// Contacts, then obstacles.
     pub(crate) contacts: Vec<Contact>,
@@ -105,7 +105,8 @@ pub struct System {
     pub(crate) joins: Joins,
     pub(crate) limits: Limits,
     pub(crate) level: Level,
-    pub(crate) parallel: bool,
+    /// Who shares the loops over elements and nodes.
+    pub(crate) team: Team,
     /// Whether x is a radius.
     pub(crate) of_revolution: bool,
 
@@ -117,6 +118,7 @@ pub struct System {
     pub(crate) time_step: f64,
     pub(crate) governor: Governor,
     pub(crate) positions: Vec<Vector>,
+    /// x^{n-1}; from the velocity update on those x^{n+1} of free nodes that it leads to.
     pub(crate) positions_old: Vec<Vector>,
     /// v^{n+1/2}.
     pub(crate) velocities: Vec<Vector>,
@@ -124,14 +126,20 @@ pub struct System {
     pub(crate) velocities_old: Vec<Vector>,
     /// Contact and obstacle forces at x^n, N/m.
     pub(crate) contact_forces: Vec<Vector>,
-    pub(crate) corners: Vec<Batch>,
+    /// What the elements pull with, by the slots of the blocks, N/m.
+    pub(crate) slots: Vec<Vector>,
     pub(crate) springs: Springs,
     pub(crate) reports: Vec<Report>,
     pub(crate) sums: Vec<Sums>,
+    /// Whether each group of eight nodes is free.
+    pub(crate) free: Vec<bool>,
     /// Sums over the rigid bodies.
     pub(crate) of_bodies: Sums,
     pub(crate) ledger: Ledger,
     pub(crate) penetration_max: f64,
+    /// Largest speed of a node in the coming step, m/s, and the way that no node has exceeded since the start, m.
+    pub(crate) speed: f64,
+    pub(crate) travel: f64,
     /// Penetrations of contacts at the start, one line each.
     pub(crate) initial_penetrations: Vec<String>,
     /// What fails and what has failed; `None` where nothing can.
@@ -148,8 +156,8 @@ macro_rules! nodes {
         Nodes {
             dt: 0.5 * ($time_step + $system.time_step_old),
             assembly: &$system.assembly,
-            corners: &$system.corners,
-            contact_forces: &$system.contact_forces,
+            slots: &$system.slots,
+            contact_forces: if $system.contacts.is_empty() { &[] } else { &$system.contact_forces },
             loads: $system.forces.now(),
             gravity: $system.body_forces.accelerations(),
             mass: &$system.mass,
@@ -159,6 +167,10 @@ macro_rules! nodes {
             joins: &$system.joins,
             bodies: &$system.bodies,
             velocities_old: &$system.$velocities_old,
+            positions: &$system.positions,
+            time_step: $time_step,
+            free: &$system.free,
+            level: $system.level,
         }
     };
 }
@@ -221,18 +233,19 @@ impl System {
 
     /// x^{n+1} = x^n + dt^n v^{n+1/2}.
     fn move_nodes(&mut self) {
-        std::mem::swap(&mut self.positions, &mut self.positions_old);
         let dt = self.time_step;
-        let update = |((x, x_old), v): ((&mut Vector, &Vector), &Vector)| *x = [x_old[0] + dt * v[0], x_old[1] + dt * v[1]];
-        if self.parallel {
-            let chunks =
-                self.positions.par_chunks_mut(CHUNK).zip(self.positions_old.par_chunks(CHUNK)).zip(self.velocities.par_chunks(CHUNK));
-            chunks.for_each(|((x, x_old), v)| x.iter_mut().zip(x_old).zip(v).for_each(update));
-        } else {
-            self.positions.iter_mut().zip(&self.positions_old).zip(&self.velocities).for_each(update);
+        for group in self.positions.chunks(BATCH).zip(self.positions_old.chunks_mut(BATCH)).zip(self.velocities.chunks(BATCH)).enumerate() {
+            // The velocity update has moved the free ones already.
+            let (index, ((x, x_next), v)) = group;
+            if self.free.get(index) != Some(&true) {
+                let next = |((x_next, x), v): ((&mut Vector, &Vector), &Vector)| *x_next = [x[0] + dt * v[0], x[1] + dt * v[1]];
+                x_next.iter_mut().zip(x).zip(v).for_each(next);
+            }
         }
+        std::mem::swap(&mut self.positions, &mut self.positions_old);
         self.bodies.advance(dt, &mut self.positions);
         self.time_step_old = dt;
+        self.travel += dt * self.speed;
         self.time += dt;
         self.step += 1;
     }
@@ -240,13 +253,13 @@ impl System {
     /// Internal forces, energies and steps of the elements at x^n.
     fn strain_elements(&mut self) -> Report {
         let motion = Motion { positions: &self.positions, velocities: &self.velocities, time_step: self.time_step_old };
-        let mut rest = &mut self.corners[..];
+        let mut rest = &mut self.slots[..];
         for (index, ((block, report), rigid)) in self.blocks.iter_mut().zip(&mut self.reports).zip(&self.rigid).enumerate() {
-            let (corners, others) = rest.split_at_mut(block.corner_batches());
+            let (slots, others) = rest.split_at_mut(block.slots().len());
             // With all elements gone there is nothing to strain.
             let is_gone = self.erosion.as_ref().is_some_and(|erosion| erosion.is_gone(index));
             if !rigid && !is_gone {
-                *report = block.advance(&motion, self.level, corners, self.parallel);
+                *report = block.advance(&motion, self.level, slots, &mut self.team);
             }
             rest = others;
         }
@@ -309,8 +322,8 @@ impl System {
             self.bodies.weigh(&self.body_forces, &self.mass);
         }
         self.forces.prepare(&self.curves, update, &self.positions);
-        let (assembly, corners) = (&self.assembly, &self.corners);
-        let internal = |node: usize| assembly.force(node, corners);
+        let (assembly, slots) = (&self.assembly, &self.slots);
+        let internal = |node: usize| assembly.force(node, slots);
         let (curves, positions, loads) = (&self.curves, &self.positions, self.forces.now());
         self.bodies.set_free(&Acting { mean_step, from, to, curves, positions, loads, internal });
         self.curves.pass(from, to);
@@ -323,7 +336,7 @@ impl System {
         }
         self.springs.clear();
         let sweep = Sweep { old: &self.positions_old, new: &self.positions };
-        let scene = Scene { sweep, bodies: &self.bodies, time: self.time };
+        let scene = Scene { sweep, bodies: &self.bodies, time: self.time, travel: self.travel };
         for contact in &mut self.contacts {
             contact.detect(&scene, &mut self.springs);
             self.penetration_max = self.penetration_max.max(contact.penetration);
@@ -345,17 +358,14 @@ impl System {
     fn accelerate(&mut self, time_step: f64) {
         std::mem::swap(&mut self.velocities, &mut self.velocities_old);
         let nodes = nodes!(self, velocities_old, time_step);
-        let chunk = |(index, (velocities, sums)): (usize, (&mut [Vector], &mut Sums))| *sums = nodes.update(index * CHUNK, velocities);
-        if self.parallel {
-            self.velocities.par_chunks_mut(CHUNK).zip(self.sums.par_iter_mut()).enumerate().for_each(chunk);
-        } else {
-            self.velocities.chunks_mut(CHUNK).zip(self.sums.iter_mut()).enumerate().for_each(chunk);
-        }
+        let parts = (Chunks::new(&mut self.velocities, CHUNK), Chunks::new(&mut self.positions_old, CHUNK), Chunks::new(&mut self.sums, 1));
+        self.team.each(parts, |index, _, (velocities, next, sums)| sums.fill(nodes.update(index * CHUNK, velocities, next)));
         let groups = nodes.update_groups(&mut self.velocities);
         let steps = [nodes.dt, time_step];
         self.of_bodies = self.bodies.accelerate(steps, &self.contact_forces, &self.positions, &mut self.velocities);
         self.of_bodies += &groups;
         self.time_step = time_step;
+        self.speed = self.largest_speed();
     }
 
     /// Enters the step in the ledger and checks that the run is still worth going on.
@@ -414,6 +424,31 @@ impl System {
 }
 
 impl System {
+    /// Largest |v^{n+1/2}|, m/s.
+    fn largest_speed(&self) -> f64 {
+        let free = self.sums.iter().fold(0.0f64, |largest, sums| largest.max(sums.speed_squared));
+        let mut all = free;
+        for (group, velocities) in self.velocities.chunks(BATCH).enumerate() {
+            if self.free.get(group) != Some(&true) {
+                all = velocities.iter().fold(all, |largest, v| largest.max(v[0] * v[0] + v[1] * v[1]));
+            }
+        }
+        all.sqrt()
+    }
+
+    /// Finds the nodes that nothing holds.
+    pub(crate) fn find_free_nodes(&mut self) {
+        let Self { constraints, boundary, joins, bodies, .. } = self;
+        let is_free = |node: usize| {
+            let number = node as u32;
+            constraints.of(node).is_none()
+                && boundary.of(node).is_none()
+                && joins.of_node(number).is_none()
+                && bodies.of_node(number).is_none()
+        };
+        self.free = free::groups(self.mass.len(), is_free);
+    }
+
     /// Energy of the elements when every node is off by 1e-12 of the model's size, J/m: thousands of roundings.
     fn energy_of_round_off(&self) -> f64 {
         let size = self.positions.iter().flatten().fold(0.0f64, |size, x| size.max(x.abs()));
@@ -430,12 +465,12 @@ impl System {
     fn see_rigid_parts(&mut self) {
         let motion = Motion { positions: &self.positions, velocities: &self.velocities, time_step: 0.0 };
         let alone = self.rigid.iter().all(|&rigid| rigid) && self.limits.largest == f64::INFINITY;
-        let mut rest = &mut self.corners[..];
+        let mut rest = &mut self.slots[..];
         for ((block, report), rigid) in self.blocks.iter_mut().zip(&mut self.reports).zip(&self.rigid) {
-            let (corners, others) = rest.split_at_mut(block.corner_batches());
+            let (slots, others) = rest.split_at_mut(block.slots().len());
             if *rigid {
-                let seen = block.advance(&motion, self.level, corners, self.parallel);
-                corners.fill(Batch::default());
+                let seen = block.advance(&motion, self.level, slots, &mut self.team);
+                slots.fill([0.0; 2]);
                 *report = if alone { Report { stored: 0.0, dissipated: 0.0, ..seen } } else { Report::NOTHING };
             }
             rest = others;

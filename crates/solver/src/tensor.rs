@@ -380,6 +380,8 @@ pub trait Space<const D: usize> {
     /// (I − ½W)⁻¹ (I + ½W) of its skew part W, [half of it, all of it]; exact (and the strain increment zero) for a rigid rotation. Half of it turns the mid-step
     /// strain increment to the end of the step. B is given as adjugate and determinant: one division does it all. Hughes and Winget 1980.
     fn displaced<L: Lane>(natural: &Matrix<L, D>, adjugate: &Matrix<L, D>, determinant: L) -> (Matrix<L, D>, Turns<Self::Tensor<L>, L>);
+    /// A vector that goes with the rotation of [`Space::displaced`].
+    fn turned<L: Lane>(vector: [L; D], turns: &Turns<Self::Tensor<L>, L>) -> [L; D];
     /// `scale` F Fᵀ, out-of-plane component `scale` in the plane.
     fn left_cauchy_green<L: Lane>(f: &Matrix<L, D>, scale: L) -> Self::Tensor<L>;
     /// T Aᵀ with the in-space part of T: `flux[i][k] = Σ_j T_ij A_kj`.
@@ -420,6 +422,12 @@ impl Space<2> for Dim<2> {
         let (cos, sin) = ((one - square) * of_sum, (half + half) * determinant * of_sum);
         // A tensor feels twice the angle: half the rotation is θ to it.
         (scaled(g, inverse * sum), [PlaneRotation([cos, sin]), PlaneRotation::new(cos, sin)])
+    }
+    #[inline(always)]
+    fn turned<L: Lane>([x, y]: [L; 2], turns: &[PlaneRotation<L>; 2]) -> [L; 2] {
+        // A vector feels half of what a tensor feels.
+        let [cos, sin] = turns[0].0;
+        [cos * x - sin * y, sin * x + cos * y]
     }
     #[inline(always)]
     fn left_cauchy_green<L: Lane>(f: &Matrix<L, 2>, scale: L) -> Plane<L> {

@@ -10,12 +10,12 @@
 use super::damping;
 use super::initial::{self, Initial, Wrong};
 use super::make::BlockInput;
-use super::{Block, ElementState, Motion, Report, corner_slot};
+use super::{Block, ElementState, Motion, Report};
 use crate::failure::{Criterion, Seen, failing};
 use crate::material::points::{self, PointLaw, Points, RESPONSE, Room};
 use crate::material::{Family, Parameters, Variable};
 use crate::tensor::{Plane, SymmetricTensor, Turn};
-use embate_lanes::{BATCH, Batch, Level};
+use embate_lanes::{BATCH, Batch, Level, Team};
 
 /// Components of a tensor of the plane: xx is along the bar.
 const PLANE: usize = 4;
@@ -57,6 +57,8 @@ pub(super) struct Bars {
     /// Time β of the damping in proportion to the stiffness, s; 0: none.
     damping: f64,
     bars: Vec<Bar>,
+    /// Their nodes, two by two: the slots of the forces.
+    slots: Vec<u32>,
     /// Cauchy stress in the axes of the bars, Pa.
     stress: Vec<Batch>,
     history: Vec<Batch>,
@@ -101,6 +103,7 @@ impl Bars {
             area: input.area,
             damping: input.damping,
             bars,
+            slots: input.connectivity.to_vec(),
             stress,
             history,
             strain,
@@ -185,11 +188,11 @@ impl Block<2> for Bars {
         self.bars.len()
     }
 
-    fn corner_batches(&self) -> usize {
-        self.bars.len().div_ceil(BATCH) * 4
+    fn slots(&self) -> &[u32] {
+        &self.slots
     }
 
-    fn advance(&mut self, motion: &Motion<'_, 2>, level: Level, corners: &mut [Batch], _parallel: bool) -> Report {
+    fn advance(&mut self, motion: &Motion<'_, 2>, level: Level, slots: &mut [[f64; 2]], _team: &mut Team) -> Report {
         self.strain(motion.positions);
         self.law.respond(
             level,
@@ -215,11 +218,8 @@ impl Block<2> for Bars {
             let strain = bar.strain();
             let damped = if motion.time_step > 0.0 { self.damping * young * strain / motion.time_step } else { 0.0 };
             let force = if bar.is_gone { 0.0 } else { (stress + damped) * area };
-            for (corner, sign) in [(0, 1.0), (1, -1.0)] {
-                let (batch, lane) = corner_slot::<2>(2, element, corner);
-                for (d, component) in bar.direction.into_iter().enumerate() {
-                    corners[batch + d].0[lane] = sign * force * component;
-                }
+            for (slot, sign) in slots[2 * element..2 * element + 2].iter_mut().zip([1.0, -1.0]) {
+                *slot = bar.direction.map(|component| sign * force * component);
             }
             if bar.is_gone {
                 continue;
@@ -315,8 +315,15 @@ impl Block<2> for Bars {
         line(self.bars[element].nodes.map(|node| positions[node as usize])).0
     }
 
-    fn erode(&mut self, elements: &[u32]) -> Vec<f64> {
+    fn keep_forces(&mut self) {}
+
+    fn force(&self, element: usize, corner: usize, slots: &[[f64; 2]]) -> [f64; 2] {
+        slots[2 * element + corner]
+    }
+
+    fn erode(&mut self, elements: &[u32], slots: &mut [[f64; 2]]) -> Vec<f64> {
         let take = |&element: &u32| {
+            slots[2 * element as usize..2 * element as usize + 2].fill([0.0; 2]);
             let bar = &mut self.bars[element as usize];
             bar.is_gone = true;
             bar.stored

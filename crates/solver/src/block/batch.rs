@@ -2,68 +2,59 @@
 
 use embate_lanes::{BATCH, Batch};
 
-/// What belongs to a batch of eight elements and does not depend on the law's number of values.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct ElementBatch {
-    /// Smallest corner mass of each element times its corners: the mass in the stable step, which holds for any later form of the element.
-    pub(crate) mass_least: Batch,
-    /// Mass of each element without what mass scaling added, kg/m: the density of the bulk viscosity.
-    pub(crate) mass: Batch,
-    /// 1 for an element, 0 for a lane that only fills the batch up and for an eroded element: both are copies of a live one (`erosion.rs`).
-    pub(crate) live: Batch,
-    /// Stored elastic energy of each element, J/m.
-    pub(crate) stored: Batch,
-    /// Dissipated energy of each element, J/m.
-    pub(crate) dissipated: Batch,
-    /// Square of each element's stable step, s².
-    pub(crate) time_step_squared: Batch,
-    /// Energy that hourglass control has stored and taken, J/m.
-    pub(crate) hourglass: Batch,
-    /// Work that damping in proportion to the stiffness has taken, J/m.
-    pub(crate) damping: Batch,
-    /// Work that the bulk viscosity has taken, J/m.
-    pub(crate) viscous: Batch,
-    /// The part of it in the last step, J/m.
-    pub(crate) viscous_step: Batch,
-    /// Pressure of the bulk viscosity, Pa.
-    pub(crate) viscous_pressure: Batch,
-    /// Volume in the last step, m² (m³); kept only with bulk viscosity.
-    pub(crate) volume: Batch,
+/// Makes a structure of batches whose lanes can be copied; every field is named once, so that none can be forgotten.
+macro_rules! batches {
+    ($(#[$doc:meta])* $name:ident { $($(#[$field_doc:meta])* $field:ident,)* } kept { $($(#[$kept_doc:meta])* $kept:ident,)* }) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, Default)]
+        pub(crate) struct $name {
+            $($(#[$field_doc])* pub(crate) $field: Batch,)*
+            $($(#[$kept_doc])* pub(crate) $kept: Batch,)*
+        }
+
+        impl $name {
+            /// Makes a lane a copy of lane `source` of the batch `from`, but for what tells them apart.
+            pub(crate) fn copy_lane(&mut self, lane: usize, from: &Self, source: usize) {
+                $(self.$field.0[lane] = from.$field.0[source];)*
+            }
+        }
+    };
 }
 
-impl ElementBatch {
-    /// Makes a lane a copy of lane `source` of the batch `from`, but for whether it is live. Every field is named, so that none can be forgotten.
-    pub(crate) fn copy_lane(&mut self, lane: usize, from: &Self, source: usize) {
-        let Self {
-            mass_least,
-            mass,
-            live: _,
-            stored,
-            dissipated,
-            time_step_squared,
-            hourglass,
-            damping,
-            viscous,
-            viscous_step,
-            viscous_pressure,
-            volume,
-        } = self;
-        for (to, from) in [
-            (mass_least, &from.mass_least),
-            (mass, &from.mass),
-            (stored, &from.stored),
-            (dissipated, &from.dissipated),
-            (time_step_squared, &from.time_step_squared),
-            (hourglass, &from.hourglass),
-            (damping, &from.damping),
-            (viscous, &from.viscous),
-            (viscous_step, &from.viscous_step),
-            (viscous_pressure, &from.viscous_pressure),
-            (volume, &from.volume),
-        ] {
-            to.0[lane] = from.0[source];
-        }
+batches! {
+    /// What belongs to a batch of eight elements and does not depend on the law's number of values.
+    ElementBatch {
+        /// Smallest corner mass of each element times its corners: the mass in the stable step, which holds for any later form of the element.
+        mass_least,
+        /// Stored elastic energy of each element, J/m.
+        stored,
+        /// Dissipated energy of each element, J/m.
+        dissipated,
+        /// Square of each element's stable step, s².
+        time_step_squared,
+        /// Energy that hourglass control has stored and taken, J/m.
+        hourglass,
+    } kept {
+        /// 1 for an element, 0 for a lane that only fills the batch up and for an eroded element: both are copies of a live one (`erosion.rs`).
+        live,
     }
+}
+
+batches! {
+    /// What bulk viscosity and damping in proportion to the stiffness remember of a batch; there only with one of them.
+    Resistance {
+        /// Mass of each element without what mass scaling added, kg/m: the density of the bulk viscosity.
+        mass,
+        /// Volume in the last step, m² (m³).
+        volume,
+        /// Pressure of the bulk viscosity, Pa.
+        viscous_pressure,
+        /// Work that the bulk viscosity has taken, J/m, and the part of it in the last step.
+        viscous,
+        viscous_step,
+        /// Work that damping in proportion to the stiffness has taken, J/m.
+        damping,
+    } kept {}
 }
 
 /// Splits `items` elements into batches, the last filled up with copies of the last element.

@@ -10,7 +10,7 @@
 //! A mode of frequency ω is damped by the part ξ = βω/2 of the critical. The step is that of the lagging force: z² − (2 − dt²ω² − dt β ω²) z + 1 − dt β ω² = 0 reaches
 //! z = −1 at dt²ω² + 2 dt β ω² = 4. The sum of the works is never negative but for the first and last half step, which the trapezoidal rule of the ledger asks for.
 
-use super::batch::ElementBatch;
+use super::batch::{ElementBatch, Resistance};
 use super::strain::Tensor;
 use super::stress_state::StressState;
 use super::strip::{Parts, Strip};
@@ -37,14 +37,15 @@ pub(super) struct Damp<'a, E, S, const D: usize, const N: usize, const P: usize>
     /// β, s.
     pub(super) damping: f64,
     pub(super) time_step: f64,
-    pub(super) strip: &'a Strip,
+    pub(super) strip: &'a Strip<D>,
     /// History of the points, batches per point in it, and the place of the thickness ratio.
     pub(super) history: &'a [Batch],
     pub(super) history_width: usize,
     pub(super) thickness: usize,
     /// σ_d of the points, Pa: of the last step, then of this one.
     pub(super) stress: &'a mut [Batch],
-    pub(super) elements: &'a mut [ElementBatch],
+    pub(super) elements: &'a [ElementBatch],
+    pub(super) resistance: &'a mut [Resistance],
     pub(super) kind: PhantomData<(E, S)>,
 }
 
@@ -89,7 +90,7 @@ where
             }
             work += old.plus(new).contract(strain) * half * volume;
         }
-        let element = &mut self.elements[batch];
-        (L::load(&element.damping, at) + work * L::load(&element.live, at)).store(&mut element.damping, at);
+        let damping = &mut self.resistance[batch].damping;
+        (L::load(damping, at) + work * L::load(&self.elements[batch].live, at)).store(damping, at);
     }
 }

@@ -3,10 +3,11 @@
 //! A step goes strip by strip: strain, law, forces, so that what passes from one to the next stays in the first-level cache. Strips belong to chunks, which
 //! are shared by threads and do not depend on their number.
 
-use super::batch::{ElementBatch, element_of};
+use super::batch::{ElementBatch, Resistance, element_of};
 use super::damping::Damp;
 use super::erosion::Eroded;
 use super::forces::{Forces, Sums};
+use super::local::LocalNodes;
 use super::make::BlockInput;
 use super::nodal::Nodal;
 use super::strain::{Measures, Strain, Tensor, circumference, initial_width, radius};
@@ -18,8 +19,7 @@ use crate::failure::Criterion;
 use crate::material::Family;
 use crate::material::points::{PointLaw, Points, RESPONSE};
 use crate::tensor::{Dim, Space, SymmetricTensor, Turn};
-use embate_lanes::{BATCH, Batch, Indices, Level};
-use rayon::prelude::*;
+use embate_lanes::{BATCH, Batch, Chunks, Level, Team};
 use std::marker::PhantomData;
 use std::sync::{Mutex, PoisonError};
 
@@ -32,7 +32,7 @@ pub(super) struct Elements<E, S, const D: usize, const N: usize, const P: usize>
     pub(super) law: Box<dyn PointLaw>,
     pub(super) viscosity: Option<[f64; 2]>,
     pub(super) count: usize,
-    pub(super) nodes: Indices,
+    pub(super) nodes: LocalNodes,
     /// Cauchy stress of the points, Pa.
     pub(super) stress: Vec<Batch>,
     /// Time β of the damping in proportion to the stiffness, s, and its stresses at the points; none: 0, and no stresses.
@@ -43,32 +43,39 @@ pub(super) struct Elements<E, S, const D: usize, const N: usize, const P: usize>
     /// Hyperelastic laws: initial geometry of the points.
     pub(super) initial: Vec<Batch>,
     pub(super) elements: Vec<ElementBatch>,
+    /// With bulk viscosity or damping in proportion to the stiffness.
+    pub(super) resistance: Vec<Resistance>,
     /// What hourglass control remembers.
     pub(super) hourglass: Vec<Batch>,
+    /// Forces of the elements in the last step, where they are kept.
+    pub(super) kept: Vec<Batch>,
+    pub(super) keeps_forces: bool,
     /// Share of each corner in the element's mass: `N` batches per batch of elements.
     pub(super) corner_mass: Vec<Batch>,
     /// Initial volume of each element, one batch per batch of elements.
     pub(super) volume_initial: Vec<Batch>,
     pub(super) reports: Vec<Report>,
     /// Room for each thread.
-    strips: Vec<Mutex<Strip>>,
+    strips: Vec<Mutex<Strip<D>>>,
     /// Averages over the nodes, for elements that want them.
-    nodal: Option<Box<Nodal>>,
+    nodal: Option<Box<Nodal<D>>>,
     pub(super) eroded: Eroded,
     state: PhantomData<S>,
 }
 
 /// What one task advances.
-struct Chunk<'a> {
-    first: usize,
+struct Chunk<'a, const D: usize> {
+    index: usize,
     stress: &'a mut [Batch],
     damped: &'a mut [Batch],
     history: &'a mut [Batch],
     initial: &'a [Batch],
     volume_initial: &'a [Batch],
     elements: &'a mut [ElementBatch],
+    resistance: &'a mut [Resistance],
     hourglass: &'a mut [Batch],
-    corners: &'a mut [Batch],
+    pulls: &'a mut [[f64; D]],
+    kept: &'a mut [Batch],
 }
 
 /// What is the same for all tasks.
@@ -80,7 +87,9 @@ struct Common<'a, E, const D: usize> {
     thickness: usize,
     viscosity: Option<[f64; 2]>,
     damping: f64,
-    nodes: &'a Indices,
+    keeps_forces: bool,
+    resists: bool,
+    nodes: &'a LocalNodes,
     motion: &'a Motion<'a, D>,
     level: Level,
 }
@@ -91,9 +100,9 @@ where
 {
     pub(super) const COMPONENTS: usize = <Tensor<D, f64> as SymmetricTensor<f64>>::COMPONENTS;
 
-    fn strip(law: &dyn PointLaw, damping: f64, batches: usize) -> Strip {
+    fn strip(law: &dyn PointLaw, damping: f64, batches: usize) -> Strip<D> {
         let turn = <<Tensor<D, f64> as SymmetricTensor<f64>>::Rotation as Turn<f64>>::COMPONENTS;
-        let shape = Shape { nodes: N, dimensions: D, points: P, components: Self::COMPONENTS, turn, velocities: E::HOURGLASS > 0 };
+        let shape = Shape { nodes: N, points: P, components: Self::COMPONENTS, turn, hourglass: E::HOURGLASS };
         Strip::new(&shape, law, damping > 0.0, batches)
     }
 
@@ -101,6 +110,21 @@ where
     pub(super) fn widths(&self) -> [usize; 4] {
         let initial = if self.law.family() == Family::Hyperelastic { P * initial_width::<S, D>() } else { 0 };
         [P * Self::COMPONENTS, P * self.law.state_width(), initial, E::HOURGLASS]
+    }
+
+    /// Whether there is bulk viscosity or damping in proportion to the stiffness.
+    pub(super) fn resists(&self) -> bool {
+        self.viscosity.is_some() || self.damping > 0.0
+    }
+
+    /// Width of a batch in what these remember.
+    pub(super) fn resistance_width(&self) -> usize {
+        usize::from(self.resists())
+    }
+
+    /// Width of a batch in the forces that are kept.
+    pub(super) fn kept_width(&self) -> usize {
+        if self.keeps_forces { N * D } else { 0 }
     }
 
     /// Width of a batch in the stresses of the damping.
@@ -145,34 +169,41 @@ where
         let values = &mut self.elements[batch];
         values.mass_least.0[lane] = N as f64 * least;
         values.live.0[lane] = if batch * BATCH + lane < self.count { 1.0 } else { 0.0 };
-        values.volume.0[lane] = volume;
         values.stored.0[lane] = self.law.stored() * volume;
-        values.mass.0[lane] = density * volume;
+        if self.resists() {
+            self.resistance[batch].volume.0[lane] = volume;
+            self.resistance[batch].mass.0[lane] = density * volume;
+        }
         self.volume_initial[batch].0[lane] = volume;
     }
 
     /// Advances a chunk, strip by strip.
-    fn advance_chunk(common: &Common<'_, E, D>, chunk: Chunk<'_>, strip: &mut Strip) -> Report {
+    fn advance_chunk(common: &Common<'_, E, D>, chunk: Chunk<'_, D>, strip: &mut Strip<D>) -> Report {
         let Common { measures, history_width, level, .. } = *common;
         let (stress_width, history_of_batch) = (P * Self::COMPONENTS, P * history_width);
         let initial_of_batch = if measures.family == Family::Hyperelastic { P * initial_width::<S, D>() } else { 0 };
         let mut sums = Sums::new();
         let count = chunk.elements.len();
+        common.nodes.copy(chunk.index, common.motion, &mut strip.moving);
+        chunk.pulls.fill([0.0; D]);
         for from in (0..count).step_by(STRIP) {
             let to = (from + STRIP).min(count);
             let points = (to - from) * P;
             let stress = &mut chunk.stress[from * stress_width..to * stress_width];
             let history = &mut chunk.history[from * history_of_batch..to * history_of_batch];
             let elements = &mut chunk.elements[from..to];
+            let resistance = if common.resists { &mut chunk.resistance[from..to] } else { &mut [][..] };
             level.run(Every(Strain::<E, S, D, N, P> {
-                motion: *common.motion,
+                time_step: common.motion.time_step,
                 measures,
-                first: chunk.first + from,
-                nodes: common.nodes,
-                elements,
+                first: chunk.index * CHUNK + from,
+                places: &common.nodes.places,
+                batches: to - from,
+                resistance,
                 volume_initial: &chunk.volume_initial[from..to],
                 initial: &chunk.initial[from * initial_of_batch..to * initial_of_batch],
                 stress,
+                hourglass: &mut chunk.hourglass[from * E::HOURGLASS..to * E::HOURGLASS],
                 strip,
                 kind: PhantomData,
             }));
@@ -202,6 +233,7 @@ where
                     thickness: common.thickness,
                     stress: damped,
                     elements,
+                    resistance,
                     kind: PhantomData,
                 }));
             }
@@ -220,7 +252,11 @@ where
                 hourglass: &mut chunk.hourglass[from * E::HOURGLASS..to * E::HOURGLASS],
                 strip,
                 elements,
-                corners: &mut chunk.corners[from * N * D..to * N * D],
+                resistance,
+                places: &common.nodes.places,
+                first: chunk.index * CHUNK + from,
+                pulls: chunk.pulls,
+                kept: if common.keeps_forces { &mut chunk.kept[from * N * D..to * N * D] } else { &mut [] },
                 sums: &mut sums,
                 kind: PhantomData,
             }));
@@ -235,7 +271,7 @@ fn length(batches: usize, width: usize) -> usize {
 }
 
 /// Length of a chunk of such a list.
-fn chunk(width: usize) -> usize {
+pub(super) fn chunk(width: usize) -> usize {
     if width == 0 { 1 } else { CHUNK * width }
 }
 
@@ -247,7 +283,6 @@ where
         let (connectivity, damping) = (input.connectivity, input.damping);
         let count = connectivity.len() / N;
         let batches = count.div_ceil(BATCH);
-        let rows = (0..batches * N).map(|row| std::array::from_fn(|lane| connectivity[element_of(row / N, lane, count) * N + row % N]));
         let room = |width: usize| vec![Batch::default(); length(batches, width)];
         let strips = vec![Mutex::new(Self::strip(law.as_ref(), damping, STRIP))];
         let averages = E::NODAL_DILATATION && !S::PLANE_STRESS;
@@ -258,12 +293,15 @@ where
             damping,
             damped: room(if damping > 0.0 { P * Self::COMPONENTS } else { 0 }),
             count,
-            nodes: Indices::new(rows.collect()),
+            nodes: LocalNodes::new(connectivity, N),
             stress: room(P * Self::COMPONENTS),
             history: room(P * law.state_width()),
             initial: Vec::new(),
             elements: vec![ElementBatch::default(); batches],
+            resistance: Vec::new(),
             hourglass: room(E::HOURGLASS),
+            kept: room(0),
+            keeps_forces: false,
             corner_mass: vec![Batch::default(); batches * N],
             volume_initial: vec![Batch::default(); batches],
             reports: vec![Report::NOTHING; batches.div_ceil(CHUNK)],
@@ -273,6 +311,7 @@ where
             eroded: Eroded::default(),
             state: PhantomData,
         };
+        block.resistance = vec![Resistance::default(); length(batches, block.resistance_width())];
         block.initial = vec![Batch::default(); batches * block.widths()[2]];
         for point in block.history.chunks_exact_mut(block.law.state_width().max(1)).take(batches * P) {
             if block.law.state_width() > 0 {
@@ -296,10 +335,6 @@ impl<E: Element<2, N, P>, S: StressState, const N: usize, const P: usize> Elemen
     }
 }
 
-/// What a task is handed by the iterators: stress, history, elements, hourglass memory, corners, and the report with the damping stresses.
-type Parts<'a> =
-    (((((&'a mut [Batch], &'a mut [Batch]), &'a mut [ElementBatch]), &'a mut [Batch]), &'a mut [Batch]), (&'a mut Report, &'a mut [Batch]));
-
 impl<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize> Block<D> for Elements<E, S, D, N, P>
 where
     Dim<D>: Space<D>,
@@ -308,21 +343,21 @@ where
         self.count
     }
 
-    fn corner_batches(&self) -> usize {
-        self.elements.len() * N * D
+    fn slots(&self) -> &[u32] {
+        self.nodes.slots()
     }
 
-    fn advance(&mut self, motion: &Motion<'_, D>, level: Level, corners: &mut [Batch], parallel: bool) -> Report {
+    fn advance(&mut self, motion: &Motion<'_, D>, level: Level, slots: &mut [[f64; D]], team: &mut Team) -> Report {
         if let Some(mut nodal) = self.nodal.take() {
-            let report = self.advance_averaged(&mut nodal, motion, level, corners, parallel);
+            let report = self.advance_averaged(&mut nodal, motion, level, slots, team);
             self.nodal = Some(nodal);
             return report;
         }
-        let threads = if parallel { rayon::current_num_threads() } else { 1 };
-        while self.strips.len() < threads {
+        while self.strips.len() < team.threads() {
             self.strips.push(Mutex::new(Self::strip(self.law.as_ref(), self.damping, STRIP)));
         }
-        let widths = self.widths();
+        let (widths, damped_width) = (self.widths(), self.damped_width());
+        let (kept_width, resistance_width) = (self.kept_width(), self.resistance_width());
         let law = self.law.as_ref();
         let common = Common {
             element: &self.element,
@@ -332,43 +367,39 @@ where
             thickness: law.thickness().unwrap_or(0),
             viscosity: self.viscosity,
             damping: self.damping,
+            keeps_forces: self.keeps_forces,
+            resists: self.resists(),
             nodes: &self.nodes,
             motion,
             level,
         };
         let (initial, volume_initial, strips) = (&self.initial[..], &self.volume_initial[..], &self.strips[..]);
-        let advance = |(index, (((((stress, history), elements), hourglass), corners), (report, damped))): (usize, Parts<'_>)| {
+        let (eroded, width) = (&self.eroded, self.nodes.width());
+        let [stress, history, _, hourglass] = widths.map(chunk);
+        let parts = (
+            Chunks::new(&mut self.stress, stress),
+            Chunks::new(&mut self.history, history),
+            Chunks::new(&mut self.elements, CHUNK),
+            Chunks::new(&mut self.hourglass, hourglass),
+            Chunks::new(slots, width),
+            Chunks::new(&mut self.kept, chunk(kept_width)),
+            Chunks::new(&mut self.damped, chunk(damped_width)),
+            Chunks::new(&mut self.resistance, chunk(resistance_width)),
+            Chunks::new(&mut self.reports, 1),
+        );
+        team.each(parts, |index, member, (stress, history, elements, hourglass, pulls, kept, damped, resistance, report)| {
+            if eroded.is_gone(index) {
+                pulls.fill([0.0; D]);
+                report.fill(Report::NOTHING);
+                return;
+            }
             let first = index * CHUNK;
             let last = first + elements.len();
-            let thread = if parallel { rayon::current_thread_index().unwrap_or(0) } else { 0 };
-            let mut strip = strips[thread].lock().unwrap_or_else(PoisonError::into_inner);
+            let mut strip = strips[member].lock().unwrap_or_else(PoisonError::into_inner);
             let (initial, volume_initial) = (&initial[first * widths[2]..last * widths[2]], &volume_initial[first..last]);
-            let chunk = Chunk { first, stress, damped, history, initial, volume_initial, elements, hourglass, corners };
-            *report = Self::advance_chunk(&common, chunk, &mut strip);
-        };
-        let [stress, history, _, hourglass] = widths.map(chunk);
-        let damped = chunk(self.damped_width());
-        if parallel {
-            self.stress
-                .par_chunks_mut(stress)
-                .zip(self.history.par_chunks_mut(history))
-                .zip(self.elements.par_chunks_mut(CHUNK))
-                .zip(self.hourglass.par_chunks_mut(hourglass))
-                .zip(corners.par_chunks_mut(CHUNK * N * D))
-                .zip(self.reports.par_iter_mut().zip(self.damped.par_chunks_mut(damped)))
-                .enumerate()
-                .for_each(advance);
-        } else {
-            self.stress
-                .chunks_mut(stress)
-                .zip(self.history.chunks_mut(history))
-                .zip(self.elements.chunks_mut(CHUNK))
-                .zip(self.hourglass.chunks_mut(hourglass))
-                .zip(corners.chunks_mut(CHUNK * N * D))
-                .zip(self.reports.iter_mut().zip(self.damped.chunks_mut(damped)))
-                .enumerate()
-                .for_each(advance);
-        }
+            let chunk = Chunk { index, stress, damped, history, initial, volume_initial, elements, resistance, hourglass, pulls, kept };
+            report.fill(Self::advance_chunk(&common, chunk, &mut strip));
+        });
         self.reports.iter().fold(self.eroded.left, |sum, &report| sum.join(report))
     }
 
@@ -428,8 +459,18 @@ where
         self.least_determinant(element, positions)
     }
 
-    fn erode(&mut self, elements: &[u32]) -> Vec<f64> {
-        self.take_out(elements)
+    fn keep_forces(&mut self) {
+        self.keeps_forces = true;
+        self.kept = vec![Batch::default(); self.elements.len() * N * D];
+    }
+
+    fn force(&self, element: usize, corner: usize, _slots: &[[f64; D]]) -> [f64; D] {
+        let at = (element / BATCH * N + corner) * D;
+        std::array::from_fn(|d| self.kept.get(at + d).map_or(0.0, |batch| batch.0[element % BATCH]))
+    }
+
+    fn erode(&mut self, elements: &[u32], slots: &mut [[f64; D]]) -> Vec<f64> {
+        self.take_out(elements, slots)
     }
 
     fn report(&self, positions: &[[f64; D]]) -> Report {

@@ -21,13 +21,21 @@ pub(super) struct Eroded {
     pub(super) left: Report,
     /// State of each at the end.
     pub(super) last: BTreeMap<usize, ElementState>,
-    /// The live element that lanes without one are copies of; `None`: the last one, as at the start.
-    source: Option<usize>,
+    /// The live element that the lanes of a chunk without one are copies of; `None`: there is none, and the chunk rests. Of other chunks it is the last element,
+    /// as at the start.
+    sources: BTreeMap<usize, Option<usize>>,
 }
 
 impl Default for Eroded {
     fn default() -> Self {
-        Self { left: Report::NOTHING, last: BTreeMap::new(), source: None }
+        Self { left: Report::NOTHING, last: BTreeMap::new(), sources: BTreeMap::new() }
+    }
+}
+
+impl Eroded {
+    /// Whether a chunk has no live element.
+    pub(super) fn is_gone(&self, chunk: usize) -> bool {
+        matches!(self.sources.get(&chunk), Some(None))
     }
 }
 
@@ -72,6 +80,11 @@ where
     }
 }
 
+/// The chunk that an element is in.
+fn chunk_of(element: u32) -> usize {
+    element as usize / (CHUNK * BATCH)
+}
+
 impl<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize> Elements<E, S, D, N, P>
 where
     Dim<D>: Space<D>,
@@ -108,15 +121,22 @@ where
 
     pub(super) fn least_determinant(&self, element: usize, positions: &[[f64; D]]) -> f64 {
         let (batch, lane) = (element / BATCH, element % BATCH);
-        let x: [[f64; D]; N] = std::array::from_fn(|a| positions[self.nodes.row(batch * N + a)[lane] as usize]);
+        let x: [[f64; D]; N] = std::array::from_fn(|a| positions[self.nodes.node(batch * N + a, lane, N)]);
         E::gradients(&x).iter().map(Dim::<D>::determinant).fold(f64::INFINITY, |least, own| if own < least { own } else { least })
     }
 
-    pub(super) fn take_out(&mut self, elements: &[u32]) -> Vec<f64> {
+    /// Work that bulk viscosity and damping have taken of an element, J/m.
+    fn resisted(&self, element: usize) -> [f64; 2] {
+        let resistance = self.resistance.get(element / BATCH).filter(|_| self.resists());
+        resistance.map_or([0.0; 2], |own| [own.viscous.0[element % BATCH], own.damping.0[element % BATCH]])
+    }
+
+    pub(super) fn take_out(&mut self, elements: &[u32], slots: &mut [[f64; D]]) -> Vec<f64> {
         let mut stored = Vec::with_capacity(elements.len());
         for &element in elements {
             let state = self.state(element as usize);
             self.eroded.last.insert(element as usize, state);
+            let resisted = self.resisted(element as usize);
             let (values, lane) = (&mut self.elements[element as usize / BATCH], element as usize % BATCH);
             values.live.0[lane] = 0.0;
             // What an inverted element thinks it has is no energy.
@@ -125,27 +145,61 @@ where
             let left = Report {
                 dissipated: sound(values.dissipated.0[lane]),
                 hourglass: sound(values.hourglass.0[lane]),
-                viscous: sound(values.viscous.0[lane]),
-                damping: sound(values.damping.0[lane]),
+                viscous: sound(resisted[0]),
+                damping: sound(resisted[1]),
                 ..Report::NOTHING
             };
             self.eroded.left = self.eroded.left.join(left);
         }
-        let old = self.eroded.source.unwrap_or(self.count - 1);
-        let source = if self.is_alive(old) { Some(old) } else { (0..self.count).find(|&element| self.is_alive(element)) };
-        if let Some(source) = source {
-            if source == old {
-                elements.iter().for_each(|&element| self.copy(source, element as usize));
-            } else {
-                (0..self.elements.len() * BATCH)
-                    .filter(|&lane| !self.is_alive(lane))
-                    .collect::<Vec<_>>()
-                    .into_iter()
-                    .for_each(|lane| self.copy(source, lane));
-            }
-            self.eroded.source = Some(source);
+        for of_chunk in elements.chunk_by(|a, b| chunk_of(*a) == chunk_of(*b)) {
+            self.fill_up(of_chunk);
+            self.sum_again(chunk_of(of_chunk[0]), of_chunk, slots);
         }
         stored
+    }
+
+    /// Makes lanes of a chunk whose elements are gone copies of one of its live elements.
+    fn fill_up(&mut self, gone: &[u32]) {
+        let chunk = chunk_of(gone[0]);
+        let lanes = chunk * CHUNK * BATCH..((chunk + 1) * CHUNK).min(self.elements.len()) * BATCH;
+        let at_start = lanes.contains(&(self.count - 1)).then_some(self.count - 1);
+        let old = self.eroded.sources.get(&chunk).copied().unwrap_or(at_start);
+        let source = old.filter(|&old| self.is_alive(old)).or_else(|| lanes.clone().find(|&lane| self.is_alive(lane)));
+        self.eroded.sources.insert(chunk, source);
+        let Some(source) = source else { return };
+        if Some(source) == old {
+            gone.iter().for_each(|&element| self.copy(source, element as usize));
+        } else {
+            for lane in lanes {
+                if !self.is_alive(lane) {
+                    self.copy(source, lane);
+                }
+            }
+        }
+    }
+
+    /// Sums the forces of a chunk without elements that are gone, in the order of [`embate_lanes::Lane::scatter`].
+    fn sum_again(&mut self, chunk: usize, gone: &[u32], slots: &mut [[f64; D]]) {
+        if !self.keeps_forces {
+            return;
+        }
+        for &element in gone {
+            let first = element as usize / BATCH * N * D;
+            self.kept[first..first + N * D].iter_mut().for_each(|batch| batch.0[element as usize % BATCH] = 0.0);
+        }
+        let width = self.nodes.width();
+        let pulls = &mut slots[chunk * width..(chunk + 1) * width];
+        pulls.fill([0.0; D]);
+        for batch in chunk * CHUNK..((chunk + 1) * CHUNK).min(self.elements.len()) {
+            for lane in 0..BATCH {
+                for a in 0..N {
+                    let pull = &mut pulls[usize::from(self.nodes.places.row(batch * N + a)[lane])];
+                    for d in 0..D {
+                        pull[d] += self.kept[(batch * N + a) * D + d].0[lane];
+                    }
+                }
+            }
+        }
     }
 
     /// Makes a lane that counts for nothing a copy of a live element.
@@ -154,7 +208,7 @@ where
         let damped = self.damped_width();
         let (source, place) = ([from / BATCH, from % BATCH], [to / BATCH, to % BATCH]);
         for a in 0..N {
-            self.nodes.copy_lane([source[0] * N + a, source[1]], [place[0] * N + a, place[1]]);
+            self.nodes.places.copy_lane([source[0] * N + a, source[1]], [place[0] * N + a, place[1]]);
         }
         let lists = [
             (&mut self.stress, stress),
@@ -171,11 +225,16 @@ where
         self.volume_initial[place[0]].0[place[1]] = self.volume_initial[source[0]].0[source[1]];
         let values = self.elements[source[0]];
         self.elements[place[0]].copy_lane(place[1], &values, source[1]);
+        if self.resists() {
+            let values = self.resistance[source[0]];
+            self.resistance[place[0]].copy_lane(place[1], &values, source[1]);
+        }
     }
 
     pub(super) fn of_the_living(&self, positions: &[[f64; D]]) -> Report {
         let mut sum = self.eroded.left;
         for element in (0..self.count).filter(|&element| self.is_alive(element)) {
+            let resisted = self.resisted(element);
             let (values, lane) = (&self.elements[element / BATCH], element % BATCH);
             sum = sum.join(Report {
                 time_step_squared: values.time_step_squared.0[lane],
@@ -183,8 +242,8 @@ where
                 stored: values.stored.0[lane],
                 dissipated: values.dissipated.0[lane],
                 hourglass: values.hourglass.0[lane],
-                viscous: values.viscous.0[lane],
-                damping: values.damping.0[lane],
+                viscous: resisted[0],
+                damping: resisted[1],
             });
         }
         sum

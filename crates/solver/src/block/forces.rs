@@ -9,7 +9,7 @@
 //! shrinks by √(1 + ζ²) − ζ = 1 / (√(1 + ζ²) + ζ), ζ = (L + 2 Q² l |ε̇| / c) l / h, the part of the critical damping that small motions of the fastest mode (ω = 2c/h) see: dq/dε̇ = ρ l c (L + 2 Q² l |ε̇| / c). Source: von Neumann and Richtmyer, J. Appl. Phys. 21 (1950) 232-237; Landshoff, LA-1930 (1955).
 
 use super::Report;
-use super::batch::ElementBatch;
+use super::batch::{ElementBatch, Resistance};
 use super::damping::step_squared;
 use super::strain::{Tensor, averages, circumference};
 use super::stress_state::StressState;
@@ -18,7 +18,7 @@ use crate::element::{Corners, Element};
 use crate::material::Family;
 use crate::material::points::RESPONSE;
 use crate::tensor::{Dim, Matrix, Space, SymmetricTensor};
-use embate_lanes::{Batch, Lane};
+use embate_lanes::{Batch, Indices, Lane};
 use std::f64::consts::TAU;
 use std::marker::PhantomData;
 
@@ -43,9 +43,17 @@ pub(super) struct Forces<'a, E, S, const D: usize, const N: usize, const P: usiz
     pub(super) thickness: usize,
     /// What the element keeps: [`Element::HOURGLASS`] per element.
     pub(super) hourglass: &'a mut [Batch],
-    pub(super) strip: &'a Strip,
+    pub(super) strip: &'a Strip<D>,
     pub(super) elements: &'a mut [ElementBatch],
-    pub(super) corners: &'a mut [Batch],
+    /// What bulk viscosity and damping remember; empty without them.
+    pub(super) resistance: &'a mut [Resistance],
+    /// `N` rows of places among the nodes of the chunk per batch, from `first` on.
+    pub(super) places: &'a Indices,
+    pub(super) first: usize,
+    /// Forces on the nodes of the chunk, N/m in the plane; those of these elements are added.
+    pub(super) pulls: &'a mut [[f64; D]],
+    /// Forces of the elements, where they are kept; else empty.
+    pub(super) kept: &'a mut [Batch],
     pub(super) sums: &'a mut Sums,
     pub(super) kind: PhantomData<S>,
 }
@@ -154,12 +162,16 @@ where
         // dt² = h² ρ / (K + 4µ/3) with ρ = m / V, as if all corners were as heavy as the lightest
         let time_step_squared = thickness_squared[0] * mass / (thickness_squared[1] * (geometry.volume * modulus) * stiffening);
         let time_step_squared = step_squared(time_step_squared, self.damping);
-        let corners = &mut self.corners[batch * N * D..(batch + 1) * N * D];
+        let pull = -live;
         for a in 0..N {
             for i in 0..D {
-                (-nodal[a][i] * live).store(&mut corners[a * D + i], at);
+                nodal[a][i] = nodal[a][i] * pull;
+                if !self.kept.is_empty() {
+                    nodal[a][i].store(&mut self.kept[(batch * N + a) * D + i], at);
+                }
             }
         }
+        L::scatter(&nodal, self.pulls, self.places, (self.first + batch) * N, at);
         let element = &mut self.elements[batch];
         time_step_squared.store(&mut element.time_step_squared, at);
         let stored = match self.family {
@@ -177,10 +189,10 @@ where
             (L::load(&sums.hourglass, at) + L::load(&element.hourglass, at) * live).store(&mut sums.hourglass, at);
         }
         if self.viscosity.is_some() {
-            (L::load(&sums.viscous, at) + L::load(&element.viscous, at) * live).store(&mut sums.viscous, at);
+            (L::load(&sums.viscous, at) + L::load(&self.resistance[batch].viscous, at) * live).store(&mut sums.viscous, at);
         }
         if self.damping > 0.0 {
-            (L::load(&sums.damping, at) + L::load(&element.damping, at) * live).store(&mut sums.damping, at);
+            (L::load(&sums.damping, at) + L::load(&self.resistance[batch].damping, at) * live).store(&mut sums.damping, at);
         }
         time_step_squared.min(L::load(&sums.time_step_squared, at)).store(&mut sums.time_step_squared, at);
         let mut worst = L::load(&sums.determinant, at);
@@ -292,8 +304,8 @@ where
         thickness_squared: [L; 2],
     ) -> (L, L) {
         let (zero, one) = (L::splat(0.0), L::splat(1.0));
-        let element = &mut self.elements[batch];
-        let (old, live) = (L::load(&element.volume, at), L::load(&element.live, at));
+        let element = &mut self.resistance[batch];
+        let (old, live) = (L::load(&element.volume, at), L::load(&self.elements[batch].live, at));
         let change = geometry.volume - old;
         let shrinks = change.less(zero);
         let density = L::load(&element.mass, at) / geometry.volume;
@@ -325,28 +337,31 @@ where
         [modulus, shear, mass]: [L; 3],
         nodal: &mut [[L; D]; N],
     ) -> L {
-        let mut v = [[L::splat(0.0); D]; N];
-        for a in 0..N {
-            for i in 0..D {
-                v[a][i] = L::load(&self.strip.velocities[(batch * N + a) * D + i], at);
-            }
+        let own = batch * E::HOURGLASS..(batch + 1) * E::HOURGLASS;
+        let (changes, keep) = (&self.strip.swing[own.clone()], &mut self.hourglass[own]);
+        let (mut swing, mut kept) = ([L::splat(0.0); D], [L::splat(0.0); D]);
+        for i in 0..D {
+            (swing[i], kept[i]) = (L::load(&changes[i], at), L::load(&keep[i], at));
         }
-        let kept = &mut self.hourglass[batch * E::HOURGLASS..(batch + 1) * E::HOURGLASS];
         // Nothing else holds the shape of a fluid; of a solid that can't change its volume, K would lock it.
         let shape_modulus = if self.is_solid { modulus.min(L::splat(4.0) * shear) } else { modulus };
         let corners = Corners {
             x: geometry.x,
-            v,
+            swing,
+            kept,
             area: geometry.area,
             volume: geometry.volume,
             modulus,
             shear,
             shape_modulus,
             mass,
-            time_step: L::splat(self.time_step),
+            rate: L::splat(if self.time_step > 0.0 { 1.0 / self.time_step } else { 0.0 }),
             is_plane_stress: S::PLANE_STRESS,
         };
-        let held = self.element.hold_shape(&corners, kept, at);
+        let held = self.element.hold_shape(&corners);
+        for i in 0..D {
+            held.kept[i].store(&mut keep[i], at);
+        }
         for a in 0..N {
             for i in 0..D {
                 nodal[a][i] += held.forces[a][i];

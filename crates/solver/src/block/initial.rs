@@ -118,7 +118,7 @@ where
                 let mut places = [[0.0; 2]; BATCH];
                 let own = &mut self.stress[(batch * P + p) * components..][..components];
                 for (lane, place) in places.iter_mut().enumerate() {
-                    let x: [[f64; D]; N] = std::array::from_fn(|a| positions[self.nodes.row(batch * N + a)[lane] as usize]);
+                    let x: [[f64; D]; N] = std::array::from_fn(|a| positions[self.nodes.node(batch * N + a, lane, N)]);
                     let shape = E::shape(E::POINTS[p]);
                     *place = std::array::from_fn(|d| (0..N).map(|a| shape[a] * x[a][d]).sum());
                     let [xx, yy, zz, xy] = stress.at(*place);

@@ -1,9 +1,9 @@
-//! A block is one element kind times one material: it gathers node motion, updates strain and stress, and leaves corner forces.
+//! A block is one element kind times one material: it gathers node motion, updates strain and stress, and leaves forces.
 //!
-//! A step goes strip by strip (`strip.rs`): the element and its stress state strain the points (`strain.rs`), the law answers (`crate::material::points`), and
+//! A step goes chunk by chunk (`local.rs`: nodes side by side, forces summed where they arise), and in it strip by strip (`strip.rs`): the element and its stress state strain the points (`strain.rs`), the law answers (`crate::material::points`), and
 //! the element makes forces of it (`forces.rs`). Element and stress state are compiled together, the law for itself, so kernels are as many as elements plus laws, not
 //! their product. All is erased once, as `Box<dyn Block>`: one virtual call per block and step, and one per strip of 64 elements.
-//! State lives in batches of eight (`batch.rs`). Corner forces go to the assembly, which sums them in fixed order.
+//! State lives in batches of eight (`batch.rs`). Forces go to the assembly, which sums those of all chunks in fixed order.
 
 mod bar;
 mod batch;
@@ -12,6 +12,7 @@ mod elements;
 mod erosion;
 mod forces;
 mod initial;
+mod local;
 mod make;
 mod nodal;
 pub(crate) mod spring;
@@ -25,7 +26,10 @@ pub use make::{BlockInput, make};
 use crate::failure::Criterion;
 use crate::material::Variable;
 use crate::material::points::PointLaw;
-use embate_lanes::{Batch, Level};
+use embate_lanes::{Level, Team};
+
+/// A slot of forces without a node.
+pub const NO_NODE: u32 = u32::MAX;
 
 /// Node motion that a block gathers from: end of step positions and the velocities that led there.
 #[derive(Clone, Copy, Debug)]
@@ -99,11 +103,15 @@ pub struct ElementState {
 pub trait Block<const D: usize>: Send + Sync {
     /// Number of elements.
     fn elements(&self) -> usize;
-    /// Length of the corner force buffer in batches: see [`corner_slot`].
-    fn corner_batches(&self) -> usize;
-    /// Advances all points to the end of the step and writes the corner forces (that pull on the nodes, N/m in the plane).
-    /// The result does not depend on `level` or on the number of threads that the current rayon pool has.
-    fn advance(&mut self, motion: &Motion<'_, D>, level: Level, corners: &mut [Batch], parallel: bool) -> Report;
+    /// The node of each slot in which [`Block::advance`] leaves forces, or [`NO_NODE`]. A node's slots follow each other in the order of the elements.
+    fn slots(&self) -> &[u32];
+    /// Advances all points to the end of the step and writes to the slots what pulls on their nodes, N/m in the plane.
+    /// The result does not depend on `level` or on the threads of the `team`.
+    fn advance(&mut self, motion: &Motion<'_, D>, level: Level, slots: &mut [[f64; D]], team: &mut Team) -> Report;
+    /// From now on keeps the forces of every element for [`Block::force`]: of elements that can fail.
+    fn keep_forces(&mut self);
+    /// Force of an element on the node at a corner, N/m in the plane, as of the last [`Block::advance`] with these slots; zero if it was not kept.
+    fn force(&self, element: usize, corner: usize, slots: &[[f64; D]]) -> [f64; D];
     /// Mass of an element, kg/m in the plane.
     fn mass(&self, element: usize) -> f64;
     /// Share of corner `corner` in the mass of `element` (row sum of the consistent mass), kg/m in the plane.
@@ -140,15 +148,8 @@ pub trait Block<const D: usize>: Send + Sync {
     /// Smallest Jacobian determinant of an element over its points.
     fn determinant(&self, element: usize, positions: &[[f64; D]]) -> f64;
     /// Takes elements (ascending) out: they pull no more, have no step and store nothing, but keep their mass. What they dissipated stays in the reports. Returns the
-    /// elastic energy that each had stored, J/m.
-    fn erode(&mut self, elements: &[u32]) -> Vec<f64>;
+    /// elastic energy that each had stored, J/m; their forces are gone from the slots.
+    fn erode(&mut self, elements: &[u32], slots: &mut [[f64; D]]) -> Vec<f64>;
     /// What the last [`Block::advance`] told, without the elements that were eroded since.
     fn report(&self, positions: &[[f64; D]]) -> Report;
-}
-
-/// Where a corner force lies: batch index of its first component; the components of a corner follow each other.
-#[must_use]
-pub fn corner_slot<const D: usize>(nodes_per_element: usize, element: usize, corner: usize) -> (usize, usize) {
-    let (batch, lane) = (element / embate_lanes::BATCH, element % embate_lanes::BATCH);
-    ((batch * nodes_per_element + corner) * D, lane)
 }

@@ -5,9 +5,8 @@
 //! with V (V⁰): Σ_e V_e p_e θ̄_e = Σ_e V_e p̄_e θ_e, so what the nodes spend is what the elements store. Sums run in the order of the elements.
 //! Source: Bonet and Burton, Commun. Numer. Meth. Engng 14 (1998) 437-449.
 
-use super::batch::ElementBatch;
 use super::damping::Damp;
-use super::elements::{CHUNK, Elements};
+use super::elements::{CHUNK, Elements, chunk};
 use super::forces::{Forces, Sums};
 use super::strain::{Measures, Strain, Tensor, circumference, initial_width};
 use super::stress_state::StressState;
@@ -17,12 +16,14 @@ use crate::element::Element;
 use crate::material::Family;
 use crate::material::points::{Points, RESPONSE};
 use crate::tensor::{Dim, Space, SymmetricTensor};
-use embate_lanes::{BATCH, Batch, Lane, Level, math};
-use rayon::prelude::*;
+use embate_lanes::{BATCH, Batch, Chunks, Lane, Level, Team, math};
 use std::marker::PhantomData;
 
+/// Nodes that one task averages.
+const NODES: usize = 1024;
+
 /// What the averages need beside the block.
-pub(super) struct Nodal {
+pub(super) struct Nodal<const D: usize> {
     /// Nodes of the block, counted from zero: `corners` per lane.
     cells: Vec<u32>,
     corners: usize,
@@ -30,7 +31,7 @@ pub(super) struct Nodal {
     starts: Vec<u32>,
     elements: Vec<u32>,
     /// Room for each chunk.
-    strips: Vec<Strip>,
+    strips: Vec<Strip<D>>,
     /// Stresses with the averaged pressure, Pa.
     stress: Vec<Batch>,
     /// By lane: weight, weight times the value, and the value averaged.
@@ -43,9 +44,9 @@ pub(super) struct Nodal {
     at_nodes: Vec<f64>,
 }
 
-impl Nodal {
+impl<const D: usize> Nodal<D> {
     /// For `count` elements with so many `corners`, in lanes of `batches`; `strip` makes the room of a chunk.
-    pub(super) fn new(connectivity: &[u32], corners: usize, components: usize, strip: impl Fn() -> Strip) -> Self {
+    pub(super) fn new(connectivity: &[u32], corners: usize, components: usize, strip: impl Fn() -> Strip<D>) -> Self {
         let count = connectivity.len() / corners;
         let mut nodes = connectivity.to_vec();
         nodes.sort_unstable();
@@ -81,40 +82,30 @@ impl Nodal {
     }
 
     /// From weights and moments to the mean over the nodes of each element of the weighted means of the nodes.
-    fn average(&mut self, parallel: bool) {
+    fn average(&mut self, team: &mut Team) {
         let Self { cells, corners, starts, elements, weight, moment, mean, at_nodes, .. } = self;
-        let node = |(node, value): (usize, &mut f64)| {
-            let (mut total, mut sum) = (0.0, 0.0);
-            for &element in &elements[starts[node] as usize..starts[node + 1] as usize] {
-                let (batch, lane) = (element as usize / BATCH, element as usize % BATCH);
-                total += weight[batch].0[lane];
-                sum += moment[batch].0[lane];
+        let (weight, moment) = (&*weight, &*moment);
+        team.each(Chunks::new(at_nodes, NODES), |index, _, values| {
+            for (node, value) in (index * NODES..).zip(values) {
+                let (mut total, mut sum) = (0.0, 0.0);
+                for &element in &elements[starts[node] as usize..starts[node + 1] as usize] {
+                    let (batch, lane) = (element as usize / BATCH, element as usize % BATCH);
+                    total += weight[batch].0[lane];
+                    sum += moment[batch].0[lane];
+                }
+                *value = if total > 0.0 { sum / total } else { 0.0 };
             }
-            *value = if total > 0.0 { sum / total } else { 0.0 };
-        };
-        if parallel {
-            at_nodes.par_iter_mut().with_min_len(1024).enumerate().for_each(node);
-        } else {
-            at_nodes.iter_mut().enumerate().for_each(node);
-        }
-        let (corners, share) = (*corners, 1.0 / *corners as f64);
-        let element = |(batch, mean): (usize, &mut Batch)| {
-            for (lane, mean) in mean.0.iter_mut().enumerate() {
-                let cell = &cells[(batch * BATCH + lane) * corners..][..corners];
-                *mean = cell.iter().map(|&node| at_nodes[node as usize]).sum::<f64>() * share;
+        });
+        let (corners, share, at_nodes) = (*corners, 1.0 / *corners as f64, &*at_nodes);
+        team.each(Chunks::new(mean, CHUNK), |index, _, means| {
+            for (batch, mean) in (index * CHUNK..).zip(means) {
+                for (lane, mean) in mean.0.iter_mut().enumerate() {
+                    let cell = &cells[(batch * BATCH + lane) * corners..][..corners];
+                    *mean = cell.iter().map(|&node| at_nodes[node as usize]).sum::<f64>() * share;
+                }
             }
-        };
-        if parallel {
-            mean.par_iter_mut().with_min_len(CHUNK).enumerate().for_each(element);
-        } else {
-            mean.iter_mut().enumerate().for_each(element);
-        }
+        });
     }
-}
-
-/// Does the tasks, in parallel if wanted.
-fn each<T: Send>(tasks: Vec<T>, parallel: bool, work: impl Fn(T) + Send + Sync) {
-    if parallel { tasks.into_par_iter().for_each(work) } else { tasks.into_iter().for_each(work) }
 }
 
 impl<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize> Elements<E, S, D, N, P>
@@ -124,19 +115,19 @@ where
     /// One step of a block with nodal averages.
     pub(super) fn advance_averaged(
         &mut self,
-        nodal: &mut Nodal,
+        nodal: &mut Nodal<D>,
         motion: &Motion<'_, D>,
         level: Level,
-        corners: &mut [Batch],
-        parallel: bool,
+        slots: &mut [[f64; D]],
+        team: &mut Team,
     ) -> Report {
         let measures = Measures {
             family: self.law.family(),
             rotation: self.law.needs_rotation() || self.damping > 0.0,
             volume: self.law.needs_volume(),
         };
-        self.strain_all(nodal, motion, measures, level, parallel);
-        nodal.average(parallel);
+        self.strain_all(nodal, motion, measures, level, team);
+        nodal.average(team);
         let mut means = std::mem::take(&mut nodal.spare);
         std::mem::swap(&mut nodal.mean, &mut means);
         if measures.family == Family::Rate && measures.volume {
@@ -147,37 +138,44 @@ where
                     moment.0[lane] = weight.0[lane] * ratio.0[lane];
                 }
             }
-            nodal.average(parallel);
+            nodal.average(team);
             for (batch, mean) in nodal.mean.iter().enumerate() {
                 nodal.strips[batch / CHUNK].volume_ratio[batch % CHUNK] = *mean;
             }
         }
-        self.respond_all(nodal, &means, motion.time_step, measures.family, level, parallel);
+        self.respond_all(nodal, &means, motion.time_step, measures.family, level, team);
         nodal.spare = means;
-        nodal.average(parallel);
-        self.force_all(nodal, motion.time_step, measures.family, level, corners, parallel)
+        nodal.average(team);
+        self.force_all(nodal, motion.time_step, measures.family, level, slots, team)
     }
 
     /// Strains without averages; the volumes and dilatations (volume ratios) of the elements.
-    fn strain_all(&mut self, nodal: &mut Nodal, motion: &Motion<'_, D>, measures: Measures, level: Level, parallel: bool) {
+    fn strain_all(&mut self, nodal: &mut Nodal<D>, motion: &Motion<'_, D>, measures: Measures, level: Level, team: &mut Team) {
         let components = Self::COMPONENTS;
         let initial = if measures.family == Family::Hyperelastic { initial_width::<S, D>() } else { 0 };
         let (nodes, volume_initial, elements, all_initial) = (&self.nodes, &self.volume_initial, &self.elements, &self.initial);
-        let tasks = (self.stress.chunks_mut(CHUNK * components).zip(&mut nodal.strips))
-            .zip(nodal.weight.chunks_mut(CHUNK).zip(nodal.moment.chunks_mut(CHUNK)))
-            .enumerate()
-            .collect();
-        each(tasks, parallel, |(index, ((stress, strip), (weight, moment)))| {
+        let (resists, resistance) = (self.resists(), &self.resistance);
+        let parts = (
+            Chunks::new(&mut self.stress, CHUNK * components),
+            Chunks::new(&mut nodal.strips, 1),
+            Chunks::new(&mut nodal.weight, CHUNK),
+            Chunks::new(&mut nodal.moment, CHUNK),
+        );
+        team.each(parts, |index, _, (stress, strips, weight, moment)| {
+            let strip = &mut strips[0];
             let (first, last) = (index * CHUNK, index * CHUNK + weight.len());
+            nodes.copy(index, motion, &mut strip.moving);
             level.run(Every(Strain::<E, S, D, N, P> {
-                motion: *motion,
+                time_step: motion.time_step,
                 measures,
                 first,
-                nodes,
-                elements: &elements[first..last],
+                places: &nodes.places,
+                batches: weight.len(),
+                resistance: if resists { &resistance[first..last] } else { &[] },
                 volume_initial: &volume_initial[first..last],
                 initial: &all_initial[first * initial..last * initial],
                 stress,
+                hourglass: &mut [],
                 strip,
                 kind: PhantomData,
             }));
@@ -195,18 +193,24 @@ where
     }
 
     /// Stresses from the averaged strains; their pressures, to be averaged.
-    fn respond_all(&mut self, nodal: &mut Nodal, means: &[Batch], time_step: f64, family: Family, level: Level, parallel: bool) {
+    fn respond_all(&mut self, nodal: &mut Nodal<D>, means: &[Batch], time_step: f64, family: Family, level: Level, team: &mut Team) {
         let (components, width) = (Self::COMPONENTS, self.law.state_width());
         let (law, damping, thickness) = (self.law.as_ref(), self.damping, self.law.thickness().unwrap_or(0));
-        let damped_chunk = if damping > 0.0 { CHUNK * components } else { 1 };
+        let (damped_chunk, resistance) = (chunk(self.damped_width()), chunk(self.resistance_width()));
         // A law without history has one batch per chunk, which stands for nothing.
         let history = if width == 0 { 1 } else { CHUNK * width };
-        let tasks = (self.stress.chunks_mut(CHUNK * components).zip(self.history.chunks_mut(history)).zip(&mut nodal.strips))
-            .zip(nodal.weight.chunks_mut(CHUNK).zip(nodal.moment.chunks_mut(CHUNK)))
-            .zip(self.elements.chunks_mut(CHUNK).zip(self.damped.chunks_mut(damped_chunk)))
-            .enumerate()
-            .collect();
-        each(tasks, parallel, |(index, ((((stress, history), strip), (weight, moment)), (elements, damped)))| {
+        let parts = (
+            Chunks::new(&mut self.stress, CHUNK * components),
+            Chunks::new(&mut self.history, history),
+            Chunks::new(&mut nodal.strips, 1),
+            Chunks::new(&mut nodal.weight, CHUNK),
+            Chunks::new(&mut nodal.moment, CHUNK),
+            Chunks::new(&mut self.damped, damped_chunk),
+            Chunks::new(&mut self.resistance, resistance),
+        );
+        let all_elements = &self.elements;
+        team.each(parts, |index, _, (stress, history, strips, weight, moment, damped, resistance)| {
+            let (strip, elements) = (&mut strips[0], &all_elements[index * CHUNK..][..weight.len()]);
             let (first, count) = (index * CHUNK, weight.len());
             for batch in 0..count {
                 for lane in 0..BATCH {
@@ -237,6 +241,7 @@ where
                     thickness,
                     stress: damped,
                     elements,
+                    resistance,
                     kind: PhantomData,
                 }));
             }
@@ -260,22 +265,30 @@ where
     /// Forces from the stresses with averaged pressures.
     fn force_all(
         &mut self,
-        nodal: &mut Nodal,
+        nodal: &mut Nodal<D>,
         time_step: f64,
         family: Family,
         level: Level,
-        corners: &mut [Batch],
-        parallel: bool,
+        slots: &mut [[f64; D]],
+        team: &mut Team,
     ) -> Report {
         let (components, width, thickness) = (Self::COMPONENTS, self.law.state_width(), self.law.thickness().unwrap_or(0));
         let (element, viscosity, all_stress, all_history) = (&self.element, self.viscosity, &self.stress, &self.history);
         let (damping, all_damped) = (self.damping, &self.damped);
-        let means = &nodal.mean;
-        let tasks = (self.elements.chunks_mut(CHUNK).zip(nodal.stress.chunks_mut(CHUNK * components)).zip(&nodal.strips))
-            .zip(corners.chunks_mut(CHUNK * N * D).zip(self.reports.iter_mut()))
-            .enumerate()
-            .collect();
-        each(tasks, parallel, |(index, (((elements, stress), strip), (corners, report))): (usize, Task<'_>)| {
+        let (means, places) = (&nodal.mean, &self.nodes.places);
+        let (keeps_forces, kept) = (self.keeps_forces, chunk(self.kept_width()));
+        let (resists, resistance) = (self.resists(), chunk(self.resistance_width()));
+        let strips = &nodal.strips;
+        let parts = (
+            Chunks::new(&mut self.elements, CHUNK),
+            Chunks::new(&mut nodal.stress, CHUNK * components),
+            Chunks::new(slots, self.nodes.width()),
+            Chunks::new(&mut self.kept, kept),
+            Chunks::new(&mut self.resistance, resistance),
+            Chunks::new(&mut self.reports, 1),
+        );
+        team.each(parts, |index, _, (elements, stress, pulls, kept, resistance, report)| {
+            let strip = &strips[index];
             let (first, count) = (index * CHUNK, elements.len());
             stress.copy_from_slice(&all_stress[first * components..(first + count) * components]);
             for batch in 0..count {
@@ -295,6 +308,7 @@ where
                 }
             }
             let mut sums = Sums::new();
+            pulls.fill([0.0; D]);
             level.run(Every(Forces::<E, S, D, N, P> {
                 element,
                 family,
@@ -310,21 +324,22 @@ where
                 hourglass: &mut [],
                 strip,
                 elements,
-                corners,
+                resistance: if resists { resistance } else { &mut [] },
+                places,
+                first,
+                pulls,
+                kept: if keeps_forces { kept } else { &mut [] },
                 sums: &mut sums,
                 kind: PhantomData,
             }));
-            *report = sums.report();
+            report.fill(sums.report());
         });
         self.reports.iter().fold(self.eroded.left, |sum, &report| sum.join(report))
     }
 }
 
-/// Elements, stresses, room, corner forces and report of a chunk.
-type Task<'a> = (((&'a mut [ElementBatch], &'a mut [Batch]), &'a Strip), (&'a mut [Batch], &'a mut Report));
-
 /// Gives an element its averaged dilatation θ̄ or volume ratio J̄ (F̄ = (J̄/J)^{1/3} F).
-fn impose<const D: usize>(strip: &mut Strip, batch: usize, lane: usize, mean: f64, family: Family)
+fn impose<const D: usize>(strip: &mut Strip<D>, batch: usize, lane: usize, mean: f64, family: Family)
 where
     Dim<D>: Space<D>,
 {
@@ -345,7 +360,7 @@ where
 
 /// Volume of an element now.
 fn volume<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize>(
-    strip: &Strip,
+    strip: &Strip<D>,
     batch: usize,
     lane: usize,
 ) -> f64

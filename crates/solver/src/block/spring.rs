@@ -6,12 +6,12 @@
 //! Stable step of springs alone: by Gershgorin ω² ≤ 2 Σ k / m over the springs of a node, a damper that lags half a step takes part as 2c/Δt:
 //! dt² Σ k / (2m) + dt Σ c / m ≤ 1. [`together`] joins it to that of the elements.
 
-use super::{Block, ElementState, Initial, Motion, Report, Wrong, corner_slot};
+use super::{Block, ElementState, Initial, Motion, Report, Wrong};
 use crate::failure::Criterion;
 use crate::load::curve::table::Table;
 use crate::material::points::PointLaw;
 use crate::model::Spring;
-use embate_lanes::{BATCH, Batch, Level};
+use embate_lanes::{Level, Team};
 
 /// A pair of nodes with its state.
 #[derive(Clone, Debug)]
@@ -65,6 +65,8 @@ impl Law {
 /// The springs of a model.
 pub(crate) struct SpringBlock {
     pairs: Vec<Pair>,
+    /// Their nodes, two by two: the slots of the forces.
+    slots: Vec<u32>,
     laws: Vec<Law>,
     /// What the last step told.
     report: Report,
@@ -110,12 +112,7 @@ impl SpringBlock {
             pair.stored = start(&laws[pair.law], pair.length - pair.rest);
             pair.forces[0] = laws[pair.law].force(pair.length - pair.rest);
         }
-        Self { pairs, laws, report: Report::NOTHING }
-    }
-
-    /// Nodes of all pairs.
-    pub(crate) fn connectivity(&self) -> Vec<u32> {
-        self.pairs.iter().flat_map(|pair| pair.nodes).collect()
+        Self { slots: pairs.iter().flat_map(|pair| pair.nodes).collect(), pairs, laws, report: Report::NOTHING }
     }
 }
 
@@ -149,11 +146,11 @@ impl Block<2> for SpringBlock {
         self.pairs.len()
     }
 
-    fn corner_batches(&self) -> usize {
-        self.pairs.len().div_ceil(BATCH) * 4
+    fn slots(&self) -> &[u32] {
+        &self.slots
     }
 
-    fn advance(&mut self, motion: &Motion<'_, 2>, _level: Level, corners: &mut [Batch], _parallel: bool) -> Report {
+    fn advance(&mut self, motion: &Motion<'_, 2>, _level: Level, slots: &mut [[f64; 2]], _team: &mut Team) -> Report {
         let mut report = Report::NOTHING;
         for (element, pair) in self.pairs.iter_mut().enumerate() {
             let law = &self.laws[pair.law];
@@ -174,11 +171,8 @@ impl Block<2> for SpringBlock {
                 pair.dissipated += std::mem::take(&mut pair.stored);
             }
             (pair.length, pair.forces) = (length, forces);
-            for (corner, sign) in [(0, 1.0), (1, -1.0)] {
-                let (batch, lane) = corner_slot::<2>(2, element, corner);
-                for (d, component) in direction.into_iter().enumerate() {
-                    corners[batch + d].0[lane] = sign * (forces[0] + forces[1]) * component;
-                }
+            for (slot, sign) in slots[2 * element..2 * element + 2].iter_mut().zip([1.0, -1.0]) {
+                *slot = direction.map(|component| sign * (forces[0] + forces[1]) * component);
             }
             if pair.is_whole {
                 report.time_step_squared = report.time_step_squared.min(pair.time_step_squared);
@@ -220,7 +214,11 @@ impl Block<2> for SpringBlock {
     fn determinant(&self, _element: usize, _positions: &[[f64; 2]]) -> f64 {
         f64::INFINITY
     }
-    fn erode(&mut self, _elements: &[u32]) -> Vec<f64> {
+    fn keep_forces(&mut self) {}
+    fn force(&self, element: usize, corner: usize, slots: &[[f64; 2]]) -> [f64; 2] {
+        slots[2 * element + corner]
+    }
+    fn erode(&mut self, _elements: &[u32], _slots: &mut [[f64; 2]]) -> Vec<f64> {
         Vec::new()
     }
     fn report(&self, _positions: &[[f64; 2]]) -> Report {

@@ -5,13 +5,12 @@
 //! to the end of the step by half the step's rotation (second order); the old stress is turned by all of it. Hyperelastic laws: F from the stored inverse of
 //! the initial Jacobian. With mean dilatation (B-bar) the volumetric part of the strain is averaged over the element.
 
-use super::Motion;
-use super::batch::ElementBatch;
+use super::batch::Resistance;
 use super::stress_state::StressState;
 use super::strip::{Parts, Strip};
 use crate::element::Element;
 use crate::material::Family;
-use crate::tensor::{Dim, Matrix, Space, SymmetricTensor, Turn, product};
+use crate::tensor::{Dim, Matrix, Space, SymmetricTensor, Turn, Turns, product};
 use embate_lanes::{Batch, Indices, Lane};
 use std::marker::PhantomData;
 
@@ -55,21 +54,26 @@ pub(super) fn circumference<S: StressState, L: Lane, const D: usize, const N: us
     if S::AXISYMMETRIC { volume * (radius(x, shape) * L::splat(std::f64::consts::TAU)) } else { volume }
 }
 
-/// Elements `first..first + elements.len()` (in batches) of a block, ready to be strained.
+/// Elements `first..first + batches` (in batches) of a block, ready to be strained.
 pub(super) struct Strain<'a, E, S, const D: usize, const N: usize, const P: usize> {
-    pub(super) motion: Motion<'a, D>,
+    /// Step, s.
+    pub(super) time_step: f64,
     pub(super) measures: Measures,
     pub(super) first: usize,
-    /// `N` rows of node indices per batch.
-    pub(super) nodes: &'a Indices,
-    pub(super) elements: &'a [ElementBatch],
+    /// `N` rows of places among the nodes of the chunk per batch.
+    pub(super) places: &'a Indices,
+    pub(super) batches: usize,
+    /// What bulk viscosity remembers; empty without it.
+    pub(super) resistance: &'a [Resistance],
     /// Initial volume of each element.
     pub(super) volume_initial: &'a [Batch],
     /// Hyperelastic laws: [`initial_width`] per point.
     pub(super) initial: &'a [Batch],
     /// Rate laws: stresses of the points, turned in place.
     pub(super) stress: &'a mut [Batch],
-    pub(super) strip: &'a mut Strip,
+    /// What hourglass control keeps, turned in place: [`Element::HOURGLASS`] per element.
+    pub(super) hourglass: &'a mut [Batch],
+    pub(super) strip: &'a mut Strip<D>,
     pub(super) kind: PhantomData<(E, S)>,
 }
 
@@ -79,23 +83,23 @@ where
 {
     #[inline(always)]
     fn batches(&self) -> usize {
-        self.elements.len()
+        self.batches
     }
 
     #[inline(always)]
     fn part<L: Lane>(&mut self, batch: usize, at: usize) {
         let row = (self.first + batch) * N;
-        let mut x = [[L::splat(0.0); D]; N];
+        let (mut x, mut v) = ([[L::splat(0.0); D]; N], [[L::splat(0.0); D]; N]);
         for a in 0..N {
-            x[a] = L::gather(self.motion.positions, self.nodes, row + a, at);
+            [x[a], v[a]] = L::gather(&self.strip.moving, self.places, row + a, at);
             for i in 0..D {
                 x[a][i].store(&mut self.strip.nodes[(batch * N + a) * D + i], at);
             }
         }
         let jacobians = E::gradients(&x);
         match self.measures.family {
-            Family::Rate => self.rate(batch, row, at, &x, &jacobians),
-            Family::Hyperelastic => self.hyperelastic(batch, at, &x, &jacobians),
+            Family::Rate => self.rate(batch, at, &x, &v, &jacobians),
+            Family::Hyperelastic => self.hyperelastic(batch, at, &x, &v, &jacobians),
         }
     }
 }
@@ -106,18 +110,14 @@ where
 {
     /// Strain increment and rotation from the mid-step configuration; turns the stresses.
     #[inline(always)]
-    fn rate<L: Lane>(&mut self, batch: usize, row: usize, at: usize, x: &[[L; D]; N], jacobians: &[Matrix<L, D>; P]) {
+    fn rate<L: Lane>(&mut self, batch: usize, at: usize, x: &[[L; D]; N], v: &[[L; D]; N], jacobians: &[Matrix<L, D>; P]) {
         let (zero, half, third) = (L::splat(0.0), L::splat(0.5), L::splat(1.0 / 3.0));
-        let dt = L::splat(self.motion.time_step);
+        let dt = L::splat(self.time_step);
         let mut step = [[zero; D]; N];
         let mut x_middle = *x;
         for a in 0..N {
-            step[a] = L::gather(self.motion.velocities, self.nodes, row + a, at);
             for i in 0..D {
-                if E::HOURGLASS > 0 {
-                    step[a][i].store(&mut self.strip.velocities[(batch * N + a) * D + i], at);
-                }
-                step[a][i] = step[a][i] * dt;
+                step[a][i] = v[a][i] * dt;
                 x_middle[a][i] = x[a][i] - step[a][i] * half;
             }
         }
@@ -140,6 +140,9 @@ where
             let own = circumference::<S, L, D, N>(determinant * L::splat(E::WEIGHTS[p]), &x_middle, &shape);
             own.store(&mut self.strip.volume[batch * P + p], at);
             let (gradient, turns) = Dim::<D>::displaced(&increments[p], &Dim::<D>::adjugate(&middle[p]), determinant);
+            if E::HOURGLASS > 0 {
+                self.swing(batch, at, E::swing(x, &step, &gradient), &turns);
+            }
             rotations[p] = turns;
             unturned[p] = Dim::<D>::symmetric(&gradient);
             if S::AXISYMMETRIC {
@@ -175,6 +178,24 @@ where
         }
     }
 
+    /// Notes the change of the amplitude of an hourglass pattern in directions of the end of the step, and turns what is kept of it there. A vector in mid-step
+    /// directions at the end: the mean of itself and of the turned one, which is shorter by the square of the step's angle.
+    #[inline(always)]
+    fn swing<L: Lane>(&mut self, batch: usize, at: usize, change: [L; D], turns: &Turns<Tensor<D, L>, L>) {
+        let half = L::splat(0.5);
+        let all = Dim::<D>::turned(change, turns);
+        let kept = &mut self.hourglass[batch * E::HOURGLASS..(batch + 1) * E::HOURGLASS];
+        let mut old = change;
+        for i in 0..D {
+            ((change[i] + all[i]) * half).store(&mut self.strip.swing[batch * E::HOURGLASS + i], at);
+            old[i] = L::load(&kept[i], at);
+        }
+        let turned = Dim::<D>::turned(old, turns);
+        for i in 0..D {
+            turned[i].store(&mut kept[i], at);
+        }
+    }
+
     /// Volume of the element over its initial volume, and the heat of the bulk viscosity, for laws with an equation of state.
     #[inline(always)]
     fn volume_ratio<L: Lane>(&mut self, batch: usize, at: usize, x: &[[L; D]; N], jacobians: &[Matrix<L, D>; P]) {
@@ -185,7 +206,10 @@ where
         }
         let initial = L::load(&self.volume_initial[batch], at);
         let ratio = volume / initial;
-        let heat = L::load(&self.elements[batch].viscous_step, at) / initial;
+        let heat = match self.resistance.get(batch) {
+            Some(resistance) => L::load(&resistance.viscous_step, at) / initial,
+            None => L::splat(0.0),
+        };
         for p in 0..P {
             ratio.store(&mut self.strip.volume_ratio[batch * P + p], at);
             heat.store(&mut self.strip.viscous_heat[batch * P + p], at);
@@ -194,7 +218,7 @@ where
 
     /// b and J from the deformation gradient, the volume ratio averaged over the element with mean dilatation.
     #[inline(always)]
-    fn hyperelastic<L: Lane>(&mut self, batch: usize, at: usize, x: &[[L; D]; N], jacobians: &[Matrix<L, D>; P]) {
+    fn hyperelastic<L: Lane>(&mut self, batch: usize, at: usize, x: &[[L; D]; N], v: &[[L; D]; N], jacobians: &[Matrix<L, D>; P]) {
         let (zero, one) = (L::splat(0.0), L::splat(1.0));
         let width = initial_width::<S, D>();
         let components = <Tensor<D, L> as SymmetricTensor<L>>::COMPONENTS;
@@ -208,7 +232,22 @@ where
         }
         let ratio_mean = volume / volume_initial;
         if E::HOURGLASS > 0 {
-            self.velocities::<L>(batch, at);
+            let (dt, half) = (L::splat(self.time_step), L::splat(0.5));
+            let mut step = *v;
+            for a in 0..N {
+                for i in 0..D {
+                    step[a][i] = v[a][i] * dt;
+                }
+            }
+            let increment = E::gradients(&step)[0];
+            let mut middle = jacobians[0];
+            for i in 0..D {
+                for k in 0..D {
+                    middle[i][k] = middle[i][k] - increment[i][k] * half;
+                }
+            }
+            let (gradient, turns) = Dim::<D>::displaced(&increment, &Dim::<D>::adjugate(&middle), Dim::<D>::determinant(&middle));
+            self.swing(batch, at, E::swing(x, &step, &gradient), &turns);
         }
         for p in 0..P {
             let point = batch * P + p;
@@ -241,17 +280,6 @@ where
             b.store(&mut self.strip.strain[point * components..(point + 1) * components], at);
             ratio.store(&mut self.strip.volume_ratio[point], at);
             weight.store(&mut self.strip.weight[point], at);
-        }
-    }
-
-    /// Velocities of the nodes, for hourglass control.
-    #[inline(always)]
-    fn velocities<L: Lane>(&mut self, batch: usize, at: usize) {
-        for a in 0..N {
-            let v = L::gather(self.motion.velocities, self.nodes, (self.first + batch) * N + a, at);
-            for i in 0..D {
-                v[i].store(&mut self.strip.velocities[(batch * N + a) * D + i], at);
-            }
         }
     }
 }

@@ -8,13 +8,15 @@ use embate_lanes::{BATCH, Batch, Kernel, Lane};
 /// Batches of elements in a strip.
 pub(super) const STRIP: usize = 8;
 
-/// The room of one task. All lists are in the order of batches, then points.
+/// The room of one task. All lists but the first are in the order of batches, then points.
 #[derive(Debug, Default)]
-pub(super) struct Strip {
+pub(super) struct Strip<const D: usize> {
+    /// Positions and velocities of the nodes of a chunk.
+    pub(super) moving: Vec<[[f64; D]; 2]>,
     /// Positions of the nodes of each element: nodes × dimensions.
     pub(super) nodes: Vec<Batch>,
-    /// Velocities of the nodes, for elements with hourglass control.
-    pub(super) velocities: Vec<Batch>,
+    /// Changes of the amplitudes of hourglass patterns, in directions of the end of the step.
+    pub(super) swing: Vec<Batch>,
     /// Strain increment, or b.
     pub(super) strain: Vec<Batch>,
     /// Rotation over the step, for laws and damping that want it.
@@ -37,21 +39,21 @@ pub(super) struct Strip {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shape {
     pub(super) nodes: usize,
-    pub(super) dimensions: usize,
     pub(super) points: usize,
     pub(super) components: usize,
     pub(super) turn: usize,
-    pub(super) velocities: bool,
+    pub(super) hourglass: usize,
 }
 
-impl Strip {
+impl<const D: usize> Strip<D> {
     /// Room for so many batches of elements; `turns`: someone besides the law wants the rotations.
     pub(super) fn new(shape: &Shape, law: &dyn PointLaw, turns: bool, batches: usize) -> Self {
         let room = |values: usize| vec![Batch::default(); batches * values];
-        let Shape { nodes, dimensions, points, components, turn, velocities } = *shape;
+        let Shape { nodes, points, components, turn, hourglass } = *shape;
         Self {
-            nodes: room(nodes * dimensions),
-            velocities: room(if velocities { nodes * dimensions } else { 0 }),
+            moving: Vec::new(),
+            nodes: room(nodes * D),
+            swing: room(hourglass),
             strain: room(points * components),
             rotation: room(if law.needs_rotation() || turns { points * turn } else { 0 }),
             volume_ratio: room(points),

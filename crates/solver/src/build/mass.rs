@@ -3,7 +3,7 @@
 use super::Builder;
 use crate::block::{Block, Motion};
 use crate::error::Fault;
-use embate_lanes::{Batch, Level};
+use embate_lanes::{Level, Team};
 
 impl Builder<'_> {
     /// Scales the mass of parts (`mass_scale`) and of elements below the wanted step. Returns the mass added to deformable parts and their true mass, kg/m; more than the limit is a fault.
@@ -24,8 +24,8 @@ impl Builder<'_> {
             }
             if let Some(scaling) = self.model.run.mass_scaling {
                 let scaled = masses(block.as_ref());
-                let mut corners = vec![Batch::default(); block.corner_batches()];
-                block.advance(&motion, level, &mut corners, false);
+                let mut slots = vec![[0.0; 2]; block.slots().len()];
+                block.advance(&motion, level, &mut slots, &mut Team::alone());
                 let needed = (scaling.time_step / self.model.run.safety).powi(2);
                 for element in 0..block.elements() {
                     let factor = needed / block.time_step_squared(element);

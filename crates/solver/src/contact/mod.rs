@@ -75,6 +75,8 @@ pub struct Scene<'a> {
     pub bodies: &'a Bodies,
     /// Time, s.
     pub time: f64,
+    /// Way that no node has exceeded since the start, m: ∑ dt max |v|.
+    pub travel: f64,
 }
 
 /// Positions at both ends of a step.

@@ -13,7 +13,7 @@ pub use quad4_reduced::{Quad4Reduced, Quad4ReducedAssumedStrain, Quad4ReducedVis
 pub use tri3::{Tri3, Tri3Anp};
 
 use crate::tensor::{Dim, Matrix, Space};
-use embate_lanes::{Batch, Lane};
+use embate_lanes::Lane;
 
 /// An element as the registry describes it.
 #[derive(Clone, Copy, Debug)]
@@ -45,7 +45,7 @@ where
     const MEAN_DILATATION: bool;
     /// Whether the dilatation is averaged over the nodes of the block and back (`block/nodal.rs`); for elements with one point.
     const NODAL_DILATATION: bool = false;
-    /// Batches that hourglass control keeps per element, at least 1 where there is such control; 0: none is needed.
+    /// Batches that hourglass control keeps per element: `D` where there is such control, a force against the amplitude of the pattern; 0: none is needed.
     const HOURGLASS: usize = 0;
 
     /// The element with its options.
@@ -64,11 +64,17 @@ where
     fn corner_volumes(_nodal: &[[f64; D]; N], _is_axisymmetric: bool) -> Option<[f64; N]> {
         None
     }
-    /// Forces against the shapes that the points do not feel; `kept` are [`Element::HOURGLASS`] batches, lanes from `at` on. Called only where there are some.
+    /// Change of the amplitude q of the shape that the points do not feel, m, in a `step` of the nodes to `x` whose displacement gradient at mid-step is known.
+    /// Called only where hourglass control keeps something, as [`Element::hold_shape`].
     #[inline(always)]
-    fn hold_shape<L: Lane>(&self, _corners: &Corners<L, D, N>, _kept: &mut [Batch], _at: usize) -> Held<L, D, N> {
+    fn swing<L: Lane>(_x: &[[L; D]; N], _step: &[[L; D]; N], _gradient: &Matrix<L, D>) -> [L; D] {
+        [L::splat(0.0); D]
+    }
+    /// Forces against the shapes that the points do not feel.
+    #[inline(always)]
+    fn hold_shape<L: Lane>(&self, corners: &Corners<L, D, N>) -> Held<L, D, N> {
         let zero = L::splat(0.0);
-        Held { forces: [[zero; D]; N], work: zero, stiffening: L::splat(1.0) }
+        Held { forces: [[zero; D]; N], kept: corners.kept, work: zero, stiffening: L::splat(1.0) }
     }
 }
 
@@ -84,8 +90,10 @@ pub struct ElementOptions {
 pub struct Corners<L, const D: usize, const N: usize> {
     /// Positions, m.
     pub x: [[L; D]; N],
-    /// Velocities of the step that led there, m/s.
-    pub v: [[L; D]; N],
+    /// Change of the amplitude in the step that led there, m, in directions of its end.
+    pub swing: [L; D],
+    /// What was kept at its beginning, turned to its end.
+    pub kept: [L; D],
     /// Area, m².
     pub area: L,
     /// Volume: area times depth, m² (m³).
@@ -98,8 +106,8 @@ pub struct Corners<L, const D: usize, const N: usize> {
     pub shape_modulus: L,
     /// Mass in the stable step, kg/m (kg).
     pub mass: L,
-    /// The step, s.
-    pub time_step: L,
+    /// One over the step, 1/s; 0 where there was none.
+    pub rate: L,
     /// Whether there is no stress normal to the plane.
     pub is_plane_stress: bool,
 }
@@ -109,6 +117,8 @@ pub struct Corners<L, const D: usize, const N: usize> {
 pub struct Held<L, const D: usize, const N: usize> {
     /// Forces against which the nodes move, as those of the stresses: f_a = ∂W/∂x_a, N/m.
     pub forces: [[L; D]; N],
+    /// What is kept until the next step.
+    pub kept: [L; D],
     /// Work taken from the nodes in the step by the trapezoidal rule, J/m.
     pub work: L,
     /// Square of the stable step without it over that with it, at least 1.

@@ -3,7 +3,7 @@
 //! A nodal vector u has a constant, a linear and an hourglass part; the point feels the linear one. The amplitude of the hourglass pattern h = (1, −1, 1, −1) is
 //! q = ¼ γ·u, γ = h − Σ_j (h·x_j) b_j, b_j = ∂N/∂x_j at the centre: γ is blind to constant and linear fields on any quadrilateral. Nodes feel the forces
 //! f_a = ¼ γ_a Q, whose power is Q·q̇. q̇ is taken at mid-step and Q turns with the step's rotation (Hughes and Winget's, of the point), so rigid motion
-//! changes nothing. M = K + 4µ/3, V the volume, h² the square of the thickness, m the mass:
+//! changes nothing; both are done while the point is strained, stiffnesses are of the end of the step. M = K + 4µ/3, V the volume, h² the square of the thickness, m the mass:
 //!
 //! - `stiffness`: Q̇ = κ k₁ q̇, k₁ = 2 M' V / h². With κ = 1 and M' = M the pattern swings as fast as the stretch of a square. Keeps shapes. The source takes M' = M; here
 //!   it is at most 4µ (M at ν = 1/3, what bending costs at ν = ½), because with M a κ of 0.05 locks what is nearly incompressible. Of a fluid it is M.
@@ -13,17 +13,21 @@
 //!   While the point flows, the bending stays elastic.
 //!
 //! The stable step: the linear shapes and the pattern, each with its own largest ω² (a and b), are orthogonal on parallelograms. Else they share c² = 1 − 4/γ·γ, since
-//! h is orthogonal to every b_j; for two positive matrices whose ranges have at most this cosine c, ω² ≤ ½ (a + b + √((a − b)² + 4abc²)). A damping d that lags half a
+//! h is orthogonal to every b_j; for two positive matrices whose ranges have at most this cosine c, ω² ≤ ½ (a + b + √((a − b)² + 4abc²)) ≤ a + abc²/(a − b), which is taken
+//! where b ≤ a/2, with a/2 for a − b, and a + b elsewhere: no root. A damping d that lags half a
 //! step takes part as 2 d / Δt. With the linear shapes' step, a Δt² = 4, and b Δt² is ½ κ γ·γ and √2 κ γ·γ (with M for M', which is no less), and κ Ē λ h² γ·γ / 4M with
 //! the largest eigenvalue λ of H/A.
 //!
 //! Sources: Flanagan and Belytschko, Int. J. Numer. Meth. Engng 17 (1981) 679-706; Hughes and Winget, Int. J. Numer. Meth. Engng 15 (1980) 1862-1867; Belytschko and Bindeman, Comput. Meth. Appl. Mech. Engng 88 (1991) 311-340.
 
-use super::quad4::{NODES, Quad4Full, distance_squared, shape};
+use super::quad4::{Quad4Full, distance_squared, shape};
 use super::{Corners, Element, ElementKind, ElementOptions, Held};
 use crate::tensor::{Dim, Matrix, Space, scaled};
-use embate_lanes::{Batch, Lane};
+use embate_lanes::Lane;
 use std::f64::consts::{SQRT_2, TAU};
+
+/// Natural coordinates along the diagonals, from corner to corner of length one: at the centre the gradient is the differences between opposite nodes.
+const DIAGONAL_NODES: [[f64; 2]; 4] = [[-0.5, 0.0], [0.0, -0.5], [0.5, 0.0], [0.0, 0.5]];
 
 /// What holds an element against hourglass shapes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,19 +57,6 @@ impl<L: Lane> Differences<L> {
         out
     }
 
-    /// Those of the vector less `part` of another one.
-    #[inline(always)]
-    fn less(&self, other: &Self, part: L) -> Self {
-        let zero = [L::splat(0.0); 2];
-        let mut out = Self { first: zero, second: zero, twist: zero };
-        for i in 0..2 {
-            out.first[i] = self.first[i] - other.first[i] * part;
-            out.second[i] = self.second[i] - other.second[i] * part;
-            out.twist[i] = self.twist[i] - other.twist[i] * part;
-        }
-        out
-    }
-
     /// Of positions: twice the area.
     #[inline(always)]
     fn area_twice(&self) -> L {
@@ -91,18 +82,6 @@ impl<L: Lane> Centre<L> {
     fn new(x: &Differences<L>) -> Self {
         let Differences { first, second, .. } = x;
         Self { b: [[second[1], -second[0]], [first[1], -first[0]]] }
-    }
-
-    /// ∂u/∂x: `out[i][j]` = ∂u_i/∂x_j.
-    #[inline(always)]
-    fn gradient(&self, u: &Differences<L>) -> Matrix<L, 2> {
-        let mut out = [[L::splat(0.0); 2]; 2];
-        for i in 0..2 {
-            for j in 0..2 {
-                out[i][j] = self.b[1][j] * u.second[i] - self.b[0][j] * u.first[i];
-            }
-        }
-        out
     }
 
     /// ∂(ξ, η)/∂x.
@@ -156,32 +135,32 @@ fn corner_volumes(x: &[[f64; 2]; 4], is_axisymmetric: bool) -> [f64; 4] {
 
 /// What a control adds.
 struct Answer<L> {
-    /// To Q, in mid-step directions; of dampers all of it.
+    /// To Q; of dampers all of it.
     added: [L; 2],
     /// b Δt² over γ·γ at the stable step of the linear shapes.
     swing: L,
 }
 
-/// The assumed strain's answer to the `change` of the amplitude.
+/// The assumed strain's answer to the change of the amplitude.
 #[inline(always)]
 fn bend<L: Lane>(
     coefficient: L,
     corners: &Corners<L, 2, 4>,
     [numerator, extent]: [L; 2],
-    middle: &Differences<L>,
+    end: &Differences<L>,
+    centre: &Centre<L>,
     inverse: L,
-    change: [L; 2],
 ) -> Answer<L> {
     let (half, one, two, four) = (L::splat(0.5), L::splat(1.0), L::splat(2.0), L::splat(4.0));
-    let Corners { modulus, shear, volume, .. } = *corners;
+    let Corners { modulus, shear, volume, swing, .. } = *corners;
     // ν = (M − 2µ) / 2(M − µ), ν/(1 − ν) = (M − 2µ) / M
     let poisson = (modulus - two * shear) / if corners.is_plane_stress { two * (modulus - shear) } else { modulus };
     let young = two * shear * (one + poisson);
-    let along = middle.along();
+    let along = end.along();
     let scale = one / (along[0] * along[0] + along[1] * along[1]).sqrt();
     let axis = [along[0] * scale, along[1] * scale];
-    let [xx, yy, xy] = bending(&scaled(Centre::new(middle).natural(), inverse), axis, poisson);
-    let [x, y] = turned_back(change, axis);
+    let [xx, yy, xy] = bending(&scaled(centre.natural(), inverse), axis, poisson);
+    let [x, y] = turned_back(swing, axis);
     let k = coefficient * young * volume;
     let difference = xx - yy;
     let largest = (xx + yy + (difference * difference + four * xy * xy).sqrt()) * half;
@@ -191,95 +170,65 @@ fn bend<L: Lane>(
     }
 }
 
-/// How an element moves in a step.
-struct Change<L> {
-    /// cos and sin of the angle of the rotation.
-    turn: [L; 2],
-    /// q̇, in mid-step directions.
-    rate: [L; 2],
-    /// 1 / 2A at mid-step.
-    inverse_middle: L,
-    /// 1 / 2A at the end.
-    inverse_end: L,
+/// q̇ Δt at mid-step, from the twist less what is linear in it.
+#[inline(always)]
+fn swing<L: Lane>(x: &[[L; 2]; 4], step: &[[L; 2]; 4], gradient: &Matrix<L, 2>) -> [L; 2] {
+    let (quarter, half) = (L::splat(0.25), L::splat(0.5));
+    let (end, step) = (Differences::of(x).twist, Differences::of(step).twist);
+    let middle = [end[0] - step[0] * half, end[1] - step[1] * half];
+    let mut out = [quarter; 2];
+    for i in 0..2 {
+        out[i] = (step[i] - (middle[0] * gradient[i][0] + middle[1] * gradient[i][1])) * quarter;
+    }
+    out
 }
 
-impl<L: Lane> Change<L> {
-    #[inline(always)]
-    fn new(middle: &Differences<L>, end: &Differences<L>, v: &Differences<L>, time_step: L) -> Self {
-        let (quarter, two) = (L::splat(0.25), L::splat(2.0));
-        let (area_middle, area_end) = (middle.area_twice(), end.area_twice());
-        let gradient = Centre::new(middle).gradient(v);
-        // One division: tan(θ/2) = ω/2 times 2A, with ω = ½(v_y,x − v_x,y) Δt.
-        let spin = (gradient[1][0] - gradient[0][1]) * (time_step * quarter);
-        let (square, area_square) = (spin * spin, area_middle * area_middle);
-        let sum = area_square + square;
-        let inverse = L::splat(1.0) / (area_middle * area_end * sum);
-        let (of_sum, inverse_middle) = (inverse * (area_middle * area_end), inverse * (area_end * sum));
-        let mut rate = [quarter; 2];
-        for i in 0..2 {
-            let linear = middle.twist[0] * gradient[i][0] + middle.twist[1] * gradient[i][1];
-            rate[i] = (v.twist[i] - linear * inverse_middle) * quarter;
-        }
-        Self {
-            turn: [(area_square - square) * of_sum, two * spin * area_middle * of_sum],
-            rate,
-            inverse_middle,
-            inverse_end: inverse * (area_middle * sum),
-        }
-    }
-
-    /// A vector in mid-step directions at the end: the mean of the vector and the turned one, which is shorter by the square of the step's angle.
-    #[inline(always)]
-    fn half_turned(&self, u: [L; 2]) -> [L; 2] {
-        let (half, all) = (L::splat(0.5), turned(u, self.turn));
-        [(u[0] + all[0]) * half, (u[1] + all[1]) * half]
-    }
+/// ω² Δt² of the linear shapes and of the pattern together over 4, at the step of the linear shapes, from b Δt² / γ·γ and γ·γ − 4. With a Δt² = 4 the bound is
+/// ½ (a + b + √((a − b)² + 4abc²)) ≤ a + abc² / (a − b) ≤ a (1 + 2bc²/a) where b is at most a/2, and at most a + b elsewhere.
+#[inline(always)]
+fn together<L: Lane>(swing: L, more: L) -> L {
+    let (quarter, half, one, two) = (L::splat(0.25), L::splat(0.5), L::splat(1.0), L::splat(2.0));
+    let all = swing * (L::splat(4.0) + more);
+    L::select(two.less(all), one + all * quarter, one + swing * more * half)
 }
 
 #[inline(always)]
-fn hold_shape<L: Lane>(control: Control, coefficient: f64, corners: &Corners<L, 2, 4>, kept: &mut [Batch], at: usize) -> Held<L, 2, 4> {
+fn hold_shape<L: Lane>(control: Control, coefficient: f64, corners: &Corners<L, 2, 4>) -> Held<L, 2, 4> {
     let (quarter, half, one, two, four) = (L::splat(0.25), L::splat(0.5), L::splat(1.0), L::splat(2.0), L::splat(4.0));
-    let Corners { shape_modulus, mass, time_step, volume, .. } = *corners;
+    let Corners { shape_modulus, mass, rate, volume, swing: change, kept: old, .. } = *corners;
     let coefficient = L::splat(coefficient);
-    let (end, v) = (Differences::of(&corners.x), Differences::of(&corners.v));
-    let middle = end.less(&v, time_step * half);
-    let moved = Change::new(&middle, &end, &v, time_step);
-    let change = [moved.rate[0] * time_step, moved.rate[1] * time_step];
-    // k₁ = 2 M V / h², with 1 / 2A already there
+    let end = Differences::of(&corners.x);
+    let centre = Centre::new(&end);
+    let inverse = one / end.area_twice();
+    // k₁ = 2 M V / h² with h² = 2 A² / (…)
     let thickness_squared = thickness_squared(&corners.x, corners.area);
-    let stiffness = four * shape_modulus * volume * thickness_squared[1] * (moved.inverse_end * moved.inverse_end);
+    let stiffness = four * shape_modulus * volume * thickness_squared[1] * (inverse * inverse);
     let Answer { added, swing } = match control {
         Control::Stiffness => {
             let k = coefficient * stiffness;
             Answer { added: [k * change[0], k * change[1]], swing: half * coefficient }
         }
         Control::Viscous => {
-            let c = two * coefficient * (stiffness * mass).sqrt();
-            Answer { added: [c * moved.rate[0], c * moved.rate[1]], swing: L::splat(SQRT_2) * coefficient }
+            let c = two * coefficient * (stiffness * mass).sqrt() * rate;
+            Answer { added: [c * change[0], c * change[1]], swing: L::splat(SQRT_2) * coefficient }
         }
-        Control::AssumedStrain => bend(coefficient, corners, thickness_squared, &middle, moved.inverse_middle, change),
+        Control::AssumedStrain => bend(coefficient, corners, thickness_squared, &end, &centre, inverse),
     };
-    let old = turned([L::load(&kept[0], at), L::load(&kept[1], at)], moved.turn);
-    let (added, change) = (moved.half_turned(added), moved.half_turned(change));
     let force = if matches!(control, Control::Viscous) { added } else { [old[0] + added[0], old[1] + added[1]] };
-    force[0].store(&mut kept[0], at);
-    force[1].store(&mut kept[1], at);
-    let b = Centre::new(&end).b;
-    let first = (end.twist[0] * b[0][0] + end.twist[1] * b[0][1]) * moved.inverse_end;
-    let second = (end.twist[0] * b[1][0] + end.twist[1] * b[1][1]) * moved.inverse_end;
+    let b = centre.b;
+    let first = (end.twist[0] * b[0][0] + end.twist[1] * b[0][1]) * inverse;
+    let second = (end.twist[0] * b[1][0] + end.twist[1] * b[1][1]) * inverse;
     let gamma = [one - first, -(one + second), one + first, second - one];
     let quarters = [force[0] * quarter, force[1] * quarter];
     let mut forces = [[one; 2]; 4];
     for a in 0..4 {
         forces[a] = [gamma[a] * quarters[0], gamma[a] * quarters[1]];
     }
-    // γ·γ − 4; ω² Δt² of both together at the linear step, which must not be more than 4.
-    let more = two * (first * first + second * second);
-    let all = swing * (four + more);
-    let difference = four - all;
-    let together = (four + all + (difference * difference + L::splat(16.0) * swing * more).sqrt()) * L::splat(0.125);
+    // γ·γ − 4
+    let together = together(swing, two * (first * first + second * second));
     Held {
         forces,
+        kept: force,
         work: half * ((old[0] + force[0]) * change[0] + (old[1] + force[1]) * change[1]),
         stiffening: if matches!(control, Control::Viscous) { together * together } else { together },
     }
@@ -296,37 +245,33 @@ macro_rules! reduced {
         impl Element<2, 4, 1> for $name {
             const KIND: ElementKind = $kind;
             const POINTS: [[f64; 2]; 1] = [[0.0; 2]];
-            const WEIGHTS: [f64; 1] = [4.0];
-            const NODES: [[f64; 2]; 4] = NODES;
+            const WEIGHTS: [f64; 1] = [0.5];
+            const NODES: [[f64; 2]; 4] = DIAGONAL_NODES;
             const MEAN_DILATATION: bool = false;
             const HOURGLASS: usize = 2;
 
             fn new(options: &ElementOptions) -> Self {
                 Self { coefficient: options.hourglass.unwrap_or($coefficient) }
             }
-            fn shape(natural: [f64; 2]) -> [f64; 4] {
-                shape(natural)
+            fn shape([r, s]: [f64; 2]) -> [f64; 4] {
+                shape([2.0 * (r - s), 2.0 * (r + s)])
             }
             #[inline(always)]
             fn gradients<L: Lane>(u: &[[L; 2]; 4]) -> [Matrix<L, 2>; 1] {
-                let quarter = L::splat(0.25);
                 let mut out = [[[L::splat(0.0); 2]; 2]; 1];
                 for i in 0..2 {
-                    let (diagonal_13, diagonal_24) = (u[2][i] - u[0][i], u[1][i] - u[3][i]);
-                    out[0][i] = [(diagonal_13 + diagonal_24) * quarter, (diagonal_13 - diagonal_24) * quarter];
+                    out[0][i] = [u[2][i] - u[0][i], u[3][i] - u[1][i]];
                 }
                 out
             }
             #[inline(always)]
             fn divergence<L: Lane>(flux: &[Matrix<L, 2>; 1]) -> [[L; 2]; 4] {
-                let quarter = L::splat(0.25);
                 let mut out = [[L::splat(0.0); 2]; 4];
                 for i in 0..2 {
-                    let (sum, difference) = ((flux[0][i][0] + flux[0][i][1]) * quarter, (flux[0][i][0] - flux[0][i][1]) * quarter);
-                    out[0][i] = -sum;
-                    out[1][i] = difference;
-                    out[2][i] = sum;
-                    out[3][i] = -difference;
+                    out[0][i] = -flux[0][i][0];
+                    out[1][i] = -flux[0][i][1];
+                    out[2][i] = flux[0][i][0];
+                    out[3][i] = flux[0][i][1];
                 }
                 out
             }
@@ -338,8 +283,12 @@ macro_rules! reduced {
                 Some(corner_volumes(nodal, is_axisymmetric))
             }
             #[inline(always)]
-            fn hold_shape<L: Lane>(&self, corners: &Corners<L, 2, 4>, kept: &mut [Batch], at: usize) -> Held<L, 2, 4> {
-                hold_shape(Control::$control, self.coefficient, corners, kept, at)
+            fn swing<L: Lane>(x: &[[L; 2]; 4], step: &[[L; 2]; 4], gradient: &Matrix<L, 2>) -> [L; 2] {
+                swing(x, step, gradient)
+            }
+            #[inline(always)]
+            fn hold_shape<L: Lane>(&self, corners: &Corners<L, 2, 4>) -> Held<L, 2, 4> {
+                hold_shape(Control::$control, self.coefficient, corners)
             }
         }
     };

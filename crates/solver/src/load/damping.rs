@@ -8,6 +8,7 @@
 
 use crate::mesh::Mesh;
 use crate::model::{Load, Model};
+use embate_lanes::Batch;
 
 /// The damping loads of a model.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -86,11 +87,24 @@ impl Damping {
         changed
     }
 
+    /// Whether some node may be slowed now.
+    #[inline]
+    #[must_use]
+    pub fn acts(&self) -> bool {
+        !self.rates.is_empty() || self.relaxation.is_some()
+    }
+
     /// a of a node.
     #[inline]
     #[must_use]
     pub fn factor(&self, node: usize) -> f64 {
         0.5 * self.rate(node) * self.time_step
+    }
+
+    /// a of eight nodes from `first` on.
+    #[must_use]
+    pub fn factors(&self, first: usize) -> Batch {
+        Batch(std::array::from_fn(|lane| self.factor(first + lane)))
     }
 
     /// Rate of a node now, 1/s.

@@ -5,7 +5,7 @@
 //! are gone stored at n − ½, less what springs of the new surfaces store there, is booked with it. So the drift does not see erosion.
 
 use super::System;
-use crate::block::{Report, corner_slot};
+use crate::block::Report;
 use crate::build::{Lent, Origin};
 use crate::failure::Criterion;
 use crate::output::Eroded;
@@ -75,8 +75,11 @@ impl System {
                 continue;
             }
             let name = |criterion: u32| criteria[criterion as usize].kind.limit.name;
-            let mut of_block: Vec<(u32, &'static str)> =
-                block.failed(criteria, self.parallel).into_iter().map(|(element, criterion)| (element, name(criterion))).collect();
+            let mut of_block: Vec<(u32, &'static str)> = block
+                .failed(criteria, self.team.threads() > 1)
+                .into_iter()
+                .map(|(element, criterion)| (element, name(criterion)))
+                .collect();
             let step = criteria.iter().map(|criterion| criterion.kind.limit.name).find(|name| *name == "time_step");
             if let Some(step) = step.filter(|_| inverted) {
                 let is_inverted =
@@ -93,17 +96,17 @@ impl System {
     /// Takes elements out of their block and of the mesh.
     fn take_out(&mut self, failed: &[Failed], erosion: &mut Erosion) {
         let index = failed[0].0;
-        let first = self.blocks[..index].iter().map(|block| block.corner_batches()).sum::<usize>();
+        let first = self.blocks[..index].iter().map(|block| block.slots().len()).sum::<usize>();
+        let slots = first..first + self.blocks[index].slots().len();
         let numbers: Vec<u32> = failed.iter().map(|&(_, element, _)| element).collect();
         let group = &self.mesh.groups[index];
         for &(_, element, criterion) in failed {
             let mut work = 0.0;
             for (corner, &node) in group.cell(element as usize).iter().enumerate() {
-                let (batch, lane) = corner_slot::<2>(group.nodes_per_element, element as usize, corner);
+                let force = self.blocks[index].force(element as usize, corner, &self.slots[slots.clone()]);
                 let [x, x_old] = [self.positions[node as usize], self.positions_old[node as usize]];
                 for d in 0..2 {
-                    let force = &mut self.corners[first + batch + d].0[lane];
-                    work += std::mem::take(force) * (x[d] - x_old[d]);
+                    work += force[d] * (x[d] - x_old[d]);
                 }
             }
             if work.is_finite() {
@@ -119,7 +122,7 @@ impl System {
         }
         let part = group.part;
         erosion.by_part[part] += failed.len();
-        erosion.energy += self.blocks[index].erode(&numbers).iter().sum::<f64>();
+        erosion.energy += self.blocks[index].erode(&numbers, &mut self.slots[slots]).iter().sum::<f64>();
         for &element in &numbers {
             self.mesh.groups[index].erode(element as usize);
         }
@@ -148,6 +151,7 @@ impl System {
         erosion.springs = Some(self.contacts.iter().map(|contact| contact.stored(&self.springs)).sum());
         let lent = Lent { mesh: &mut self.mesh, constraints: &mut self.constraints, mass: &mut self.mass, bodies: &mut self.bodies };
         erosion.origin.renew(lent, &mut self.contacts);
+        self.find_free_nodes();
     }
 
     /// Mass of nodes without elements, kg/m.

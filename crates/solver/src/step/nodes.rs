@@ -12,14 +12,16 @@ use crate::load::join::{Group, Joins};
 use crate::load::non_reflecting::{Matrix, NonReflecting, inverse, times};
 use crate::rigid::Bodies;
 use crate::step::Vector;
-use embate_lanes::Batch;
+use crate::step::free::Free;
+use embate_lanes::{BATCH, Level};
 
 /// What the velocity update reads.
 pub(crate) struct Nodes<'a> {
     /// Δt = ½ (dt^{n−1} + dt^n), s.
     pub(crate) dt: f64,
-    pub(crate) assembly: &'a Assembly<2>,
-    pub(crate) corners: &'a [Batch],
+    pub(crate) assembly: &'a Assembly,
+    pub(crate) slots: &'a [Vector],
+    /// N/m; empty without contacts.
     pub(crate) contact_forces: &'a [Vector],
     /// Forces on nodes, N/m; empty without.
     pub(crate) loads: &'a [Vector],
@@ -32,6 +34,12 @@ pub(crate) struct Nodes<'a> {
     pub(crate) joins: &'a Joins,
     pub(crate) bodies: &'a Bodies,
     pub(crate) velocities_old: &'a [Vector],
+    /// x^n, m, and the step that will lead to x^{n+1}, s.
+    pub(crate) positions: &'a [Vector],
+    pub(crate) time_step: f64,
+    /// Whether each group of eight nodes is free (`free.rs`).
+    pub(crate) free: &'a [bool],
+    pub(crate) level: Level,
 }
 
 /// What pulls on a node or on a group, seen from its leader.
@@ -85,8 +93,8 @@ impl<'a> Nodes<'a> {
         Pull {
             mass: self.mass[node],
             old: self.velocities_old[node],
-            internal: self.assembly.force(node, self.corners),
-            contact: self.contact_forces[node],
+            internal: self.assembly.force(node, self.slots),
+            contact: self.contact_forces.get(node).copied().unwrap_or_default(),
             load: self.loads.get(node).copied(),
             gravity: self.gravity.get(node).copied(),
             slowing: self.damping.factor(node),
@@ -102,8 +110,8 @@ impl<'a> Nodes<'a> {
         Pull {
             mass,
             old: self.velocities_old[leader],
-            internal: group.sum(|node| self.assembly.force(node, self.corners)),
-            contact: group.sum(|node| self.contact_forces[node]),
+            internal: group.sum(|node| self.assembly.force(node, self.slots)),
+            contact: group.sum(|node| self.contact_forces.get(node).copied().unwrap_or_default()),
             load: (!self.loads.is_empty()).then(|| group.sum(|node| self.loads[node])),
             gravity: (!self.gravity.is_empty()).then(|| group.sum(weight).map(|force| force / mass)),
             slowing: whole(&|node| self.mass[node] * self.damping.factor(node)) / mass,
@@ -135,13 +143,19 @@ impl<'a> Nodes<'a> {
         self.joins.of_node(leader as u32).map_or_else(|| self.pull(leader), |(group, _)| self.pull_of(group))
     }
 
-    /// Updates the velocities of the nodes from `first` on and sums their works; groups are left out.
-    pub(crate) fn update(&self, first: usize, velocities: &mut [Vector]) -> Sums {
-        let mut sums = Sums::default();
-        for (i, v) in velocities.iter_mut().enumerate() {
-            let node = first + i;
-            if self.bodies.of_node(node as u32).is_none() && self.joins.of_node(node as u32).is_none() {
-                *v = self.advance(&self.pull(node), &mut sums);
+    /// Updates the velocities of the nodes from `first` on (a multiple of eight) and sums their works; groups that move as one are left out. The next positions of
+    /// free nodes follow at once.
+    pub(crate) fn update(&self, first: usize, velocities: &mut [Vector], positions_next: &mut [Vector]) -> Sums {
+        let mut sums = self.level.run(Free { nodes: self, first, velocities: &mut *velocities, positions_next });
+        for (group, velocities) in velocities.chunks_mut(BATCH).enumerate() {
+            let first = first + group * BATCH;
+            if self.free.get(first / BATCH) == Some(&true) {
+                continue;
+            }
+            for (node, v) in (first..).zip(velocities) {
+                if self.bodies.of_node(node as u32).is_none() && self.joins.of_node(node as u32).is_none() {
+                    *v = self.advance(&self.pull(node), &mut sums);
+                }
             }
         }
         sums

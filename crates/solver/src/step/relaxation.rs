@@ -35,7 +35,7 @@ impl System {
         let Some(relaxation) = &mut self.relaxation else { return };
         let (mut power, mut inertia) = (0.0, 0.0);
         for (node, old) in relaxation.forces.iter_mut().enumerate() {
-            let force = self.assembly.force(node, &self.corners);
+            let force = self.assembly.force(node, &self.slots);
             if self.bodies.of_node(node as u32).is_none() {
                 let v = self.velocities[node];
                 power += v[0] * (force[0] - old[0]) + v[1] * (force[1] - old[1]);

@@ -2,7 +2,7 @@
 //! step, and the same bits on every instruction set.
 
 use crate::patches::*;
-use embate_lanes::Level;
+use embate_lanes::{Level, Team};
 use embate_solver::element::ELEMENTS;
 use embate_solver::material::{LAWS, Variable};
 
@@ -281,8 +281,8 @@ fn bits(body: &Body) -> Vec<u64> {
         state.stress.into_iter().chain(state.variables).chain([state.energy_density, body.block.time_step_squared(k)])
     };
     let states = (0..body.block.elements()).flat_map(state);
-    let corners = body.corners.iter().flat_map(|batch| batch.0);
-    report.into_iter().chain(states).chain(corners).map(f64::to_bits).collect()
+    let forces = body.slots.iter().flatten().copied();
+    report.into_iter().chain(states).chain(forces).map(f64::to_bits).collect()
 }
 
 #[test]
@@ -290,9 +290,9 @@ fn every_instruction_set_and_any_threads_give_the_same_bits() {
     every_pair(|element, law| {
         // 625 elements: more than one chunk, and a batch that is not full.
         let patch = patch(element, 25, 0.2);
-        let run = |level: Level, parallel: bool| {
+        let run = |level: Level, threads: usize| {
             let mut body = Body::of(element, &material(law, 0.3), &patch);
-            (body.level, body.parallel) = (level, parallel);
+            (body.level, body.team) = (level, Team::new(threads));
             let mut numbers = Spread::new(17);
             for _ in 0..10 {
                 let (f, size) = (near_one(0.01, &mut numbers), 0.004);
@@ -302,11 +302,50 @@ fn every_instruction_set_and_any_threads_give_the_same_bits() {
             assert!(body.block.state(0).stress[0] != 0.0 && (!body.block.has(Variable::PlasticStrain) || body.report.dissipated > 0.0));
             bits(&body)
         };
-        let reference = run(Level::SCALAR, false);
+        let reference = run(Level::SCALAR, 1);
         for level in Level::available() {
-            for parallel in [false, true] {
-                assert!(run(level, parallel) == reference, "{element} {law} {}, in parallel: {parallel}", level.name());
+            for threads in [1, 3] {
+                assert!(run(level, threads) == reference, "{element} {law} {}, {threads} threads", level.name());
             }
         }
+    });
+}
+
+#[test]
+fn a_block_pulls_without_its_eroded_elements_even_where_a_chunk_has_none_left() {
+    const OF_A_CHUNK: u32 = 512;
+    every_pair(|element, law| {
+        let patch = patch(element, 25, 0.2);
+        let mut body = Body::of(element, &material(law, 0.3), &patch);
+        body.block.keep_forces();
+        let to: Vec<_> = patch.positions.iter().map(|&[x, y]| [1.001 * x + 0.002 * y, 0.999 * y]).collect();
+        body.move_to(&to);
+        let count = body.block.elements() as u32;
+        let gone: Vec<u32> = (0..OF_A_CHUNK).chain([OF_A_CHUNK + 1, OF_A_CHUNK + 40, count - 1]).collect();
+        // Those that stay, one by one.
+        let nodes = nodes_of(element);
+        let (mut expected, mut has_elements) = (vec![[0.0; 2]; to.len()], vec![false; to.len()]);
+        let stays = |element: &u32| !gone.contains(element);
+        for k in (0..count).filter(stays) {
+            for (corner, &node) in patch.connectivity[k as usize * nodes..][..nodes].iter().enumerate() {
+                let force = body.block.force(k as usize, corner, &body.slots);
+                (0..2).for_each(|d| expected[node as usize][d] += force[d]);
+                has_elements[node as usize] = true;
+            }
+        }
+        let size = expected.iter().flatten().fold(0.0f64, |size, f| size.max(f.abs()));
+        assert!(size > 0.0);
+        let differs = |forces: &[[f64; 2]]| {
+            forces.iter().flatten().zip(expected.iter().flatten()).fold(0.0f64, |worst, (a, b)| worst.max((a - b).abs())) / size
+        };
+        body.block.erode(&gone, &mut body.slots);
+        let at_once = differs(&body.forces());
+        assert!(at_once < 1e-13, "{element} {law}: {at_once}");
+        // Averages over nodes change with the elements, rates with the step; but nothing pulls where nothing is left.
+        body.move_to(&to);
+        let forces = body.forces();
+        let mut lonely = (0..to.len()).filter(|&node| !has_elements[node]);
+        assert!(lonely.clone().count() > 200 && lonely.all(|node| forces[node] == [0.0; 2]), "{element} {law}");
+        assert!(body.report.determinant > 0.0 && body.report.time_step_squared.is_finite() && body.report.stored.is_finite());
     });
 }

@@ -1,7 +1,7 @@
 //! What the contract tests are made on: numbers, materials for any registered law, patches for any registered element, and a block with its nodes.
 
-use embate_lanes::{Batch, Level};
-use embate_solver::block::{Block, BlockInput, Motion, Report, corner_slot, make};
+use embate_lanes::{Level, Team};
+use embate_solver::block::{Block, BlockInput, Motion, NO_NODE, Report, make};
 use embate_solver::element::{ELEMENTS, Element, ElementVisitor, with_element};
 use embate_solver::material::{LAWS, Law, LawKind, LawVisitor, equation_of_state, with_law};
 use embate_solver::model::Material;
@@ -233,10 +233,10 @@ pub(crate) fn patch(element: &str, n: usize, roughness: f64) -> Patch {
 pub(crate) struct Body {
     pub(crate) block: Box<dyn Block<2>>,
     pub(crate) positions: Vec<[f64; 2]>,
-    pub(crate) corners: Vec<Batch>,
+    pub(crate) slots: Vec<[f64; 2]>,
     pub(crate) report: Report,
     pub(crate) level: Level,
-    pub(crate) parallel: bool,
+    pub(crate) team: Team,
     connectivity: Vec<u32>,
     nodes_per_element: usize,
 }
@@ -250,14 +250,14 @@ impl Body {
     pub(crate) fn made(input: &BlockInput<'_>) -> Self {
         let BlockInput { element, connectivity, positions, .. } = *input;
         let block = make(input).unwrap();
-        let corners = vec![Batch::default(); block.corner_batches()];
+        let slots = vec![[0.0; 2]; block.slots().len()];
         let mut body = Self {
             block,
             positions: positions.to_vec(),
-            corners,
+            slots,
             report: Report::NOTHING,
             level: Level::SCALAR,
-            parallel: false,
+            team: Team::alone(),
             connectivity: connectivity.to_vec(),
             nodes_per_element: nodes_of(element),
         };
@@ -280,7 +280,7 @@ impl Body {
         let velocity = |(x, old): (&[f64; 2], &[f64; 2])| [(x[0] - old[0]) / time_step, (x[1] - old[1]) / time_step];
         let velocities: Vec<_> = positions.iter().zip(&self.positions).map(velocity).collect();
         let motion = Motion { positions, velocities: &velocities, time_step };
-        self.report = self.block.advance(&motion, self.level, &mut self.corners, self.parallel);
+        self.report = self.block.advance(&motion, self.level, &mut self.slots, &mut self.team);
         self.positions = positions.to_vec();
     }
 
@@ -290,7 +290,7 @@ impl Body {
             *x = [x[0] + v[0] * time_step, x[1] + v[1] * time_step];
         }
         let motion = Motion { positions: &self.positions, velocities, time_step };
-        self.report = self.block.advance(&motion, self.level, &mut self.corners, self.parallel);
+        self.report = self.block.advance(&motion, self.level, &mut self.slots, &mut self.team);
     }
 
     /// One step in which every node goes to `to(x)`.
@@ -299,13 +299,12 @@ impl Body {
         self.move_to(&positions);
     }
 
-    /// Sum of the corner forces at every node.
+    /// Sum of the forces at every node.
     pub(crate) fn forces(&self) -> Vec<[f64; 2]> {
         let mut forces = vec![[0.0; 2]; self.positions.len()];
-        for (k, &node) in self.connectivity.iter().enumerate() {
-            let (batch, lane) = corner_slot::<2>(self.nodes_per_element, k / self.nodes_per_element, k % self.nodes_per_element);
+        for (&node, force) in self.block.slots().iter().zip(&self.slots).filter(|(node, _)| **node != NO_NODE) {
             for d in 0..2 {
-                forces[node as usize][d] += self.corners[batch + d].0[lane];
+                forces[node as usize][d] += force[d];
             }
         }
         forces

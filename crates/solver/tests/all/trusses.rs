@@ -3,8 +3,8 @@
 use crate::bodies::*;
 use crate::patches::{Spread, YOUNG, is_isotropic, material, solids};
 use crate::point::Point;
-use embate_lanes::{Batch, Level};
-use embate_solver::block::{Block, BlockInput, Initial, Motion, Report, corner_slot, make};
+use embate_lanes::{Level, Team};
+use embate_solver::block::{Block, BlockInput, Initial, Motion, Report, make};
 use embate_solver::material::{Family, Law, LawVisitor, Variable, with_law};
 use embate_solver::model::{
     Constraint, Contact, Curve, CurveShape, Drive, Image, InitialStress, Join, Load, Material, Model, NonReflecting, Obstacle, Part, Probe,
@@ -17,7 +17,7 @@ const AREA: f64 = 0.01;
 /// One bar from the origin, driven by the place of its second node.
 struct OneBar {
     block: Box<dyn Block<2>>,
-    corners: Vec<Batch>,
+    slots: Vec<[f64; 2]>,
     positions: [[f64; 2]; 2],
     report: Report,
     time_step: f64,
@@ -27,22 +27,21 @@ impl OneBar {
     fn new(material: &Material, end: [f64; 2]) -> Self {
         let positions = [[0.0; 2], end];
         let block = make(&BlockInput { area: AREA, ..BlockInput::new("bar2", material, &[0, 1], &positions) }).unwrap();
-        let corners = vec![Batch::default(); block.corner_batches()];
-        Self { block, corners, positions, report: Report::NOTHING, time_step: 1e-3 }
+        let slots = vec![[0.0; 2]; block.slots().len()];
+        Self { block, slots, positions, report: Report::NOTHING, time_step: 1e-3 }
     }
 
     fn go(&mut self, end: [f64; 2]) {
         let positions = [[0.0; 2], end];
         let velocities = [[0.0; 2], [0, 1].map(|d| (end[d] - self.positions[1][d]) / self.time_step)];
         let motion = Motion { positions: &positions, velocities: &velocities, time_step: self.time_step };
-        self.report = self.block.advance(&motion, Level::best(), &mut self.corners, false);
+        self.report = self.block.advance(&motion, Level::best(), &mut self.slots, &mut Team::alone());
         self.positions = positions;
     }
 
     /// Force on the first node.
     fn force(&self) -> [f64; 2] {
-        let (batch, lane) = corner_slot::<2>(2, 0, 0);
-        [0, 1].map(|d| self.corners[batch + d].0[lane])
+        self.slots[0]
     }
 }
 

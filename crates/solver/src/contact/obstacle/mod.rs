@@ -97,6 +97,31 @@ pub struct NodeObstacle {
     has_begun: bool,
     /// Indices of the nodes with springs in this step.
     found: Vec<u32>,
+    near: Near,
+}
+
+/// Nodes that an obstacle has to look at in each step. The others are farther from it than they can come before the next look at all.
+#[derive(Default)]
+struct Near {
+    /// Their indices.
+    indices: Vec<u32>,
+    /// Way of the scene at the last look at all, m; `None`: there was none.
+    since: Option<f64>,
+    /// Where the body was then.
+    place: (f64, Vector),
+}
+
+impl Near {
+    /// Nodes may go this far between two looks at all, in multiples of the reach.
+    const WAY: f64 = 1.0;
+    /// Gap beyond which a node is not near, in multiples of the reach. A gap changes by the way at most, and the reach grows with four times the sum of
+    /// both components of a step, which is less than six times the way.
+    const GAP: f64 = 1.0 + 8.0 * Self::WAY;
+
+    /// Whether the far nodes are still far.
+    fn holds(&self, scene: &Scene<'_>, place: (f64, Vector), reach: f64) -> bool {
+        self.place == place && self.since.is_some_and(|since| scene.travel - since < Self::WAY * reach)
+    }
 }
 
 impl NodeObstacle {
@@ -105,7 +130,7 @@ impl NodeObstacle {
     #[must_use]
     pub fn new(shape: Box<dyn Shape>, body: usize, nodes: Vec<(u32, Slave)>, reach: f64, ignores_start: bool) -> Self {
         let memories = vec![Memory::default(); nodes.len()];
-        Self { shape, body, memories, nodes, reach, ignores_start, has_begun: false, found: Vec::new() }
+        Self { shape, body, memories, nodes, reach, ignores_start, has_begun: false, found: Vec::new(), near: Near::default() }
     }
 }
 
@@ -114,10 +139,25 @@ impl Formulation for NodeObstacle {
         self.found.clear();
         let body = scene.bodies.state(self.body);
         let at = (scene.sweep.new.len() + self.body) as u32;
-        for (index, (&(node, slave), memory)) in self.nodes.iter().zip(&mut self.memories).enumerate() {
+        let place = (body.angle, body.centre);
+        let looks_at_all = !self.near.holds(scene, place, self.reach);
+        if looks_at_all {
+            (self.near.since, self.near.place) = (Some(scene.travel), place);
+            self.near.indices.clear();
+            self.near.indices.extend(0..self.nodes.len() as u32);
+        }
+        // Of a look at all, those that stay near; at first what moved is not known.
+        let (mut count, has_begun) = (0, self.has_begun);
+        for k in 0..self.near.indices.len() {
+            let index = self.near.indices[k] as usize;
+            let ((node, slave), memory) = (self.nodes[index], &mut self.memories[index]);
             let x = scene.sweep.new[node as usize];
             let way = Way { from: body.to_local_old(scene.sweep.old[node as usize]), to: body.to_local(x) };
             let met = self.shape.meet(way, memory);
+            if looks_at_all && !(has_begun && met.is_some_and(|(gap, _)| gap > Near::GAP * self.reach)) {
+                self.near.indices[count] = index as u32;
+                count += 1;
+            }
             let pressed = std::mem::replace(&mut memory.presses, false);
             let Some((gap, normal)) = met else {
                 memory.offset = 0.0;
@@ -139,6 +179,9 @@ impl Formulation for NodeObstacle {
                 springs.push(Spring { normal: body.to_global(normal), gap, stiffness, area, side: 1.0, slip, ..Spring::default() }, &ends);
                 self.found.push(index as u32);
             }
+        }
+        if looks_at_all {
+            self.near.indices.truncate(count);
         }
         self.has_begun = true;
     }

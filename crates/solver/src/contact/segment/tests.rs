@@ -62,7 +62,7 @@ fn springs_of(model: &Facing2, penalty: Penalty, depth: Depth) -> Springs {
     let mut formulation = (KIND.make)(setup).unwrap();
     let mut springs = Springs::new(model.positions.len(), 0);
     let sweep = Sweep { old: &model.positions, new: &model.positions };
-    formulation.detect(&Scene { sweep, bodies: &Bodies::default(), time: 0.0 }, &mut springs);
+    formulation.detect(&Scene { sweep, bodies: &Bodies::default(), time: 0.0, travel: 0.0 }, &mut springs);
     springs
 }
 

@@ -1,0 +1,152 @@
+//! The velocity update of nodes that nothing holds, eight at a time: forces, loads, gravity and damping; no constraint, dashpot, group or rigid body.
+//!
+//! The same formulas as for any node in `nodes.rs`, in lanes. Groups of eight nodes in which one is not free are left to it. Sums run lane by lane, so they do not
+//! depend on the instruction set.
+
+use super::nodes::Nodes;
+use crate::energy::Sums;
+use crate::step::Vector;
+use embate_lanes::{BATCH, Batch, Kernel, Lane};
+
+/// Whether all nodes of each group of eight are free.
+pub(crate) fn groups(nodes: usize, is_free: impl Fn(usize) -> bool) -> Vec<bool> {
+    (0..nodes / BATCH).map(|group| (group * BATCH..(group + 1) * BATCH).all(&is_free)).collect()
+}
+
+/// Nodes from `first` on (a multiple of eight) with their new velocities, and with the positions x^{n+1} to which these lead: they are written while everything
+/// is at hand.
+pub(super) struct Free<'a, 'b> {
+    pub(super) nodes: &'b Nodes<'a>,
+    pub(super) first: usize,
+    pub(super) velocities: &'b mut [Vector],
+    pub(super) positions_next: &'b mut [Vector],
+}
+
+/// Sums of [`Sums`], one per lane position.
+#[derive(Default)]
+struct LaneSums {
+    kinetic_half: Batch,
+    kinetic: Batch,
+    internal: Batch,
+    load: Batch,
+    gravity: Batch,
+    external_old: Batch,
+    damping: Batch,
+    damping_old: Batch,
+    speed_squared: Batch,
+}
+
+impl LaneSums {
+    fn total(&self) -> Sums {
+        let sum = |batch: &Batch| batch.0.iter().sum();
+        Sums {
+            kinetic_half: sum(&self.kinetic_half),
+            kinetic: sum(&self.kinetic),
+            internal: sum(&self.internal),
+            load: sum(&self.load),
+            gravity: sum(&self.gravity),
+            external_old: sum(&self.external_old),
+            damping: sum(&self.damping),
+            damping_old: sum(&self.damping_old),
+            speed_squared: self.speed_squared.0.into_iter().fold(0.0, f64::max),
+            ..Sums::default()
+        }
+    }
+}
+
+/// `values[first..first + 8]`.
+#[inline(always)]
+fn eight(values: &[f64], first: usize) -> Batch {
+    values[first..].first_chunk().map_or(Batch::default(), |values| Batch(*values))
+}
+
+#[inline(always)]
+fn dot<L: Lane>(a: [L; 2], b: [L; 2]) -> L {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+#[inline(always)]
+fn add<L: Lane>(sum: &mut Batch, value: L, at: usize) {
+    (L::load(sum, at) + value).store(sum, at);
+}
+
+impl Kernel for Free<'_, '_> {
+    type Output = Sums;
+
+    #[inline(always)]
+    fn run<L: Lane>(self) -> Sums {
+        let Self { nodes, first, velocities, positions_next } = self;
+        let mut sums = LaneSums::default();
+        let dt = L::splat(nodes.time_step);
+        let groups = velocities.as_chunks_mut::<BATCH>().0.iter_mut().zip(positions_next.as_chunks_mut::<BATCH>().0);
+        for (group, (own, next)) in groups.enumerate() {
+            let first = first + group * BATCH;
+            if !nodes.free[first / BATCH] {
+                continue;
+            }
+            let mut pulls = [[0.0; 2]; BATCH];
+            for (i, pull) in pulls.iter_mut().enumerate() {
+                *pull = nodes.assembly.force(first + i, nodes.slots);
+            }
+            for at in (0..BATCH).step_by(L::WIDTH) {
+                let v = nodes.advance_free::<L>(first, at, L::load_points(&pulls, at), &mut sums);
+                let x = L::load_points(nodes.positions, first + at);
+                L::store_points([x[0] + dt * v[0], x[1] + dt * v[1]], next, at);
+                L::store_points(v, own, at);
+            }
+        }
+        sums.total()
+    }
+}
+
+impl Nodes<'_> {
+    /// v^{n+½} of the nodes `first + at..` and their part in the books.
+    #[inline(always)]
+    fn advance_free<L: Lane>(&self, first: usize, at: usize, internal: [L; 2], sums: &mut LaneSums) -> [L; 2] {
+        let (half, dt) = (L::splat(0.5), L::splat(self.dt));
+        let node = first + at;
+        let m = L::load(&eight(self.mass, first), at);
+        let old = L::load_points(self.velocities_old, node);
+        let scale = dt / m;
+        let mut force = internal;
+        if !self.contact_forces.is_empty() {
+            let contact = L::load_points(self.contact_forces, node);
+            force = [force[0] + contact[0], force[1] + contact[1]];
+        }
+        let mut v = [old[0] + scale * force[0], old[1] + scale * force[1]];
+        let load = if self.loads.is_empty() { None } else { Some(L::load_points(self.loads, node)) };
+        if let Some(load) = load {
+            v = [v[0] + scale * load[0], v[1] + scale * load[1]];
+        }
+        let gravity = if self.gravity.is_empty() { None } else { Some(L::load_points(self.gravity, node)) };
+        if let Some(g) = gravity {
+            v = [v[0] + dt * g[0], v[1] + dt * g[1]];
+        }
+        let slowing = if self.damping.acts() { Some(L::load(&self.damping.factors(first), at)) } else { None };
+        if let Some(a) = slowing {
+            let all = L::splat(1.0) + a;
+            v = [(v[0] - a * old[0]) / all, (v[1] - a * old[1]) / all];
+        }
+        let mean = [half * (old[0] + v[0]), half * (old[1] + v[1])];
+        let square = dot(v, v);
+        square.max(L::load(&sums.speed_squared, at)).store(&mut sums.speed_squared, at);
+        add(&mut sums.kinetic_half, half * m * square, at);
+        add(&mut sums.kinetic, half * m * dot(old, v), at);
+        add(&mut sums.internal, dt * dot(internal, mean), at);
+        if let Some(load) = load {
+            add(&mut sums.load, dt * dot(load, mean), at);
+            add(&mut sums.external_old, dt * dot(load, old), at);
+        }
+        if let Some(g) = gravity {
+            add(&mut sums.gravity, dt * m * dot(g, mean), at);
+            add(&mut sums.external_old, dt * m * dot(g, old), at);
+        }
+        if let Some(a) = slowing {
+            let factor = -(L::splat(2.0) * a * m);
+            let impulse = [factor * mean[0], factor * mean[1]];
+            add(&mut sums.damping, dot(impulse, mean), at);
+            add(&mut sums.damping_old, dot(impulse, old), at);
+        }
+        v
+    }
+}

@@ -62,7 +62,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     input::warn(&loaded, &simulation);
     // Only now: a model that can't run must not cost the results of an earlier one.
     let folder = ResultFolder::create(&path, arguments.force).map_err(in_the_way)?;
-    let (report, result, is_interrupted) = record(model, &mut simulation, folder, arguments.quiet)?;
+    let (report, result, is_interrupted) = record(model, &mut simulation, folder, options.thread_count(), arguments.quiet)?;
 
     if !arguments.quiet {
         // Those of the model come first, and have been told.
@@ -88,6 +88,7 @@ fn record(
     model: &Model,
     simulation: &mut Simulation,
     folder: ResultFolder,
+    threads: usize,
     is_quiet: bool,
 ) -> Result<(Report, Result<(), String>, bool), Failure> {
     let interrupt = Interrupt::watch();
@@ -104,8 +105,8 @@ fn record(
         is_interrupted = true;
         Control::Stop
     };
-    let mut recorder =
-        Recorder::new(folder, model, simulation.history_columns(), simulation.cells(), Box::new(on_progress)).map_err(in_the_way)?;
+    let (columns, cells) = (simulation.history_columns(), simulation.cells());
+    let mut recorder = Recorder::new(folder, model, columns, cells, threads, Box::new(on_progress)).map_err(in_the_way)?;
     let result = simulation.run(&mut recorder).map_err(|error| input::told(&error));
     let outcome = recorder.finish(result.as_ref().err().map(|text| bare(text)), &simulation.summary(), cpu::user_seconds);
     display.close();

@@ -7,5 +7,6 @@ mod outline;
 pub mod picture;
 pub mod results;
 pub mod sweep;
+pub mod threads;
 pub mod verification;
 pub mod vtu;

@@ -2,19 +2,24 @@
 //!
 //! A [`Frame`] and its [`Cells`] become the bytes of one file: a short XML head, then all arrays as appended raw binary,
 //! little-endian, each in zlib blocks with 64-bit headers. What never changes during a run (connectivity, cell types,
-//! parts) is encoded once by [`VtuWriter::new`]. Equal input gives equal bytes on every machine. The bytes go to
+//! parts) is encoded once by [`VtuWriter::new`]. Blocks have a fixed size and are packed by several threads at once. Equal input gives equal bytes
+//! on every machine, for any number of threads. The bytes go to
 //! [`crate::results`], ParaView and `tests/read_back.py` read them. `obstacles` makes a file of obstacles in the same way.
 //! Source: VTK file formats, "XML formats", `vtkZLibDataCompressor`.
 
+use crate::threads::Threads;
 use embate_solver::output::{CellKind, Cells, Field, FieldKind, Frame, Location};
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
 use std::fmt::Write as _;
 use std::io::Write as _;
+use std::ops::Range;
 use thiserror::Error;
 
 /// Bytes of one block before compression.
 const BLOCK: usize = 1 << 17;
+/// Below so many bytes threads cost more than they bring.
+const SERIAL: usize = 1 << 20;
 
 /// A frame that does not fit its cells; a fault of the program that made it, never of its user.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
@@ -46,6 +51,48 @@ struct Array {
     bytes: Vec<u8>,
 }
 
+/// An array before it is packed.
+struct Plain<'a> {
+    attributes: String,
+    data: Data<'a>,
+}
+
+/// The numbers of an array; they become bytes block by block.
+enum Data<'a> {
+    Bytes(Vec<u8>),
+    /// Whole numbers, written with 64 bits.
+    Indices(&'a [u32]),
+    Numbers(&'a [f64]),
+    /// `x y x y ...`, written as `x y 0 x y 0 ...`.
+    PlaneVectors(&'a [f64]),
+}
+
+impl Data<'_> {
+    /// Bytes in the file before compression.
+    fn len(&self) -> usize {
+        match self {
+            Self::Bytes(bytes) => bytes.len(),
+            Self::Indices(indices) => 8 * indices.len(),
+            Self::Numbers(values) => 8 * values.len(),
+            Self::PlaneVectors(values) => 24 * (values.len() / 2),
+        }
+    }
+
+    /// The bytes in a range of whole numbers, little-endian.
+    fn fill(&self, range: Range<usize>, bytes: &mut Vec<u8>) {
+        bytes.clear();
+        match self {
+            Self::Bytes(all) => bytes.extend_from_slice(&all[range]),
+            Self::Indices(all) => bytes.extend(all[range.start / 8..range.end / 8].iter().flat_map(|&i| i64::from(i).to_le_bytes())),
+            Self::Numbers(values) => bytes.extend(values[range.start / 8..range.end / 8].iter().flat_map(|v| v.to_le_bytes())),
+            Self::PlaneVectors(values) => {
+                let component = |k: usize| if k % 3 == 2 { 0.0 } else { values[2 * (k / 3) + k % 3] };
+                bytes.extend((range.start / 8..range.end / 8).map(component).flat_map(f64::to_le_bytes));
+            }
+        }
+    }
+}
+
 /// Writes the frames of one run.
 #[derive(Clone, Debug)]
 pub struct VtuWriter {
@@ -60,18 +107,25 @@ pub struct VtuWriter {
 impl VtuWriter {
     /// A writer for the frames of `cells`.
     #[must_use]
-    pub fn new(cells: &Cells) -> Self {
-        let connectivity: Vec<u8> = cells.nodes.iter().flat_map(|&n| i64::from(n).to_le_bytes()).collect();
-        let offsets: Vec<u8> = cells.offsets.iter().skip(1).flat_map(|&o| i64::from(o).to_le_bytes()).collect();
-        let types: Vec<u8> = cells.kinds.iter().map(|&kind| vtk_cell_type(kind)).collect();
-        let parts: Vec<u8> = cells.parts.iter().flat_map(|&p| p.to_le_bytes()).collect();
+    pub fn new(cells: &Cells, threads: &Threads) -> Self {
+        let array = |attributes: &str, data| Plain { attributes: attributes.into(), data };
+        let types = cells.kinds.iter().map(|&kind| vtk_cell_type(kind)).collect();
+        let parts = cells.parts.iter().flat_map(|&p| p.to_le_bytes()).collect();
+        let plain = vec![
+            array("type=\"Int64\" Name=\"connectivity\"", Data::Indices(&cells.nodes)),
+            array("type=\"Int64\" Name=\"offsets\"", Data::Indices(cells.offsets.get(1..).unwrap_or_default())),
+            array("type=\"UInt8\" Name=\"types\"", Data::Bytes(types)),
+            array("type=\"Int32\" Name=\"part\"", Data::Bytes(parts)),
+        ];
+        let mut arrays = zlib_blocks(plain, threads).into_iter();
+        let mut next = || arrays.next().expect("there are as many arrays as were put in");
         Self {
             cell_count: cells.len(),
             node_last: cells.nodes.iter().copied().max(),
-            connectivity: Array { attributes: "type=\"Int64\" Name=\"connectivity\"".into(), bytes: zlib_blocks(&connectivity) },
-            offsets: Array { attributes: "type=\"Int64\" Name=\"offsets\"".into(), bytes: zlib_blocks(&offsets) },
-            types: Array { attributes: "type=\"UInt8\" Name=\"types\"".into(), bytes: zlib_blocks(&types) },
-            parts: Array { attributes: "type=\"Int32\" Name=\"part\"".into(), bytes: zlib_blocks(&parts) },
+            connectivity: next(),
+            offsets: next(),
+            types: next(),
+            parts: next(),
         }
     }
 
@@ -80,33 +134,33 @@ impl VtuWriter {
     ///
     /// # Errors
     /// [`VtuError`] when a field or a cell does not fit.
-    pub fn bytes(&self, frame: &Frame<2>, include: &[String]) -> Result<Vec<u8>, VtuError> {
+    pub fn bytes(&self, frame: &Frame<2>, include: &[String], threads: &Threads) -> Result<Vec<u8>, VtuError> {
         let nodes = frame.positions.len();
         if let Some(node) = self.node_last.filter(|&node| node as usize >= nodes) {
             return Err(VtuError::NodeMissing { node, nodes });
         }
-        let points = Array {
+        let mut plain = vec![Plain {
             attributes: "type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"".into(),
-            bytes: zlib_blocks(&plane_vectors_in_space(frame.positions.as_flattened())),
-        };
-        let mut at_nodes = Vec::new();
-        let mut at_cells = Vec::new();
-        for field in frame.fields.iter().filter(|f| include.is_empty() || include.iter().any(|name| name == f.kind.name)) {
-            let (list, count) = match field.kind.location {
-                Location::Node => (&mut at_nodes, nodes),
-                Location::Cell => (&mut at_cells, self.cell_count),
-            };
-            list.push(field_array(field, count)?);
+            data: Data::PlaneVectors(frame.positions.as_flattened()),
+        }];
+        let included = || frame.fields.iter().filter(|f| include.is_empty() || include.iter().any(|name| name == f.kind.name));
+        for field in included().filter(|field| field.kind.location == Location::Node) {
+            plain.push(field_array(field, nodes)?);
+        }
+        let first_of_cells = plain.len();
+        for field in included().filter(|field| field.kind.location == Location::Cell) {
+            plain.push(field_array(field, self.cell_count)?);
         }
         // ParaView does not show cells of this type.
         if let Some(alive) = frame.fields.iter().find(|field| field.kind.name == "alive") {
             let types: Vec<u8> = alive.values.iter().map(|&alive| if alive == 0.0 { HIDDEN_CELL } else { 0 }).collect();
-            at_cells.push(Array { attributes: "type=\"UInt8\" Name=\"vtkGhostType\"".into(), bytes: zlib_blocks(&types) });
+            plain.push(Plain { attributes: "type=\"UInt8\" Name=\"vtkGhostType\"".into(), data: Data::Bytes(types) });
         }
+        let arrays = zlib_blocks(plain, threads);
         let sections = [
-            ("PointData", at_nodes.iter().collect()),
-            ("CellData", std::iter::once(&self.parts).chain(&at_cells).collect()),
-            ("Points", vec![&points]),
+            ("PointData", arrays[1..first_of_cells].iter().collect()),
+            ("CellData", std::iter::once(&self.parts).chain(&arrays[first_of_cells..]).collect()),
+            ("Points", vec![&arrays[0]]),
             ("Cells", vec![&self.connectivity, &self.offsets, &self.types]),
         ];
         Ok(grid_file(frame.time, [nodes, self.cell_count], &sections))
@@ -116,7 +170,7 @@ impl VtuWriter {
 /// The bytes of a `.vtu` file of obstacles at one time: each line as line cells from point to point, with its index as the cell array `obstacle`.
 /// (Poly-lines would be fewer cells, but meshio reads none.)
 pub(crate) fn obstacles(lines: &[Vec<[f64; 2]>], time: f64) -> Vec<u8> {
-    let array = |attributes: &str, bytes: &[u8]| Array { attributes: attributes.into(), bytes: zlib_blocks(bytes) };
+    let array = |attributes: &str, bytes: Vec<u8>| Array { attributes: attributes.into(), bytes: packed(bytes) };
     let positions: Vec<f64> = lines.iter().flatten().flatten().copied().collect();
     let (mut connectivity, mut indices) = (Vec::new(), Vec::new());
     let mut first = 0;
@@ -130,11 +184,14 @@ pub(crate) fn obstacles(lines: &[Vec<[f64; 2]>], time: f64) -> Vec<u8> {
     let count = indices.len();
     let bytes_of = |numbers: &mut dyn Iterator<Item = i64>| -> Vec<u8> { numbers.flat_map(i64::to_le_bytes).collect() };
     let indices: Vec<u8> = indices.iter().flat_map(|index| index.to_le_bytes()).collect();
-    let indices = array("type=\"Int32\" Name=\"obstacle\"", &indices);
-    let points = array("type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"", &plane_vectors_in_space(&positions));
-    let connectivity = array("type=\"Int64\" Name=\"connectivity\"", &bytes_of(&mut connectivity.into_iter()));
-    let offsets = array("type=\"Int64\" Name=\"offsets\"", &bytes_of(&mut (1..=count as i64).map(|k| 2 * k)));
-    let types = array("type=\"UInt8\" Name=\"types\"", &vec![VTK_LINE; count]);
+    let indices = array("type=\"Int32\" Name=\"obstacle\"", indices);
+    let data = Data::PlaneVectors(&positions);
+    let mut in_space = Vec::new();
+    data.fill(0..data.len(), &mut in_space);
+    let points = array("type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"", in_space);
+    let connectivity = array("type=\"Int64\" Name=\"connectivity\"", bytes_of(&mut connectivity.into_iter()));
+    let offsets = array("type=\"Int64\" Name=\"offsets\"", bytes_of(&mut (1..=count as i64).map(|k| 2 * k)));
+    let types = array("type=\"UInt8\" Name=\"types\"", vec![VTK_LINE; count]);
     let sections =
         [("PointData", vec![]), ("CellData", vec![&indices]), ("Points", vec![&points]), ("Cells", vec![&connectivity, &offsets, &types])];
     grid_file(time, [first as usize, count], &sections)
@@ -207,14 +264,14 @@ fn vtk_cell_type(kind: CellKind) -> u8 {
     }
 }
 
-fn field_array(field: &Field, count: usize) -> Result<Array, VtuError> {
+fn field_array(field: &Field, count: usize) -> Result<Plain<'_>, VtuError> {
     let kind = field.kind;
     let expected = kind.width() * count;
     if field.values.len() != expected {
         return Err(VtuError::FieldLength { name: kind.name, found: field.values.len(), expected });
     }
-    let data = if is_plane_vector(kind) { plane_vectors_in_space(&field.values) } else { little_endian(&field.values) };
-    Ok(Array { attributes: field_attributes(kind), bytes: zlib_blocks(&data) })
+    let data = if is_plane_vector(kind) { Data::PlaneVectors(&field.values) } else { Data::Numbers(&field.values) };
+    Ok(Plain { attributes: field_attributes(kind), data })
 }
 
 /// Readers draw arrows only for three components, so plane vectors get a third one.
@@ -236,34 +293,40 @@ fn field_attributes(kind: &FieldKind) -> String {
     attributes
 }
 
-fn little_endian(values: &[f64]) -> Vec<u8> {
-    values.iter().flat_map(|v| v.to_le_bytes()).collect()
+/// An array by itself, packed by the caller's thread.
+fn packed(bytes: Vec<u8>) -> Vec<u8> {
+    let plain = Plain { attributes: String::new(), data: Data::Bytes(bytes) };
+    zlib_blocks(vec![plain], &Threads::one()).swap_remove(0).bytes
 }
 
-/// `x y x y ...` to the bytes of `x y 0 x y 0 ...`.
-fn plane_vectors_in_space(values: &[f64]) -> Vec<u8> {
-    values.chunks_exact(2).flat_map(|v| [v[0], v[1], 0.0]).flat_map(f64::to_le_bytes).collect()
-}
-
-/// `data` as VTK's compressed array: number of blocks, block size, size of the last block when it is shorter (else 0),
-/// the compressed size of each block (all 64 bits), then the zlib streams. Fast compression: a run waits for its disk files.
-fn zlib_blocks(data: &[u8]) -> Vec<u8> {
-    let blocks = data.chunks(BLOCK);
-    let header = 8 * (3 + blocks.len());
-    let mut bytes = vec![0; header];
-    let put = |bytes: &mut Vec<u8>, index: usize, value: usize| {
-        bytes[8 * index..8 * index + 8].copy_from_slice(&(value as u64).to_le_bytes());
-    };
-    put(&mut bytes, 0, blocks.len());
-    put(&mut bytes, 1, BLOCK);
-    put(&mut bytes, 2, data.len() % BLOCK);
-    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::fast());
-    for (index, block) in blocks.enumerate() {
-        let stream = encoder.write_all(block).and_then(|()| encoder.reset(Vec::new())).expect("a vector takes every byte");
-        put(&mut bytes, 3 + index, stream.len());
-        bytes.extend_from_slice(&stream);
+/// Arrays as VTK's compressed arrays: number of blocks, block size, size of the last block when it is shorter (else 0),
+/// the compressed size of each block (all 64 bits), then the zlib streams. Fast compression: what slower ones save is little, because digits are noise.
+fn zlib_blocks(arrays: Vec<Plain<'_>>, threads: &Threads) -> Vec<Array> {
+    let blocks_of = |data: &Data<'_>| data.len().div_ceil(BLOCK);
+    let mut pieces: Vec<(&Data<'_>, Range<usize>)> = Vec::new();
+    for data in arrays.iter().map(|array| &array.data) {
+        pieces.extend((0..blocks_of(data)).map(|k| (data, k * BLOCK..((k + 1) * BLOCK).min(data.len()))));
     }
-    bytes
+    let work = |(encoder, bytes): &mut (ZlibEncoder<Vec<u8>>, Vec<u8>), (data, range): &(&Data<'_>, Range<usize>)| {
+        data.fill(range.clone(), bytes);
+        let mut stream = encoder.write_all(bytes).and_then(|()| encoder.reset(Vec::new())).expect("a vector takes every byte");
+        // Streams of a whole frame wait for each other.
+        stream.shrink_to_fit();
+        stream
+    };
+    let scratch = || (ZlibEncoder::new(Vec::new(), Compression::fast()), Vec::with_capacity(BLOCK));
+    let is_small = arrays.iter().map(|array| array.data.len()).sum::<usize>() < SERIAL;
+    let streams = if is_small { Threads::one().map(&pieces, scratch, work) } else { threads.map(&pieces, scratch, work) };
+    let mut streams = streams.into_iter();
+    let array = |Plain { attributes, data }: Plain<'_>| {
+        let own: Vec<Vec<u8>> = streams.by_ref().take(blocks_of(&data)).collect();
+        let mut bytes = Vec::with_capacity(8 * (3 + own.len()) + own.iter().map(Vec::len).sum::<usize>());
+        let head = [own.len(), BLOCK, data.len() % BLOCK].into_iter().chain(own.iter().map(Vec::len));
+        bytes.extend(head.flat_map(|number| (number as u64).to_le_bytes()));
+        own.iter().for_each(|stream| bytes.extend_from_slice(stream));
+        Array { attributes, bytes }
+    };
+    arrays.into_iter().map(array).collect()
 }
 
 #[cfg(test)]
@@ -324,7 +387,7 @@ mod tests {
 
     #[test]
     fn arrays_come_back_as_they_went_in() {
-        let file = VtuWriter::new(&cells()).bytes(&frame(), &[]).unwrap();
+        let file = VtuWriter::new(&cells(), &Threads::one()).bytes(&frame(), &[], &Threads::one()).unwrap();
         let points = floats(&array(&file, "Points"));
         assert_eq!(points, [0., 0., 0., 1., 0., 0., 1., 1., 0., 0., 1., 0., 2., 0.5, 0.]);
         assert_eq!(floats(&array(&file, "velocity"))[..6], [0., 1., 0., 2., 3., 0.]);
@@ -339,7 +402,7 @@ mod tests {
 
     #[test]
     fn stress_components_have_their_names() {
-        let file = VtuWriter::new(&cells()).bytes(&frame(), &[]).unwrap();
+        let file = VtuWriter::new(&cells(), &Threads::one()).bytes(&frame(), &[], &Threads::one()).unwrap();
         let text = String::from_utf8_lossy(&file);
         assert!(text.contains(
             "Name=\"stress\" NumberOfComponents=\"4\" ComponentName0=\"xx\" ComponentName1=\"yy\" ComponentName2=\"zz\" ComponentName3=\"xy\""
@@ -350,15 +413,15 @@ mod tests {
 
     #[test]
     fn only_the_wanted_fields_are_written() {
-        let file = VtuWriter::new(&cells()).bytes(&frame(), &["stress".to_string()]).unwrap();
+        let file = VtuWriter::new(&cells(), &Threads::one()).bytes(&frame(), &["stress".to_string()], &Threads::one()).unwrap();
         let text = String::from_utf8_lossy(&file);
         assert!(text.contains("\"stress\"") && text.contains("\"part\"") && !text.contains("\"velocity\""));
     }
 
     #[test]
     fn equal_frames_give_equal_bytes() {
-        let once = VtuWriter::new(&cells()).bytes(&frame(), &[]).unwrap();
-        assert_eq!(once, VtuWriter::new(&cells()).bytes(&frame(), &[]).unwrap());
+        let once = VtuWriter::new(&cells(), &Threads::one()).bytes(&frame(), &[], &Threads::one()).unwrap();
+        assert_eq!(once, VtuWriter::new(&cells(), &Threads::one()).bytes(&frame(), &[], &Threads::one()).unwrap());
     }
 
     #[test]
@@ -371,10 +434,21 @@ mod tests {
         for nodes in [BLOCK / 24, BLOCK / 8, 40_000] {
             let positions: Vec<[f64; 2]> = (0..nodes).map(|_| [noise(), noise()]).collect();
             let frame = Frame { time: 0.0, step: 0, positions, fields: vec![], outlines: vec![] };
-            let file = VtuWriter::new(&Cells::default()).bytes(&frame, &[]).unwrap();
+            let file = VtuWriter::new(&Cells::default(), &Threads::one()).bytes(&frame, &[], &Threads::one()).unwrap();
             let points = floats(&array(&file, "Points"));
             assert!(points.chunks(3).map(|p| [p[0], p[1]]).eq(frame.positions.iter().copied()));
         }
+    }
+
+    #[test]
+    fn the_bytes_do_not_depend_on_the_number_of_threads() {
+        let positions: Vec<[f64; 2]> = (0..60_000).map(f64::from).map(|k| [k.sin(), (0.01 * k).cos()]).collect();
+        let velocity = Field { kind: field_kind("velocity").unwrap(), values: positions.as_flattened().to_vec() };
+        let frame = Frame { time: 0.0, step: 0, positions, fields: vec![velocity], outlines: vec![] };
+        let file = |threads| VtuWriter::new(&Cells::default(), &Threads::new(threads)).bytes(&frame, &[], &Threads::new(threads)).unwrap();
+        let alone = file(1);
+        assert!(floats(&array(&alone, "velocity")).chunks(3).zip(&frame.positions).all(|(v, x)| v == [x[0], x[1], 0.0]));
+        assert!([2, 3, 8].into_iter().all(|threads| file(threads) == alone));
     }
 
     #[test]
@@ -392,7 +466,7 @@ mod tests {
     #[test]
     fn no_cells_are_no_problem() {
         let frame = Frame { time: 0.0, step: 0, positions: vec![], fields: vec![], outlines: vec![] };
-        let file = VtuWriter::new(&Cells::default()).bytes(&frame, &[]).unwrap();
+        let file = VtuWriter::new(&Cells::default(), &Threads::one()).bytes(&frame, &[], &Threads::one()).unwrap();
         assert!(array(&file, "connectivity").is_empty());
     }
 
@@ -400,11 +474,14 @@ mod tests {
     fn a_field_of_the_wrong_length_is_an_error() {
         let mut frame = frame();
         frame.fields[1].values.pop();
-        let error = VtuWriter::new(&cells()).bytes(&frame, &[]).unwrap_err();
+        let error = VtuWriter::new(&cells(), &Threads::one()).bytes(&frame, &[], &Threads::one()).unwrap_err();
         assert_eq!(error, VtuError::FieldLength { name: "stress", found: 7, expected: 8 });
         frame.fields.clear();
         frame.positions.truncate(4);
-        assert_eq!(VtuWriter::new(&cells()).bytes(&frame, &[]).unwrap_err(), VtuError::NodeMissing { node: 4, nodes: 4 });
+        assert_eq!(
+            VtuWriter::new(&cells(), &Threads::one()).bytes(&frame, &[], &Threads::one()).unwrap_err(),
+            VtuError::NodeMissing { node: 4, nodes: 4 }
+        );
     }
 
     #[test]

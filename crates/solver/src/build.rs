@@ -4,6 +4,7 @@ mod again;
 mod bodies;
 mod discrete;
 mod failure;
+mod fans;
 mod idle;
 mod mass;
 mod mirrors;
@@ -11,6 +12,7 @@ mod obstacles;
 mod start;
 
 pub(crate) use again::{Lent, Origin};
+use fans::{Fans, Under};
 
 use crate::assembly::Assembly;
 use crate::block::{Block, BlockInput, Initial, Motion, Report, Wrong, make};
@@ -43,7 +45,7 @@ use crate::step::erosion::Erosion;
 use crate::step::relaxation::Relaxation;
 use crate::step::{CHUNK, Governor, Limits, System};
 use embate_lanes::{Level, Team};
-use std::cell::RefCell;
+use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
 
 /// Nodes nearer to the axis than this fraction of the model's size are on it.
@@ -76,7 +78,7 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<(System, Ve
         positions: mesh.positions.clone(),
         mass: vec![0.0; mesh.positions.len()],
         body_parts: Vec::new(),
-        under: Vec::new(),
+        fans: OnceCell::new(),
         moduli: Vec::new(),
         time_step: 0.0,
         bodies: Bodies::default(),
@@ -98,8 +100,14 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<(System, Ve
     let mut part_mass_true = part_masses(&builder.mesh, &blocks);
     builder.point_masses(&mut part_mass_true);
     let mass_added = builder.scale_mass(&mut blocks, level);
-    let mut part_mass = part_masses(&builder.mesh, &blocks);
-    builder.point_masses(&mut part_mass);
+    let is_scaled = model.run.mass_scaling.is_some() || model.parts.iter().any(|part| part.mass_scale != 1.0);
+    let part_mass = if is_scaled {
+        let mut part_mass = part_masses(&builder.mesh, &blocks);
+        builder.point_masses(&mut part_mass);
+        part_mass
+    } else {
+        part_mass_true.clone()
+    };
     for &(node, share) in part_mass.iter().flatten() {
         builder.mass[node as usize] += share;
     }
@@ -111,7 +119,7 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<(System, Ve
     }
     let mut velocities = builder.velocities(&part_mass);
     builder.rigid_parts(&part_mass);
-    builder.find_elements_under_surfaces(&mut blocks, level);
+    builder.measure_stiffness(&mut blocks, level);
     let springs = builder.springs();
     let (forces, boundary) = builder.loads();
     let mut contacts = builder.contacts();
@@ -125,10 +133,8 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<(System, Ve
         return Err(builder.faults);
     }
     blocks.iter_mut().zip(&criteria).filter(|(_, criteria)| !criteria.is_empty()).for_each(|(block, _)| block.keep_forces());
-    let Builder {
-        mesh, constraints, joins, curves, positions, mass, body_parts, bodies, terms, outlines, under, moduli, time_step, ..
-    } = builder;
-    let origin = || Origin { model: model.clone(), under, moduli, time_step, positions: positions.clone() };
+    let Builder { mesh, constraints, joins, curves, positions, mass, body_parts, bodies, terms, outlines, moduli, time_step, .. } = builder;
+    let origin = || Origin { model: model.clone(), fans: Fans::of(&mesh), moduli, time_step, positions: positions.clone() };
     let erosion = criteria.iter().any(|criteria| !criteria.is_empty()).then(|| Box::new(Erosion::new(criteria, origin())));
     let elements: usize = blocks.iter().map(|block| block.elements()).sum();
     let has_springs = springs.is_some();
@@ -219,16 +225,27 @@ fn with_axis(model: &Model, mesh: &Mesh<2>) -> Result<Option<Model>, Vec<Fault>>
 
 /// Mass of each part on each of its nodes, kg/m, nodes ascending.
 pub(crate) fn part_masses(mesh: &Mesh<2>, blocks: &[Box<dyn Block<2>>]) -> Vec<Vec<(u32, f64)>> {
+    let (mut sums, mut is_own) = (vec![0.0; mesh.positions.len()], vec![false; mesh.positions.len()]);
     let of = |part: usize| {
-        let mut sums = vec![0.0; mesh.positions.len()];
+        let own = &mesh.parts[part].nodes;
+        own.iter().for_each(|&node| (sums[node as usize], is_own[node as usize]) = (0.0, true));
         for (group, block) in mesh.groups.iter().zip(blocks).filter(|(group, _)| group.part == part) {
-            for (k, &node) in group.connectivity.iter().enumerate() {
-                sums[node as usize] += block.corner_mass(k / group.nodes_per_element, k % group.nodes_per_element);
+            for (element, cell) in group.cells().enumerate() {
+                for (corner, &node) in cell.iter().enumerate() {
+                    sums[node as usize] += block.corner_mass(element, corner);
+                }
             }
         }
-        let mut nodes = mesh.parts[part].nodes.clone();
-        nodes.sort_unstable();
-        nodes.into_iter().map(|node| (node, sums[node as usize])).collect()
+        let mut masses: Vec<(u32, f64)> = Vec::with_capacity(own.len());
+        if own.len() < sums.len() / 16 {
+            // Few nodes among many: only they are looked at.
+            masses.extend(own.iter().map(|&node| (node, sums[node as usize])));
+            masses.sort_unstable_by_key(|&(node, _)| node);
+        } else {
+            masses.extend((0..).zip(&sums).zip(&is_own).filter(|(_, is_own)| **is_own).map(|((node, &sum), _)| (node, sum)));
+        }
+        own.iter().for_each(|&node| is_own[node as usize] = false);
+        masses
     };
     (0..mesh.parts.len()).map(of).collect()
 }
@@ -246,8 +263,8 @@ struct Builder<'a> {
     positions: Vec<[f64; 2]>,
     /// Their masses, kg/m; 1 where an obstacle has a node.
     mass: Vec<f64>,
-    /// The elements behind all edges, sorted by the nodes of the edge.
-    under: Vec<Under>,
+    /// Which elements are at which nodes; found when the first edge asks.
+    fans: OnceCell<Fans>,
     /// Wave modulus and bulk modulus of each group of elements, Pa.
     moduli: Vec<[f64; 2]>,
     /// First time step, s; only where a contact asks for it.
@@ -262,17 +279,6 @@ struct Builder<'a> {
     made: BTreeMap<String, usize>,
     /// Whether contacts are made again, of changed surfaces.
     again: bool,
-}
-
-/// The element behind an edge.
-pub(crate) struct Under {
-    /// The edge as an outside segment.
-    nodes: [u32; 2],
-    /// L / A: one over the height of the element, 1/m.
-    flatness: f64,
-    /// Index of the group of elements, and the element in it.
-    group: u32,
-    element: u32,
 }
 
 impl Builder<'_> {
@@ -313,22 +319,8 @@ impl Builder<'_> {
         blocks
     }
 
-    /// What the stiffness of contacts is made from: elements behind every edge, moduli and the first step.
-    fn find_elements_under_surfaces(&mut self, blocks: &mut [Box<dyn Block<2>>], level: Level) {
-        for (group_index, group) in self.mesh.groups.iter().enumerate().filter(|(_, group)| group.has_surface()) {
-            for (element, cell) in group.cells().enumerate() {
-                let x = |corner: usize| self.mesh.positions[cell[corner % cell.len()] as usize];
-                let area = 0.5 * (0..cell.len()).map(|c| x(c)[0] * x(c + 1)[1] - x(c)[1] * x(c + 1)[0]).sum::<f64>();
-                for c in 0..cell.len() {
-                    let (a, b) = (x(c), x(c + 1));
-                    let length = ((b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2)).sqrt();
-                    // Outside segments run against the element's own direction.
-                    let nodes = [cell[(c + 1) % cell.len()], cell[c]];
-                    self.under.push(Under { nodes, flatness: length / area, group: group_index as u32, element: element as u32 });
-                }
-            }
-        }
-        self.under.sort_unstable_by_key(|under| under.nodes);
+    /// What the stiffness of contacts is made from beyond the elements behind their surfaces: moduli and the first step.
+    fn measure_stiffness(&mut self, blocks: &mut [Box<dyn Block<2>>], level: Level) {
         self.moduli = blocks.iter().map(|block| [block.wave_modulus(), block.bulk_modulus()]).collect();
         let interfaces = self.model.contacts.iter().map(|c| &c.interface).chain(self.model.obstacles.iter().map(|o| &o.interface));
         if interfaces.into_iter().any(|interface| source_of(interface) == PenaltySource::TimeStep) {
@@ -359,9 +351,9 @@ impl Builder<'_> {
         let is_mirror = |segment| self.constraints.is_mirror(segment);
         let behind = |segment| {
             let under = self.under(segment)?;
-            let part = &self.model.parts[self.mesh.groups[under.group as usize].part];
+            let part = &self.model.parts[self.mesh.groups[under.group].part];
             let density = *self.model.materials.get(&part.material)?.parameters.get("density")?;
-            Some(Behind { density, moduli: self.moduli[under.group as usize] })
+            Some(Behind { density, moduli: self.moduli[under.group] })
         };
         let forces = Forces::new(self.model, &self.mesh, &self.curves, is_mirror);
         let boundary = NonReflecting::new(self.model, &self.mesh, is_mirror, behind);
@@ -371,14 +363,10 @@ impl Builder<'_> {
         made
     }
 
-    fn under(&self, segment: [u32; 2]) -> Option<&Under> {
-        self.under.binary_search_by_key(&segment, |under| under.nodes).ok().map(|at| &self.under[at])
-    }
-
     /// What is behind a surface, with the stiffness that an interface asks for.
     fn side(&self, Outlined { target, lids }: Outlined, interface: &Interface) -> Side<'_> {
         let (surface, positions, source) = (&target.surface, &self.mesh.positions, source_of(interface));
-        let modulus = |under: &Under| self.moduli[under.group as usize][usize::from(source == PenaltySource::BulkModulus)] * under.flatness;
+        let modulus = |under: Under| self.moduli[under.group][usize::from(source == PenaltySource::BulkModulus)] * under.flatness;
         let mut segments: Vec<f64> = surface.segments.iter().map(|&segment| self.under(segment).map_or(0.0, modulus)).collect();
         let mut nodes = contact::tributaries(surface, &segments, positions, Depth::of(self.model));
         if source == PenaltySource::TimeStep {
@@ -388,14 +376,12 @@ impl Builder<'_> {
             let of = |node: u32| surface.nodes.binary_search(&node).map_or(0.0, |at| nodes[at].stiffness);
             segments = surface.segments.iter().map(|&[a, b]| 0.5 * (of(a) + of(b))).collect();
         }
-        let cell = |&segment: &[u32; 2]| {
-            self.under(segment).map_or(&[][..], |under| self.mesh.groups[under.group as usize].cell(under.element as usize))
-        };
+        let cell = |&segment: &[u32; 2]| self.under(segment).map_or(&[][..], |under| self.mesh.groups[under.group].cell(under.element));
         let cells = surface.segments.iter().map(cell).collect();
         let parts = surface
             .segments
             .iter()
-            .map(|&segment| self.under(segment).map_or(0, |under| self.mesh.groups[under.group as usize].part as u32))
+            .map(|&segment| self.under(segment).map_or(0, |under| self.mesh.groups[under.group].part as u32))
             .collect();
         Side { lids, segments, parts, nodes, cells, target }
     }

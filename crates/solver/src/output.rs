@@ -116,7 +116,7 @@ pub struct Outline<const D: usize> {
 }
 
 /// The state at one output time.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Frame<const D: usize> {
     /// Time, s.
     pub time: f64,

@@ -6,8 +6,9 @@ use crate::contact::springs::Tangential;
 use crate::contact::traces::State;
 use crate::error::Fault;
 use crate::material::Variable;
+use crate::mesh::ElementGroup;
 use crate::model::{Model, ProbeAt};
-use crate::output::{CellKind, Cells, FIELDS, Field, FieldKind, Frame, Needs};
+use crate::output::{CellKind, Cells, FIELDS, Field, FieldKind, Frame, Location, Needs};
 use crate::rigid::Body;
 use crate::step::{System, Vector};
 use std::cell::OnceCell;
@@ -152,15 +153,22 @@ impl Recorded {
         row
     }
 
-    pub(crate) fn frame(&self, system: &System) -> Frame<2> {
-        let surface = OnSurface::default();
-        let fields = self.fields.iter().map(|&kind| Field { kind, values: values(kind.name, system, &surface) }).collect();
-        let mut positions = vec![[0.0; 2]; system.mesh.user_nodes.len()];
+    /// Puts the state of a system into a frame; what the frame held goes, its buffers serve again.
+    pub(crate) fn fill(&self, system: &System, frame: &mut Frame<2>) {
+        (frame.time, frame.step) = (system.time, system.step);
+        frame.positions.resize(system.mesh.user_nodes.len(), [0.0; 2]);
         for (x, &user) in system.positions.iter().zip(&system.mesh.user_nodes) {
-            positions[user as usize] = *x;
+            frame.positions[user as usize] = *x;
         }
-        let outlines = system.outlines.iter().map(|outline| outline.now(&system.bodies)).collect();
-        Frame { time: system.time, step: system.step, positions, fields, outlines }
+        let mut spare = std::mem::take(&mut frame.fields).into_iter().map(|field| field.values);
+        frame.fields = self.fields.iter().map(|&kind| Field { kind, values: spare.next().unwrap_or_default() }).collect();
+        let surface = OnSurface::default();
+        for field in frame.fields.iter_mut().filter(|field| field.kind.location == Location::Node) {
+            fill_nodes(field.kind.name, system, &surface, &mut field.values);
+        }
+        fill_cells(system, &mut frame.fields);
+        frame.outlines.clear();
+        frame.outlines.extend(system.outlines.iter().map(|outline| outline.now(&system.bodies)));
     }
 }
 
@@ -185,69 +193,91 @@ struct OnSurface {
     states: OnceCell<Vec<State>>,
 }
 
-/// Values of one of [`FIELDS`], in the user's order.
-fn values(name: &str, system: &System, surface: &OnSurface) -> Vec<f64> {
+/// Values of one of [`FIELDS`] at the nodes, in the user's order.
+fn fill_nodes(name: &str, system: &System, surface: &OnSurface, values: &mut Vec<f64>) {
     let traces = &system.traces;
     let tractions = || surface.tractions.get_or_init(|| traces.tractions(&system.contact_forces, &system.positions));
     let states = || surface.states.get_or_init(|| traces.states(&system.springs));
     let moved = |node: usize| [0, 1].map(|d| system.positions[node][d] - system.mesh.positions[node][d]);
     match name {
-        "displacement" => by_node(system, moved),
-        "velocity" => by_node(system, |node| velocity(system, node)),
-        "contact_force" => by_node(system, |node| system.contact_forces[node]),
-        "contact_pressure" => by_node(system, |node| [tractions()[node][0]]),
-        "contact_shear" => by_node(system, |node| [tractions()[node][1]]),
-        "contact_gap" => by_node(system, |node| [states()[node].gap]),
-        "contact_status" => by_node(system, |node| [states()[node].status]),
-        "contact_slip" => by_node(system, |node| [traces.slip(node)]),
-        "friction_heat" => by_node(system, |node| [traces.heat(node)]),
-        "stress" => by_element(system, |state| [state.stress[0], state.stress[1], state.stress[2], state.stress[3]]),
-        "von_mises" => by_element(system, |state| [von_mises(&state.stress)]),
-        "pressure" => by_element(system, |state| [-(state.stress[0] + state.stress[1] + state.stress[2]) / 3.0]),
-        "plastic_strain" => by_element(system, |state| [state.variables[Variable::PlasticStrain as usize]]),
-        "density" => by_element(system, |state| [state.variables[Variable::Density as usize]]),
-        "temperature" => by_element(system, |state| [state.variables[Variable::Temperature as usize]]),
-        "damage" => by_element(system, |state| [state.variables[Variable::Damage as usize]]),
-        "alive" => alive(system),
-        "energy_density" => by_element(system, |state| [state.energy_density]),
-        _ => Vec::new(),
+        "displacement" => by_node(system, values, moved),
+        "velocity" => by_node(system, values, |node| velocity(system, node)),
+        "contact_force" => by_node(system, values, |node| system.contact_forces[node]),
+        "contact_pressure" => {
+            let tractions = tractions();
+            by_node(system, values, |node| [tractions[node][0]]);
+        }
+        "contact_shear" => {
+            let tractions = tractions();
+            by_node(system, values, |node| [tractions[node][1]]);
+        }
+        "contact_gap" => {
+            let states = states();
+            by_node(system, values, |node| [states[node].gap]);
+        }
+        "contact_status" => {
+            let states = states();
+            by_node(system, values, |node| [states[node].status]);
+        }
+        "contact_slip" => by_node(system, values, |node| [traces.slip(node)]),
+        "friction_heat" => by_node(system, values, |node| [traces.heat(node)]),
+        _ => values.clear(),
     }
 }
 
 /// Values of every node, in the user's order.
-fn by_node<const N: usize>(system: &System, value: impl Fn(usize) -> [f64; N]) -> Vec<f64> {
-    let mut values = vec![0.0; N * system.mesh.user_nodes.len()];
+fn by_node<const N: usize>(system: &System, values: &mut Vec<f64>, value: impl Fn(usize) -> [f64; N]) {
+    values.resize(N * system.mesh.user_nodes.len(), 0.0);
     for (node, &user) in system.mesh.user_nodes.iter().enumerate() {
         values[N * user as usize..][..N].copy_from_slice(&value(node));
     }
-    values
 }
 
-/// Values of every element, part by part in the user's order.
-fn by_element<const N: usize>(system: &System, value: impl Fn(&ElementState) -> [f64; N]) -> Vec<f64> {
-    by_number(system, |group, element| value(&system.blocks[group].state(element)))
+/// Takes the values of a field from the state of an element that is there (1) or eroded (0).
+type OfElement = fn(&ElementState, f64, &mut [f64]);
+
+/// How the values of one of [`FIELDS`] at the cells are made.
+fn of_element(name: &str) -> Option<OfElement> {
+    Some(match name {
+        "stress" => |state, _, values| values.copy_from_slice(&state.stress[..4]),
+        "von_mises" => |state, _, values| values[0] = von_mises(&state.stress),
+        "pressure" => |state, _, values| values[0] = -(state.stress[0] + state.stress[1] + state.stress[2]) / 3.0,
+        "plastic_strain" => |state, _, values| values[0] = state.variables[Variable::PlasticStrain as usize],
+        "density" => |state, _, values| values[0] = state.variables[Variable::Density as usize],
+        "temperature" => |state, _, values| values[0] = state.variables[Variable::Temperature as usize],
+        "damage" => |state, _, values| values[0] = state.variables[Variable::Damage as usize],
+        "energy_density" => |state, _, values| values[0] = state.energy_density,
+        "alive" => |_, alive, values| values[0] = alive,
+        _ => return None,
+    })
 }
 
-/// 1 for elements that are there, 0 for eroded ones.
-fn alive(system: &System) -> Vec<f64> {
-    by_number(system, |group, element| [f64::from(u8::from(system.mesh.groups[group].is_alive(element)))])
-}
-
-/// Values of every element by group and number in it, part by part in the user's order.
-fn by_number<const N: usize>(system: &System, value: impl Fn(usize, usize) -> [f64; N]) -> Vec<f64> {
-    let mut values = Vec::new();
+/// Values of all fields at the cells, part by part in the user's order: each element is asked for its state once.
+fn fill_cells(system: &System, fields: &mut [Field]) {
+    let mut made: Vec<(usize, OfElement, &mut Vec<f64>)> = Vec::new();
+    let elements: usize = system.mesh.groups.iter().map(ElementGroup::elements).sum();
+    for field in fields.iter_mut().filter(|field| field.kind.location == Location::Cell) {
+        let Some(of_element) = of_element(field.kind.name) else { continue };
+        field.values.resize(field.kind.width() * elements, 0.0);
+        made.push((field.kind.width(), of_element, &mut field.values));
+    }
+    if made.is_empty() {
+        return;
+    }
     // Groups of a part follow each other and share its numbering.
-    let (mut first, mut last) = (0, None);
-    for (index, group) in system.mesh.groups.iter().enumerate() {
+    let (mut first, mut next, mut last) = (0, 0, None);
+    for (group, block) in system.mesh.groups.iter().zip(&system.blocks) {
         if last != Some(group.part) {
-            (first, last) = (values.len(), Some(group.part));
-            values.resize(first + N * system.mesh.elements_of(group.part), 0.0);
+            (first, last) = (next, Some(group.part));
+            next += system.mesh.elements_of(group.part);
         }
         for (element, &user) in group.user_elements.iter().enumerate() {
-            values[first + N * user as usize..][..N].copy_from_slice(&value(index, element));
+            let (state, alive) = (block.state(element), f64::from(u8::from(group.is_alive(element))));
+            for (width, of_element, values) in &mut made {
+                of_element(&state, alive, &mut values[*width * (first + user as usize)..][..*width]);
+            }
         }
     }
-    values
 }
 
 fn von_mises(s: &[f64; 6]) -> f64 {
@@ -293,10 +323,14 @@ pub(crate) fn cells(system: &System) -> Cells {
     let mut cells = Cells { offsets: vec![0], ..Cells::default() };
     for (index, part) in system.mesh.parts.iter().enumerate() {
         cells.part_names.push(part.name.clone());
-        let mut order: Vec<(u32, &[u32])> =
-            system.mesh.groups_of(index).flat_map(|group| group.user_elements.iter().copied().zip(group.cells())).collect();
-        order.sort_unstable();
-        for (_, cell) in order {
+        let groups: Vec<&ElementGroup> = system.mesh.groups_of(index).collect();
+        // Where each element is stored, by the user's number.
+        let mut places = vec![(0, 0); system.mesh.elements_of(index)];
+        for (of_part, group) in groups.iter().enumerate() {
+            group.user_elements.iter().enumerate().for_each(|(element, &user)| places[user as usize] = (of_part, element as u32));
+        }
+        for (of_part, element) in places {
+            let cell = groups[of_part].cell(element as usize);
             cells.nodes.extend(cell.iter().map(|&node| system.mesh.user_nodes[node as usize]));
             cells.offsets.push(cells.nodes.len() as u32);
             cells.kinds.push(match cell.len() {

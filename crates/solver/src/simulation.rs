@@ -22,6 +22,17 @@ pub struct Options {
     pub simd: Option<String>,
 }
 
+impl Options {
+    /// How many threads that is on this machine.
+    #[must_use]
+    pub fn thread_count(&self) -> usize {
+        match self.threads {
+            0 => std::thread::available_parallelism().map_or(1, usize::from),
+            threads => threads,
+        }
+    }
+}
+
 /// What a progress display shows.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Progress<'a> {
@@ -53,11 +64,15 @@ pub type ObserverError = Box<dyn std::error::Error + Send + Sync>;
 
 /// Who listens to a run.
 pub trait Observer {
+    /// A frame that the observer is done with: its buffers are filled for the next one. An empty frame will do.
+    fn spare(&mut self) -> Frame<2> {
+        Frame::default()
+    }
     /// A frame at an output time; the first at time zero, the last at the end (also of a failed run).
     ///
     /// # Errors
     /// Whatever keeps the observer from taking it; it ends the run.
-    fn frame(&mut self, frame: &Frame<2>) -> Result<(), ObserverError>;
+    fn frame(&mut self, frame: Frame<2>) -> Result<(), ObserverError>;
     /// A row of the history, one value per column of [`Simulation::history_columns`].
     ///
     /// # Errors
@@ -151,10 +166,7 @@ impl Simulation {
                 )])
             })?,
         };
-        let threads = match options.threads {
-            0 => std::thread::available_parallelism().map_or(1, usize::from),
-            threads => threads,
-        };
+        let threads = options.thread_count();
         let (system, model_warnings) = build::system(model, level, threads).map_err(Error::Model)?;
         let recorded = Recorded::new(model, &system).map_err(Error::Model)?;
         let pool = if system.team.threads() > 1 { rayon::ThreadPoolBuilder::new().num_threads(threads).build().ok() } else { None };
@@ -277,7 +289,6 @@ impl Simulation {
     /// # Errors
     /// Any [`Error`]; the last state has been given to the observer before.
     pub fn run(&mut self, observer: &mut dyn Observer) -> Result<(), Error> {
-        let output = |error: ObserverError| Error::Output(error.to_string());
         let end = self.system.limits.end;
         let (mut rows, mut frames) = (Clock::new(self.history, end), Clock::new(self.fields, end));
         let mut last_row = f64::NEG_INFINITY;
@@ -291,7 +302,7 @@ impl Simulation {
                 last_row = time;
             }
             if (frames.due(time) || over) && last_frame != Some(self.system.step) {
-                observer.frame(&self.frame()).map_err(output)?;
+                self.show(observer)?;
                 last_frame = Some(self.system.step);
             }
             if over {
@@ -308,7 +319,7 @@ impl Simulation {
             };
             if observer.progress(&progress) == Control::Stop {
                 if last_frame != Some(self.system.step) {
-                    observer.frame(&self.frame()).map_err(output)?;
+                    self.show(observer)?;
                 }
                 return Ok(());
             }
@@ -317,10 +328,17 @@ impl Simulation {
                 if self.system.time > last_row {
                     observer.row(&self.history_row()).map_err(output)?;
                 }
-                observer.frame(&self.frame()).map_err(output)?;
+                self.show(observer)?;
                 return Err(error);
             }
         }
+    }
+
+    /// Gives the state now to an observer.
+    fn show(&self, observer: &mut dyn Observer) -> Result<(), Error> {
+        let mut frame = observer.spare();
+        self.recorded.fill(&self.system, &mut frame);
+        observer.frame(frame).map_err(output)
     }
 
     fn note_momentum(&mut self) {
@@ -338,7 +356,9 @@ impl Simulation {
     /// The state now.
     #[must_use]
     pub fn frame(&self) -> Frame<2> {
-        self.recorded.frame(&self.system)
+        let mut frame = Frame::default();
+        self.recorded.fill(&self.system, &mut frame);
+        frame
     }
 
     /// Names of the history's columns; the first is `time`.
@@ -479,6 +499,11 @@ impl Simulation {
             warnings: self.warnings(),
         }
     }
+}
+
+/// What keeps an observer from going on, as the error of a run.
+fn output(error: ObserverError) -> Error {
+    Error::Output(error.to_string())
 }
 
 fn search_name(contact: &model::Contact) -> String {

@@ -1,10 +1,11 @@
 //! The moving picture: one palette for the film, made from the colour map, and per frame only the rectangle that changed.
-//! Canvases come from `film` one after the other; bytes go to `animation.gif`.
+//! Canvases come from `film`, some at once; `lzw` packs what changed; bytes go to `animation.gif`.
 
-use super::PictureError;
 use super::body::Look;
 use super::colour::{BORDER, GRID, INK, MAP, NO_VALUE, Rgb, SOLID, TEXT, TEXT_FAINT, WHITE, mix};
 use super::raster::Canvas;
+use super::{PictureError, lzw};
+use crate::threads::Threads;
 use gif::{DisposalMethod, Encoder, EncodingError, Frame, Repeat};
 use std::borrow::Cow;
 use std::io::Write;
@@ -12,7 +13,7 @@ use std::path::Path;
 
 /// Colours of the film: the map itself, the map under element edges and outlines, the map fading into the white background, greys.
 #[derive(Clone, Debug)]
-struct Palette {
+pub(super) struct Palette {
     colours: Vec<Rgb>,
     /// Index for each colour of six bits a channel; `UNKNOWN` until it is first needed.
     nearest: Vec<u8>,
@@ -22,7 +23,7 @@ struct Palette {
 const UNKNOWN: u8 = 255;
 
 impl Palette {
-    fn new(looks: &[Look]) -> Self {
+    pub(super) fn new(looks: &[Look]) -> Self {
         let edge = looks.iter().map(|look| look.edge).fold(0.0, f32::max);
         let outline = looks.iter().map(|look| look.outline).fold(0.3, f32::max);
         let mut colours = vec![WHITE, GRID, BORDER, SOLID, NO_VALUE, TEXT, TEXT_FAINT];
@@ -37,7 +38,12 @@ impl Palette {
         of_map(&mut colours, 8, WHITE, 0.8);
         let greys = 255 - colours.len();
         colours.extend((0..greys).map(|k| mix(INK, WHITE, (k as f32 + 0.5) / greys as f32)));
-        Self { colours, nearest: vec![UNKNOWN; 1 << 18] }
+        let mut palette = Self { colours, nearest: vec![UNKNOWN; 1 << 18] };
+        // Its own colours are found exactly; of those with the same six bits the first.
+        for index in (0..palette.colours.len()).rev() {
+            palette.nearest[key(palette.colours[index])] = index as u8;
+        }
+        palette
     }
 
     fn bytes(&self) -> Vec<u8> {
@@ -45,8 +51,10 @@ impl Palette {
     }
 
     fn index(&mut self, colour: Rgb) -> u8 {
-        let key = (usize::from(colour[0] >> 2) << 12) | (usize::from(colour[1] >> 2) << 6) | usize::from(colour[2] >> 2);
+        let key = key(colour);
         if self.nearest[key] == UNKNOWN {
+            // The middle of the colours with these bits: which of them is asked for first must not matter.
+            let colour = colour.map(|c| c & !3 | 2);
             let distance = |other: &Rgb| -> i32 { (0..3).map(|k| (i32::from(other[k]) - i32::from(colour[k])).pow(2)).sum() };
             let best = self.colours.iter().enumerate().min_by_key(|(_, other)| distance(other));
             self.nearest[key] = best.map_or(0, |(index, _)| index as u8);
@@ -55,79 +63,111 @@ impl Palette {
     }
 }
 
+/// Six bits of each channel.
+fn key(colour: Rgb) -> usize {
+    colour.iter().fold(0, |key, c| key << 6 | usize::from(c >> 2))
+}
+
+/// The pixels of a frame as places in the palette, row by row.
+pub(super) type Indices = Vec<u8>;
+
+impl Palette {
+    /// A canvas in the colours of the palette. `like`: another one and its indices; rows that are the same are not looked up again.
+    pub(super) fn indices(&mut self, canvas: &Canvas, like: Option<(&Canvas, &[u8])>) -> Indices {
+        let mut indices = Vec::with_capacity(canvas.pixels.len());
+        let mut last = (WHITE, self.index(WHITE));
+        for (number, row) in canvas.pixels.chunks_exact(canvas.width.max(1)).enumerate() {
+            let range = number * canvas.width..(number + 1) * canvas.width;
+            if let Some((like, known)) = like
+                && like.pixels.get(range.clone()) == Some(row)
+            {
+                indices.extend_from_slice(&known[range]);
+                continue;
+            }
+            indices.extend(row.iter().map(|pixel| {
+                if *pixel != last.0 {
+                    last = (*pixel, self.index(*pixel));
+                }
+                last.1
+            }));
+        }
+        indices
+    }
+}
+
 /// A GIF that is being written.
 pub(super) struct Animation<'a> {
     encoder: Encoder<&'a mut dyn Write>,
-    palette: Palette,
     width: usize,
     height: usize,
-    /// Indices of the frame before; empty before the first.
-    before: Vec<u8>,
+    /// The frame before; empty before the first.
+    before: Indices,
     path: &'a Path,
 }
 
 impl<'a> Animation<'a> {
     /// Writes the head of the file; `canvas` gives the size.
-    pub(super) fn start(out: &'a mut dyn Write, canvas: &Canvas, looks: &[Look], path: &'a Path) -> Result<Self, PictureError> {
-        let palette = Palette::new(looks);
+    pub(super) fn start(out: &'a mut dyn Write, canvas: &Canvas, palette: &Palette, path: &'a Path) -> Result<Self, PictureError> {
         let (width, height) = (canvas.width, canvas.height);
         let mut encoder = Encoder::new(out, width as u16, height as u16, &palette.bytes()).map_err(|e| refused(path, e))?;
         encoder.set_repeat(Repeat::Infinite).map_err(|e| refused(path, e))?;
-        Ok(Self { encoder, palette, width, height, before: Vec::new(), path })
+        Ok(Self { encoder, width, height, before: Vec::new(), path })
     }
 
-    /// Adds a frame that stays for `delay` hundredths of a second.
-    pub(super) fn frame(&mut self, canvas: &Canvas, delay: u16) -> Result<(), PictureError> {
-        let palette = &mut self.palette;
-        let mut last = (WHITE, palette.index(WHITE));
-        let indices = canvas.pixels.iter().map(|pixel| {
-            if *pixel != last.0 {
-                last = (*pixel, palette.index(*pixel));
-            }
-            last.1
-        });
-        let now: Vec<u8> = indices.collect();
-        let [left, top, right, bottom] = self.changed(&now);
-        let mut buffer = Vec::with_capacity((right - left) * (bottom - top));
-        for row in top..bottom {
-            let line = row * self.width + left..row * self.width + right;
-            match self.before.get(line.clone()) {
-                None => buffer.extend_from_slice(&now[line]),
-                Some(before) => buffer.extend(now[line].iter().zip(before).map(|(n, b)| if n == b { UNKNOWN } else { *n })),
-            }
+    /// Adds frames that follow each other, each with the hundredths of a second for which it stays.
+    pub(super) fn frames(&mut self, pictures: Vec<Indices>, delays: &[u16], threads: &Threads) -> Result<(), PictureError> {
+        let all: Vec<Indices> = std::iter::once(std::mem::take(&mut self.before)).chain(pictures).collect();
+        let pieces: Vec<_> = all.windows(2).zip(delays).collect();
+        let size = [self.width, self.height];
+        let packed = threads.map(&pieces, lzw::Table::default, |table, (pair, delay)| packed(size, &pair[0], &pair[1], **delay, table));
+        for frame in packed {
+            self.encoder.write_lzw_pre_encoded_frame(&frame).map_err(|e| refused(self.path, e))?;
         }
-        self.before = now;
-        let frame = Frame {
-            delay,
-            dispose: DisposalMethod::Keep,
-            transparent: Some(UNKNOWN),
-            left: left as u16,
-            top: top as u16,
-            width: (right - left) as u16,
-            height: (bottom - top) as u16,
-            buffer: Cow::Owned(buffer),
-            ..Frame::default()
-        };
-        self.encoder.write_frame(&frame).map_err(|e| refused(self.path, e))
+        self.before = all.into_iter().next_back().unwrap_or_default();
+        Ok(())
     }
+}
 
-    /// The rectangle outside which nothing changed; never empty, because a frame needs a pixel.
-    fn changed(&self, now: &[u8]) -> [usize; 4] {
-        if self.before.is_empty() {
-            return [0, 0, self.width, self.height];
+/// What changed from the frame before, ready to be written.
+fn packed([width, height]: [usize; 2], before: &[u8], now: &[u8], delay: u16, table: &mut lzw::Table) -> Frame<'static> {
+    let [left, top, right, bottom] = changed([width, height], before, now);
+    let mut buffer = Vec::with_capacity((right - left) * (bottom - top));
+    for row in top..bottom {
+        let line = row * width + left..row * width + right;
+        match before.get(line.clone()) {
+            None => buffer.extend_from_slice(&now[line]),
+            Some(before) => buffer.extend(now[line].iter().zip(before).map(|(n, b)| if n == b { UNKNOWN } else { *n })),
         }
-        let [mut left, mut top, mut right, mut bottom] = [self.width, self.height, 0, 0];
-        for (row, (a, b)) in now.chunks_exact(self.width).zip(self.before.chunks_exact(self.width)).enumerate() {
-            if a == b {
-                continue;
-            }
-            let differ = |k: &usize| a[*k] != b[*k];
-            left = (0..left).find(differ).unwrap_or(left);
-            right = (right..self.width).rev().find(differ).map_or(right, |k| k + 1);
-            (top, bottom) = (top.min(row), row + 1);
-        }
-        if bottom == 0 { [0, 0, 1, 1] } else { [left.min(right - 1), top, right, bottom] }
     }
+    Frame {
+        delay,
+        dispose: DisposalMethod::Keep,
+        transparent: Some(UNKNOWN),
+        left: left as u16,
+        top: top as u16,
+        width: (right - left) as u16,
+        height: (bottom - top) as u16,
+        buffer: Cow::Owned(table.packed(&buffer)),
+        ..Frame::default()
+    }
+}
+
+/// The rectangle outside which nothing changed; never empty, because a frame needs a pixel.
+fn changed([width, height]: [usize; 2], before: &[u8], now: &[u8]) -> [usize; 4] {
+    if before.is_empty() {
+        return [0, 0, width, height];
+    }
+    let [mut left, mut top, mut right, mut bottom] = [width, height, 0, 0];
+    for (row, (a, b)) in now.chunks_exact(width).zip(before.chunks_exact(width)).enumerate() {
+        if a == b {
+            continue;
+        }
+        let differ = |k: &usize| a[*k] != b[*k];
+        left = (0..left).find(differ).unwrap_or(left);
+        right = (right..width).rev().find(differ).map_or(right, |k| k + 1);
+        (top, bottom) = (top.min(row), row + 1);
+    }
+    if bottom == 0 { [0, 0, 1, 1] } else { [left.min(right - 1), top, right, bottom] }
 }
 
 fn refused(path: &Path, error: EncodingError) -> PictureError {
@@ -159,11 +199,12 @@ mod tests {
         let mut out = Vec::new();
         {
             let sink: &mut dyn Write = &mut out;
-            let mut animation = Animation::start(sink, &canvas, &[], Path::new("x.gif")).unwrap();
-            animation.frame(&canvas, 5).unwrap();
-            animation.frame(&canvas, 5).unwrap();
+            let mut palette = Palette::new(&[]);
+            let mut animation = Animation::start(sink, &canvas, &palette, Path::new("x.gif")).unwrap();
+            let empty = palette.indices(&canvas, None);
+            animation.frames(vec![empty.clone(), empty], &[5, 5], &Threads::new(2)).unwrap();
             canvas.rectangle(10.0, 12.0, 20.0, 15.0, MAP[100], 1.0);
-            animation.frame(&canvas, 150).unwrap();
+            animation.frames(vec![palette.indices(&canvas, None)], &[150], &Threads::one()).unwrap();
         }
         let mut options = gif::DecodeOptions::new();
         options.set_color_output(gif::ColorOutput::Indexed);

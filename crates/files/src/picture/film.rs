@@ -2,14 +2,16 @@
 //! alone and as large as it fits; the colour range is that of the whole run in both.
 //! Frames come from the observer of a run; `scene` draws them, `animation` and the PNG writer take the pictures.
 
-use super::animation::Animation;
+use super::animation::{Animation, Indices, Palette};
 use super::body::{Mesh, Values};
 use super::field::{Scalar, names};
+use super::raster::Canvas;
 use super::scale::{decimals, number, unit};
 use super::scene::{Key, Moment, Plan, Scene};
 use super::view::{self, NOTHING, extent, joined, mirrored, size};
 use super::{PictureError, write_png, write_whole};
 use crate::outline::{Extent, Line, LineReader};
+use crate::threads::Threads;
 use embate_solver::output::{Cells, Frame};
 use std::path::Path;
 
@@ -58,6 +60,8 @@ const STORED_MAX: usize = 400;
 const SHOWN_MAX: usize = 160;
 /// Width of the animation, pixels.
 const ANIMATION_WIDTH: u32 = 640;
+/// Frames that a thread draws before they are encoded and written.
+const FRAMES_AT_ONCE: usize = 4;
 /// Length of the film without the last frame, hundredths of a second.
 const LENGTH: usize = 700;
 /// How long the last frame stays, hundredths of a second.
@@ -206,12 +210,13 @@ impl Film {
         self.stored.retain(|frame| frame.number % stride == 0 || frame.number == last);
     }
 
-    /// Writes `animation.gif` (some seven seconds, repeated, the last frame held) and `final.png` (the last frame) into `folder`.
+    /// Writes `animation.gif` (some seven seconds, repeated, the last frame held) and `final.png` (the last frame) into `folder`; `threads` draw several frames at
+    /// once.
     ///
     /// # Errors
     /// [`PictureError::Empty`] without a frame, [`PictureError::Field`] if the wanted field is in no frame, [`PictureError::Io`] and
     /// [`PictureError::Encode`] if a file can't be written.
-    pub fn finish(&self, folder: &Path) -> Result<(), PictureError> {
+    pub fn finish(&self, folder: &Path, threads: &Threads) -> Result<(), PictureError> {
         let Some(last) = self.stored.last() else { return Err(PictureError::Empty) };
         if let Some(available) = &self.missing {
             return Err(PictureError::Field { name: self.settings.field.clone(), available: available.clone() });
@@ -221,7 +226,7 @@ impl Film {
         let notes = self.notes();
         let wide = self.settings.width.min(ANIMATION_WIDTH);
         let high = f64::from(self.settings.height) * f64::from(wide) / f64::from(self.settings.width.max(1));
-        self.write_animation(folder, &mesh, &show, &notes, [wide, high.round() as u32])?;
+        self.write_animation(folder, &mesh, &show, &notes, [wide, high.round() as u32], threads)?;
         let show = Show { view: self.view_of(last, &show), ..show };
         let mut scene = self.scene(&show, &notes, [self.settings.width, self.settings.height]);
         let mut canvas = scene.still().clone();
@@ -230,27 +235,44 @@ impl Film {
         write_png(&canvas, &folder.join("final.png"))
     }
 
-    fn write_animation(&self, folder: &Path, mesh: &Mesh, show: &Show, notes: &[String], size: [u32; 2]) -> Result<(), PictureError> {
+    fn write_animation(
+        &self,
+        folder: &Path,
+        mesh: &Mesh,
+        show: &Show,
+        notes: &[String],
+        size: [u32; 2],
+        threads: &Threads,
+    ) -> Result<(), PictureError> {
         let mut scene = self.scene(show, notes, size);
-        let mut canvas = scene.still().clone();
         let chosen = evenly(self.stored.len(), SHOWN_MAX);
         let delay = (LENGTH / chosen.len().max(1)).clamp(3, 50) as u16;
+        // The first frame decides how parts look.
+        let mut canvas = scene.still().clone();
+        self.draw(chosen[0], &mut scene, mesh, show, notes, &mut canvas);
+        let mut palette = Palette::new(scene.looks());
+        let still = palette.indices(scene.still(), None);
         let path = folder.join("animation.gif");
         write_whole(&path, |out| {
-            let mut animation: Option<Animation<'_>> = None;
-            let mut out = Some(out);
-            for (index, frame) in chosen.iter().map(|k| (*k, &self.stored[*k])) {
-                let left = self.mesh_left(frame);
-                scene.draw(left.as_ref().unwrap_or(mesh), &self.moment(frame, show, &notes[index]), &mut canvas);
-                if let Some(out) = out.take() {
-                    animation = Some(Animation::start(out, &canvas, scene.looks(), &path)?);
-                }
-                if let Some(animation) = &mut animation {
-                    animation.frame(&canvas, if index + 1 == self.stored.len() { HOLD } else { delay })?;
-                }
+            let mut animation = Animation::start(out, &canvas, &palette, &path)?;
+            for chosen in chosen.chunks(FRAMES_AT_ONCE * threads.count()) {
+                let scratch = || (scene.clone(), canvas.clone(), palette.clone());
+                let pictures: Vec<Indices> = threads.map(chosen, scratch, |(scene, canvas, palette), &index| {
+                    self.draw(index, scene, mesh, show, notes, canvas);
+                    palette.indices(canvas, Some((scene.still(), &still)))
+                });
+                let delays: Vec<u16> = chosen.iter().map(|index| if index + 1 == self.stored.len() { HOLD } else { delay }).collect();
+                animation.frames(pictures, &delays, threads)?;
             }
             Ok(())
         })
+    }
+
+    /// Draws a stored frame.
+    fn draw(&self, index: usize, scene: &mut Scene, mesh: &Mesh, show: &Show, notes: &[String], canvas: &mut Canvas) {
+        let frame = &self.stored[index];
+        let left = self.mesh_left(frame);
+        scene.draw(left.as_ref().unwrap_or(mesh), &self.moment(frame, show, &notes[index]), canvas);
     }
 
     fn scene(&self, show: &Show, notes: &[String], size: [u32; 2]) -> Scene {

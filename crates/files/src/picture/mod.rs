@@ -2,13 +2,14 @@
 //!
 //! Data comes from [`embate_solver::output`] (cells once, frames, history rows) and leaves as `animation.gif`, `final.png`, a mesh
 //! picture and two SVG plots. The way of a picture: `film` or `mesh` choose what to show, `view` how much of it, `scale` its units and ticks, `scene` lays out
-//! axes and colour bar, `obstacle` and `body` hand lines, cells and edges to `raster`, `text` writes, `animation` encodes; `plots` chooses curves, `svg` draws them.
+//! axes and colour bar, `obstacle` and `body` hand lines, cells and edges to `raster`, `text` writes, `animation` and `lzw` encode; `plots` chooses curves, `svg` draws them.
 
 mod animation;
 mod body;
 mod colour;
 mod field;
 mod film;
+mod lzw;
 mod mesh;
 mod obstacle;
 mod plots;

@@ -1,22 +1,26 @@
 //! The result folder of a run: which files lie in it, how they get there, and who writes them.
 //!
-//! A [`Recorder`] listens to a simulation and fills a [`ResultFolder`]: `history.csv` row by row, `fields/frame-*.vtu` and
-//! `fields.pvd`, the pictures, and last of all `summary.json`. Every file is written as `NAME.part` and renamed when it is
+//! A [`Recorder`] listens to a simulation and hands frames and rows over (`handover`, `queue`) to the writer, which fills a [`ResultFolder`] while the run goes on:
+//! `history.csv` row by row, `fields/frame-*.vtu` and `fields.pvd`, the pictures, and last of all `summary.json`. Every file is written as `NAME.part` and renamed when it is
 //! complete, so a file under its final name is never half-written, whatever happens to the run or the machine.
 
 mod atomic;
 mod csv;
 mod figures;
 mod folder;
+mod handover;
+mod queue;
 mod recorder;
 mod report;
+mod writer;
 
 pub use atomic::write_whole;
 pub(crate) use csv::{append_number, append_text};
 pub(crate) use figures::{read_figures, write_figures};
 pub use folder::ResultFolder;
-pub use recorder::{OnProgress, Outcome, Recorder, film_settings};
+pub use recorder::{OnProgress, Outcome, Recorder};
 pub use report::{MomentumDrift, Report, RunStatus};
+pub use writer::film_settings;
 
 use crate::vtu::VtuError;
 use std::io::ErrorKind;
@@ -53,6 +57,12 @@ pub enum ResultsError {
     /// A frame that can't be written.
     #[error(transparent)]
     Frame(#[from] VtuError),
+    /// The writer panicked.
+    #[error("writing results panicked: {message}; this is a bug in embate")]
+    Panic {
+        /// What it said.
+        message: String,
+    },
     /// A history row that does not fit its columns.
     #[error("a history row has {found} values for {expected} columns; this is a bug in embate")]
     RowLength {

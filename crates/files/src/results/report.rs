@@ -96,6 +96,10 @@ pub struct Report {
     pub wall_seconds: f64,
     /// User CPU time of the whole process, s; `None` where the system does not tell.
     pub user_cpu_seconds: Option<f64>,
+    /// Time that the writer of results was at work, beside the steps or in turn with them, and with the pictures at the end, s.
+    pub output_seconds: f64,
+    /// Wall time that the run waited for its output: steps that waited for the writer, and the end for the rest and the pictures, s.
+    pub output_wait_seconds: f64,
     /// Elements × steps over the wall time of the steps alone, output taken out; `None` for a run without steps.
     pub element_steps_per_second: Option<f64>,
     /// Smallest time step taken, s.
@@ -149,6 +153,8 @@ impl Report {
             rest: summary.rest,
             wall_seconds: 0.0,
             user_cpu_seconds: None,
+            output_seconds: 0.0,
+            output_wait_seconds: 0.0,
             element_steps_per_second: None,
             stable_time_step_min: summary.stable_time_step_min,
             stable_time_step_governor: summary.stable_time_step_governor.clone(),

@@ -206,7 +206,7 @@ impl Sweep {
             Keep::Frames => {
                 let quiet = Box::new(|_: &Progress<'_>| Control::Continue);
                 let folder = ResultFolder::create(&folder, true)?;
-                Some(Recorder::new(folder, &model, simulation.history_columns(), simulation.cells(), quiet)?)
+                Some(Recorder::new(folder, &model, simulation.history_columns(), simulation.cells(), 1, quiet)?)
             }
             Keep::Figures | Keep::Rows => None,
         };

@@ -102,7 +102,7 @@ impl Case {
             Some((folder, force)) => {
                 let folder = ResultFolder::create(&folder.join(&self.name).join(name), force)?;
                 let quiet = Box::new(|_: &Progress<'_>| Control::Continue);
-                Some(Recorder::new(folder, model, simulation.history_columns(), simulation.cells(), quiet)?)
+                Some(Recorder::new(folder, model, simulation.history_columns(), simulation.cells(), options.thread_count(), quiet)?)
             }
         };
         let mut gathering = Gathering { samples, recorder, on_progress, is_stopped: false };
@@ -133,8 +133,12 @@ pub(crate) struct Gathering<'a> {
 }
 
 impl Observer for Gathering<'_> {
-    fn frame(&mut self, frame: &Frame<2>) -> Result<(), ObserverError> {
-        self.samples.note_frame(frame);
+    fn spare(&mut self) -> Frame<2> {
+        self.recorder.as_mut().map(Recorder::spare).unwrap_or_default()
+    }
+
+    fn frame(&mut self, frame: Frame<2>) -> Result<(), ObserverError> {
+        self.samples.note_frame(&frame);
         self.recorder.as_mut().map_or(Ok(()), |recorder| recorder.frame(frame))
     }
 

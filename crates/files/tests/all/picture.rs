@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used)] // what tests call may stop a test like the tests themselves
 
 use embate_files::picture::{Film, FilmSettings, PictureError, mesh_png, plots};
+use embate_files::threads::Threads;
 use embate_solver::output::{CellKind, Cells, Field, Frame, Outline, field_kind};
 use std::f64::consts::PI;
 use std::fs;
@@ -122,7 +123,7 @@ impl Picture {
 #[test]
 fn bodies_are_where_they_belong_and_the_background_is_white() {
     let folder = folder("scene");
-    film(settings(), 21).finish(&folder).unwrap();
+    film(settings(), 21).finish(&folder, &Threads::one()).unwrap();
     let picture = Picture::read(&folder.join("final.png"));
     assert_eq!(picture.width, 960);
     assert!((300..=720).contains(&picture.height), "{}", picture.height);
@@ -151,7 +152,7 @@ fn a_view_that_is_asked_for_is_shown_and_nothing_beside_it() {
     let folder = folder("view");
     // Inside the plate, which fills all of it at the end; and a place without bodies.
     for (view, is_there) in [([[0.19, -0.018], [0.24, -0.008]], true), ([[5.0, 5.0], [5.1, 5.1]], false)] {
-        film(FilmSettings { view: Some(view), ..settings() }, 3).finish(&folder).unwrap();
+        film(FilmSettings { view: Some(view), ..settings() }, 3).finish(&folder, &Threads::one()).unwrap();
         let picture = Picture::read(&folder.join("final.png"));
         let widest = (60..picture.height - 60).map(|y| picture.body_columns(y).len()).max().unwrap();
         assert_eq!(widest > picture.width * 4 / 5, is_there, "{widest} of {} columns", picture.width);
@@ -162,7 +163,7 @@ fn a_view_that_is_asked_for_is_shown_and_nothing_beside_it() {
 #[test]
 fn the_animation_has_all_frames_and_a_reasonable_size() {
     let folder = folder("animation");
-    film(settings(), 12).finish(&folder).unwrap();
+    film(settings(), 12).finish(&folder, &Threads::one()).unwrap();
     let bytes = fs::read(folder.join("animation.gif")).unwrap();
     let mut options = gif::DecodeOptions::new();
     options.set_color_output(gif::ColorOutput::RGBA);
@@ -181,7 +182,7 @@ fn the_animation_has_all_frames_and_a_reasonable_size() {
 #[test]
 fn a_long_run_gives_a_film_of_bearable_length() {
     let folder = folder("long");
-    film(FilmSettings { width: 300, height: 200, ..settings() }, 500).finish(&folder).unwrap();
+    film(FilmSettings { width: 300, height: 200, ..settings() }, 500).finish(&folder, &Threads::one()).unwrap();
     let mut decoder = gif::DecodeOptions::new().read_info(fs::File::open(folder.join("animation.gif")).unwrap()).unwrap();
     let (mut count, mut length) = (0, 0);
     while let Some(frame) = decoder.next_frame_info().unwrap() {
@@ -194,18 +195,19 @@ fn a_long_run_gives_a_film_of_bearable_length() {
 
 #[test]
 fn an_unknown_field_is_named_with_those_that_would_do() {
-    let error = film(FilmSettings { field: "temperature".into(), ..settings() }, 2).finish(&folder("unknown")).unwrap_err();
+    let error =
+        film(FilmSettings { field: "temperature".into(), ..settings() }, 2).finish(&folder("unknown"), &Threads::one()).unwrap_err();
     assert!(matches!(error, PictureError::Field { .. }));
     let text = error.to_string();
     assert!(text.contains("temperature") && text.contains("velocity, von_mises, plastic_strain"), "{text}");
-    assert!(matches!(Film::new(cells(), settings()).finish(&folder("none")), Err(PictureError::Empty)));
+    assert!(matches!(Film::new(cells(), settings()).finish(&folder("none"), &Threads::one()), Err(PictureError::Empty)));
 }
 
 #[test]
 fn vectors_and_components_can_be_shown() {
     for field in ["velocity", "velocity.y", "von_mises"] {
         let folder = folder(&format!("field-{field}"));
-        film(FilmSettings { field: field.into(), width: 480, height: 360, ..settings() }, 3).finish(&folder).unwrap();
+        film(FilmSettings { field: field.into(), width: 480, height: 360, ..settings() }, 3).finish(&folder, &Threads::one()).unwrap();
         assert_eq!(Picture::read(&folder.join("final.png")).width, 480);
     }
 }
@@ -240,7 +242,7 @@ fn obstacles_are_seen_on_their_solid_side_in_film_and_picture() {
             let t = f64::from(k) / 10.0;
             film.add(&Frame { outlines: outlines(t), ..state(t) });
         }
-        film.finish(&folder).unwrap();
+        film.finish(&folder, &Threads::one()).unwrap();
         let picture = Picture::read(&folder.join("final.png"));
         let middle = picture.body_columns(picture.height / 2);
         assert!(!middle.is_empty(), "bodies are still seen");
@@ -254,7 +256,7 @@ fn a_floor_under_the_bodies_is_a_line_from_border_to_border() {
     let mut film = Film::new(cells(), settings());
     let floor = Outline { name: "floor".into(), points: vec![[-1e4, -0.1], [1e4, -0.1]] };
     film.add(&Frame { outlines: vec![floor], ..state(0.0) });
-    film.finish(&folder).unwrap();
+    film.finish(&folder, &Threads::one()).unwrap();
     let picture = Picture::read(&folder.join("final.png"));
     let dark = |y: usize| (0..picture.width).filter(|x| picture.at(*x, y).iter().all(|c| *c < 80)).count();
     let line = (0..picture.height).rev().find(|y| dark(*y) > picture.width * 7 / 10).expect("a dark line across the plot");
@@ -275,7 +277,7 @@ fn a_field_of_the_surface_is_seen_where_it_has_values() {
         frame.fields.push(Field { kind: field_kind(field).unwrap(), values: values.collect() });
         let mut film = Film::new(cells(), FilmSettings { field: field.into(), ..settings() });
         film.add(&frame);
-        film.finish(&folder).unwrap();
+        film.finish(&folder, &Threads::one()).unwrap();
         let picture = Picture::read(&folder.join("final.png"));
         let coloured = (60..picture.height - 60).map(|y| picture.body_columns(y).len()).sum::<usize>();
         let plain = (0..picture.height).flat_map(|y| (0..picture.width).map(move |x| (x, y)));
@@ -288,7 +290,7 @@ fn a_field_of_the_surface_is_seen_where_it_has_values() {
 fn rigid_parts_have_no_colour_of_elements_but_that_of_their_nodes() {
     let pixels = |name: &str, field: &str, rigid: Vec<bool>| {
         let folder = folder(name);
-        film(FilmSettings { field: field.into(), rigid, ..settings() }, 3).finish(&folder).unwrap();
+        film(FilmSettings { field: field.into(), rigid, ..settings() }, 3).finish(&folder, &Threads::one()).unwrap();
         let picture = Picture::read(&folder.join("final.png"));
         let all = (0..picture.height).flat_map(|y| (0..picture.width).map(move |x| (x, y)));
         all.filter(|(x, y)| picture.at(*x, *y) == [178, 184, 192]).count()
@@ -339,7 +341,7 @@ fn strange_frames_give_a_picture_and_no_panic() {
             let settings = FilmSettings { width: size[0], height: size[1], mirror: [true; 2], ..settings() };
             let mut film = Film::new(cells(), settings.clone());
             frames.iter().for_each(|frame| film.add(frame));
-            film.finish(&folder).unwrap_or_else(|e| panic!("{name}: {e}"));
+            film.finish(&folder, &Threads::one()).unwrap_or_else(|e| panic!("{name}: {e}"));
             mesh_png(&frames[0], &cells(), &settings, &folder.join("mesh.png")).unwrap();
         }
     }

@@ -3,7 +3,7 @@
 use embate_files::results::{OnProgress, Outcome, Recorder, ResultFolder, ResultsError, RunStatus};
 use embate_solver::model::Model;
 use embate_solver::output::{CellKind, Cells, FIELDS, Field, Frame, Location, Outline, Summary};
-use embate_solver::simulation::{Control, Observer, Progress};
+use embate_solver::simulation::{Control, Observer, Options, Progress, Simulation};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -85,10 +85,10 @@ fn columns() -> Vec<String> {
 /// Ten steps with a frame and a row each, or until the caller's progress says stop.
 fn record(folder: &Path, on_progress: OnProgress<'_>, error: Option<&str>) -> Outcome {
     let folder = ResultFolder::create(folder, false).unwrap();
-    let mut recorder = Recorder::new(folder, &model(), columns(), cells(), on_progress).unwrap();
+    let mut recorder = Recorder::new(folder, &model(), columns(), cells(), 1, on_progress).unwrap();
     let mut done = 0;
     for step in 0..=10 {
-        recorder.frame(&frame(step)).unwrap();
+        recorder.frame(frame(step)).unwrap();
         recorder.row(&[step as f64 * 1e-4, 5.0]).unwrap();
         done = step;
         let progress = Progress { step, time: step as f64 * 1e-4, end: 1e-3, time_step: 1e-4, governor: "x", energy_drift: 0.0 };
@@ -143,6 +143,8 @@ fn the_summary_has_its_keys_in_order() {
             "time_end",
             "wall_seconds",
             "user_cpu_seconds",
+            "output_seconds",
+            "output_wait_seconds",
             "element_steps_per_second",
             "stable_time_step_min",
             "stable_time_step_governor",
@@ -238,14 +240,14 @@ fn two_runs_never_share_a_history() {
     let folder = fresh("two-runs");
     let first = ResultFolder::create(&folder, false).unwrap();
     let second = ResultFolder::create(&folder, false).unwrap();
-    let _running = Recorder::new(first, &model(), columns(), cells(), go_on()).unwrap();
-    assert!(Recorder::new(second, &model(), columns(), cells(), go_on()).is_err());
+    let _running = Recorder::new(first, &model(), columns(), cells(), 1, go_on()).unwrap();
+    assert!(Recorder::new(second, &model(), columns(), cells(), 1, go_on()).is_err());
 }
 
 #[test]
 fn a_row_of_the_wrong_length_is_an_error() {
     let folder = ResultFolder::create(&fresh("row"), false).unwrap();
-    let mut recorder = Recorder::new(folder, &model(), columns(), cells(), go_on()).unwrap();
+    let mut recorder = Recorder::new(folder, &model(), columns(), cells(), 1, go_on()).unwrap();
     assert!(recorder.row(&[1.0]).unwrap_err().to_string().contains("1 values for 2 columns"));
 }
 
@@ -253,9 +255,9 @@ fn a_row_of_the_wrong_length_is_an_error() {
 fn the_last_state_is_not_written_twice() {
     let folder = ResultFolder::create(&fresh("twice"), false).unwrap();
     let path = folder.path().to_path_buf();
-    let mut recorder = Recorder::new(folder, &model(), columns(), cells(), go_on()).unwrap();
+    let mut recorder = Recorder::new(folder, &model(), columns(), cells(), 1, go_on()).unwrap();
     for step in [0, 5, 5] {
-        recorder.frame(&frame(step)).unwrap();
+        recorder.frame(frame(step)).unwrap();
     }
     assert_eq!(names(&path.join("fields")).len(), 2);
 }
@@ -264,13 +266,133 @@ fn the_last_state_is_not_written_twice() {
 fn a_lost_folder_is_reported_with_its_path() {
     let folder = ResultFolder::create(&fresh("lost"), false).unwrap();
     let path = folder.path().to_path_buf();
-    let mut recorder = Recorder::new(folder, &model(), columns(), cells(), go_on()).unwrap();
+    let mut recorder = Recorder::new(folder, &model(), columns(), cells(), 1, go_on()).unwrap();
     fs::remove_dir_all(&path).unwrap();
-    let error = recorder.frame(&frame(0)).unwrap_err().to_string();
+    let error = recorder.frame(frame(0)).unwrap_err().to_string();
     assert!(error.contains("lost") && error.contains("frame-00000.vtu"), "{error}");
     let outcome = recorder.finish(None, &summary(10), || None);
     assert_eq!(outcome.report.status, RunStatus::Failed);
     assert!(outcome.unwritten.unwrap().to_string().contains("lost"));
+}
+
+#[test]
+fn a_writer_beside_the_run_tells_of_a_lost_folder_too() {
+    let folder = ResultFolder::create(&fresh("lost-beside"), false).unwrap();
+    let path = folder.path().to_path_buf();
+    let mut recorder = Recorder::new(folder, &model(), columns(), cells(), 3, go_on()).unwrap();
+    fs::remove_dir_all(&path).unwrap();
+    // The queue holds a few frames that nobody has tried to write yet.
+    let error = (0..10).find_map(|step| recorder.frame(frame(step)).err()).expect("the run is told").to_string();
+    assert!(error.contains("lost-beside") && error.contains("frame-00000.vtu"), "{error}");
+    let outcome = recorder.finish(None, &summary(10), || None);
+    assert_eq!(outcome.report.status, RunStatus::Failed);
+
+    let folder = ResultFolder::create(&fresh("lost-at-the-end"), false).unwrap();
+    let path = folder.path().to_path_buf();
+    let mut recorder = Recorder::new(folder, &model(), columns(), cells(), 3, go_on()).unwrap();
+    fs::remove_dir_all(&path).unwrap();
+    let told = recorder.frame(frame(0)).map_err(|error| error.to_string());
+    let outcome = recorder.finish(told.as_ref().err().cloned(), &summary(10), || None);
+    assert_eq!(outcome.report.status, RunStatus::Failed);
+    let error = outcome.report.error.unwrap();
+    assert!(error.contains("frame-00000.vtu"), "what went wrong first is told: {error}");
+}
+
+#[test]
+fn rows_between_frames_are_written_in_their_order() {
+    for threads in [1, 2] {
+        let path = fresh(&format!("rows-{threads}"));
+        let mut recorder =
+            Recorder::new(ResultFolder::create(&path, false).unwrap(), &model(), columns(), cells(), threads, go_on()).unwrap();
+        for step in 0..20_000 {
+            recorder.row(&[f64::from(step), 1.0]).unwrap();
+            if step % 3000 == 0 {
+                recorder.frame(frame(u64::from(step as u32))).unwrap();
+            }
+        }
+        assert!(recorder.finish(None, &summary(10), || None).unwritten.is_none());
+        let text = fs::read_to_string(path.join("history.csv")).unwrap();
+        let times = text.lines().skip(1).map(|line| line.split(',').next().unwrap().parse::<f64>().unwrap());
+        assert!(times.eq((0..20_000).map(f64::from)));
+        assert_eq!(names(&path.join("fields")).len(), 7);
+    }
+}
+
+/// All files below a folder with their bytes; times are taken out of the summary.
+fn contents(folder: &Path) -> Vec<(String, Vec<u8>)> {
+    let mut files = Vec::new();
+    for below in [folder.to_path_buf(), folder.join("fields")] {
+        for name in names(&below).into_iter().filter(|name| !below.join(name).is_dir()) {
+            let mut bytes = fs::read(below.join(&name)).unwrap();
+            if name == "summary.json" {
+                let mut value: serde_json::Value = serde_json::from_slice(&bytes).unwrap();
+                let timed =
+                    ["wall_seconds", "user_cpu_seconds", "output_seconds", "output_wait_seconds", "element_steps_per_second", "threads"];
+                timed.iter().for_each(|key| assert!(value.as_object_mut().unwrap().remove(*key).is_some(), "{key}"));
+                bytes = value.to_string().into_bytes();
+            }
+            files.push((name, bytes));
+        }
+    }
+    files
+}
+
+#[test]
+fn a_real_run_leaves_the_same_bytes_for_any_number_of_threads() {
+    let folder = fresh("threads");
+    fs::create_dir_all(&folder).unwrap();
+    let text = r#"
+        [run]
+        end = "60 us"
+        [material.steel]
+        law = "j2"
+        young = "200 GPa"
+        poisson = 0.3
+        density = "7800 kg/m^3"
+        yield = "100 MPa"
+        hardening = "1 GPa"
+        [[part]]
+        name = "block"
+        material = "steel"
+        element = "quad4"
+        rectangle = { corner = [0, 0], size = ["1 m", "1 m"], elements = [72, 72] }
+        velocity = [0, "-50 m/s"]
+        [[obstacle]]
+        name = "floor"
+        parts = ["block"]
+        plane = { point = [0, 0], normal = [0, 1] }
+        [[probe]]
+        name = "top"
+        part = "block"
+        point = [0, "1 m"]
+        [output]
+        fields = 8
+        history = "1 us"
+    "#;
+    let path = folder.join("model.toml");
+    fs::write(&path, text).unwrap();
+    let model = embate_files::model_file::load(&path, &[]).unwrap_or_else(|told| panic!("{}", told.rendered));
+    let run = |threads: usize| {
+        let options = Options { threads, simd: None };
+        let mut simulation = Simulation::new(&model, &options).unwrap();
+        let own = folder.join(threads.to_string());
+        let results = ResultFolder::create(&own, false).unwrap();
+        let (columns, cells) = (simulation.history_columns(), simulation.cells());
+        let mut recorder = Recorder::new(results, &model, columns, cells, threads, go_on()).unwrap();
+        simulation.run(&mut recorder).unwrap();
+        let outcome = recorder.finish(None, &simulation.summary(), || Some(1.0));
+        assert!(outcome.unwritten.is_none() && outcome.report.warnings.is_empty(), "{:?}", outcome.report.warnings);
+        assert!(outcome.report.output_seconds > 0.0 && outcome.report.output_wait_seconds > 0.0);
+        contents(&own)
+    };
+    let alone = run(1);
+    // History, two collections, nine frames and as many of the obstacle, four pictures, the summary.
+    assert_eq!(alone.len(), 26);
+    for threads in [2, 4] {
+        for ((name, bytes), (other, expected)) in run(threads).iter().zip(&alone) {
+            assert!(name == other && bytes == expected, "{name} of {threads} threads differs from {other} of one");
+        }
+    }
 }
 
 /// A frame with a floor without end, a circle that moves, and a field of the surface that has no value inside.
@@ -287,9 +409,9 @@ fn frame_with_obstacles(step: u64) -> Frame<2> {
 
 fn record_obstacles(name: &str) -> PathBuf {
     let path = fresh(name);
-    let mut recorder = Recorder::new(ResultFolder::create(&path, false).unwrap(), &model(), columns(), cells(), go_on()).unwrap();
+    let mut recorder = Recorder::new(ResultFolder::create(&path, false).unwrap(), &model(), columns(), cells(), 1, go_on()).unwrap();
     for step in 0..=10 {
-        recorder.frame(&frame_with_obstacles(step)).unwrap();
+        recorder.frame(frame_with_obstacles(step)).unwrap();
         recorder.row(&[step as f64 * 1e-4, 5.0]).unwrap();
     }
     assert!(recorder.finish(None, &summary(10), || None).unwritten.is_none());

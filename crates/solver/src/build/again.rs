@@ -3,7 +3,7 @@
 //! The mesh knows which elements those are, so outsides, sides and bodies follow; stiffnesses and lengths are those of the initial configuration, as ever. What was known of the past is
 //! handed over by [`Contact::renew`].
 
-use super::{Builder, Under};
+use super::{Builder, Fans};
 use crate::contact::{Contact, ContactKind};
 use crate::load::constraint::Constraints;
 use crate::mesh::Mesh;
@@ -14,7 +14,7 @@ use std::mem::take;
 /// What contacts are made from beyond the mesh, kept for when surfaces change.
 pub(crate) struct Origin {
     pub(super) model: Model,
-    pub(super) under: Vec<Under>,
+    pub(super) fans: Fans,
     pub(super) moduli: Vec<[f64; 2]>,
     pub(super) time_step: f64,
     /// Initial positions of all nodes, m.
@@ -46,7 +46,7 @@ impl Origin {
             faults: Vec::new(),
             positions: take(&mut self.positions),
             mass: take(lent.mass),
-            under: take(&mut self.under),
+            fans: take(&mut self.fans).into(),
             moduli: take(&mut self.moduli),
             time_step: self.time_step,
             bodies: take(lent.bodies),
@@ -70,8 +70,8 @@ impl Origin {
                 Err(_) => contact.end(),
             }
         }
-        let Builder { mesh, constraints, positions, mass, under, moduli, bodies, .. } = builder;
+        let Builder { mesh, constraints, positions, mass, fans, moduli, bodies, .. } = builder;
         (*lent.mesh, *lent.constraints, *lent.mass, *lent.bodies) = (mesh, constraints, mass, bodies);
-        (self.positions, self.under, self.moduli) = (positions, under, moduli);
+        (self.positions, self.fans, self.moduli) = (positions, fans.into_inner().unwrap_or_default(), moduli);
     }
 }

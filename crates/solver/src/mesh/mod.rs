@@ -46,12 +46,12 @@ impl ElementGroup {
     }
 
     /// Nodes of each element.
-    pub fn cells(&self) -> impl Iterator<Item = &[u32]> {
+    pub fn cells(&self) -> impl Iterator<Item = &[u32]> + Clone {
         self.connectivity.chunks_exact(self.nodes_per_element)
     }
 
     /// Nodes of each element that has not been eroded.
-    pub fn live_cells(&self) -> impl Iterator<Item = &[u32]> {
+    pub fn live_cells(&self) -> impl Iterator<Item = &[u32]> + Clone {
         self.cells().enumerate().filter(|(element, _)| self.is_alive(*element)).map(|(_, cell)| cell)
     }
 
@@ -144,7 +144,7 @@ impl Mesh<2> {
         };
         let first = self.positions.len() as u32;
         self.positions.extend(&body.positions);
-        self.add_elements(body.cells().map(|cell| cell.iter().map(|node| node + first).collect::<Vec<u32>>()));
+        self.add_elements(body.cells(), |node| node + first);
         self.parts.push(PartMesh { name: part.name.clone(), nodes: (first..first + body.positions.len() as u32).collect() });
         for (side, segments) in body.sides {
             let segments = segments.iter().map(|segment| segment.map(|node| node + first)).collect();
@@ -155,17 +155,16 @@ impl Mesh<2> {
         }
     }
 
-    /// Adds the elements of the part that comes next, in the user's order.
-    fn add_elements<C: AsRef<[u32]>>(&mut self, cells: impl Iterator<Item = C>) {
+    /// Adds the elements of the part that comes next, in the user's order; `number` is the mesh's number of a node.
+    fn add_elements<'c>(&mut self, cells: impl Iterator<Item = &'c [u32]>, number: impl Fn(&u32) -> u32) {
         let part = self.parts.len();
         let mut groups: Vec<ElementGroup> = Vec::new();
         for (user, cell) in (0..).zip(cells) {
-            let cell = cell.as_ref();
             let at = groups.iter().position(|group| group.nodes_per_element == cell.len()).unwrap_or_else(|| {
                 groups.push(ElementGroup { part, nodes_per_element: cell.len(), ..ElementGroup::default() });
                 groups.len() - 1
             });
-            groups[at].connectivity.extend(cell);
+            groups[at].connectivity.extend(cell.iter().map(&number));
             groups[at].user_elements.push(user);
         }
         groups.sort_by_key(|group| std::cmp::Reverse(group.nodes_per_element));
@@ -195,12 +194,12 @@ impl Mesh<2> {
             }
         }
         let number = |node: &u32| numbers[*node as usize];
-        self.add_elements(group.cells.iter().map(|cell| cell.iter().map(number).collect::<Vec<u32>>()));
+        self.add_elements(group.cells.iter().map(Vec::as_slice), number);
         self.parts.push(PartMesh { name: part.name.clone(), nodes: sorted(group.cells.iter().flatten().map(number)) });
     }
 
     /// Elements of a part.
-    pub fn groups_of(&self, part: usize) -> impl Iterator<Item = &ElementGroup> {
+    pub fn groups_of(&self, part: usize) -> impl Iterator<Item = &ElementGroup> + Clone {
         self.groups.iter().filter(move |group| group.part == part)
     }
 
@@ -211,8 +210,8 @@ impl Mesh<2> {
     }
 
     /// Nodes of each element with a surface of the parts (all when `parts` is empty) that has not been eroded.
-    fn cells(&self, parts: &[String]) -> impl Iterator<Item = &[u32]> {
-        let is_of = |group: &&ElementGroup| group.has_surface() && (parts.is_empty() || parts.contains(&self.parts[group.part].name));
+    fn cells(&self, parts: &[String]) -> impl Iterator<Item = &[u32]> + Clone {
+        let is_of = move |group: &&ElementGroup| group.has_surface() && (parts.is_empty() || parts.contains(&self.parts[group.part].name));
         self.groups.iter().filter(is_of).flat_map(ElementGroup::live_cells)
     }
 
@@ -346,8 +345,7 @@ impl Mesh<2> {
     /// # Errors
     /// As [`Mesh::outside`].
     pub fn outside_without(&self, parts: &[String], leave_out: impl Fn([u32; 2]) -> bool) -> Result<Surface, Fault> {
-        let segments = surface::exterior(self.cells(parts))?;
-        Surface::new(segments.into_iter().filter(|&segment| !leave_out(segment)).collect(), self.cells(parts))
+        Surface::outside_without(self.cells(parts), leave_out)
     }
 
     /// Surface of a part (its whole outside), a `part.side` or a one-dimensional group, without the segments that `leave_out` names (those on
@@ -359,7 +357,7 @@ impl Mesh<2> {
         let only = |name: &str| [name.to_string()];
         let is_part = |name: &str| self.parts.iter().any(|part| part.name == name);
         let (segments, of) = if is_part(name) {
-            (surface::exterior(self.cells(&only(name)))?, only(name).to_vec())
+            return Surface::outside_without(self.cells(&only(name)), leave_out);
         } else if let Some(lines) = self.lines.get(name) {
             let owner = name.split_once('.').map(|(part, _)| part).filter(|part| is_part(part));
             let of = owner.map_or(Vec::new(), |part| only(part).to_vec());

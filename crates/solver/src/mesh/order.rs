@@ -4,6 +4,7 @@
 //! a shape and from a mesh file give the same results to the last bit. Outputs and messages speak the user's numbering.
 
 use super::{ElementGroup, Mesh};
+use std::cmp::Ordering;
 
 /// Bits per coordinate of the curve.
 const BITS: u32 = 31;
@@ -11,19 +12,18 @@ const BITS: u32 = 31;
 impl Mesh<2> {
     /// Renumbers nodes, elements and corners; `user_nodes` and `user_elements` lead back.
     pub(super) fn reorder(&mut self) {
-        let codes = codes(&self.positions);
         let mut owner = vec![u32::MAX; self.positions.len()];
         for (index, part) in self.parts.iter().enumerate().rev() {
             part.nodes.iter().for_each(|&node| owner[node as usize] = index as u32);
         }
-        let mut order: Vec<u32> = (0..self.positions.len() as u32).collect();
         // Bodies that touch have nodes in one place: the part's rank in the model decides, then the coordinates behind the curve's resolution.
-        order.sort_by(|&a, &b| {
+        let order = sorted(codes(self.positions.iter().copied()), |a, b| {
             let (a, b) = (a as usize, b as usize);
             let place = |n: usize| self.positions[n];
             let exact = || place(a)[0].total_cmp(&place(b)[0]).then(place(a)[1].total_cmp(&place(b)[1]));
-            codes[a].cmp(&codes[b]).then(owner[a].cmp(&owner[b])).then_with(exact).then(a.cmp(&b))
+            owner[a].cmp(&owner[b]).then_with(exact)
         });
+        drop(owner);
         let mut number = vec![0u32; order.len()];
         for (&user, new) in order.iter().zip(0..) {
             number[user as usize] = new;
@@ -60,23 +60,33 @@ impl ElementGroup {
             });
             [sum[0] / n as f64, sum[1] / n as f64]
         };
-        let centres: Vec<[f64; 2]> = self.connectivity.chunks_exact(n).map(centre).collect();
-        let codes = codes(&centres);
-        let mut order: Vec<u32> = (0..centres.len() as u32).collect();
-        order.sort_by_key(|&element| {
-            let cell = &self.connectivity[element as usize * n..(element as usize + 1) * n];
-            (codes[element as usize], cell[0], cell[1], element)
+        let codes = codes(self.connectivity.chunks_exact(n).map(centre));
+        let order = sorted(codes, |a, b| {
+            let first = |element: u32| &self.connectivity[element as usize * n..][..2];
+            first(a).cmp(first(b))
         });
-        self.connectivity =
-            order.iter().flat_map(|&user| self.connectivity[user as usize * n..(user as usize + 1) * n].iter().copied()).collect();
+        let mut connectivity = Vec::with_capacity(self.connectivity.len());
+        order.iter().for_each(|&user| connectivity.extend_from_slice(&self.connectivity[user as usize * n..][..n]));
+        self.connectivity = connectivity;
         self.user_elements = order.iter().map(|&user| self.user_elements[user as usize]).collect();
     }
 }
 
+/// Indices of `codes` in their order; `tie` decides between equal ones, then the index.
+fn sorted(codes: Vec<u64>, tie: impl Fn(u32, u32) -> Ordering) -> Vec<u32> {
+    // Side by side, so that sorting does not jump about in memory.
+    let mut places: Vec<(u64, u32)> = codes.into_iter().zip(0..).collect();
+    places.sort_unstable();
+    for equal in places.chunk_by_mut(|a, b| a.0 == b.0).filter(|equal| equal.len() > 1) {
+        equal.sort_unstable_by(|a, b| tie(a.1, b.1).then(a.1.cmp(&b.1)));
+    }
+    places.into_iter().map(|(_, index)| index).collect()
+}
+
 /// Place of each point on a Hilbert curve through the box of all of them; points that are not finite come first.
-fn codes(points: &[[f64; 2]]) -> Vec<u64> {
+fn codes(points: impl Iterator<Item = [f64; 2]> + Clone) -> Vec<u64> {
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-    for point in points {
+    for point in points.clone() {
         for d in 0..2 {
             low[d] = low[d].min(point[d]);
             high[d] = high[d].max(point[d]);
@@ -86,26 +96,53 @@ fn codes(points: &[[f64; 2]]) -> Vec<u64> {
     let size = (high[0] - low[0]).max(high[1] - low[1]);
     let scale = if size > 0.0 { f64::from((1u32 << BITS) - 1) / size } else { 0.0 };
     // A float becomes a whole number by rounding towards zero; NaN becomes 0.
-    points.iter().map(|point| hilbert([0, 1].map(|d| ((point[d] - low[d]) * scale) as u32))).collect()
+    points.map(|point| hilbert([0, 1].map(|d| ((point[d] - low[d]) * scale) as u32))).collect()
 }
 
 /// Distance along the Hilbert curve of the cell (x, y) of a grid of 2^31 by 2^31 cells. Hilbert, Math. Annalen 38 (1891) 459-460.
-fn hilbert([mut x, mut y]: [u32; 2]) -> u64 {
-    let mut distance = 0u64;
-    let full = (1u32 << BITS) - 1;
-    for bit in (0..BITS).rev() {
-        let side = 1u32 << bit;
-        let (right, upper) = (x & side != 0, y & side != 0);
-        let quadrant = (3 * u64::from(right)) ^ u64::from(upper);
-        distance += quadrant << (2 * bit);
-        if !upper {
-            if right {
-                (x, y) = (full - x, full - y);
-            }
-            std::mem::swap(&mut x, &mut y);
-        }
+fn hilbert([x, y]: [u32; 2]) -> u64 {
+    let (mut distance, mut sense) = (0u64, 0usize);
+    // The curve in a quarter is that of the whole, turned: 31 bits of each coordinate, one by one and then three at a time.
+    let mut low = BITS - 1;
+    for bits in [1; 1].into_iter().chain([3; 10]) {
+        let mask = (1 << bits) - 1;
+        let at = (x >> low & mask) << 3 | (y >> low & mask);
+        let (path, next) = STRETCH[bits as usize / 3][sense][at as usize];
+        distance = distance << (2 * bits) | u64::from(path);
+        sense = usize::from(next);
+        low = low.saturating_sub(3);
     }
     distance
+}
+
+/// By bits per coordinate (1 or 3), sense and place (x · 8 + y): the way along the curve through the squares of those bits, and the sense in the last one.
+static STRETCH: [[[(u8, u8); 64]; 4]; 2] = [stretch(1), stretch(3)];
+
+/// A sense says how the curve lies in a square: 1 turned by half a turn, 2 with x and y exchanged, 3 both.
+const fn stretch(bits: u32) -> [[(u8, u8); 64]; 4] {
+    let mut table = [[(0, 0); 64]; 4];
+    let mut sense = 0;
+    while sense < 4 {
+        let mut at = 0;
+        while at < 64 {
+            let (mut turned, mut exchanged) = (sense & 1, sense >> 1);
+            let (mut path, mut bit) = (0, bits);
+            while bit > 0 {
+                bit -= 1;
+                let (x, y) = (at >> (3 + bit) & 1 ^ turned, at >> bit & 1 ^ turned);
+                let (right, upper) = if exchanged == 1 { (y, x) } else { (x, y) };
+                path = path << 2 | (3 * right) ^ upper;
+                if upper == 0 {
+                    turned ^= right;
+                    exchanged ^= 1;
+                }
+            }
+            table[sense][at] = (path as u8, (turned | exchanged << 1) as u8);
+            at += 1;
+        }
+        sense += 1;
+    }
+    table
 }
 
 #[cfg(test)]
@@ -120,6 +157,38 @@ mod tests {
         cells.sort_by_key(|[x, y]| hilbert([x << shift, y << shift]));
         for pair in cells.windows(2) {
             assert_eq!(pair[0][0].abs_diff(pair[1][0]) + pair[0][1].abs_diff(pair[1][1]), 1, "{pair:?}");
+        }
+    }
+
+    /// The definition, one bit at a time.
+    fn hilbert_by_bits([mut x, mut y]: [u32; 2]) -> u64 {
+        let mut distance = 0u64;
+        let full = (1u32 << BITS) - 1;
+        for bit in (0..BITS).rev() {
+            let side = 1u32 << bit;
+            let (right, upper) = (x & side != 0, y & side != 0);
+            let quadrant = (3 * u64::from(right)) ^ u64::from(upper);
+            distance += quadrant << (2 * bit);
+            if !upper {
+                if right {
+                    (x, y) = (full - x, full - y);
+                }
+                std::mem::swap(&mut x, &mut y);
+            }
+        }
+        distance
+    }
+
+    #[test]
+    fn three_bits_at_a_time_give_the_same_place() {
+        let mut state = 1_u64;
+        let mut random = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 33) as u32
+        };
+        let last = (1u32 << BITS) - 1;
+        for place in [[0, 0], [last, 0], [0, last], [last, last]].into_iter().chain((0..10_000).map(|_| [random(), random()])) {
+            assert_eq!(hilbert(place), hilbert_by_bits(place), "{place:?}");
         }
     }
 }

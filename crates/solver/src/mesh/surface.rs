@@ -26,9 +26,20 @@ impl Surface {
     ///
     /// # Errors
     /// As [`exterior`].
-    pub fn outside<'a>(cells: impl IntoIterator<Item = &'a [u32]>) -> Result<Self, Fault> {
+    pub fn outside<'a>(cells: impl IntoIterator<Item = &'a [u32], IntoIter: Clone>) -> Result<Self, Fault> {
+        Self::outside_without(cells, |_| false)
+    }
+
+    /// The same without the segments that `leave_out` names, which is asked once for each in this order.
+    ///
+    /// # Errors
+    /// As [`exterior`].
+    pub fn outside_without<'a>(
+        cells: impl IntoIterator<Item = &'a [u32], IntoIter: Clone>,
+        leave_out: impl Fn([u32; 2]) -> bool,
+    ) -> Result<Self, Fault> {
         let edges = Edges::new(cells)?;
-        let segments = edges.exterior();
+        let segments = edges.exterior().into_iter().filter(|&segment| !leave_out(segment)).collect();
         Self::linked(segments, &edges)
     }
 
@@ -39,7 +50,7 @@ impl Surface {
     /// # Errors
     /// A fault when the cells are wrong (see [`exterior`]), when a segment is no outside edge with the body on its right
     /// (see [`oriented`]), or when one is given twice.
-    pub fn new<'a>(segments: Vec<[u32; 2]>, cells: impl IntoIterator<Item = &'a [u32]>) -> Result<Self, Fault> {
+    pub fn new<'a>(segments: Vec<[u32; 2]>, cells: impl IntoIterator<Item = &'a [u32], IntoIter: Clone>) -> Result<Self, Fault> {
         Self::linked(segments, &Edges::new(cells)?)
     }
 
@@ -80,7 +91,7 @@ impl Surface {
 /// # Errors
 /// A fault that names nodes when a cell has not 3 or 4 different nodes, when an edge belongs to more than two cells, or to two cells that
 /// run through it in the same direction (one of them is clockwise, or they overlap).
-pub fn exterior<'a>(cells: impl IntoIterator<Item = &'a [u32]>) -> Result<Vec<[u32; 2]>, Fault> {
+pub fn exterior<'a>(cells: impl IntoIterator<Item = &'a [u32], IntoIter: Clone>) -> Result<Vec<[u32; 2]>, Fault> {
     Ok(Edges::new(cells)?.exterior())
 }
 
@@ -111,53 +122,89 @@ pub fn oriented(lines: &[[u32; 2]], exterior: &[[u32; 2]]) -> Result<Vec<[u32; 2
 
 /// Every directed edge of every cell, sorted, with the node before it in its cell.
 struct Edges {
-    /// (from, to, node before `from` in the same cell).
-    directed: Vec<(u32, u32, u32)>,
+    /// Where the edges from each node begin; one more than nodes.
+    starts: Vec<u32>,
+    /// (to, node before `from` in the same cell), ascending among the edges from one node.
+    directed: Vec<(u32, u32)>,
 }
 
 impl Edges {
-    fn new<'a>(cells: impl IntoIterator<Item = &'a [u32]>) -> Result<Self, Fault> {
-        let mut directed = Vec::new();
-        for cell in cells {
+    /// Edges are counted, then put into their places: no sorting but of the few at one node.
+    fn new<'a>(cells: impl IntoIterator<Item = &'a [u32], IntoIter: Clone>) -> Result<Self, Fault> {
+        let cells = cells.into_iter();
+        let mut starts = vec![0_u32];
+        for cell in cells.clone() {
             let n = cell.len();
             if !(3..=4).contains(&n) || (0..n).any(|i| cell[..i].contains(&cell[i])) {
                 let help = "elements have three or four different corners; remove collapsed ones from the mesh";
                 return Err(Fault::new("", format!("an element has the nodes {cell:?}"), help));
             }
-            directed.extend((0..n).map(|i| (cell[i], cell[(i + 1) % n], cell[(i + n - 1) % n])));
+            for &node in cell {
+                if node as usize + 2 > starts.len() {
+                    starts.resize(node as usize + 2, 0);
+                }
+                starts[node as usize + 1] += 1;
+            }
         }
-        directed.sort_unstable();
-        let edges = Self { directed };
+        for node in 1..starts.len() {
+            starts[node] += starts[node - 1];
+        }
+        let mut next = starts.clone();
+        let mut directed = vec![(0, 0); starts.last().map_or(0, |&count| count as usize)];
+        for cell in cells {
+            let n = cell.len();
+            for (i, &node) in cell.iter().enumerate() {
+                let place = &mut next[node as usize];
+                directed[*place as usize] = (cell[(i + 1) % n], cell[(i + n - 1) % n]);
+                *place += 1;
+            }
+        }
+        let mut edges = Self { starts, directed };
+        for node in 1..edges.starts.len() {
+            edges.directed[edges.starts[node - 1] as usize..edges.starts[node] as usize].sort_unstable();
+        }
         edges.check()?;
         Ok(edges)
     }
 
+    /// Edges from `node`.
+    fn from(&self, node: u32) -> &[(u32, u32)] {
+        match self.starts.get(node as usize..node as usize + 2) {
+            Some(&[start, end]) => &self.directed[start as usize..end as usize],
+            _ => &[],
+        }
+    }
+
+    /// All edges: from, to.
+    fn all(&self) -> impl Iterator<Item = (u32, u32)> {
+        (0..self.starts.len() as u32 - 1).flat_map(|a| self.from(a).iter().map(move |&(b, _)| (a, b)))
+    }
+
     fn check(&self) -> Result<(), Fault> {
-        for w in self.directed.windows(2) {
-            let (a, b, _) = w[0];
-            if (a, b) == (w[1].0, w[1].1) {
-                let count = self.directed.iter().filter(|e| (e.0, e.1) == (a, b) || (e.1, e.0) == (a, b)).count();
-                return Err(if count > 2 {
-                    Fault::new(
-                        "",
-                        format!("the edge between nodes {a} and {b} belongs to {count} elements"),
-                        "in the plane an edge has at most two; remove elements that overlap or occur twice",
-                    )
-                } else {
-                    Fault::new(
-                        "",
-                        format!("two elements run through the edge from node {a} to node {b} in the same direction"),
-                        "elements must be counter-clockwise and must not overlap; reverse or remove one of them",
-                    )
-                });
-            }
+        for a in 0..self.starts.len() as u32 - 1 {
+            let Some(twice) = self.from(a).windows(2).find(|w| w[0].0 == w[1].0) else { continue };
+            let b = twice[0].0;
+            let count = self.all().filter(|&e| e == (a, b) || e == (b, a)).count();
+            return Err(if count > 2 {
+                Fault::new(
+                    "",
+                    format!("the edge between nodes {a} and {b} belongs to {count} elements"),
+                    "in the plane an edge has at most two; remove elements that overlap or occur twice",
+                )
+            } else {
+                Fault::new(
+                    "",
+                    format!("two elements run through the edge from node {a} to node {b} in the same direction"),
+                    "elements must be counter-clockwise and must not overlap; reverse or remove one of them",
+                )
+            });
         }
         Ok(())
     }
 
     /// The node before the edge a → b in the cell that has it.
     fn before(&self, a: u32, b: u32) -> Option<u32> {
-        self.directed.binary_search_by_key(&(a, b), |&(a, b, _)| (a, b)).ok().map(|i| self.directed[i].2)
+        self.from(a).iter().find(|edge| edge.0 == b).map(|edge| edge.1)
     }
 
     /// The outside segment after the outside segment a → b: around node b, through the elements of its fan. `None` when a → b is not outside.
@@ -174,8 +221,7 @@ impl Edges {
     }
 
     fn exterior(&self) -> Vec<[u32; 2]> {
-        let mut segments: Vec<[u32; 2]> =
-            self.directed.iter().filter(|&&(a, b, _)| self.before(b, a).is_none()).map(|&(a, b, _)| [b, a]).collect();
+        let mut segments: Vec<[u32; 2]> = self.all().filter(|&(a, b)| self.before(b, a).is_none()).map(|(a, b)| [b, a]).collect();
         segments.sort_unstable();
         let mut taken = vec![false; segments.len()];
         let mut chains = Vec::with_capacity(segments.len());
@@ -200,7 +246,7 @@ mod tests {
     use crate::mesh::shapes::{disk, rectangle, ring};
     use proptest::prelude::*;
 
-    fn slices(cells: &[[u32; 4]]) -> impl Iterator<Item = &[u32]> {
+    fn slices(cells: &[[u32; 4]]) -> impl Iterator<Item = &[u32]> + Clone {
         cells.iter().map(<[u32; 4]>::as_slice)
     }
 

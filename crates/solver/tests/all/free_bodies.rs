@@ -184,7 +184,7 @@ fn a_spinning_bar_has_the_stress_of_its_spin_and_keeps_its_momenta() {
     assert!((mean / expected - 1.0).abs() < 0.02, "{mean} for {expected}");
     struct Silent;
     impl embate_solver::simulation::Observer for Silent {
-        fn frame(&mut self, _: &embate_solver::output::Frame<2>) -> Result<(), embate_solver::simulation::ObserverError> {
+        fn frame(&mut self, _: embate_solver::output::Frame<2>) -> Result<(), embate_solver::simulation::ObserverError> {
             Ok(())
         }
         fn row(&mut self, _: &[f64]) -> Result<(), embate_solver::simulation::ObserverError> {

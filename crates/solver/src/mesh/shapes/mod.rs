@@ -35,7 +35,7 @@ pub struct Body {
 
 impl Body {
     /// Nodes of each element.
-    pub fn cells(&self) -> impl Iterator<Item = &[u32]> {
+    pub fn cells(&self) -> impl Iterator<Item = &[u32]> + Clone {
         let areas = self.quads.iter().map(<[u32; 4]>::as_slice).chain(self.triangles.iter().map(<[u32; 3]>::as_slice));
         areas.chain(self.bars.iter().map(<[u32; 2]>::as_slice))
     }

@@ -1,0 +1,269 @@
+//! What a run leaves behind while it goes on: history, field files, obstacles, film. Jobs come from `handover`; [`Writer::close`] completes the files.
+
+use super::ResultsError;
+use super::atomic::write_whole;
+use super::csv::CsvStream;
+use super::folder::ResultFolder;
+use crate::outline::{Extent, LineReader};
+use crate::picture::{self, Film, FilmSettings};
+use crate::threads::Threads;
+use crate::vtu::{self, VtuWriter};
+use embate_solver::model::Model;
+use embate_solver::output::{Cells, Frame};
+use std::time::{Duration, Instant};
+
+/// Rows that are kept for the plots; a longer history is thinned evenly.
+const PLOT_ROWS: usize = 4096;
+/// The collection is rewritten with each of so many frames, later only from time to time and at the end.
+const COLLECTION_FRAMES: usize = 200;
+/// Time from rewriting to rewriting a long collection.
+const COLLECTION_PAUSE: Duration = Duration::from_secs(1);
+
+/// What the writer has to do: the rows since the last job, one after the other, and then a frame.
+#[derive(Debug, Default)]
+pub(super) struct Job {
+    pub(super) rows: Vec<f64>,
+    pub(super) frame: Option<Frame<2>>,
+}
+
+impl Job {
+    /// Memory that it needs until it is done.
+    pub(super) fn bytes(&self) -> usize {
+        8 * self.rows.len() + self.frame.as_ref().map_or(0, bytes)
+    }
+}
+
+/// Memory of a frame.
+pub(super) fn bytes(frame: &Frame<2>) -> usize {
+    let values: usize = frame.fields.iter().map(|field| field.values.len()).sum();
+    16 * frame.positions.len() + 8 * values + 16 * frame.outlines.iter().map(|outline| outline.points.len()).sum::<usize>()
+}
+
+/// The files of a run that grow while it goes on.
+pub(super) struct Writer {
+    folder: ResultFolder,
+    title: String,
+    of_revolution: bool,
+    include: Vec<String>,
+    columns: Vec<String>,
+    history: CsvStream,
+    plot_rows: ThinnedRows,
+    frames: Frames,
+    film: Option<Film>,
+    threads: Threads,
+}
+
+/// How the files were completed.
+pub(super) struct Closed {
+    /// What kept the history and the collections from being complete.
+    pub(super) result: Result<(), ResultsError>,
+    /// Why there are no pictures, if they are missing.
+    pub(super) pictures_missing: Option<String>,
+}
+
+impl Writer {
+    /// Starts the history.
+    pub(super) fn new(
+        folder: ResultFolder,
+        model: &Model,
+        columns: Vec<String>,
+        cells: Cells,
+        threads: Threads,
+    ) -> Result<Self, ResultsError> {
+        Ok(Self {
+            history: CsvStream::create(&folder.path().join("history.csv"), &columns)?,
+            folder,
+            title: picture_title(model),
+            of_revolution: model.is_axisymmetric(),
+            include: model.output.include.clone(),
+            columns,
+            plot_rows: ThinnedRows::default(),
+            frames: Frames::new(&cells, &threads),
+            film: model.output.pictures.then(|| Film::new(cells, film_settings(model))),
+            threads,
+        })
+    }
+
+    /// Does a job. A frame is written even when rows can't be.
+    pub(super) fn write(&mut self, job: &Job) -> Result<(), ResultsError> {
+        let mut rows = Ok(());
+        for row in job.rows.chunks_exact(self.columns.len().max(1)) {
+            rows = rows.and(self.history.row(row));
+            if self.film.is_some() {
+                self.plot_rows.add(row);
+            }
+        }
+        let Some(frame) = &job.frame else { return rows };
+        if self.frames.write(frame, &self.include, &self.folder, &self.threads)? {
+            if let Some(film) = &mut self.film {
+                film.add(frame);
+            }
+            rows = rows.and(self.history.flush());
+        }
+        rows
+    }
+
+    /// Completes the files. What can be written is written even when something else can't.
+    pub(super) fn close(self) -> Closed {
+        let result = self.history.finish().and(self.frames.write_collection(&self.folder));
+        let made = self.film.map(|film| {
+            self.folder.add_pictures(|side| {
+                film.finish(side, &self.threads).map_err(|e| e.to_string())?;
+                picture::plots(&self.columns, &self.plot_rows.into_rows(), &self.title, self.of_revolution, side).map_err(|e| e.to_string())
+            })
+        });
+        Closed { result, pictures_missing: made.and_then(Result::err) }
+    }
+}
+
+/// How a model wants its pictures.
+#[must_use]
+pub fn film_settings(model: &Model) -> FilmSettings {
+    FilmSettings {
+        title: picture_title(model),
+        field: model.output.picture_field.clone(),
+        rigid: model.parts.iter().map(|part| part.rigid.is_some()).collect(),
+        mirror: model.output.mirror,
+        view: model.output.picture_view.map(|view| [view.corner, [0, 1].map(|k| view.corner[k] + view.size[k])]),
+        of_revolution: model.is_axisymmetric(),
+        ..FilmSettings::default()
+    }
+}
+
+fn picture_title(model: &Model) -> String {
+    if model.title.is_empty() { model.name.clone() } else { model.title.clone() }
+}
+
+/// The field files of a run, those of its obstacles, and their collections.
+struct Frames {
+    writer: VtuWriter,
+    written: Vec<(f64, String)>,
+    obstacles: Obstacles,
+    step_last: Option<u64>,
+    collected: Instant,
+}
+
+impl Frames {
+    fn new(cells: &Cells, threads: &Threads) -> Self {
+        Self {
+            writer: VtuWriter::new(cells, threads),
+            written: Vec::new(),
+            obstacles: Obstacles::default(),
+            step_last: None,
+            collected: Instant::now(),
+        }
+    }
+
+    /// Writes a frame; `false` when this step is there already, as when a run fails right at an output time.
+    fn write(&mut self, frame: &Frame<2>, include: &[String], folder: &ResultFolder, threads: &Threads) -> Result<bool, ResultsError> {
+        if self.step_last == Some(frame.step) {
+            return Ok(false);
+        }
+        let name = ResultFolder::frame_name(self.written.len());
+        write_whole(&folder.path().join(&name), &self.writer.bytes(frame, include, threads)?)?;
+        self.obstacles.write(frame, self.written.len(), folder)?;
+        self.written.push((frame.time, name));
+        self.step_last = Some(frame.step);
+        if self.written.len() <= COLLECTION_FRAMES || self.collected.elapsed() > COLLECTION_PAUSE {
+            self.write_collection(folder)?;
+            self.collected = Instant::now();
+        }
+        Ok(true)
+    }
+
+    fn write_collection(&self, folder: &ResultFolder) -> Result<(), ResultsError> {
+        write_whole(&folder.path().join("fields.pvd"), vtu::collection(&self.written).as_bytes())?;
+        if self.obstacles.written.is_empty() {
+            return Ok(());
+        }
+        write_whole(&folder.path().join("obstacles.pvd"), vtu::collection(&self.obstacles.written).as_bytes())
+    }
+}
+
+/// The obstacle files of a run; none for a model without obstacles.
+#[derive(Default)]
+struct Obstacles {
+    lines: LineReader,
+    /// Box of all nodes of all frames so far: lines without end reach across it.
+    extent: Option<Extent>,
+    written: Vec<(f64, String)>,
+}
+
+impl Obstacles {
+    fn write(&mut self, frame: &Frame<2>, number: usize, folder: &ResultFolder) -> Result<(), ResultsError> {
+        if frame.outlines.is_empty() {
+            return Ok(());
+        }
+        for p in frame.positions.iter().filter(|p| p.iter().all(|v| v.is_finite())) {
+            let [low, high] = self.extent.unwrap_or([*p, *p]);
+            self.extent = Some([[0, 1].map(|k| low[k].min(p[k])), [0, 1].map(|k| high[k].max(p[k]))]);
+        }
+        let near = self.extent.unwrap_or_default();
+        let lines: Vec<Vec<[f64; 2]>> = self.lines.lines(frame).iter().map(|line| line.piece(near)).collect();
+        let name = ResultFolder::obstacles_name(number);
+        write_whole(&folder.path().join(&name), &vtu::obstacles(&lines, frame.time))?;
+        self.written.push((frame.time, name));
+        Ok(())
+    }
+}
+
+/// History rows for the plots: all of a short history, every second, fourth ... of a long one, and the last.
+#[derive(Default)]
+struct ThinnedRows {
+    rows: Vec<Vec<f64>>,
+    last: Option<Vec<f64>>,
+    stride_exponent: u32,
+    seen: u64,
+}
+
+impl ThinnedRows {
+    fn add(&mut self, row: &[f64]) {
+        if self.seen.trailing_zeros() >= self.stride_exponent {
+            self.rows.push(row.to_vec());
+            self.last = None;
+        } else {
+            self.last = Some(row.to_vec());
+        }
+        self.seen += 1;
+        if self.rows.len() >= PLOT_ROWS {
+            let mut index = 0;
+            self.rows.retain(|_| {
+                index += 1;
+                index % 2 == 1
+            });
+            self.stride_exponent += 1;
+        }
+    }
+
+    fn into_rows(mut self) -> Vec<Vec<f64>> {
+        self.rows.extend(self.last);
+        self.rows
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_long_history_is_thinned_evenly_for_the_plots() {
+        let mut rows = ThinnedRows::default();
+        for value in 0..10_000 {
+            rows.add(&[f64::from(value)]);
+        }
+        let kept = rows.into_rows();
+        assert!(kept.len() < PLOT_ROWS && kept.len() > PLOT_ROWS / 2 - 1);
+        assert_eq!(kept[1][0] - kept[0][0], 4.0);
+        assert!(kept[..kept.len() - 1].windows(2).all(|w| w[1][0] - w[0][0] == 4.0));
+        assert_eq!(kept[kept.len() - 1], [9999.0]);
+    }
+
+    #[test]
+    fn a_short_history_is_plotted_whole() {
+        let mut rows = ThinnedRows::default();
+        for value in 0..100 {
+            rows.add(&[f64::from(value)]);
+        }
+        assert_eq!(rows.into_rows().len(), 100);
+    }
+}

@@ -4,6 +4,7 @@
 //! node ascend by block and chunk.
 
 use crate::block::NO_NODE;
+use embate_lanes::BATCH;
 
 /// Slots of every node.
 #[derive(Clone, Debug, Default)]
@@ -11,6 +12,8 @@ pub struct Assembly {
     /// Where each node's slots begin; one more than nodes.
     starts: Vec<u32>,
     slots: Vec<u32>,
+    /// Of each group of eight nodes with one slot each, one beside the other: the first; else [`NO_NODE`].
+    rows: Vec<u32>,
     /// Slots of all blocks.
     pub count: usize,
 }
@@ -30,7 +33,29 @@ impl Assembly {
             slots[next[node as usize] as usize] = slot;
             next[node as usize] += 1;
         }
-        Self { starts, slots, count: blocks.iter().map(|block| block.len()).sum() }
+        let row = |group: usize| {
+            let own = starts[group * BATCH] as usize..starts[(group + 1) * BATCH] as usize;
+            let single = (0..BATCH).all(|k| starts[group * BATCH + k + 1] == starts[group * BATCH + k] + 1);
+            let beside = single && slots[own.clone()].windows(2).all(|pair| pair[1] == pair[0] + 1);
+            if beside { slots[own.start] } else { NO_NODE }
+        };
+        let rows = (0..nodes / BATCH).map(row).collect();
+        Self { rows, starts, slots, count: blocks.iter().map(|block| block.len()).sum() }
+    }
+
+    /// Forces at the eight nodes of a group, N/m in the plane.
+    #[inline(always)]
+    #[must_use]
+    pub fn forces<const D: usize>(&self, group: usize, forces: &[[f64; D]]) -> [[f64; D]; BATCH] {
+        // Nodes inside a chunk lie side by side in it as they do in the mesh.
+        if let Some(row) = forces.get(self.rows[group] as usize..).and_then(|row| row.first_chunk()) {
+            return *row;
+        }
+        let mut sums = [[0.0; D]; BATCH];
+        for (k, sum) in sums.iter_mut().enumerate() {
+            *sum = self.force(group * BATCH + k, forces);
+        }
+        sums
     }
 
     /// Sum of the forces at `node`, N/m in the plane.

@@ -42,6 +42,7 @@ use crate::mesh::{ElementGroup, Mesh};
 use crate::model::{self, ContactLaw, Interface, Model, Partners, Penalty, PenaltySource, Symmetry};
 use crate::rigid::Bodies;
 use crate::step::erosion::Erosion;
+use crate::step::free::Groups;
 use crate::step::relaxation::Relaxation;
 use crate::step::{CHUNK, Governor, Limits, System};
 use embate_lanes::{Level, Team};
@@ -161,7 +162,7 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<(System, Ve
         springs: Springs::new(nodes, bodies.len()),
         reports: vec![Report::NOTHING; blocks.len()],
         sums: vec![Sums::default(); nodes.div_ceil(CHUNK)],
-        free: Vec::new(),
+        groups: Groups::default(),
         of_bodies: Sums::default(),
         ledger: Ledger::default(),
         penetration_max: 0.0,

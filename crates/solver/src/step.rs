@@ -26,8 +26,9 @@ use crate::load::join::Joins;
 use crate::load::non_reflecting::NonReflecting;
 use crate::mesh::Mesh;
 use crate::rigid::{Acting, Bodies};
-use embate_lanes::{BATCH, Chunks, Level, Team};
+use embate_lanes::{Chunks, Level, Team};
 use erosion::Erosion;
+use free::Groups;
 use nodes::Nodes;
 use relaxation::Relaxation;
 
@@ -131,8 +132,8 @@ pub struct System {
     pub(crate) springs: Springs,
     pub(crate) reports: Vec<Report>,
     pub(crate) sums: Vec<Sums>,
-    /// Whether each group of eight nodes is free.
-    pub(crate) free: Vec<bool>,
+    /// Groups of eight nodes, and which are free.
+    pub(crate) groups: Groups,
     /// Sums over the rigid bodies.
     pub(crate) of_bodies: Sums,
     pub(crate) ledger: Ledger,
@@ -169,7 +170,7 @@ macro_rules! nodes {
             velocities_old: &$system.$velocities_old,
             positions: &$system.positions,
             time_step: $time_step,
-            free: &$system.free,
+            free: &$system.groups.free,
             level: $system.level,
         }
     };
@@ -234,13 +235,10 @@ impl System {
     /// x^{n+1} = x^n + dt^n v^{n+1/2}.
     fn move_nodes(&mut self) {
         let dt = self.time_step;
-        for group in self.positions.chunks(BATCH).zip(self.positions_old.chunks_mut(BATCH)).zip(self.velocities.chunks(BATCH)).enumerate() {
-            // The velocity update has moved the free ones already.
-            let (index, ((x, x_next), v)) = group;
-            if self.free.get(index) != Some(&true) {
-                let next = |((x_next, x), v): ((&mut Vector, &Vector), &Vector)| *x_next = [x[0] + dt * v[0], x[1] + dt * v[1]];
-                x_next.iter_mut().zip(x).zip(v).for_each(next);
-            }
+        // The velocity update has moved the free ones already.
+        for node in self.groups.held_nodes(self.positions.len()) {
+            let (x, v) = (self.positions[node], self.velocities[node]);
+            self.positions_old[node] = [x[0] + dt * v[0], x[1] + dt * v[1]];
         }
         std::mem::swap(&mut self.positions, &mut self.positions_old);
         self.bodies.advance(dt, &mut self.positions);
@@ -427,12 +425,9 @@ impl System {
     /// Largest |v^{n+1/2}|, m/s.
     fn largest_speed(&self) -> f64 {
         let free = self.sums.iter().fold(0.0f64, |largest, sums| largest.max(sums.speed_squared));
-        let mut all = free;
-        for (group, velocities) in self.velocities.chunks(BATCH).enumerate() {
-            if self.free.get(group) != Some(&true) {
-                all = velocities.iter().fold(all, |largest, v| largest.max(v[0] * v[0] + v[1] * v[1]));
-            }
-        }
+        let square =
+            |node: usize| self.velocities[node][0] * self.velocities[node][0] + self.velocities[node][1] * self.velocities[node][1];
+        let all = self.groups.held_nodes(self.velocities.len()).map(square).fold(free, f64::max);
         all.sqrt()
     }
 
@@ -446,7 +441,7 @@ impl System {
                 && joins.of_node(number).is_none()
                 && bodies.of_node(number).is_none()
         };
-        self.free = free::groups(self.mass.len(), is_free);
+        self.groups = Groups::new(self.mass.len(), is_free);
     }
 
     /// Energy of the elements when every node is off by 1e-12 of the model's size, J/m: thousands of roundings.

@@ -81,8 +81,9 @@ impl<const D: usize> Nodal<D> {
         }
     }
 
-    /// From weights and moments to the mean over the nodes of each element of the weighted means of the nodes.
-    fn average(&mut self, team: &mut Team) {
+    /// From weights and moments to the mean over the nodes of each element of the weighted means of the nodes; a node without weight, all of whose elements are
+    /// eroded, has `none`.
+    fn average(&mut self, none: f64, team: &mut Team) {
         let Self { cells, corners, starts, elements, weight, moment, mean, at_nodes, .. } = self;
         let (weight, moment) = (&*weight, &*moment);
         team.each(Chunks::new(at_nodes, NODES), |index, _, values| {
@@ -93,7 +94,7 @@ impl<const D: usize> Nodal<D> {
                     total += weight[batch].0[lane];
                     sum += moment[batch].0[lane];
                 }
-                *value = if total > 0.0 { sum / total } else { 0.0 };
+                *value = if total > 0.0 { sum / total } else { none };
             }
         });
         let (corners, share, at_nodes) = (*corners, 1.0 / *corners as f64, &*at_nodes);
@@ -127,7 +128,7 @@ where
             volume: self.law.needs_volume(),
         };
         self.strain_all(nodal, motion, measures, level, team);
-        nodal.average(team);
+        nodal.average(if measures.family == Family::Rate { 0.0 } else { 1.0 }, team);
         let mut means = std::mem::take(&mut nodal.spare);
         std::mem::swap(&mut nodal.mean, &mut means);
         if measures.family == Family::Rate && measures.volume {
@@ -138,14 +139,14 @@ where
                     moment.0[lane] = weight.0[lane] * ratio.0[lane];
                 }
             }
-            nodal.average(team);
+            nodal.average(1.0, team);
             for (batch, mean) in nodal.mean.iter().enumerate() {
                 nodal.strips[batch / CHUNK].volume_ratio[batch % CHUNK] = *mean;
             }
         }
         self.respond_all(nodal, &means, motion.time_step, measures.family, level, team);
         nodal.spare = means;
-        nodal.average(team);
+        nodal.average(0.0, team);
         self.force_all(nodal, motion.time_step, measures.family, level, slots, team)
     }
 
@@ -161,7 +162,13 @@ where
             Chunks::new(&mut nodal.weight, CHUNK),
             Chunks::new(&mut nodal.moment, CHUNK),
         );
+        let eroded = &self.eroded;
         team.each(parts, |index, _, (stress, strips, weight, moment)| {
+            if eroded.is_gone(index) {
+                weight.fill(Batch::default());
+                moment.fill(Batch::default());
+                return;
+            }
             let strip = &mut strips[0];
             let (first, last) = (index * CHUNK, index * CHUNK + weight.len());
             nodes.copy(index, motion, &mut strip.moving);
@@ -208,8 +215,12 @@ where
             Chunks::new(&mut self.damped, damped_chunk),
             Chunks::new(&mut self.resistance, resistance),
         );
-        let all_elements = &self.elements;
+        let (all_elements, eroded) = (&self.elements, &self.eroded);
         team.each(parts, |index, _, (stress, history, strips, weight, moment, damped, resistance)| {
+            // It has no weight already.
+            if eroded.is_gone(index) {
+                return;
+            }
             let (strip, elements) = (&mut strips[0], &all_elements[index * CHUNK..][..weight.len()]);
             let (first, count) = (index * CHUNK, weight.len());
             for batch in 0..count {
@@ -278,7 +289,7 @@ where
         let (means, places) = (&nodal.mean, &self.nodes.places);
         let (keeps_forces, kept) = (self.keeps_forces, chunk(self.kept_width()));
         let (resists, resistance) = (self.resists(), chunk(self.resistance_width()));
-        let strips = &nodal.strips;
+        let (strips, eroded) = (&nodal.strips, &self.eroded);
         let parts = (
             Chunks::new(&mut self.elements, CHUNK),
             Chunks::new(&mut nodal.stress, CHUNK * components),
@@ -288,6 +299,11 @@ where
             Chunks::new(&mut self.reports, 1),
         );
         team.each(parts, |index, _, (elements, stress, pulls, kept, resistance, report)| {
+            if eroded.is_gone(index) {
+                pulls.fill([0.0; D]);
+                report.fill(Report::NOTHING);
+                return;
+            }
             let strip = &strips[index];
             let (first, count) = (index * CHUNK, elements.len());
             stress.copy_from_slice(&all_stress[first * components..(first + count) * components]);

@@ -8,9 +8,26 @@ use crate::energy::Sums;
 use crate::step::Vector;
 use embate_lanes::{BATCH, Batch, Kernel, Lane};
 
-/// Whether all nodes of each group of eight are free.
-pub(crate) fn groups(nodes: usize, is_free: impl Fn(usize) -> bool) -> Vec<bool> {
-    (0..nodes / BATCH).map(|group| (group * BATCH..(group + 1) * BATCH).all(&is_free)).collect()
+/// The groups of eight nodes.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Groups {
+    /// Whether all nodes of each full group are free.
+    pub(crate) free: Vec<bool>,
+    /// The others, ascending, the last one if it is not full.
+    pub(crate) held: Vec<u32>,
+}
+
+impl Groups {
+    pub(crate) fn new(nodes: usize, is_free: impl Fn(usize) -> bool) -> Self {
+        let free: Vec<bool> = (0..nodes / BATCH).map(|group| (group * BATCH..(group + 1) * BATCH).all(&is_free)).collect();
+        let held = (0..nodes.div_ceil(BATCH)).filter(|&group| free.get(group) != Some(&true)).map(|group| group as u32).collect();
+        Self { free, held }
+    }
+
+    /// Nodes of the groups that are not free, `count` nodes in all.
+    pub(crate) fn held_nodes(&self, count: usize) -> impl Iterator<Item = usize> {
+        self.held.iter().flat_map(move |&group| group as usize * BATCH..((group as usize + 1) * BATCH).min(count))
+    }
 }
 
 /// Nodes from `first` on (a multiple of eight) with their new velocities, and with the positions x^{n+1} to which these lead: they are written while everything
@@ -84,10 +101,7 @@ impl Kernel for Free<'_, '_> {
             if !nodes.free[first / BATCH] {
                 continue;
             }
-            let mut pulls = [[0.0; 2]; BATCH];
-            for (i, pull) in pulls.iter_mut().enumerate() {
-                *pull = nodes.assembly.force(first + i, nodes.slots);
-            }
+            let pulls = nodes.assembly.forces(first / BATCH, nodes.slots);
             for at in (0..BATCH).step_by(L::WIDTH) {
                 let v = nodes.advance_free::<L>(first, at, L::load_points(&pulls, at), &mut sums);
                 let x = L::load_points(nodes.positions, first + at);

@@ -4,14 +4,13 @@
 //! node ascend by block and chunk.
 
 use crate::block::NO_NODE;
+use crate::rows::Rows;
 use embate_lanes::BATCH;
 
 /// Slots of every node.
 #[derive(Clone, Debug, Default)]
 pub struct Assembly {
-    /// Where each node's slots begin; one more than nodes.
-    starts: Vec<u32>,
-    slots: Vec<u32>,
+    slots: Rows<u32>,
     /// Of each group of eight nodes with one slot each, one beside the other: the first; else [`NO_NODE`].
     rows: Vec<u32>,
     /// Slots of all blocks.
@@ -22,25 +21,15 @@ impl Assembly {
     /// For `nodes` nodes and blocks with the node of each of their slots.
     #[must_use]
     pub fn new(nodes: usize, blocks: &[&[u32]]) -> Self {
-        let all = || (0u32..).zip(blocks.iter().copied().flatten().copied()).filter(|&(_, node)| node != NO_NODE);
-        let mut starts = vec![0u32; nodes + 1];
-        all().for_each(|(_, node)| starts[node as usize + 1] += 1);
-        for node in 0..nodes {
-            starts[node + 1] += starts[node];
-        }
-        let (mut next, mut slots) = (starts.clone(), vec![0; starts[nodes] as usize]);
-        for (slot, node) in all() {
-            slots[next[node as usize] as usize] = slot;
-            next[node as usize] += 1;
-        }
+        let all = (0u32..).zip(blocks.iter().copied().flatten().copied()).filter(|&(_, node)| node != NO_NODE);
+        let slots = Rows::new(nodes, all.map(|(slot, node)| (node, slot)));
         let row = |group: usize| {
-            let own = starts[group * BATCH] as usize..starts[(group + 1) * BATCH] as usize;
-            let single = (0..BATCH).all(|k| starts[group * BATCH + k + 1] == starts[group * BATCH + k] + 1);
-            let beside = single && slots[own.clone()].windows(2).all(|pair| pair[1] == pair[0] + 1);
-            if beside { slots[own.start] } else { NO_NODE }
+            let first = slots.of(group * BATCH).first().copied().unwrap_or(NO_NODE);
+            let beside = (0..BATCH).all(|k| slots.of(group * BATCH + k) == [first.saturating_add(k as u32)]);
+            if beside { first } else { NO_NODE }
         };
         let rows = (0..nodes / BATCH).map(row).collect();
-        Self { rows, starts, slots, count: blocks.iter().map(|block| block.len()).sum() }
+        Self { rows, slots, count: blocks.iter().map(|block| block.len()).sum() }
     }
 
     /// Forces at the eight nodes of a group, N/m in the plane.
@@ -62,8 +51,7 @@ impl Assembly {
     #[inline]
     #[must_use]
     pub fn force<const D: usize>(&self, node: usize, forces: &[[f64; D]]) -> [f64; D] {
-        let slots = &self.slots[self.starts[node] as usize..self.starts[node + 1] as usize];
-        let Some((&first, others)) = slots.split_first() else { return [0.0; D] };
+        let Some((&first, others)) = self.slots.of(node).split_first() else { return [0.0; D] };
         let mut sum = forces[first as usize];
         for &slot in others {
             let other = &forces[slot as usize];

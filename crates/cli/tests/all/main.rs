@@ -15,6 +15,15 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+/// A block that flies for a tenth of a millisecond: where it is then, and its energy, are known.
+const FLIGHT: &str = r#"
+run.end = "0.1 ms"
+material.steel = { law = "elastic", density = 7800, young = "200 GPa", poisson = 0.3 }
+part = [{ name = "block", material = "steel", rectangle = { corner = [0, 0], size = ["10 mm", "10 mm"], elements = [2, 2] }, velocity = [1, 0] }]
+probe = [{ name = "P", set = "block" }]
+output = { fields = 4, history = 20, pictures = false }
+"#;
+
 /// A folder of one test alone, empty.
 fn fresh(name: &str) -> PathBuf {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);

@@ -1,19 +1,10 @@
 //! `embate sweep`: which runs it makes, what its table says, and that it goes on where it was.
 
-use crate::{Answer, embate, fresh};
+use crate::{Answer, FLIGHT, embate, fresh};
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
-
-/// A block that flies for a tenth of a millisecond: where it is then, and its energy, are known.
-const FLIGHT: &str = r#"
-run.end = "0.1 ms"
-material.steel = { law = "elastic", density = 7800, young = "200 GPa", poisson = 0.3 }
-part = [{ name = "block", material = "steel", rectangle = { corner = [0, 0], size = ["10 mm", "10 mm"], elements = [2, 2] }, velocity = [1, 0] }]
-probe = [{ name = "P", set = "block" }]
-output = { fields = 4, history = 20, pictures = false }
-"#;
 
 /// The same with this key's values.
 fn sweep(name: &str, arguments: &[&str]) -> (Answer, std::path::PathBuf) {

@@ -1,16 +1,8 @@
 //! `embate verify`: the cases of `verification/` hold, and the command itself tells what is wrong.
 
-use crate::{Answer, embate, fresh};
+use crate::{Answer, FLIGHT, embate, fresh};
 use std::fs;
 use std::path::{Path, PathBuf};
-
-const MODEL: &str = r#"
-run.end = "0.1 ms"
-material.steel = { law = "elastic", density = 7800, young = "200 GPa", poisson = 0.3 }
-part = [{ name = "block", material = "steel", rectangle = { corner = [0, 0], size = ["10 mm", "10 mm"], elements = [2, 2] }, velocity = [1, 0] }]
-probe = [{ name = "P", set = "block" }]
-output = { fields = 4, history = 20, pictures = false }
-"#;
 
 fn cases() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../verification")
@@ -21,7 +13,7 @@ fn verify(name: &str, checks: &str, more: &[&str]) -> Answer {
     let folder = fresh(name);
     let case = folder.join("verification/block");
     fs::create_dir_all(&case).unwrap();
-    fs::write(case.join("model.toml"), MODEL).unwrap();
+    fs::write(case.join("model.toml"), FLIGHT).unwrap();
     fs::write(case.join("expected.toml"), format!("title = \"Block\"\ntier = \"every\"\n{checks}")).unwrap();
     embate(&folder, ["verify"].iter().chain(more))
 }

@@ -315,8 +315,6 @@ impl Block<2> for Bars {
         line(self.bars[element].nodes.map(|node| positions[node as usize])).0
     }
 
-    fn keep_forces(&mut self) {}
-
     fn force(&self, element: usize, corner: usize, slots: &[[f64; 2]]) -> [f64; 2] {
         slots[2 * element + corner]
     }

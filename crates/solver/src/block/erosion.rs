@@ -11,7 +11,7 @@ use crate::element::Element;
 use crate::failure::{Criterion, Seen, failing};
 use crate::material::Variable;
 use crate::tensor::{Dim, Space};
-use embate_lanes::{BATCH, Batch};
+use embate_lanes::{BATCH, Batch, Lane};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -178,7 +178,7 @@ where
         }
     }
 
-    /// Sums the forces of a chunk without elements that are gone, in the order of [`embate_lanes::Lane::scatter`].
+    /// Sums the forces of a chunk again, without elements that are gone.
     fn sum_again(&mut self, chunk: usize, gone: &[u32], slots: &mut [[f64; D]]) {
         if !self.keeps_forces {
             return;
@@ -192,12 +192,8 @@ where
         pulls.fill([0.0; D]);
         for batch in chunk * CHUNK..((chunk + 1) * CHUNK).min(self.elements.len()) {
             for lane in 0..BATCH {
-                for a in 0..N {
-                    let pull = &mut pulls[usize::from(self.nodes.places.row(batch * N + a)[lane])];
-                    for d in 0..D {
-                        pull[d] += self.kept[(batch * N + a) * D + d].0[lane];
-                    }
-                }
+                let forces: [[f64; D]; N] = std::array::from_fn(|a| std::array::from_fn(|d| self.kept[(batch * N + a) * D + d].0[lane]));
+                Lane::scatter(&forces, pulls, &self.nodes.places, batch * N, lane);
             }
         }
     }

@@ -108,8 +108,8 @@ pub trait Block<const D: usize>: Send + Sync {
     /// Advances all points to the end of the step and writes to the slots what pulls on their nodes, N/m in the plane.
     /// The result does not depend on `level` or on the threads of the `team`.
     fn advance(&mut self, motion: &Motion<'_, D>, level: Level, slots: &mut [[f64; D]], team: &mut Team) -> Report;
-    /// From now on keeps the forces of every element for [`Block::force`]: of elements that can fail.
-    fn keep_forces(&mut self);
+    /// From now on keeps the forces of every element for [`Block::force`]: of elements that can fail. Lines have slots of their own, and keep nothing besides.
+    fn keep_forces(&mut self) {}
     /// Force of an element on the node at a corner, N/m in the plane, as of the last [`Block::advance`] with these slots; zero if it was not kept.
     fn force(&self, element: usize, corner: usize, slots: &[[f64; D]]) -> [f64; D];
     /// Mass of an element, kg/m in the plane.

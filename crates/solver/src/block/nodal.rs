@@ -15,6 +15,7 @@ use super::{Motion, Report};
 use crate::element::Element;
 use crate::material::Family;
 use crate::material::points::{Points, RESPONSE};
+use crate::rows::Rows;
 use crate::tensor::{Dim, Space, SymmetricTensor};
 use embate_lanes::{BATCH, Batch, Chunks, Lane, Level, Team, math};
 use std::marker::PhantomData;
@@ -27,9 +28,8 @@ pub(super) struct Nodal<const D: usize> {
     /// Nodes of the block, counted from zero: `corners` per lane.
     cells: Vec<u32>,
     corners: usize,
-    /// Where the elements of each node begin in `elements`; one more than nodes.
-    starts: Vec<u32>,
-    elements: Vec<u32>,
+    /// Elements of each node.
+    elements: Rows<u32>,
     /// Room for each chunk.
     strips: Vec<Strip<D>>,
     /// Stresses with the averaged pressure, Pa.
@@ -53,23 +53,13 @@ impl<const D: usize> Nodal<D> {
         nodes.dedup();
         let local = |node: &u32| nodes.binary_search(node).map_or(0, |at| at as u32);
         let mut cells: Vec<u32> = connectivity.iter().map(local).collect();
-        let mut starts = vec![0; nodes.len() + 1];
-        cells.iter().for_each(|&node| starts[node as usize + 1] += 1);
-        for node in 0..nodes.len() {
-            starts[node + 1] += starts[node];
-        }
-        let (mut next, mut elements) = (starts.clone(), vec![0; cells.len()]);
-        for (k, &node) in cells.iter().enumerate() {
-            elements[next[node as usize] as usize] = (k / corners) as u32;
-            next[node as usize] += 1;
-        }
+        let elements = Rows::new(nodes.len(), (0..).zip(&cells).map(|(k, &node)| (node, (k / corners) as u32)));
         let batches = count.div_ceil(BATCH);
         cells.resize(batches * BATCH * corners, 0);
         let room = || vec![Batch::default(); batches];
         Self {
             cells,
             corners,
-            starts,
             elements,
             strips: (0..batches.div_ceil(CHUNK)).map(|_| strip()).collect(),
             stress: vec![Batch::default(); batches * components],
@@ -84,12 +74,12 @@ impl<const D: usize> Nodal<D> {
     /// From weights and moments to the mean over the nodes of each element of the weighted means of the nodes; a node without weight, all of whose elements are
     /// eroded, has `none`.
     fn average(&mut self, none: f64, team: &mut Team) {
-        let Self { cells, corners, starts, elements, weight, moment, mean, at_nodes, .. } = self;
+        let Self { cells, corners, elements, weight, moment, mean, at_nodes, .. } = self;
         let (weight, moment) = (&*weight, &*moment);
         team.each(Chunks::new(at_nodes, NODES), |index, _, values| {
             for (node, value) in (index * NODES..).zip(values) {
                 let (mut total, mut sum) = (0.0, 0.0);
-                for &element in &elements[starts[node] as usize..starts[node + 1] as usize] {
+                for &element in elements.of(node) {
                     let (batch, lane) = (element as usize / BATCH, element as usize % BATCH);
                     total += weight[batch].0[lane];
                     sum += moment[batch].0[lane];

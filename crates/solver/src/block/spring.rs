@@ -214,7 +214,6 @@ impl Block<2> for SpringBlock {
     fn determinant(&self, _element: usize, _positions: &[[f64; 2]]) -> f64 {
         f64::INFINITY
     }
-    fn keep_forces(&mut self) {}
     fn force(&self, element: usize, corner: usize, slots: &[[f64; 2]]) -> [f64; 2] {
         slots[2 * element + corner]
     }

@@ -3,6 +3,7 @@
 
 use super::Builder;
 use crate::mesh::Mesh;
+use crate::rows::Rows;
 
 /// The element behind an edge.
 pub(super) struct Under {
@@ -13,43 +14,29 @@ pub(super) struct Under {
     pub(super) element: usize,
 }
 
-/// The elements at each node.
+/// The elements at each node, counted through all groups.
 #[derive(Default)]
-pub(crate) struct Fans {
-    /// Where the elements at each node begin; one more than nodes.
-    starts: Vec<u32>,
-    /// Elements, counted through all groups.
-    elements: Vec<u32>,
-}
+pub(crate) struct Fans(Rows<u32>);
 
 impl Fans {
     /// Of the elements that have a surface.
     pub(super) fn of(mesh: &Mesh<2>) -> Self {
-        let mut starts = vec![0_u32; mesh.positions.len() + 1];
-        let groups = || mesh.groups.iter().filter(|group| group.has_surface());
-        groups().flat_map(|group| &group.connectivity).for_each(|&node| starts[node as usize + 1] += 1);
-        for node in 1..starts.len() {
-            starts[node] += starts[node - 1];
-        }
-        let mut next = starts.clone();
-        let mut elements = vec![0; starts.last().map_or(0, |&count| count as usize)];
-        let mut first = 0;
-        for group in &mesh.groups {
-            for (number, cell) in (first..).zip(group.cells()).filter(|_| group.has_surface()) {
-                for &node in cell {
-                    elements[next[node as usize] as usize] = number;
-                    next[node as usize] += 1;
-                }
-            }
-            first += group.elements() as u32;
-        }
-        Self { starts, elements }
+        let firsts = mesh.groups.iter().scan(0, |next, group| {
+            let first = *next;
+            *next += group.elements() as u32;
+            Some(first)
+        });
+        let groups = mesh.groups.iter().zip(firsts).filter(|(group, _)| group.has_surface());
+        let cells = groups.flat_map(|(group, first)| (first..).zip(group.cells()));
+        Self(Rows::new(mesh.positions.len(), cells.flat_map(|(number, cell)| cell.iter().map(move |&node| (node, number)))))
     }
 
     /// Group and element behind an outside segment, which runs against the element's own direction.
     fn behind(&self, [b, a]: [u32; 2], mesh: &Mesh<2>) -> Option<(usize, usize)> {
-        let &[start, end] = self.starts.get(a as usize..a as usize + 2)? else { return None };
-        self.elements[start as usize..end as usize].iter().find_map(|&number| {
+        if a as usize >= self.0.count() {
+            return None;
+        }
+        self.0.of(a as usize).iter().find_map(|&number| {
             let (mut group, mut element) = (0, number as usize);
             while element >= mesh.groups[group].elements() {
                 element -= mesh.groups[group].elements();

@@ -20,6 +20,7 @@ use super::{Formulation, Scene, Vector};
 use crate::load::tributary::Depth;
 use crate::mesh::surface::{NONE, Surface};
 use crate::model::{ContactLaw, Penalty};
+use crate::rows::Rows;
 use std::any::Any;
 
 /// Registry entry.
@@ -96,9 +97,8 @@ struct Chain {
     stiffness: Vec<f64>,
     /// Indices of each segment's nodes among the surface's nodes.
     local: Vec<[u32; 2]>,
-    /// Segments at node `i`: `around[starts[i]..starts[i + 1]]`.
-    starts: Vec<u32>,
-    around: Vec<u32>,
+    /// Segments at each node.
+    around: Rows<u32>,
     /// Depth of each node in this step, m; negative where it is outside.
     depth: Vec<f64>,
     /// Nodes whose depth is set.
@@ -124,27 +124,10 @@ impl Chain {
             .iter()
             .map(|segment| segment.map(|node| surface.nodes.partition_point(|&other| other < node) as u32))
             .collect();
-        let mut starts = vec![0; surface.nodes.len() + 1];
-        for &node in local.iter().flatten() {
-            starts[node as usize + 1] += 1;
-        }
-        for i in 1..starts.len() {
-            starts[i] += starts[i - 1];
-        }
-        let mut next = starts.clone();
-        let mut around = vec![0; 2 * local.len()];
-        for (segment, nodes) in local.iter().enumerate() {
-            for &node in nodes {
-                around[next[node as usize] as usize] = segment as u32;
-                next[node as usize] += 1;
-            }
-        }
+        let ends = (0..).zip(&local).flat_map(|(segment, nodes)| nodes.map(|node| (node, segment)));
+        let around = Rows::new(surface.nodes.len(), ends);
         let depth = vec![f64::NEG_INFINITY; surface.nodes.len()];
-        Self { stiffness, local, starts, around, depth, deep: Vec::new() }
-    }
-
-    fn around(&self, node: usize) -> &[u32] {
-        &self.around[self.starts[node] as usize..self.starts[node + 1] as usize]
+        Self { stiffness, local, around, depth, deep: Vec::new() }
     }
 }
 
@@ -206,7 +189,7 @@ impl Segment {
             chain.depth[touch.slave] = chain.depth[touch.slave].max(-touch.projection.gap);
             chain.deep.push(touch.slave as u32);
             let (surface, b) = (&self.tracker.targets()[target].surface, touch.projection.segment);
-            for &a in self.chains[slave].around(touch.slave) {
+            for &a in self.chains[slave].around.of(touch.slave) {
                 for b in [surface.previous[b as usize], b, surface.next[b as usize]] {
                     if b != NONE {
                         let forward = if side == 0.0 { a < b } else { slave == 0 };

@@ -4,6 +4,7 @@
 //! node, each chain stays with its own fan of elements, so that normals never mix across the touching point.
 
 use crate::error::Fault;
+use crate::rows::Rows;
 
 /// No neighbour.
 pub const NONE: u32 = u32::MAX;
@@ -120,68 +121,45 @@ pub fn oriented(lines: &[[u32; 2]], exterior: &[[u32; 2]]) -> Result<Vec<[u32; 2
     Ok(result)
 }
 
-/// Every directed edge of every cell, sorted, with the node before it in its cell.
-struct Edges {
-    /// Where the edges from each node begin; one more than nodes.
-    starts: Vec<u32>,
-    /// (to, node before `from` in the same cell), ascending among the edges from one node.
-    directed: Vec<(u32, u32)>,
-}
+/// Every directed edge of every cell from each node: (to, node before `from` in the same cell), ascending.
+struct Edges(Rows<(u32, u32)>);
 
 impl Edges {
     /// Edges are counted, then put into their places: no sorting but of the few at one node.
     fn new<'a>(cells: impl IntoIterator<Item = &'a [u32], IntoIter: Clone>) -> Result<Self, Fault> {
         let cells = cells.into_iter();
-        let mut starts = vec![0_u32];
+        let mut count = 0;
         for cell in cells.clone() {
             let n = cell.len();
             if !(3..=4).contains(&n) || (0..n).any(|i| cell[..i].contains(&cell[i])) {
                 let help = "elements have three or four different corners; remove collapsed ones from the mesh";
                 return Err(Fault::new("", format!("an element has the nodes {cell:?}"), help));
             }
-            for &node in cell {
-                if node as usize + 2 > starts.len() {
-                    starts.resize(node as usize + 2, 0);
-                }
-                starts[node as usize + 1] += 1;
-            }
+            count = cell.iter().fold(count, |count, &node| count.max(node as usize + 1));
         }
-        for node in 1..starts.len() {
-            starts[node] += starts[node - 1];
-        }
-        let mut next = starts.clone();
-        let mut directed = vec![(0, 0); starts.last().map_or(0, |&count| count as usize)];
-        for cell in cells {
+        let of_cell = |cell: &'a [u32]| {
             let n = cell.len();
-            for (i, &node) in cell.iter().enumerate() {
-                let place = &mut next[node as usize];
-                directed[*place as usize] = (cell[(i + 1) % n], cell[(i + n - 1) % n]);
-                *place += 1;
-            }
-        }
-        let mut edges = Self { starts, directed };
-        for node in 1..edges.starts.len() {
-            edges.directed[edges.starts[node - 1] as usize..edges.starts[node] as usize].sort_unstable();
-        }
+            (0..n).map(move |i| (cell[i], (cell[(i + 1) % n], cell[(i + n - 1) % n])))
+        };
+        let mut rows = Rows::new(count, cells.flat_map(of_cell));
+        (0..count).for_each(|node| rows.of_mut(node).sort_unstable());
+        let edges = Self(rows);
         edges.check()?;
         Ok(edges)
     }
 
     /// Edges from `node`.
     fn from(&self, node: u32) -> &[(u32, u32)] {
-        match self.starts.get(node as usize..node as usize + 2) {
-            Some(&[start, end]) => &self.directed[start as usize..end as usize],
-            _ => &[],
-        }
+        if (node as usize) < self.0.count() { self.0.of(node as usize) } else { &[] }
     }
 
     /// All edges: from, to.
     fn all(&self) -> impl Iterator<Item = (u32, u32)> {
-        (0..self.starts.len() as u32 - 1).flat_map(|a| self.from(a).iter().map(move |&(b, _)| (a, b)))
+        (0..self.0.count() as u32).flat_map(|a| self.from(a).iter().map(move |&(b, _)| (a, b)))
     }
 
     fn check(&self) -> Result<(), Fault> {
-        for a in 0..self.starts.len() as u32 - 1 {
+        for a in 0..self.0.count() as u32 {
             let Some(twice) = self.from(a).windows(2).find(|w| w[0].0 == w[1].0) else { continue };
             let b = twice[0].0;
             let count = self.all().filter(|&e| e == (a, b) || e == (b, a)).count();

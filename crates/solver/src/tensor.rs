@@ -24,6 +24,9 @@ pub trait SymmetricTensor<L: Lane>: Copy {
     /// Sum.
     #[must_use]
     fn plus(self, other: Self) -> Self;
+    /// Sum with `value` times the unit tensor.
+    #[must_use]
+    fn plus_isotropic(self, value: L) -> Self;
     /// All components times `factor`.
     #[must_use]
     fn times(self, factor: L) -> Self;
@@ -55,7 +58,7 @@ pub trait SymmetricTensor<L: Lane>: Copy {
     #[inline(always)]
     #[must_use]
     fn deviator(self) -> Self {
-        self.plus(Self::isotropic(self.trace() * L::splat(-1.0 / 3.0)))
+        self.plus_isotropic(self.trace() * L::splat(-1.0 / 3.0))
     }
 }
 
@@ -115,6 +118,13 @@ macro_rules! componentwise {
         fn plus(mut self, other: Self) -> Self {
             for c in 0..$count {
                 self.0[c] += other.0[c];
+            }
+            self
+        }
+        #[inline(always)]
+        fn plus_isotropic(mut self, value: L) -> Self {
+            for c in 0..3 {
+                self.0[c] += value;
             }
             self
         }

@@ -77,7 +77,7 @@ where
             let twice = shear + shear;
             let lame = bulk - shear * L::splat(2.0 / 3.0);
             let lame = if S::PLANE_STRESS { twice * lame / (lame + twice) } else { lame };
-            let mut new = strain.times(twice * factor).plus(Tensor::<D, L>::isotropic(lame * factor * strain.trace()));
+            let mut new = strain.times(twice * factor).plus_isotropic(lame * factor * strain.trace());
             if S::PLANE_STRESS {
                 new = new.plus_zz(-new.zz());
             }

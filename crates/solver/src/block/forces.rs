@@ -127,7 +127,8 @@ where
     fn part<L: Lane>(&mut self, batch: usize, at: usize) {
         let zero = L::splat(0.0);
         let geometry = self.geometry::<L>(batch, at);
-        let (mut stored, mut dissipated, mut modulus, mut shear) = (zero, zero, zero, zero);
+        // Sums begin with -0: the first addition is none.
+        let (mut stored, mut dissipated, mut modulus, mut shear) = (L::splat(-0.0), L::splat(-0.0), zero, zero);
         for p in 0..P {
             let point = batch * P + p;
             let response = &self.strip.response[point * RESPONSE..(point + 1) * RESPONSE];
@@ -162,11 +163,23 @@ where
         // dt² = h² ρ / (K + 4µ/3) with ρ = m / V, as if all corners were as heavy as the lightest
         let time_step_squared = thickness_squared[0] * mass / (thickness_squared[1] * (geometry.volume * modulus) * stiffening);
         let time_step_squared = step_squared(time_step_squared, self.damping);
-        let pull = -live;
+        // Nearly every batch is whole.
+        let is_whole = !L::any(live.less(L::splat(1.0)));
         for a in 0..N {
             for i in 0..D {
-                nodal[a][i] = nodal[a][i] * pull;
-                if !self.kept.is_empty() {
+                nodal[a][i] = -nodal[a][i];
+            }
+        }
+        if !is_whole {
+            for a in 0..N {
+                for i in 0..D {
+                    nodal[a][i] = nodal[a][i] * live;
+                }
+            }
+        }
+        if !self.kept.is_empty() {
+            for a in 0..N {
+                for i in 0..D {
                     nodal[a][i].store(&mut self.kept[(batch * N + a) * D + i], at);
                 }
             }
@@ -217,7 +230,8 @@ where
             }
         }
         let jacobians = E::gradients(&x);
-        let mut geometry = Geometry { x, jacobians, determinants: [zero; P], depth: [one; P], area: zero, volume: zero };
+        let nothing = L::splat(-0.0);
+        let mut geometry = Geometry { x, jacobians, determinants: [zero; P], depth: [one; P], area: nothing, volume: nothing };
         for p in 0..P {
             geometry.determinants[p] = Dim::<D>::determinant(&jacobians[p]);
             let own = geometry.determinants[p] * L::splat(E::WEIGHTS[p]);
@@ -254,7 +268,7 @@ where
                 weight[p] = weight[p] * depth[p];
             }
         }
-        let mut mean = zero;
+        let mut mean = L::splat(-0.0);
         if averages::<E, S, D, N, P>() {
             for p in 0..P {
                 mean += stress[p].trace() * third * (determinants[p] * weight[p]);
@@ -269,10 +283,10 @@ where
             let share = if S::PLANE_STRESS || S::AXISYMMETRIC { share * depth[p] } else { share };
             if averages::<E, S, D, N, P>() {
                 let own = stress[p].trace() * third * weight[p];
-                weighted = weighted.plus(Tensor::<D, L>::isotropic(mean * share - own));
+                weighted = weighted.plus_isotropic(mean * share - own);
             }
             if self.viscosity.is_some() {
-                weighted = weighted.plus(Tensor::<D, L>::isotropic(-(pressure * share)));
+                weighted = weighted.plus_isotropic(-(pressure * share));
             }
             flux[p] = Dim::<D>::flux(&weighted, &Dim::<D>::adjugate(&jacobians[p]));
             if S::AXISYMMETRIC {

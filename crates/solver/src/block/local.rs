@@ -74,7 +74,9 @@ impl LocalNodes {
     pub(super) fn copy<const D: usize>(&self, chunk: usize, motion: &Motion<'_, D>, moving: &mut Vec<[[f64; D]; 2]>) {
         moving.resize(self.width(), [[0.0; D]; 2]);
         for (own, &node) in moving.iter_mut().zip(self.of_chunk(chunk)) {
-            *own = [motion.positions[node as usize], motion.velocities[node as usize]];
+            let (position, velocity) = (&motion.positions[node as usize], &motion.velocities[node as usize]);
+            own[0] = *position;
+            own[1] = *velocity;
         }
     }
 }

@@ -132,7 +132,8 @@ where
             }
         }
         let mut rotations = [[Rotation::<D, L>::none(); 2]; P];
-        let (mut dilatation, mut volume) = (zero, zero);
+        // Sums begin with -0: the first addition is none.
+        let (mut dilatation, mut volume) = (L::splat(-0.0), L::splat(-0.0));
         let mut unturned = [Tensor::<D, L>::isotropic(zero); P];
         for p in 0..P {
             let determinant = Dim::<D>::determinant(&middle[p]);
@@ -167,7 +168,7 @@ where
             // Strain increment and old stress meet at the end of the step; without its half rotation the update is of first order only.
             let mut strain = unturned[p].rotated(&half_way);
             if averages::<E, S, D, N, P>() {
-                strain = strain.plus(Tensor::<D, L>::isotropic((dilatation - unturned[p].trace()) * third));
+                strain = strain.plus_isotropic((dilatation - unturned[p].trace()) * third);
             }
             strain.store(&mut self.strip.strain[point * components..(point + 1) * components], at);
             let stress = &mut self.stress[point * components..(point + 1) * components];
@@ -222,7 +223,7 @@ where
         let (zero, one) = (L::splat(0.0), L::splat(1.0));
         let width = initial_width::<S, D>();
         let components = <Tensor<D, L> as SymmetricTensor<L>>::COMPONENTS;
-        let (mut volume, mut volume_initial) = (zero, zero);
+        let (mut volume, mut volume_initial) = (L::splat(-0.0), L::splat(-0.0));
         for p in 0..P {
             let own = Dim::<D>::determinant(&jacobians[p]) * L::splat(E::WEIGHTS[p]);
             volume += circumference::<S, L, D, N>(own, x, &E::shape(E::POINTS[p]));

@@ -37,7 +37,7 @@ enum Control {
     AssumedStrain,
 }
 
-/// Differences of a nodal vector: along the diagonals 1 to 3 and 4 to 2, and h·u.
+/// Differences of a nodal vector: along the diagonals 1 to 3 and 2 to 4, as in the gradient, and h·u.
 struct Differences<L> {
     first: [L; 2],
     second: [L; 2],
@@ -51,7 +51,7 @@ impl<L: Lane> Differences<L> {
         let mut out = Self { first: zero, second: zero, twist: zero };
         for i in 0..2 {
             out.first[i] = u[2][i] - u[0][i];
-            out.second[i] = u[1][i] - u[3][i];
+            out.second[i] = u[3][i] - u[1][i];
             out.twist[i] = (u[0][i] - u[1][i]) + (u[2][i] - u[3][i]);
         }
         out
@@ -60,13 +60,13 @@ impl<L: Lane> Differences<L> {
     /// Of positions: twice the area.
     #[inline(always)]
     fn area_twice(&self) -> L {
-        self.second[0] * self.first[1] - self.first[0] * self.second[1]
+        self.first[0] * self.second[1] - self.second[0] * self.first[1]
     }
 
     /// Of positions: the line through the middles of the sides 4 1 and 2 3, twice its length.
     #[inline(always)]
     fn along(&self) -> [L; 2] {
-        [self.first[0] + self.second[0], self.first[1] + self.second[1]]
+        [self.first[0] - self.second[0], self.first[1] - self.second[1]]
     }
 }
 
@@ -81,7 +81,7 @@ impl<L: Lane> Centre<L> {
     #[inline(always)]
     fn new(x: &Differences<L>) -> Self {
         let Differences { first, second, .. } = x;
-        Self { b: [[second[1], -second[0]], [first[1], -first[0]]] }
+        Self { b: [[-second[1], second[0]], [first[1], -first[0]]] }
     }
 
     /// ∂(ξ, η)/∂x.
@@ -143,14 +143,7 @@ struct Answer<L> {
 
 /// The assumed strain's answer to the change of the amplitude.
 #[inline(always)]
-fn bend<L: Lane>(
-    coefficient: L,
-    corners: &Corners<L, 2, 4>,
-    [numerator, extent]: [L; 2],
-    end: &Differences<L>,
-    centre: &Centre<L>,
-    inverse: L,
-) -> Answer<L> {
+fn bend<L: Lane>(coefficient: L, corners: &Corners<L, 2, 4>, [numerator, extent]: [L; 2], end: &Differences<L>, inverse: L) -> Answer<L> {
     let (half, one, two, four) = (L::splat(0.5), L::splat(1.0), L::splat(2.0), L::splat(4.0));
     let Corners { modulus, shear, volume, swing, .. } = *corners;
     // ν = (M − 2µ) / 2(M − µ), ν/(1 − ν) = (M − 2µ) / M
@@ -159,7 +152,7 @@ fn bend<L: Lane>(
     let along = end.along();
     let scale = one / (along[0] * along[0] + along[1] * along[1]).sqrt();
     let axis = [along[0] * scale, along[1] * scale];
-    let [xx, yy, xy] = bending(&scaled(centre.natural(), inverse), axis, poisson);
+    let [xx, yy, xy] = bending(&scaled(Centre::new(end).natural(), inverse), axis, poisson);
     let [x, y] = turned_back(swing, axis);
     let k = coefficient * young * volume;
     let difference = xx - yy;
@@ -198,7 +191,6 @@ fn hold_shape<L: Lane>(control: Control, coefficient: f64, corners: &Corners<L, 
     let Corners { shape_modulus, mass, rate, volume, swing: change, kept: old, .. } = *corners;
     let coefficient = L::splat(coefficient);
     let end = Differences::of(&corners.x);
-    let centre = Centre::new(&end);
     let inverse = one / end.area_twice();
     // k₁ = 2 M V / h² with h² = 2 A² / (…)
     let thickness_squared = thickness_squared(&corners.x, corners.area);
@@ -212,12 +204,11 @@ fn hold_shape<L: Lane>(control: Control, coefficient: f64, corners: &Corners<L, 
             let c = two * coefficient * (stiffness * mass).sqrt() * rate;
             Answer { added: [c * change[0], c * change[1]], swing: L::splat(SQRT_2) * coefficient }
         }
-        Control::AssumedStrain => bend(coefficient, corners, thickness_squared, &end, &centre, inverse),
+        Control::AssumedStrain => bend(coefficient, corners, thickness_squared, &end, inverse),
     };
     let force = if matches!(control, Control::Viscous) { added } else { [old[0] + added[0], old[1] + added[1]] };
-    let b = centre.b;
-    let first = (end.twist[0] * b[0][0] + end.twist[1] * b[0][1]) * inverse;
-    let second = (end.twist[0] * b[1][0] + end.twist[1] * b[1][1]) * inverse;
+    let first = (end.twist[1] * end.second[0] - end.twist[0] * end.second[1]) * inverse;
+    let second = (end.twist[0] * end.first[1] - end.twist[1] * end.first[0]) * inverse;
     let gamma = [one - first, -(one + second), one + first, second - one];
     let quarters = [force[0] * quarter, force[1] * quarter];
     let mut forces = [[one; 2]; 4];

@@ -60,7 +60,7 @@ impl Law for ArrudaBoyce {
     fn update<L: Lane, T: SymmetricTensor<L>>(&self, kinematics: &Kinematics<L, T>, _state: &mut [L; 0]) -> Response<L, T> {
         let (zero, j) = (L::splat(0.0), kinematics.volume_ratio);
         let inverse = L::splat(1.0) / j;
-        let b = Unimodular::new(kinematics.left_cauchy_green, isochoric(j));
+        let b = Unimodular::new(kinematics.left_cauchy_green, isochoric(j, inverse));
         let above = b.above * L::splat(3.0);
         let invariant = above + L::splat(3.0);
         // Ī₁^i − 3^i = Ī₁ (Ī₁^{i−1} − 3^{i−1}) + 3^{i−1} (Ī₁ − 3), without cancellation.

@@ -8,10 +8,10 @@
 //! ½ (ξ_old + ξ_new):Δε_p + Σ ¾ (γ_k / C_k) Δε_p α_k,new:(α_k,old + α_k,new). With `trial.rs` that closes to the last digit.
 //! Source: Chaboche, Int. J. Plasticity 2 (1986) 149-188; return: Hartmann and Haupt, Int. J. Numer. Meth. Engng 36 (1993) 3801-3814.
 
-use super::hardening::{Hardening, Voce, YIELD};
+use super::hardening::{Flow, Hardening, Voce, YIELD};
 use super::trial::{LIMIT, Newton, Trial};
 use super::{
-    DENSITY, Family, Kinematics, Law, LawKind, POISSON, ParameterFault, Parameters, Response, Softening, Tensors, Variable, YOUNG,
+    DENSITY, Family, Kinematics, Law, LawKind, POISSON, ParameterFault, Parameters, Response, Softening, State, Tensors, Variable, YOUNG,
     bulk_and_shear,
 };
 use crate::quantity::{Dimension, Parameter, Range};
@@ -31,6 +31,8 @@ pub struct Chaboche {
     recall: [f64; PARTS],
     /// ¾ γ/C.
     fading: [f64; PARTS],
+    /// Plastic strain over which hardening and backstresses change by their part.
+    reach: f64,
 }
 
 /// The backstresses on the way to the end of a step.
@@ -42,9 +44,12 @@ struct Backstresses<L: Lane, T: SymmetricTensor<L>> {
     modulus: L,
     /// η = s_trial − Σ a_k α_k.
     shifted: T,
-    /// −dη/dΔε_p of η, and of Σ a_k C_k Δε_p: Σ γ_k a_k² α_k and Σ a_k² C_k.
+    /// dη/dΔε_p = Σ γ_k a_k² α_k and d²η/dΔε_p² = −2 Σ γ_k² a_k³ α_k.
     slope: T,
+    curvature: T,
+    /// Those of Σ a_k C_k Δε_p: Σ a_k² C_k and −2 Σ γ_k a_k³ C_k.
     modulus_slope: L,
+    modulus_curvature: L,
 }
 
 impl Law for Chaboche {
@@ -87,8 +92,8 @@ impl Law for Chaboche {
         ],
     };
     const FAMILY: Family = Family::Rate;
-    /// Equivalent plastic strain; backstresses.
-    type State<L: Lane, T: SymmetricTensor<L>> = ([L; 1], Tensors<L, T, PARTS>);
+    /// Equivalent plastic strain, isotropic flow stress and its slope there; backstresses.
+    type State<L: Lane, T: SymmetricTensor<L>> = ([L; 3], Tensors<L, T, PARTS>);
     const VARIABLES: &'static [(Variable, usize)] = &[(Variable::PlasticStrain, 0)];
     const NEEDS_ROTATION: bool = true;
 
@@ -99,7 +104,8 @@ impl Law for Chaboche {
         let modulus = parameters.array("backstress_modulus", 0.0);
         let recall: [f64; PARTS] = parameters.array("backstress_recall", 0.0);
         let fading = std::array::from_fn(|k| if modulus[k] > 0.0 { 0.75 * recall[k] / modulus[k] } else { 0.0 });
-        Self { bulk, shear, isotropic, modulus, recall, fading }
+        let reach = 1.0 / (isotropic.rate + 3.0 * recall.iter().fold(0.0, |most: f64, &recall| most.max(recall)));
+        Self { bulk, shear, isotropic, modulus, recall, fading, reach }
     }
 
     fn faults(parameters: &Parameters<'_>) -> Vec<ParameterFault> {
@@ -131,10 +137,16 @@ impl Law for Chaboche {
         (slope < 0.0).then(|| Softening::von_mises("isotropic_stress", slope, None, [it.bulk, it.shear]))
     }
 
+    fn start<L: Lane, T: SymmetricTensor<L>>(&self) -> Self::State<L, T> {
+        let plastic = L::splat(0.0);
+        let Flow { stress, slope, .. } = self.isotropic.flow(plastic);
+        ([plastic, stress, slope], State::zero())
+    }
+
     #[inline(always)]
     fn update<L: Lane, T: SymmetricTensor<L>>(&self, kinematics: &Kinematics<L, T>, state: &mut Self::State<L, T>) -> Response<L, T> {
         let (zero, one) = (L::splat(0.0), L::splat(1.0));
-        let plastic = state.0[0];
+        let [_, flow, _] = state.0;
         let mut old = state.1.0;
         let trial = Trial::new(self.bulk, self.shear, kinematics);
         let mut shifted = trial.deviator;
@@ -143,11 +155,10 @@ impl Law for Chaboche {
             shifted = shifted.plus(old[k].times(-one));
         }
         let square = shifted.contract(shifted) * L::splat(1.5);
-        let [flow, _] = self.isotropic.flow(plastic);
         let yields = (flow * flow).less(square);
         let (mut deviator, mut dissipated, mut backstresses) = (trial.deviator, zero, old);
         if L::any(yields) {
-            let step = self.step(trial.deviator, &old, plastic, square.sqrt(), flow, yields);
+            let (step, isotropic) = self.step(trial.deviator, &old, square.sqrt(), state.0, yields);
             let end = self.backstresses(trial.deviator, &old, step);
             let q = (end.shifted.contract(end.shifted) * L::splat(1.5)).sqrt();
             // Δε_p N, a tensor.
@@ -164,10 +175,10 @@ impl Law for Chaboche {
             }
             dissipated = (mean.contract(strain) * L::splat(0.5) + recalled * step).max(zero);
             dissipated = L::select(yields, dissipated, zero);
-            state.0[0] += step;
+            state.0 = [state.0[0] + step, isotropic[0], isotropic[1]];
         }
         state.1 = Tensors::new(backstresses);
-        Response::rate(deviator.plus(T::isotropic(trial.mean)), dissipated, [self.bulk, self.shear])
+        Response::rate(deviator.plus_isotropic(trial.mean), dissipated, [self.bulk, self.shear])
     }
 
     fn stiffness(&self) -> [f64; 2] {
@@ -204,41 +215,74 @@ impl Chaboche {
     #[inline(always)]
     fn backstresses<L: Lane, T: SymmetricTensor<L>>(&self, deviator: T, old: &[T; PARTS], step: L) -> Backstresses<L, T> {
         let (zero, one) = (L::splat(0.0), L::splat(1.0));
-        let mut end =
-            Backstresses { factors: [one; PARTS], modulus: zero, shifted: deviator, slope: T::isotropic(zero), modulus_slope: zero };
+        let mut end = Backstresses {
+            factors: [one; PARTS],
+            modulus: zero,
+            shifted: deviator,
+            slope: T::isotropic(zero),
+            curvature: T::isotropic(zero),
+            modulus_slope: zero,
+            modulus_curvature: zero,
+        };
         for k in 0..PARTS {
-            let recall = L::splat(self.recall[k]);
-            let factor = one / (one + recall * step);
-            let modulus = L::splat(self.modulus[k]) * factor;
-            end.factors[k] = factor;
-            end.modulus += modulus;
-            end.modulus_slope += modulus * factor;
-            end.shifted = end.shifted.plus(old[k].times(-factor));
-            end.slope = end.slope.plus(old[k].times(recall * factor * factor));
+            // The same for every lane: backstresses that are not there cost nothing.
+            if self.modulus[k] > 0.0 {
+                let recall = L::splat(self.recall[k]);
+                let factor = one / (one + recall * step);
+                let modulus = L::splat(self.modulus[k]) * factor;
+                let (first, second) = (recall * factor, L::splat(-2.0 * self.recall[k]) * factor);
+                end.factors[k] = factor;
+                end.modulus += modulus;
+                end.modulus_slope += modulus * factor;
+                end.modulus_curvature += modulus * factor * second;
+                let left = old[k].times(factor);
+                end.shifted = end.shifted.plus(left.times(-one));
+                end.slope = end.slope.plus(left.times(first));
+                end.curvature = end.curvature.plus(left.times(first * second));
+            }
         }
         end
     }
 
-    /// Δε_p where it `yields`, from q = q(η) of the trial.
+    /// Δε_p where it `yields`, from q = q(η) of the trial, and the isotropic flow stress with its slope after it.
     #[inline(always)]
-    fn step<L: Lane, T: SymmetricTensor<L>>(&self, deviator: T, old: &[T; PARTS], plastic: L, q: L, flow: L, yields: L::Mask) -> L {
-        let stiffness = L::splat(3.0 * self.shear);
-        // q(η) never exceeds the sum of the trial stress and the old backstresses.
-        let mut most = (deviator.contract(deviator) * L::splat(1.5)).sqrt();
+    fn step<L: Lane, T: SymmetricTensor<L>>(&self, deviator: T, old: &[T; PARTS], q: L, at_start: [L; 3], yields: L::Mask) -> (L, [L; 2]) {
+        let (stiffness, factor, one) = (L::splat(3.0 * self.shear), L::splat(1.5), L::splat(1.0));
+        // q(η) never exceeds the sum of the trial stress and the old backstresses, and that not the root of as many times their squares.
+        let mut squares = deviator.contract(deviator);
+        let (mut pull, mut modulus) = (T::isotropic(L::splat(0.0)), 0.0);
+        let mut shifted = deviator;
         for k in 0..PARTS {
-            most += (old[k].contract(old[k]) * L::splat(1.5)).sqrt();
+            squares += old[k].contract(old[k]);
+            shifted = shifted.plus(old[k].times(-one));
+            pull = pull.plus(old[k].times(L::splat(self.recall[k])));
+            modulus += self.modulus[k];
         }
-        let mut newton = Newton::new((q - flow) / stiffness, most / stiffness, q, yields);
+        let most = (squares * L::splat(1.5 * (1 + PARTS) as f64)).sqrt();
+        let [plastic, flow, slope] = at_start;
+        let first = stiffness + L::splat(modulus) + slope - shifted.contract(pull) * factor / q;
+        let mut newton = Newton::new((q - flow) / first.max(stiffness * L::splat(0.1)), most / stiffness, q, yields);
+        let mut isotropic = [flow, slope];
         for _ in 0..LIMIT {
             let step = newton.at;
             let end = self.backstresses(deviator, old, step);
-            let [flow, slope] = self.isotropic.flow(plastic + step);
-            let q = (end.shifted.contract(end.shifted) * L::splat(1.5)).sqrt();
-            let turn = end.shifted.contract(end.slope) * L::splat(1.5) / q;
-            if !newton.next(q - (stiffness + end.modulus) * step - flow, turn - (stiffness + end.modulus_slope + slope)) {
+            let flow = self.isotropic.flow(plastic + step);
+            let q = (end.shifted.contract(end.shifted) * factor).sqrt();
+            let inverse = one / q;
+            let turn = end.shifted.contract(end.slope) * factor * inverse;
+            let bend = ((end.slope.contract(end.slope) + end.shifted.contract(end.curvature)) * factor - turn * turn) * inverse;
+            let value = q - (stiffness + end.modulus) * step - flow.stress;
+            let slope = turn - (stiffness + end.modulus_slope + flow.slope);
+            let live = newton.live();
+            // q(η) turns within q over the moduli.
+            let reach = L::splat(self.reach).min(q * L::splat(1.0 / (3.0 * modulus)));
+            let goes_on = newton.next(value, slope, bend - (end.modulus_curvature + flow.curvature), reach);
+            let after = flow.after(newton.moved);
+            isotropic = [L::select(live, after[0], isotropic[0]), L::select(live, after[1], isotropic[1])];
+            if !goes_on {
                 break;
             }
         }
-        newton.at
+        (newton.at, isotropic)
     }
 }

@@ -8,7 +8,7 @@
 //! The elastic moduli stay those of the foam at rest. Dissipation as in `trial.rs`, with both parts.
 //! Source: Deshpande and Fleck, Journal of the Mechanics and Physics of Solids 48 (2000) 1253-1283.
 
-use super::hardening::{Hardening, PLASTIC_STRAIN, STRESS, Table};
+use super::hardening::{Flow, Hardening, PLASTIC_STRAIN, STRESS, Table};
 use super::trial::{LIMIT, Newton, Trial};
 use super::{
     DENSITY, Family, Kinematics, Law, LawKind, POISSON, ParameterFault, Parameters, Response, Softening, Variable, YOUNG, bulk_and_shear,
@@ -96,7 +96,7 @@ impl Law for CrushableFoam {
         let (zero, half) = (L::splat(0.0), L::splat(0.5));
         let (trial, cutoff) = (Trial::new(self.bulk, self.shear, kinematics), L::splat(self.cutoff));
         let (mut deviator, mut mean, mut dissipated) = (trial.deviator, trial.mean, zero);
-        let [flow, slope] = self.curve.flow(state[0]);
+        let Flow { stress: flow, slope, .. } = self.curve.flow(state[0]);
         let equivalent = (trial.square + L::splat(self.shape) * mean * mean) * L::splat(1.0 / self.scale());
         let yields = (flow * flow).less(equivalent);
         if L::any(L::either(yields, cutoff.less(mean))) {
@@ -108,7 +108,7 @@ impl Law for CrushableFoam {
             let shear_strain = g * q * factor;
             let swelling = (mean - new) * L::splat(1.0 / self.bulk);
             let old = mean - L::splat(self.bulk) * kinematics.strain_increment.trace();
-            let shear_mean = (trial.old(self.shear, kinematics.strain_increment, q) + q * factor) * half;
+            let shear_mean = (trial.old(self.shear, kinematics.strain_increment, q, L::splat(1.0) / q) + q * factor) * half;
             // A foam under pure pressure has no N.
             let shear_work = L::select(zero.less(shear_strain), shear_mean * shear_strain, zero);
             dissipated = (shear_work + (old + new) * half * swelling).max(zero);
@@ -116,7 +116,7 @@ impl Law for CrushableFoam {
             mean = new;
             state[0] += step;
         }
-        Response::rate(deviator.plus(T::isotropic(mean)), dissipated, [self.bulk, self.shear])
+        Response::rate(deviator.plus_isotropic(mean), dissipated, [self.bulk, self.shear])
     }
 
     fn stiffness(&self) -> [f64; 2] {
@@ -134,25 +134,48 @@ impl CrushableFoam {
     /// [Δε̂, g] where it `yields`, zeros elsewhere, from Φ, Y and Y' of the trial.
     #[inline(always)]
     fn step<L: Lane>(&self, q: L, mean: L, old: L, [equivalent, flow, slope]: [L; 3], yields: L::Mask) -> [L; 2] {
-        let (zero, one) = (L::splat(0.0), L::splat(1.0));
-        let (c, shape) = (L::splat(self.scale()), L::splat(self.shape));
-        let (shear, bulk) = (L::splat(3.0 * self.shear), L::splat(self.bulk * self.shape));
-        // Φ_trial ≥ Φ (1 + k g) with the softer stiffness k bounds the step, for a curve that falls with Φ = 0; the stiffer one starts it.
+        let (zero, one, two, three) = (L::splat(0.0), L::splat(1.0), L::splat(2.0), L::splat(3.0));
+        let (per_scale, shape) = (L::splat(1.0 / self.scale()), L::splat(self.shape));
+        let [shear, bulk] = [3.0 * self.shear, self.bulk * self.shape];
+        let (softer, stiffer) = (L::splat(1.0 / shear.min(bulk)), L::splat(0.25 * self.scale() / shear.max(bulk)));
+        let (shear, bulk) = (L::splat(shear), L::splat(bulk));
+        let (square, square_mean) = (q * q, shape * mean * mean);
+        // Φ_trial ≥ Φ (1 + k g) with the softer stiffness k bounds the step, for a curve that falls with Φ = 0; the tangent starts it.
         let least = if self.falls { zero } else { flow };
-        let high = c * (equivalent - least) / shear.min(bulk);
-        let mut newton = Newton::new((equivalent - flow) / (shear.max(bulk) / c + slope), high, equivalent, yields);
+        let high = L::splat(self.scale()) * (equivalent - least) * softer;
+        let falling = (square * shear + square_mean * bulk) * (per_scale * per_scale);
+        let start = (equivalent - flow) * (equivalent * flow) / (falling + slope * equivalent * flow);
+        let mut newton = Newton::new(start, high, equivalent, yields);
         let mut g = zero;
         for _ in 0..LIMIT {
             let step = newton.at;
-            let [flow, slope] = self.curve.flow(old + step);
-            g = step / (c * flow);
-            let (by_shear, by_bulk) = (one / (one + shear * g), one / (one + bulk * g));
-            let (q, mean) = (q * by_shear, mean * by_bulk);
-            let (a, b) = (q * q, shape * mean * mean);
-            let equivalent = ((a + b) / c).sqrt();
-            let falling = (a * by_shear * shear + b * by_bulk * bulk) / (c * equivalent);
-            let growth = (one - step * slope / flow) / (c * flow);
-            if !newton.next(equivalent - flow, -(falling * growth + slope)) {
+            let curve = self.curve.flow(old + step);
+            let per_flow = one / curve.stress;
+            let of_step = per_flow * per_scale;
+            let own = step * of_step;
+            // dg/dΔε̂ and its slope
+            let growth = of_step * (one - step * curve.slope * per_flow);
+            let growth_slope = -(two * curve.slope * per_flow * growth);
+            let (shear_part, bulk_part) = (one + shear * own, one + bulk * own);
+            let inverse = one / (shear_part * bulk_part);
+            let (by_shear, by_bulk) = (inverse * bulk_part, inverse * shear_part);
+            let (a, b) = (square * by_shear * by_shear, square_mean * by_bulk * by_bulk);
+            let (k, l) = (by_shear * shear, by_bulk * bulk);
+            let equivalent = ((a + b) * per_scale).sqrt();
+            let per_equivalent = one / equivalent;
+            // dΦ/dg and its slope, from Φ² = (a + b)/c
+            let falling = -((a * k + b * l) * per_scale * per_equivalent);
+            let falling_slope = (three * (a * (k * k) + b * (l * l)) * per_scale - falling * falling) * per_equivalent;
+            let value = equivalent - curve.stress;
+            let change = falling * growth - curve.slope;
+            let curvature = falling_slope * (growth * growth) + falling * growth_slope;
+            // They change within 1/4k of g, and so within that of Δε̂ = c Y g.
+            let reach = curve.stress * stiffer;
+            let live = newton.live();
+            let goes_on = newton.next(value, change, curvature, reach.min(curve.reach));
+            let after = own + newton.moved * (growth + L::splat(0.5) * growth_slope * newton.moved);
+            g = L::select(live, after, g);
+            if !goes_on {
                 break;
             }
         }

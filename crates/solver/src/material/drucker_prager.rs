@@ -99,23 +99,24 @@ impl Law for DruckerPrager {
             let stiffness = L::splat(3.0 * self.shear);
             // Beyond the apex q may be zero; its direction is then of no interest.
             let q = trial.square.sqrt().max(L::splat(f64::MIN_POSITIVE));
+            let inverse = one / q;
             let along = (q - limit) * L::splat(1.0 / (3.0 * self.shear + self.bulk * self.friction * self.dilation));
-            let most = q / stiffness;
+            let most = q * L::splat(1.0 / (3.0 * self.shear));
             let at_apex = most.less(along);
             let step = L::select(at_apex, most, along);
             let swelling = L::select(at_apex, (mean - L::splat(self.apex)) * L::splat(1.0 / self.bulk), L::splat(self.dilation) * along);
             let (step, swelling) = (L::select(yields, step, zero), L::select(yields, swelling, zero));
             let new = mean - L::splat(self.bulk) * swelling;
             let old = mean - L::splat(self.bulk) * kinematics.strain_increment.trace();
-            let shear_mean = (trial.old(self.shear, kinematics.strain_increment, q) + (q - stiffness * step)) * half;
+            let shear_mean = (trial.old(self.shear, kinematics.strain_increment, q, inverse) + (q - stiffness * step)) * half;
             let work = shear_mean * step + (old + new) * half * swelling;
             dissipated = L::select(yields, work.max(zero), zero);
-            let factor = L::select(at_apex, zero, one - stiffness * step / q);
+            let factor = L::select(at_apex, zero, one - stiffness * step * inverse);
             deviator = trial.scaled(factor, yields);
             mean = L::select(yields, new, mean);
             state[0] += step;
         }
-        Response::rate(deviator.plus(T::isotropic(mean)), dissipated, [self.bulk, self.shear])
+        Response::rate(deviator.plus_isotropic(mean), dissipated, [self.bulk, self.shear])
     }
 
     fn stiffness(&self) -> [f64; 2] {

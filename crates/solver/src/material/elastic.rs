@@ -35,7 +35,7 @@ impl Law for Elastic {
         let shear = L::splat(self.shear);
         let strain = kinematics.strain_increment;
         let lame = L::splat(self.bulk - 2.0 / 3.0 * self.shear);
-        let stress = kinematics.stress_rotated.plus(strain.times(shear + shear)).plus(T::isotropic(lame * strain.trace()));
+        let stress = kinematics.stress_rotated.plus(strain.times(shear + shear)).plus_isotropic(lame * strain.trace());
         Response::rate(stress, L::splat(0.0), [self.bulk, self.shear])
     }
 

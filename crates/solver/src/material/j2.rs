@@ -7,7 +7,7 @@
 //! Where the flow stress falls, 3µ + dσ_y/dε_p stays positive (`softening.rs`), so there is one solution without rate; falling linear hardening goes the way of the others.
 //! Source: Wilkins, Methods in Computational Physics 3 (1964); Simo and Hughes, Computational Inelasticity (1998), box 3.2.
 
-use super::hardening::{Hardening, Kept, Linear, Ludwik, Rate, Swift, Table, Voce};
+use super::hardening::{Flow, Hardening, Kept, Linear, Ludwik, Rate, Swift, Table, Voce};
 use super::trial::{LIMIT, Newton, Trial};
 use super::{Family, Kinematics, Law, LawKind, ParameterFault, Parameters, Response, Softening, Variable, bulk_and_shear};
 use crate::tensor::SymmetricTensor;
@@ -61,7 +61,8 @@ impl<H: Hardening> Law for J2With<H> {
 
     fn start<L: Lane, T: SymmetricTensor<L>>(&self) -> Self::State<L, T> {
         let plastic = L::splat(0.0);
-        ([plastic], H::Kept::new(self.hardening.flow(plastic)))
+        let Flow { stress, slope, .. } = self.hardening.flow(plastic);
+        ([plastic], H::Kept::new([stress, slope]))
     }
 
     #[inline(always)]
@@ -74,22 +75,24 @@ impl<H: Hardening> Law for J2With<H> {
         let (mut deviator, mut dissipated) = (trial.deviator, zero);
         if L::any(yields) {
             let q = trial.square.sqrt();
-            let (step, flow_new) = match (self.rate, self.hardening.modulus()) {
-                (None, Some(modulus)) => {
-                    let step = L::select(yields, (q - flow) * L::splat(1.0 / (3.0 * self.shear + modulus)), zero);
-                    dissipated = (flow + L::splat(0.5 * modulus) * step) * step;
-                    (step, [flow, slope])
-                }
-                (None, None) => self.step_static(q, plastic, [flow, slope], yields),
-                (Some(rate), _) => self.step_with_rate(&rate, kinematics.time_step, q, plastic, flow, yields),
+            let stiffness = L::splat(3.0 * self.shear);
+            let (step, flow_new, lost) = if let (None, Some(modulus)) = (self.rate, self.hardening.modulus()) {
+                let step = L::select(yields, (q - flow) * L::splat(1.0 / (3.0 * self.shear + modulus)), zero);
+                dissipated = (flow + L::splat(0.5 * modulus) * step) * step;
+                (step, [flow, slope], stiffness * step / q)
+            } else {
+                let (step, flow_new) = match self.rate {
+                    None => self.step_static(q, plastic, [flow, slope], yields),
+                    Some(rate) => self.step_with_rate(&rate, kinematics.time_step, q, plastic, [flow, slope], yields),
+                };
+                let inverse = L::splat(1.0) / q;
+                dissipated = trial.work(self.shear, kinematics.strain_increment, [q, inverse], step, yields);
+                (step, flow_new, stiffness * step * inverse)
             };
-            if self.rate.is_some() || self.hardening.modulus().is_none() {
-                dissipated = trial.work(self.shear, kinematics.strain_increment, q, step, yields);
-            }
-            deviator = trial.scaled(L::splat(1.0) - L::splat(3.0 * self.shear) * step / q, yields);
+            deviator = trial.scaled(L::splat(1.0) - lost, yields);
             *state = ([plastic + step], H::Kept::new(flow_new));
         }
-        Response::rate(deviator.plus(T::isotropic(trial.mean)), dissipated, [self.bulk, self.shear])
+        Response::rate(deviator.plus_isotropic(trial.mean), dissipated, [self.bulk, self.shear])
     }
 
     fn stiffness(&self) -> [f64; 2] {
@@ -102,33 +105,40 @@ impl<H: Hardening> J2With<H> {
     #[inline(always)]
     fn step_static<L: Lane>(&self, q: L, plastic: L, [flow, slope]: [L; 2], yields: L::Mask) -> (L, [L; 2]) {
         let stiffness = L::splat(3.0 * self.shear);
-        let mut newton = Newton::new((q - flow) / (stiffness + slope), q / stiffness, q, yields);
+        let high = q * L::splat(1.0 / (3.0 * self.shear));
+        let mut newton = Newton::new((q - flow) / (stiffness + slope), high, q, yields);
+        let mut end = [flow, slope];
         for _ in 0..LIMIT {
-            let [flow, slope] = self.hardening.flow(plastic + newton.at);
-            if !newton.next(q - stiffness * newton.at - flow, -(stiffness + slope)) {
-                return (newton.at, [flow, slope]);
+            let flow = self.hardening.flow(plastic + newton.at);
+            let (value, live) = (q - stiffness * newton.at - flow.stress, newton.live());
+            let goes_on = newton.next(value, -(stiffness + flow.slope), -flow.curvature, flow.reach);
+            let [stress, slope] = flow.after(newton.moved);
+            end = [L::select(live, stress, end[0]), L::select(live, slope, end[1])];
+            if !goes_on {
+                break;
             }
         }
-        (newton.at, self.hardening.flow(plastic + newton.at))
+        (newton.at, end)
     }
 
     /// The same with the rate. The unknown is u = (rate / C)^{1/P}: with it the equation is smooth, where Δε_p itself begins with an infinite slope.
     #[inline(always)]
-    fn step_with_rate<L: Lane>(&self, rate: &Rate, time_step: L, q: L, plastic: L, flow: L, yields: L::Mask) -> (L, [L; 2]) {
-        let (stiffness, one) = (L::splat(3.0 * self.shear), L::splat(1.0));
+    fn step_with_rate<L: Lane>(&self, rate: &Rate, time_step: L, q: L, plastic: L, [flow, slope]: [L; 2], yields: L::Mask) -> (L, [L; 2]) {
+        let (stiffness, one, zero) = (L::splat(3.0 * self.shear), L::splat(1.0), L::splat(0.0));
         let high = rate.excess(q / stiffness, time_step);
         let mut newton = Newton::new((q - flow) / flow, high, q, yields);
-        let mut step = L::splat(0.0);
+        let (mut step, mut end) = (zero, [flow, slope]);
         for _ in 0..LIMIT {
             let u = newton.at;
             let [strain, strain_slope] = rate.strain(u, time_step);
-            step = L::select(yields, strain, L::splat(0.0));
-            let [flow, slope] = self.hardening.flow(plastic + step);
-            let change = (stiffness + slope * (one + u)) * strain_slope + flow;
-            if !newton.next(q - stiffness * step - flow * (one + u), -change) {
-                return (step, [flow, slope]);
+            step = L::select(yields, strain, zero);
+            let Flow { stress, slope, .. } = self.hardening.flow(plastic + step);
+            end = [L::select(yields, stress, end[0]), L::select(yields, slope, end[1])];
+            let change = (stiffness + slope * (one + u)) * strain_slope + stress;
+            if !newton.next(q - stiffness * step - stress * (one + u), -change, zero, zero) {
+                break;
             }
         }
-        (step, self.hardening.flow(plastic + step))
+        (step, end)
     }
 }

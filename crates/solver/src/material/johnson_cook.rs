@@ -8,7 +8,7 @@
 //! positive, so that D3 of metals is negative) of at most 1.5. It weakens nothing: at 1 the material has come to its end.
 //! Source: Johnson and Cook, 7th Int. Symp. Ballistics (1983) 541-547; damage: Engineering Fracture Mechanics 21 (1985) 31-48.
 
-use super::hardening::{Power, YIELD};
+use super::hardening::{Flow, Power, YIELD};
 use super::trial::{LIMIT, Newton, Trial};
 use super::{DENSITY, Family, Kinematics, Law, LawKind, POISSON, ParameterFault, Parameters, Response, Variable, YOUNG, bulk_and_shear};
 use crate::quantity::{Dimension, Parameter, Range};
@@ -104,8 +104,8 @@ impl Law for JohnsonCook {
         ],
     };
     const FAMILY: Family = Family::Rate;
-    /// Equivalent plastic strain, temperature, damage.
-    type State<L: Lane, T: SymmetricTensor<L>> = [L; 3];
+    /// Equivalent plastic strain, temperature, damage; the term B ε_p^n and its slope there.
+    type State<L: Lane, T: SymmetricTensor<L>> = [L; 5];
     const VARIABLES: &'static [(Variable, usize)] = &[(Variable::PlasticStrain, 0), (Variable::Temperature, 1), (Variable::Damage, 2)];
 
     fn new(parameters: &Parameters<'_>) -> Self {
@@ -147,28 +147,36 @@ impl Law for JohnsonCook {
         faults
     }
 
-    fn start<L: Lane, T: SymmetricTensor<L>>(&self) -> [L; 3] {
-        [L::splat(0.0), L::splat(self.temperature), L::splat(0.0)]
+    fn start<L: Lane, T: SymmetricTensor<L>>(&self) -> [L; 5] {
+        let zero = L::splat(0.0);
+        let power = self.power.flow(zero);
+        [zero, L::splat(self.temperature), zero, power.stress, power.slope]
     }
 
     #[inline(always)]
-    fn update<L: Lane, T: SymmetricTensor<L>>(&self, kinematics: &Kinematics<L, T>, state: &mut [L; 3]) -> Response<L, T> {
+    fn update<L: Lane, T: SymmetricTensor<L>>(&self, kinematics: &Kinematics<L, T>, state: &mut [L; 5]) -> Response<L, T> {
         let (zero, one) = (L::splat(0.0), L::splat(1.0));
         let trial = Trial::new(self.bulk, self.shear, kinematics);
         let homologous = (state[1] - L::splat(self.temperature_reference)) * L::splat(self.per_range);
         let homologous = homologous.max(zero).min(one);
-        let strength = one - math::pow(homologous, L::splat(self.softening));
-        let [flow, slope] = self.flow(state[0], strength);
+        let softened = if self.softening == 1.0 { homologous } else { math::pow(homologous, L::splat(self.softening)) };
+        let strength = one - softened;
+        let [flow, slope] = [(L::splat(self.yield_stress) + state[3]) * strength, state[4] * strength];
         let yields = (flow * flow).less(trial.square);
         let (mut deviator, mut dissipated) = (trial.deviator, zero);
         if L::any(yields) {
             let q = trial.square.sqrt();
+            let (inverse, stiffness) = (one / q, L::splat(3.0 * self.shear));
             let unit = (L::splat(self.rate_reference) * kinematics.time_step).max(L::splat(1e-100));
-            let step = self.step(q, state[0], [flow, slope], strength, unit, yields);
-            let factor = L::splat(3.0 * self.shear) * step / q;
-            dissipated = trial.work(self.shear, kinematics.strain_increment, q, step, yields);
-            deviator = trial.scaled(one - factor, yields);
+            // At the yield stress of the rate 0; and where it flows already, about as fast as the strain goes on.
+            let start = one / (stiffness + slope);
+            let (slow, along) = ((q - flow) * start, trial.along(kinematics.strain_increment, inverse) * stiffness * start);
+            let start = L::select(zero.less(along), slow.min(along), slow);
+            let (step, power) = self.step(q, start, &*state, strength, unit, yields);
+            dissipated = trial.work(self.shear, kinematics.strain_increment, [q, inverse], step, yields);
+            deviator = trial.scaled(one - stiffness * step * inverse, yields);
             state[0] += step;
+            [state[3], state[4]] = power;
             state[1] += dissipated * L::splat(self.heating);
             if let Some(constants) = self.damage {
                 let end = (q - L::splat(3.0 * self.shear) * step).max(L::splat(f64::MIN_POSITIVE));
@@ -177,7 +185,7 @@ impl Law for JohnsonCook {
                 state[2] = L::select(yields, (state[2] + step / failure).min(one), state[2]);
             }
         }
-        Response::rate(deviator.plus(T::isotropic(trial.mean)), dissipated, [self.bulk, self.shear])
+        Response::rate(deviator.plus_isotropic(trial.mean), dissipated, [self.bulk, self.shear])
     }
 
     fn stiffness(&self) -> [f64; 2] {
@@ -195,30 +203,42 @@ fn failure<L: Lane>(constants: &[f64; CONSTANTS], triaxiality: L, logarithm: L, 
 }
 
 impl JohnsonCook {
-    /// Flow stress without the rate, and its slope, at what heat has left of the strength.
+    /// Δε_p where it `yields`, and the term B ε_p^n with its slope after it; `unit` is the increment ε̇_0 Δt.
     #[inline(always)]
-    fn flow<L: Lane>(&self, plastic: L, strength: L) -> [L; 2] {
-        let [power, slope] = self.power.flow(plastic);
-        [(L::splat(self.yield_stress) + power) * strength, slope * strength]
-    }
-
-    /// Δε_p where it `yields`; `unit` is the increment ε̇_0 Δt.
-    #[inline(always)]
-    fn step<L: Lane>(&self, q: L, plastic: L, [flow, slope]: [L; 2], strength: L, unit: L, yields: L::Mask) -> L {
-        let (stiffness, one, zero) = (L::splat(3.0 * self.shear), L::splat(1.0), L::splat(0.0));
+    fn step<L: Lane>(&self, q: L, start: L, state: &[L; 5], strength: L, unit: L, yields: L::Mask) -> (L, [L; 2]) {
+        let (stiffness, half, one, two, zero) = (L::splat(3.0 * self.shear), L::splat(0.5), L::splat(1.0), L::splat(2.0), L::splat(0.0));
         let coefficient = L::splat(self.rate_coefficient);
-        let mut newton = Newton::new((q - flow) / (stiffness + slope), q / stiffness, q, yields);
+        let (per_unit, quarter) = (one / unit, L::splat(0.25));
+        let mut newton = Newton::new(start, q * L::splat(1.0 / (3.0 * self.shear)), q, yields);
+        let mut end = [state[3], state[4]];
         for _ in 0..LIMIT {
             let step = newton.at;
-            let [flow, slope] = self.flow(plastic + step, strength);
-            let ratio = step / unit;
+            let power = self.power.flow(state[0] + step);
+            let flow = Flow {
+                stress: (L::splat(self.yield_stress) + power.stress) * strength,
+                slope: power.slope * strength,
+                curvature: power.curvature * strength,
+                reach: power.reach,
+            };
+            let ratio = step * per_unit;
             let fast = one.less(ratio);
             let rate = one + coefficient * math::ln(ratio.max(one));
-            let rate_slope = L::select(fast, coefficient / step, zero);
-            if !newton.next(q - stiffness * step - flow * rate, -(stiffness + slope * rate + flow * rate_slope)) {
+            let inverse = one / step;
+            let rate_slope = L::select(fast, coefficient * inverse, zero);
+            let rate_curvature = L::select(fast, rate_slope * inverse, zero);
+            // Of the logarithm a quarter of the step; it begins with a kink, from which it keeps away.
+            let reach = L::select(two.less(ratio), step * quarter, L::select(ratio.less(half), unit * half, zero));
+            let value = q - stiffness * step - flow.stress * rate;
+            let slope = -(stiffness + flow.slope * rate + flow.stress * rate_slope);
+            let curvature = flow.stress * rate_curvature - (flow.curvature * rate + two * flow.slope * rate_slope);
+            let live = newton.live();
+            let goes_on = newton.next(value, slope, curvature, reach.min(flow.reach));
+            let after = power.after(newton.moved);
+            end = [L::select(live, after[0], end[0]), L::select(live, after[1], end[1])];
+            if !goes_on {
                 break;
             }
         }
-        newton.at
+        (newton.at, end)
     }
 }

@@ -47,14 +47,14 @@ impl Law for MooneyRivlin {
     fn update<L: Lane, T: SymmetricTensor<L>>(&self, kinematics: &Kinematics<L, T>, _state: &mut [L; 0]) -> Response<L, T> {
         let (j, b) = (kinematics.volume_ratio, kinematics.left_cauchy_green);
         let inverse = L::splat(1.0) / j;
-        let scale = isochoric(j);
+        let scale = isochoric(j, inverse);
         let v = Unimodular::new(b.adjugate(), scale * scale);
         let b = Unimodular::new(b, scale);
         let volume = Volume::new(self.bulk, j, inverse);
         let (first, second) = (L::splat(self.first), L::splat(self.second));
         let need = first * (b.mean + b.spread) + second * (v.mean + L::splat(1.25) * v.spread);
         Response {
-            stress: b.deviator.times(first * inverse).plus(v.deviator.times(-(second * inverse))).plus(T::isotropic(volume.pressure)),
+            stress: b.deviator.times(first * inverse).plus(v.deviator.times(-(second * inverse))).plus_isotropic(volume.pressure),
             stored: (first * b.above + second * v.above) * L::splat(1.5) + volume.stored,
             dissipated: L::splat(0.0),
             bulk: volume.stiffness,

@@ -38,11 +38,11 @@ impl Law for NeoHookean {
     fn update<L: Lane, T: SymmetricTensor<L>>(&self, kinematics: &Kinematics<L, T>, _state: &mut [L; 0]) -> Response<L, T> {
         let (j, b) = (kinematics.volume_ratio, kinematics.left_cauchy_green);
         let inverse = L::splat(1.0) / j;
-        let b = Unimodular::new(b, isochoric(j));
+        let b = Unimodular::new(b, isochoric(j, inverse));
         let volume = Volume::new(self.bulk, j, inverse);
         let shear = L::splat(self.shear) * inverse;
         Response {
-            stress: b.deviator.times(shear).plus(T::isotropic(volume.pressure)),
+            stress: b.deviator.times(shear).plus_isotropic(volume.pressure),
             stored: L::splat(1.5 * self.shear) * b.above + volume.stored,
             dissipated: L::splat(0.0),
             bulk: volume.stiffness,

@@ -87,8 +87,9 @@ impl Law for Ogden {
         }
         let mut principal = Principal { squares: [zero; 3], stress: [zero; 3], slope: [zero; 3] };
         let mut stored = volume.stored;
+        let scale = math::exp(-(mean + mean));
         for i in 0..3 {
-            principal.squares[i] = math::exp(logs[i] + logs[i]);
+            principal.squares[i] = squares[i] * scale;
         }
         for k in 0..TERMS {
             // The same for every lane: terms that are not there cost nothing.
@@ -144,7 +145,8 @@ impl<L: Lane> Principal<L> {
             // Where two values nearly meet, the mean of the slopes at both: right to the square of their distance.
             let (apart, product) = (u[i] - u[j], u[i] * u[j]);
             let close = (apart * apart).less(product * L::splat(1e-8));
-            let tangent = (s[i] / u[i] + s[j] / u[j]) * L::splat(0.25);
+            // 1/u_i is the product of the other two.
+            let tangent = (s[i] * u[j] + s[j] * u[i]) * u[(i + 2) % 3] * L::splat(0.25);
             let secant = (t[i] - t[j]) / L::select(close, L::splat(1.0), apart);
             let difference = L::select(close, tangent, secant);
             transverse = transverse.max(difference * u[i].max(u[j]));

@@ -35,11 +35,10 @@ impl<L: Lane> Volume<L> {
     }
 }
 
-/// J^{-2/3}.
+/// J^{-2/3}, from J and 1/J.
 #[inline(always)]
-pub(super) fn isochoric<L: Lane>(j: L) -> L {
-    let root = math::cbrt(j);
-    L::splat(1.0) / (root * root)
+pub(super) fn isochoric<L: Lane>(j: L, inverse: L) -> L {
+    math::cbrt(j) * inverse
 }
 
 /// A positive tensor of determinant one, taken apart.
@@ -88,7 +87,7 @@ impl<L: Lane> FirstInvariant<L> {
         let shear = self.slope + self.slope;
         let curved = L::splat(3.0) * self.curvature.max(L::splat(0.0)) * (b.spread * b.spread); // ¾ 4 w''
         Response {
-            stress: b.deviator.times(shear * inverse).plus(T::isotropic(volume.pressure)),
+            stress: b.deviator.times(shear * inverse).plus_isotropic(volume.pressure),
             stored: self.stored + volume.stored,
             dissipated: L::splat(0.0),
             bulk: volume.stiffness,

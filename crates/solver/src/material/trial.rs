@@ -29,22 +29,28 @@ impl<L: Lane, T: SymmetricTensor<L>> Trial<L, T> {
         let sum = kinematics.stress_rotated.plus(strain.times(twice));
         let third = sum.trace() * L::splat(1.0 / 3.0);
         let mean = third + L::splat(bulk - 2.0 / 3.0 * shear) * strain.trace();
-        let deviator = sum.plus(T::isotropic(-third));
+        let deviator = sum.plus_isotropic(-third);
         let square = deviator.contract(deviator) * L::splat(1.5);
         Self { mean, deviator, square }
     }
 
-    /// The old stress along the flow direction, s_old:N with N = 3/2 s/q of the trial.
+    /// The strain increment along the flow direction, ⅔ N:Δε with N = 3/2 s/q of the trial, from 1/q.
     #[inline(always)]
-    pub(super) fn old(&self, shear: f64, strain: T, q: L) -> L {
-        q - L::splat(3.0 * shear) * self.deviator.contract(strain) / q
+    pub(super) fn along(&self, strain: T, inverse: L) -> L {
+        self.deviator.contract(strain) * inverse
     }
 
-    /// ½ (s_old + s_new):Δε_p of a radial return by `step` from `q`; only where it `yields`.
+    /// The old stress along the flow direction, s_old:N.
     #[inline(always)]
-    pub(super) fn work(&self, shear: f64, strain: T, q: L, step: L, yields: L::Mask) -> L {
+    pub(super) fn old(&self, shear: f64, strain: T, q: L, inverse: L) -> L {
+        q - L::splat(3.0 * shear) * self.along(strain, inverse)
+    }
+
+    /// ½ (s_old + s_new):Δε_p of a radial return by `step` from `q`, with 1/q; only where it `yields`.
+    #[inline(always)]
+    pub(super) fn work(&self, shear: f64, strain: T, [q, inverse]: [L; 2], step: L, yields: L::Mask) -> L {
         let new = q - L::splat(3.0 * shear) * step;
-        let mean = (self.old(shear, strain, q) + new) * L::splat(0.5);
+        let mean = (self.old(shear, strain, q, inverse) + new) * L::splat(0.5);
         L::select(yields, (mean * step).max(L::splat(0.0)), L::splat(0.0))
     }
 
@@ -57,16 +63,21 @@ impl<L: Lane, T: SymmetricTensor<L>> Trial<L, T> {
 
 /// Largest residual over the trial stress.
 const TOLERANCE: f64 = 1e-12;
-/// Evaluations; three to six do, and halving the bracket has no need of more than these.
+/// Evaluations; one or two do where the function is smooth, and halving the bracket has no need of more than these.
 pub(super) const LIMIT: usize = 60;
 
 /// Newton's method for a function that is positive left of its root and negative right of it, in a bracket that halves where Newton leaves it.
 /// A flow stress that falls bends the function the other way, and Newton's steps may pass the root; each that leaves the bracket, which shrinks with every step, halves it.
+/// Each step δ takes the curvature with it (Chebyshev's method): with δ₁ = −f/f' and h = f'' δ₁/f' it is δ₁ (1 − h/2), and leaves ½ f'' δ₁² h and f''' δ³/6 of f.
+/// Where that is within the tolerance, it is the last: the function is not evaluated again only to see it.
 /// Lanes that have converged stand still, so that no lane depends on its neighbours.
+/// Source: Traub, Iterative Methods for the Solution of Equations (1964), 5.2.
 #[derive(Clone, Copy)]
 pub(super) struct Newton<L: Lane> {
     /// Where the function is wanted.
     pub(super) at: L,
+    /// Where it moved in the last call.
+    pub(super) moved: L,
     low: L,
     high: L,
     tolerance: L,
@@ -78,24 +89,42 @@ impl<L: Lane> Newton<L> {
     pub(super) fn new(start: L, high: L, size: L, yields: L::Mask) -> Self {
         let zero = L::splat(0.0);
         let tolerance = L::select(yields, size * L::splat(TOLERANCE), L::splat(f64::INFINITY));
-        Self { at: L::select(yields, start.max(zero).min(high), zero), low: zero, high, tolerance }
+        // Where nothing is left of a flow stress, the root is the upper end: not to be missed by round-off.
+        let high = high * L::splat(1.0 + 4.0 * f64::EPSILON);
+        Self { at: L::select(yields, start.max(zero).min(high), zero), moved: zero, low: zero, high, tolerance }
     }
 
-    /// Moves on from the value and the slope at [`Newton::at`]; false when every lane has converged.
+    /// Lanes that have not converged.
     #[inline(always)]
-    pub(super) fn next(&mut self, value: L, slope: L) -> bool {
+    pub(super) fn live(&self) -> L::Mask {
+        self.tolerance.less(L::splat(f64::INFINITY))
+    }
+
+    /// Moves on from the value, the slope and the curvature at [`Newton::at`], whose curvature changes by no more than its part of `reach` within that (see
+    /// [`super::hardening::Flow`]); with a reach of 0 the value there decides. False when every lane has converged.
+    #[inline(always)]
+    pub(super) fn next(&mut self, value: L, slope: L, curvature: L, reach: L) -> bool {
+        let (zero, half, one, three) = (L::splat(0.0), L::splat(0.5), L::splat(1.0), L::splat(3.0));
+        let infinity = L::splat(f64::INFINITY);
         let open = self.tolerance.less(value.abs());
-        if !L::any(open) {
-            return false;
-        }
-        let left = L::splat(0.0).less(value);
+        let left = zero.less(value);
         self.low = L::select(left, self.at, self.low);
         self.high = L::select(left, self.high, self.at);
-        let newton = self.at - value / slope;
-        let middle = (self.low + self.high) * L::splat(0.5);
+        let inverse = one / slope;
+        let first = -(value * inverse);
+        let bend = curvature * first * inverse;
+        let remaining = curvature.abs() * (first * first) * (first.abs() + three * bend.abs() * reach);
+        let remaining = L::select((first + first).abs().less(reach), remaining, infinity);
+        let last = remaining.less(self.tolerance * reach * L::splat(6.0));
+        let newton = self.at + first * (one - half * bend.max(-one).min(one));
+        let middle = (self.low + self.high) * half;
         let next = L::select(self.low.less(newton), newton, middle);
-        let next = L::select(next.less(self.high), next, middle);
-        self.at = L::select(open, next, self.at);
-        true
+        let next = L::select(self.high.less(next), middle, next);
+        let next = L::select(last, newton.max(self.low).min(self.high), next);
+        let next = L::select(open, next, self.at);
+        self.moved = next - self.at;
+        self.at = next;
+        self.tolerance = L::select(open, L::select(last, infinity, self.tolerance), infinity);
+        L::any(self.live())
     }
 }

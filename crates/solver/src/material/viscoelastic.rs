@@ -91,7 +91,7 @@ impl Law for Viscoelastic {
         let strain = kinematics.strain_increment;
         let deviator = strain.deviator();
         let mut stress = kinematics.stress_rotated;
-        stress = stress.plus(T::isotropic(strain.trace() * L::splat(self.bulk)));
+        stress = stress.plus_isotropic(strain.trace() * L::splat(self.bulk));
         stress = stress.plus(deviator.times(L::splat(2.0 * self.shear_at_last())));
         let mut dissipated = zero;
         for k in 0..BRANCHES {

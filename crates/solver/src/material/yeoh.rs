@@ -55,7 +55,7 @@ impl Law for Yeoh {
     fn update<L: Lane, T: SymmetricTensor<L>>(&self, kinematics: &Kinematics<L, T>, _state: &mut [L; 0]) -> Response<L, T> {
         let j = kinematics.volume_ratio;
         let inverse = L::splat(1.0) / j;
-        let b = Unimodular::new(kinematics.left_cauchy_green, isochoric(j));
+        let b = Unimodular::new(kinematics.left_cauchy_green, isochoric(j, inverse));
         let [c1, c2, c3] = self.coefficients;
         let [c1, c2, c3] = [L::splat(c1), L::splat(c2), L::splat(c3)];
         let above = b.above * L::splat(3.0); // Ī₁ − 3

@@ -97,7 +97,7 @@ fn the_flow_rule_holds_and_no_energy_is_lost_in_any_direction() {
         let size = [1e-4, 1e-3, 1e-2, 1e-1][step % 4];
         let plastic = body.state.0[0];
         body.strain(std::array::from_fn(|_| numbers.between(-size, size)));
-        let [p] = body.state.0;
+        let [p, ..] = body.state.0;
         let mut shifted = Solid(body.stress).deviator();
         for alpha in body.state.1.0 {
             shifted = shifted.plus(alpha.times(-1.0));

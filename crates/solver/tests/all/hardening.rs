@@ -107,6 +107,39 @@ fn work_less_dissipation_is_the_elastic_energy_for_any_step() {
     with_every_hardening(0.0, &mut Energy(1.0, 1e-11));
 }
 
+/// Shear back and forth in steps of any size: the flow stress at the end of each is met to twice the tolerance of the return.
+struct Return;
+impl Check for Return {
+    fn check<M: Law>(&mut self, curve: &dyn Fn(f64) -> f64, mut point: Point<M>, plastic: &dyn Fn(&Point<M>) -> f64) {
+        let (mut seed, mut flowed, virgin) = (7u64, 0, point);
+        for round in 0..40_000 {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            let random = (seed >> 11) as f64 / (1u64 << 53) as f64;
+            // From the chord and the bend of the curve on again and again.
+            if round % 400 == 0 {
+                point = virgin;
+            }
+            let size = 10f64.powf(-9.0 + 8.0 * random) * if seed >> 60 < 5 { -1.0 } else { 1.0 };
+            let (old, before) = (plastic(&point), 3f64.sqrt() * point.stress[3]);
+            point.strain([0.0, 0.0, 0.0, size, 0.0, 0.0]);
+            let (p, q) = (plastic(&point), 3f64.sqrt() * point.stress[3].abs());
+            let trial = (before + 2.0 * 3f64.sqrt() * SHEAR * size).abs();
+            if p > old {
+                flowed += 1;
+                assert!((q - curve(p)).abs() < 2e-12 * trial, "{} {round}: {q} for {} at {p}, step {size}", M::KIND.name, curve(p));
+            } else {
+                assert!(q <= curve(p) * (1.0 + 2e-12), "{}", M::KIND.name);
+            }
+        }
+        assert!(flowed > 5_000, "{}: {flowed}", M::KIND.name);
+    }
+}
+
+#[test]
+fn the_flow_stress_is_met_to_the_tolerance_after_steps_of_any_size() {
+    with_every_hardening(0.0, &mut Return);
+}
+
 /// Steady shear: q = √3 τ = σ_y R(rate) once the flow is steady, and at every step the equation of the return.
 struct Rates;
 impl Check for Rates {

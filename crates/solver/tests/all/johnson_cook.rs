@@ -53,6 +53,39 @@ fn the_flow_stress_has_the_points_of_the_curve() {
 }
 
 #[test]
+fn the_flow_stress_is_met_to_the_tolerance_after_steps_of_any_size_and_rate() {
+    let (mut seed, mut flowed) = (3u64, 0);
+    let virgin = point(&[("temperature", 500.0), ("taylor_quinney", 1e-12)], &[]);
+    let (mut body, soft) = (virgin, 1.0 - 0.2f64.powf(1.1));
+    let mut random = || {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (seed >> 11) as f64 / (1u64 << 53) as f64
+    };
+    for round in 0..40_000 {
+        if round % 400 == 0 {
+            body = virgin;
+        }
+        // From far below the reference rate of one per second to far above it.
+        body.time_step = 10f64.powf(-8.0 + 9.0 * random());
+        let size = 10f64.powf(-7.0 + 5.5 * random()) * if random() < 0.3 { -1.0 } else { 1.0 };
+        let (old, before) = (body.state[0], 3f64.sqrt() * body.stress[3]);
+        body.strain([0.0, 0.0, 0.0, size, 0.0, 0.0]);
+        let (p, q) = (body.state[0], 3f64.sqrt() * body.stress[3].abs());
+        let trial = (before + 2.0 * 3f64.sqrt() * SHEAR * size).abs();
+        if p > old {
+            flowed += 1;
+            let power = (3.0 * p.powf(0.3)).min(3000.0 * SHEAR * p);
+            let expected = (2.0 + power) * (1.0 + 0.03 * ((p - old) / body.time_step).max(1.0).ln()) * soft;
+            // The difference has lost digits.
+            let lost = 0.03 * expected * f64::EPSILON * p / (p - old);
+            assert!((q - expected).abs() < 2e-12 * trial + lost, "{round}: {q} for {expected} at {p}, step {size} in {}", body.time_step);
+            assert!((body.state[3] / power - 1.0).abs() < 1e-11 && body.dissipated >= 0.0);
+        }
+    }
+    assert!(flowed > 5_000, "{flowed}");
+}
+
+#[test]
 fn plastic_work_heats_and_heat_softens_by_the_exponential() {
     // A alone and m = 1: σ = A exp(−χ A ε_p / (ρ c (T_m − T_r)))
     let error = |steps: u32| {
@@ -62,7 +95,7 @@ fn plastic_work_heats_and_heat_softens_by_the_exponential() {
         );
         bar.pull(1.9999e-3); // to the yield stress
         bar.pull_by(2.0, steps);
-        let [p, temperature, _] = bar.state;
+        let [p, temperature, ..] = bar.state;
         let heated = 300.0 + 0.9 * bar.dissipated / (DENSITY * 0.001);
         assert!((temperature / heated - 1.0).abs() < 1e-12);
         let expected = 2.0 * (-0.9 * 2.0 * p / (DENSITY * 0.001 * 1000.0)).exp();

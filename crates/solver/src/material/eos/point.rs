@@ -141,7 +141,7 @@ impl<Q: Equation> Kernel for Replace<'_, Q> {
 
                 let found = <Plane<L> as SymmetricTensor<L>>::load(stress, at);
                 let shift = -(pressure + found.trace() * third);
-                found.plus(Plane::isotropic(shift)).store(stress, at);
+                found.plus_isotropic(shift).store(stress, at);
                 let dilatation = <Plane<L> as SymmetricTensor<L>>::load(strain, at).trace();
                 // (σ_old + σ_new):Δε with the new stress shifted.
                 (L::load(&out[0], at) + shift * dilatation).store(&mut out[0], at);

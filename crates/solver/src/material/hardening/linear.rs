@@ -4,7 +4,7 @@
 //! a flow stress below zero would give energy to whoever strains the material. What is left bears pressure, and no shear.
 
 use super::super::{DENSITY, LawKind, POISSON, Parameters, YOUNG};
-use super::{Hardening, RATE_EXPONENT, RATE_REFERENCE, YIELD, not_negative};
+use super::{Flow, Hardening, RATE_EXPONENT, RATE_REFERENCE, YIELD};
 use crate::quantity::{Dimension, Parameter, Range};
 use embate_lanes::Lane;
 
@@ -50,11 +50,11 @@ impl Hardening for Linear {
     }
 
     #[inline(always)]
-    fn flow<L: Lane>(&self, plastic: L) -> [L; 2] {
-        let modulus = L::splat(self.modulus);
-        let flow = [L::splat(self.yield_stress) + modulus * plastic, modulus];
+    fn flow<L: Lane>(&self, plastic: L) -> Flow<L> {
+        let (zero, modulus) = (L::splat(0.0), L::splat(self.modulus));
+        let flow = Flow { stress: L::splat(self.yield_stress) + modulus * plastic, slope: modulus, curvature: zero, reach: zero };
         // A branch that every point takes the same way: hardening pays nothing for it.
-        if self.modulus < 0.0 { not_negative(flow) } else { flow }
+        if self.modulus < 0.0 { flow.not_negative() } else { flow }
     }
 
     #[inline(always)]

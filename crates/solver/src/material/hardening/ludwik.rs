@@ -5,7 +5,7 @@
 //! Source: Ludwik, Elemente der technologischen Mechanik, Springer (1909).
 
 use super::super::{DENSITY, LawKind, POISSON, Parameters, YOUNG};
-use super::{Hardening, RATE_EXPONENT, RATE_REFERENCE, YIELD};
+use super::{Flow, Hardening, RATE_EXPONENT, RATE_REFERENCE, YIELD};
 use crate::quantity::{Dimension, Parameter, Range};
 use embate_lanes::{Lane, math};
 
@@ -18,21 +18,29 @@ pub(crate) struct Power {
     strength: f64,
     exponent: f64,
     chord: f64,
+    /// Twice the plastic strain where the chord ends.
+    free: f64,
 }
 
 impl Power {
     pub(crate) fn new(strength: f64, exponent: f64, shear: f64) -> Self {
-        Self { strength, exponent, chord: STEEPEST * 3.0 * shear }
+        let chord = STEEPEST * 3.0 * shear;
+        let end = if exponent < 1.0 { math::pow(strength / chord, 1.0 / (1.0 - exponent)) } else { 0.0 };
+        Self { strength, exponent, chord, free: 2.0 * end }
     }
 
-    /// Stress and its slope.
+    /// The term; where the chord is or is near, nobody knows how far it goes on.
     #[inline(always)]
-    pub(crate) fn flow<L: Lane>(&self, plastic: L) -> [L; 2] {
+    pub(crate) fn flow<L: Lane>(&self, plastic: L) -> Flow<L> {
         let power = L::splat(self.strength) * math::pow(plastic, L::splat(self.exponent));
         let chord = L::splat(self.chord) * plastic;
         let curved = power.less(chord);
-        let slope = L::select(curved, L::splat(self.exponent) * power / plastic, L::splat(self.chord));
-        [L::select(curved, power, chord), slope]
+        let inverse = L::splat(1.0) / plastic;
+        let slope = L::select(curved, L::splat(self.exponent) * power * inverse, L::splat(self.chord));
+        let known = L::splat(self.free).less(plastic);
+        let curvature = L::select(known, L::splat(self.exponent - 1.0) * slope * inverse, L::splat(0.0));
+        let reach = L::select(known, L::splat(0.5) * plastic, L::splat(0.0));
+        Flow { stress: L::select(curved, power, chord), slope, curvature, reach }
     }
 }
 
@@ -74,8 +82,8 @@ impl Hardening for Ludwik {
     }
 
     #[inline(always)]
-    fn flow<L: Lane>(&self, plastic: L) -> [L; 2] {
-        let [power, slope] = self.power.flow(plastic);
-        [L::splat(self.yield_stress) + power, slope]
+    fn flow<L: Lane>(&self, plastic: L) -> Flow<L> {
+        let power = self.power.flow(plastic);
+        Flow { stress: L::splat(self.yield_stress) + power.stress, ..power }
     }
 }

@@ -46,8 +46,8 @@ pub trait Hardening: Copy + Send + Sync + 'static {
         None
     }
 
-    /// [σ_y, dσ_y/dε_p] at the equivalent plastic strain, Pa. `#[inline(always)]`.
-    fn flow<L: Lane>(&self, plastic: L) -> [L; 2];
+    /// The flow stress at the equivalent plastic strain. `#[inline(always)]`.
+    fn flow<L: Lane>(&self, plastic: L) -> Flow<L>;
 
     /// dσ_y/dε_p if it is the same everywhere and not negative, Pa: then the return has a closed form.
     #[inline(always)]
@@ -56,11 +56,32 @@ pub trait Hardening: Copy + Send + Sync + 'static {
     }
 }
 
-/// A falling flow stress and its slope: zero, both, where it would be negative.
-#[inline(always)]
-fn not_negative<L: Lane>([stress, slope]: [L; 2]) -> [L; 2] {
-    let zero = L::splat(0.0);
-    [stress.max(zero), L::select(zero.less(stress), slope, zero)]
+/// A flow stress and how it goes on.
+#[derive(Clone, Copy, Debug)]
+pub struct Flow<L> {
+    /// σ_y, Pa.
+    pub stress: L,
+    /// dσ_y/dε_p, Pa.
+    pub slope: L,
+    /// d²σ_y/dε_p², Pa.
+    pub curvature: L,
+    /// Plastic strain within half of which there is no kink and the curvature changes by no more than its part of this; 0: nobody knows.
+    pub reach: L,
+}
+
+impl<L: Lane> Flow<L> {
+    /// Stress and slope a short way on.
+    #[inline(always)]
+    pub(super) fn after(&self, step: L) -> [L; 2] {
+        [self.stress + step * (self.slope + L::splat(0.5) * self.curvature * step), self.slope + self.curvature * step]
+    }
+
+    /// Of a stress that falls: stress and slope zero where it would be negative, a kink that is not told.
+    #[inline(always)]
+    fn not_negative(self) -> Self {
+        let zero = L::splat(0.0);
+        Self { stress: self.stress.max(zero), slope: L::select(zero.less(self.stress), self.slope, zero), curvature: zero, reach: zero }
+    }
 }
 
 /// The flow stress and its slope at the plastic strain that a point has, kept from the step that led there: a power or an exponential less in every step.
@@ -78,7 +99,8 @@ impl<L: Lane> Kept<L> for [L; 0] {
     }
     #[inline(always)]
     fn flow<H: Hardening>(&self, hardening: &H, plastic: L) -> [L; 2] {
-        hardening.flow(plastic)
+        let Flow { stress, slope, .. } = hardening.flow(plastic);
+        [stress, slope]
     }
 }
 

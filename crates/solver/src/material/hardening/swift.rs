@@ -3,7 +3,7 @@
 //! Source: Swift, Journal of the Mechanics and Physics of Solids 1 (1952) 1-18.
 
 use super::super::{DENSITY, LawKind, POISSON, Parameters, YOUNG};
-use super::{Hardening, RATE_EXPONENT, RATE_REFERENCE};
+use super::{Flow, Hardening, RATE_EXPONENT, RATE_REFERENCE};
 use crate::quantity::{Dimension, Parameter, Range};
 use embate_lanes::{Lane, math};
 
@@ -40,9 +40,11 @@ impl Hardening for Swift {
     }
 
     #[inline(always)]
-    fn flow<L: Lane>(&self, plastic: L) -> [L; 2] {
+    fn flow<L: Lane>(&self, plastic: L) -> Flow<L> {
         let strain = L::splat(self.offset) + plastic;
         let stress = L::splat(self.strength) * math::pow(strain, L::splat(self.exponent));
-        [stress, L::splat(self.exponent) * stress / strain]
+        let inverse = L::splat(1.0) / strain;
+        let slope = L::splat(self.exponent) * stress * inverse;
+        Flow { stress, slope, curvature: L::splat(self.exponent - 1.0) * slope * inverse, reach: L::splat(0.5) * strain }
     }
 }

@@ -3,7 +3,7 @@
 //! The first point is at ε_p = 0. Stresses may fall, by less than the return can bear (`softening.rs`); all are positive, so something is always left.
 
 use super::super::{DENSITY, LawKind, POISSON, ParameterFault, Parameters, YOUNG};
-use super::{Hardening, RATE_EXPONENT, RATE_REFERENCE};
+use super::{Flow, Hardening, RATE_EXPONENT, RATE_REFERENCE};
 use crate::quantity::{Dimension, Parameter, Range};
 use embate_lanes::Lane;
 
@@ -35,6 +35,7 @@ pub struct Table {
     strains: [f64; POINTS],
     stresses: [f64; POINTS],
     slopes: [f64; POINTS],
+    points: usize,
 }
 
 impl Hardening for Table {
@@ -52,7 +53,7 @@ impl Hardening for Table {
         let stresses: [f64; POINTS] = parameters.array("stress", 0.0);
         let slope = |i: usize| (stresses[i + 1] - stresses[i]) / (strains[i + 1] - strains[i]);
         let slopes = std::array::from_fn(|i| if i + 1 < POINTS && strains[i + 1].is_finite() { slope(i) } else { 0.0 });
-        Self { strains, stresses, slopes }
+        Self { strains, stresses, slopes, points: parameters.list("plastic_strain").len() }
     }
 
     fn faults(parameters: &Parameters<'_>) -> Vec<ParameterFault> {
@@ -82,16 +83,20 @@ impl Hardening for Table {
     }
 
     #[inline(always)]
-    fn flow<L: Lane>(&self, plastic: L) -> [L; 2] {
+    fn flow<L: Lane>(&self, plastic: L) -> Flow<L> {
         let (mut strain, mut stress, mut slope) = (L::splat(0.0), L::splat(self.stresses[0]), L::splat(self.slopes[0]));
-        for i in 1..POINTS {
+        let mut end = L::splat(self.strains[1]);
+        for i in 1..self.points.min(POINTS) {
             let start = L::splat(self.strains[i]);
             let past = start.less(plastic);
             strain = L::select(past, start, strain);
             stress = L::select(past, L::splat(self.stresses[i]), stress);
             slope = L::select(past, L::splat(self.slopes[i]), slope);
+            end = L::select(past, L::splat(if i + 1 < POINTS { self.strains[i + 1] } else { f64::INFINITY }), end);
         }
-        [stress + slope * (plastic - strain), slope]
+        // To the nearer end of the line.
+        let reach = (end - plastic).min(plastic - strain);
+        Flow { stress: stress + slope * (plastic - strain), slope, curvature: L::splat(0.0), reach }
     }
 }
 

@@ -4,7 +4,7 @@
 //! Source: Voce, Journal of the Institute of Metals 74 (1948) 537-562; with the linear term as in Simo and Hughes (1998), box 3.2.
 
 use super::super::{DENSITY, LawKind, POISSON, Parameters, YOUNG};
-use super::{Hardening, RATE_EXPONENT, RATE_REFERENCE, YIELD, not_negative};
+use super::{Flow, Hardening, RATE_EXPONENT, RATE_REFERENCE, YIELD};
 use crate::quantity::{Dimension, Parameter, Range};
 use embate_lanes::{Lane, math};
 
@@ -67,12 +67,12 @@ impl Hardening for Voce {
     }
 
     #[inline(always)]
-    fn flow<L: Lane>(&self, plastic: L) -> [L; 2] {
+    fn flow<L: Lane>(&self, plastic: L) -> Flow<L> {
         let left = L::splat(self.gain) * math::exp(L::splat(-self.rate) * plastic);
-        let modulus = L::splat(self.modulus);
+        let (modulus, rate) = (L::splat(self.modulus), L::splat(self.rate));
         let stress = L::splat(self.yield_stress + self.gain) - left + modulus * plastic;
-        let flow = [stress, L::splat(self.rate) * left + modulus];
-        if self.modulus < 0.0 { not_negative(flow) } else { flow }
+        let flow = Flow { stress, slope: rate * left + modulus, curvature: -(rate * (rate * left)), reach: L::splat(1.0 / self.rate) };
+        if self.modulus < 0.0 { flow.not_negative() } else { flow }
     }
 }
 

@@ -111,7 +111,9 @@ impl<H: Hardening> J2With<H> {
         for _ in 0..LIMIT {
             let flow = self.hardening.flow(plastic + newton.at);
             let (value, live) = (q - stiffness * newton.at - flow.stress, newton.live());
-            let goes_on = newton.next(value, -(stiffness + flow.slope), -flow.curvature, flow.reach);
+            let change = -(stiffness + flow.slope);
+            let goes_on =
+                if H::CURVED { newton.next_curved(value, change, -flow.curvature, flow.reach) } else { newton.next(value, change) };
             let [stress, slope] = flow.after(newton.moved);
             end = [L::select(live, stress, end[0]), L::select(live, slope, end[1])];
             if !goes_on {
@@ -135,7 +137,7 @@ impl<H: Hardening> J2With<H> {
             let Flow { stress, slope, .. } = self.hardening.flow(plastic + step);
             end = [L::select(yields, stress, end[0]), L::select(yields, slope, end[1])];
             let change = (stiffness + slope * (one + u)) * strain_slope + stress;
-            if !newton.next(q - stiffness * step - stress * (one + u), -change, zero, zero) {
+            if !newton.next(q - stiffness * step - stress * (one + u), -change) {
                 break;
             }
         }

@@ -232,7 +232,7 @@ impl JohnsonCook {
             let slope = -(stiffness + flow.slope * rate + flow.stress * rate_slope);
             let curvature = flow.stress * rate_curvature - (flow.curvature * rate + two * flow.slope * rate_slope);
             let live = newton.live();
-            let goes_on = newton.next(value, slope, curvature, reach.min(flow.reach));
+            let goes_on = newton.next_curved(value, slope, curvature, reach.min(flow.reach));
             let after = power.after(newton.moved);
             end = [L::select(live, after[0], end[0]), L::select(live, after[1], end[1])];
             if !goes_on {

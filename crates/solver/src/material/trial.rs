@@ -100,10 +100,28 @@ impl<L: Lane> Newton<L> {
         self.tolerance.less(L::splat(f64::INFINITY))
     }
 
-    /// Moves on from the value, the slope and the curvature at [`Newton::at`], whose curvature changes by no more than its part of `reach` within that (see
+    /// Moves on from the value and the slope at [`Newton::at`]; false when every lane has converged.
+    #[inline(always)]
+    pub(super) fn next(&mut self, value: L, slope: L) -> bool {
+        let open = self.tolerance.less(value.abs());
+        if !L::any(open) {
+            return false;
+        }
+        let left = L::splat(0.0).less(value);
+        self.low = L::select(left, self.at, self.low);
+        self.high = L::select(left, self.high, self.at);
+        let newton = self.at - value / slope;
+        let middle = (self.low + self.high) * L::splat(0.5);
+        let next = L::select(self.low.less(newton), newton, middle);
+        let next = L::select(self.high.less(next), middle, next);
+        self.at = L::select(open, next, self.at);
+        true
+    }
+
+    /// Moves on with the curvature as well, whose curvature changes by no more than its part of `reach` within that (see
     /// [`super::hardening::Flow`]); with a reach of 0 the value there decides. False when every lane has converged.
     #[inline(always)]
-    pub(super) fn next(&mut self, value: L, slope: L, curvature: L, reach: L) -> bool {
+    pub(super) fn next_curved(&mut self, value: L, slope: L, curvature: L, reach: L) -> bool {
         let (zero, half, one, three) = (L::splat(0.0), L::splat(0.5), L::splat(1.0), L::splat(3.0));
         let infinity = L::splat(f64::INFINITY);
         let open = self.tolerance.less(value.abs());

@@ -79,7 +79,8 @@ fn the_flow_stress_is_met_to_the_tolerance_after_steps_of_any_size_and_rate() {
             // The difference has lost digits.
             let lost = 0.03 * expected * f64::EPSILON * p / (p - old);
             assert!((q - expected).abs() < 2e-12 * trial + lost, "{round}: {q} for {expected} at {p}, step {size} in {}", body.time_step);
-            assert!((body.state[3] / power - 1.0).abs() < 1e-11 && body.dissipated >= 0.0);
+            // What is kept of the curve is right to the tolerance of a stress.
+            assert!((body.state[3] - power).abs() < 4e-12 * trial && body.dissipated >= 0.0, "{round}: {} for {power}", body.state[3]);
         }
     }
     assert!(flowed > 5_000, "{flowed}");

@@ -39,6 +39,7 @@ impl Hardening for Linear {
     };
 
     type Kept<L: Lane> = [L; 0];
+    const CURVED: bool = false;
 
     fn new(parameters: &Parameters<'_>, _shear: f64) -> Self {
         Self { yield_stress: parameters.value("yield"), modulus: parameters.value("hardening") }

@@ -32,6 +32,8 @@ pub trait Hardening: Copy + Send + Sync + 'static {
     const KIND: LawKind;
     /// What a point keeps of [`Hardening::flow`] where it is: all of it, `[L; 2]`, or, where it costs next to nothing, nothing, `[L; 0]`.
     type Kept<L: Lane>: Kept<L>;
+    /// Whether [`Flow::reach`] is ever more than 0: the return then takes the curvature with it.
+    const CURVED: bool = true;
 
     /// Reads its parameters; `shear` is the elastic shear modulus, Pa.
     fn new(parameters: &Parameters<'_>, shear: f64) -> Self;

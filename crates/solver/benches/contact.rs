@@ -26,7 +26,16 @@ fn main() {
     for (name, speed, friction) in [("at rest", 0.0, 0.0), ("in motion", 2.0, 0.0), ("in motion with friction", 2.0, 0.3)] {
         let plain = strips(elements, speed);
         let mut touching = plain.clone();
-        let interface = Interface { friction: (friction > 0.0).then_some(Friction { coefficient: friction, dynamic: None, decay: 0.0, viscosity: 0.0, limit: f64::INFINITY }), ..Interface::default() };
+        let interface = Interface {
+            friction: (friction > 0.0).then_some(Friction {
+                coefficient: friction,
+                dynamic: None,
+                decay: 0.0,
+                viscosity: 0.0,
+                limit: f64::INFINITY,
+            }),
+            ..Interface::default()
+        };
         touching.contacts.push(Contact { interface, ..all.clone() });
         let options = Options { threads, simd: None };
         let ([without, with], [_, simulation]) =

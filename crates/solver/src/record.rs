@@ -349,7 +349,11 @@ pub(crate) fn state_hash(system: &System) -> String {
     let mut hash = 0xcbf2_9ce4_8422_2325u64;
     let moving = system.bodies.iter().filter(|body| !body.of_elements && !body.is_fixed());
     let states = moving.flat_map(|body| [body.centre[0], body.centre[1], body.angle].into_iter().chain(body.velocity));
-    for value in system.positions.iter().chain(&system.velocities).flatten().copied().chain(states) {
+    // Nodes in the order of the curve, then those of obstacles: as they are numbered only for speed, that is no matter here.
+    let nodes = || system.mesh.along_curve().chain(system.mesh.user_nodes.len()..system.positions.len());
+    let positions = nodes().flat_map(|node| system.positions[node]);
+    let velocities = nodes().flat_map(|node| system.velocities[node]);
+    for value in positions.chain(velocities).chain(states) {
         for byte in value.to_bits().to_le_bytes() {
             hash = (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
         }

@@ -305,7 +305,10 @@ impl Target {
         let (along, weight) = (minus(b, a), weights[usize::from(end == Place::Begin)]);
         let (back, common) = if end == Place::Begin { (along, b) } else { (minus(a, b), a) };
         let (square, off) = (dot(along, along), weight * here.length);
-        square > 0.0 && dot(minus(x, common), back) > 2.0 * END_TOLERANCE * square && weight > END_TOLERANCE && off * off > CLEAR * gap * gap
+        square > 0.0
+            && dot(minus(x, common), back) > 2.0 * END_TOLERANCE * square
+            && weight > END_TOLERANCE
+            && off * off > CLEAR * gap * gap
     }
 
     /// Whether there is a segment, and not one of node `own`.

@@ -129,8 +129,7 @@ impl Rows {
         };
         let largest = answers.clone().map(|answer| answer.solved.force).fold(0.0, f64::max);
         let errors = answers.map(|Answer { spring, solved, .. }| {
-            let compliance: f64 =
-                springs.ends(spring).map(|end| 0.5 * dt * dt * end.share * end.share / self.mass[end.at as usize]).sum();
+            let compliance: f64 = springs.ends(spring).map(|end| 0.5 * dt * dt * end.share * end.share / self.mass[end.at as usize]).sum();
             let old = spring.gap - 0.5 * dt * rate(spring, &self.velocities);
             let free = spring.gap + 0.5 * dt * rate(spring, &velocities) - compliance * solved.force;
             (terms.law.force(&Closing { spring, old, free, compliance }, [dt; 2]) - solved.force).abs() / largest

@@ -4,9 +4,9 @@
 //! (`start.rs`), and the step itself is swept as any other: whatever came in or left is proven as before. Who was inside through a segment that is no more is outside, unless the new
 //! surfaces say otherwise.
 
-use super::{Memory, Tracker};
 use super::certificate::SearchReport;
 use super::group::{Group, Pass};
+use super::{Memory, Tracker};
 use crate::contact::projection::node_segment::Target;
 use crate::mesh::surface::NONE;
 

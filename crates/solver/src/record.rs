@@ -49,7 +49,7 @@ impl Recorded {
     pub(crate) fn new(model: &Model, system: &System) -> Result<Self, Vec<Fault>> {
         let has_failure = system.erosion.is_some();
         let has_contact = !system.contacts.is_empty();
-        let has_friction = system.terms.iter().any(|terms| matches!(terms.tangential, Tangential::Friction(_)));
+        let has_friction = system.springs.terms.iter().any(|terms| matches!(terms.tangential, Tangential::Friction(_)));
         let wanted = |kind: &&FieldKind| {
             let include = &model.output.include;
             let named = include.iter().any(|name| name == kind.name) || model.output.picture_field == kind.name;

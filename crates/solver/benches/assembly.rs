@@ -24,7 +24,14 @@ const ROUNDS: usize = 60;
 #[inline(always)]
 fn corners<L: Lane>(numbers: &[Batch], batch: usize, at: usize) -> [[L; 2]; N] {
     let number = L::load(&numbers[batch], at);
-    SHARES.map(|share| share.map(|share| number * L::splat(share)))
+    let mut forces = [[number; 2]; N];
+    // Loops, because closures are not compiled for the instruction set.
+    for corner in 0..N {
+        for d in 0..2 {
+            forces[corner][d] = number * L::splat(SHARES[corner][d]);
+        }
+    }
+    forces
 }
 
 /// Chunks add the forces on their own nodes.

@@ -18,6 +18,7 @@ use mass::part_masses;
 
 use crate::assembly::Assembly;
 use crate::block::{Block, BlockInput, Initial, Motion, Report, Wrong, make};
+use crate::contact::forces::ContactForces;
 use crate::contact::formulation::{self, Setup, Side};
 use crate::contact::law::{self, Law};
 use crate::contact::mirror::Mirrored;
@@ -166,8 +167,8 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<(System, Ve
         positions,
         velocities_old: velocities.clone(),
         velocities,
-        contact_forces: vec![[0.0; 2]; touched],
-        springs: Springs::new(nodes, bodies.len()),
+        contact_forces: ContactForces::new(touched),
+        springs: Springs::new(touched, bodies.len(), terms),
         reports: vec![Report::NOTHING; blocks.len()],
         sums: vec![Sums::default(); nodes.div_ceil(CHUNK)],
         groups: Groups::default(),
@@ -191,7 +192,6 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<(System, Ve
         assembly,
         mass,
         contacts,
-        terms,
         bodies,
         body_parts,
         curves,

@@ -49,7 +49,7 @@ impl Recorded {
     pub(crate) fn new(model: &Model, system: &System) -> Result<Self, Vec<Fault>> {
         let has_failure = system.erosion.is_some();
         let has_contact = !system.contacts.is_empty();
-        let has_friction = system.terms.iter().any(|terms| matches!(terms.tangential, Tangential::Friction(_)));
+        let has_friction = system.springs.terms.iter().any(|terms| matches!(terms.tangential, Tangential::Friction(_)));
         let wanted = |kind: &&FieldKind| {
             let include = &model.output.include;
             let named = include.iter().any(|name| name == kind.name) || model.output.picture_field == kind.name;
@@ -198,13 +198,13 @@ struct OnSurface {
 /// Values of one of [`FIELDS`] at the nodes, in the user's order.
 fn fill_nodes(name: &str, system: &System, surface: &OnSurface, values: &mut Vec<f64>) {
     let traces = &system.traces;
-    let tractions = || surface.tractions.get_or_init(|| traces.tractions(&system.contact_forces, &system.positions));
+    let tractions = || surface.tractions.get_or_init(|| traces.tractions(system.contact_forces.values(), &system.positions));
     let states = || surface.states.get_or_init(|| traces.states(&system.springs));
     let moved = |node: usize| [0, 1].map(|d| system.positions[node][d] - system.mesh.positions[node][d]);
     match name {
         "displacement" => by_node(system, values, moved),
         "velocity" => by_node(system, values, |node| velocity(system, node)),
-        "contact_force" => by_node(system, values, |node| system.contact_forces.get(node).copied().unwrap_or_default()),
+        "contact_force" => by_node(system, values, |node| system.contact_forces.values().get(node).copied().unwrap_or_default()),
         "contact_pressure" => {
             let tractions = tractions();
             by_node(system, values, |node| [tractions.get(node).map_or(0.0, |it| it[0])]);

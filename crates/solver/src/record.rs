@@ -119,11 +119,13 @@ impl Recorded {
             stores.total() - external,
         ]);
         let mut of_parts = vec![[0.0; 3]; system.mesh.parts.len()];
-        for ((group, block), report) in system.mesh.groups.iter().zip(&system.blocks).zip(&system.reports) {
-            let n = group.nodes_per_element;
-            let corner = |(k, &node): (usize, &u32)| block.corner_mass(k / n, k % n) * system.specific_kinetic(node as usize);
-            let energies = [group.connectivity.iter().enumerate().map(corner).sum(), report.stored + report.dissipated, report.dissipated];
-            of_parts[group.part].iter_mut().zip(energies).for_each(|(sum, energy): (&mut f64, f64)| *sum += energy);
+        for (group, report) in system.mesh.groups.iter().zip(&system.reports) {
+            let energies = [report.stored + report.dissipated, report.dissipated];
+            of_parts[group.part][1..].iter_mut().zip(energies).for_each(|(sum, energy)| *sum += energy);
+        }
+        for (index, (part, energies)) in system.mesh.parts.iter().zip(&mut of_parts).enumerate() {
+            let of_node = |&node: &u32| system.shares.of(index, node, system.mass[node as usize]) * system.specific_kinetic(node as usize);
+            energies[0] = part.nodes.iter().map(of_node).sum();
         }
         row.extend(of_parts.iter().flatten());
         for contact in &system.contacts {
@@ -202,22 +204,22 @@ fn fill_nodes(name: &str, system: &System, surface: &OnSurface, values: &mut Vec
     match name {
         "displacement" => by_node(system, values, moved),
         "velocity" => by_node(system, values, |node| velocity(system, node)),
-        "contact_force" => by_node(system, values, |node| system.contact_forces.values()[node]),
+        "contact_force" => by_node(system, values, |node| system.contact_forces.values().get(node).copied().unwrap_or_default()),
         "contact_pressure" => {
             let tractions = tractions();
-            by_node(system, values, |node| [tractions[node][0]]);
+            by_node(system, values, |node| [tractions.get(node).map_or(0.0, |it| it[0])]);
         }
         "contact_shear" => {
             let tractions = tractions();
-            by_node(system, values, |node| [tractions[node][1]]);
+            by_node(system, values, |node| [tractions.get(node).map_or(0.0, |it| it[1])]);
         }
         "contact_gap" => {
             let states = states();
-            by_node(system, values, |node| [states[node].gap]);
+            by_node(system, values, |node| [states.get(node).map_or(f64::NAN, |it| it.gap)]);
         }
         "contact_status" => {
             let states = states();
-            by_node(system, values, |node| [states[node].status]);
+            by_node(system, values, |node| [states.get(node).map_or(0.0, |it| it.status)]);
         }
         "contact_slip" => by_node(system, values, |node| [traces.slip(node)]),
         "friction_heat" => by_node(system, values, |node| [traces.heat(node)]),

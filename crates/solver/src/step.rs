@@ -11,6 +11,7 @@ pub(crate) mod relaxation;
 use crate::assembly::Assembly;
 use crate::block::spring::together;
 use crate::block::{Block, Motion, Report};
+use crate::build::Shares;
 use crate::contact::forces::ContactForces;
 use crate::contact::obstacle::OutlineShape;
 use crate::contact::springs::{Lost, Springs, Update};
@@ -88,6 +89,8 @@ pub struct System {
     pub(crate) rigid: Vec<bool>,
     /// Whether the last block is one of springs, beyond those of the mesh.
     pub(crate) has_springs: bool,
+    /// What parts weigh.
+    pub(crate) shares: Shares,
     /// Shapes of the obstacles, for pictures.
     pub(crate) outlines: Vec<OutlineShape>,
     /// What contacts leave on the surfaces.

@@ -30,7 +30,7 @@ pub struct State {
 }
 
 impl Traces {
-    /// For `outside`, the outside of all bodies of a model without contacts an empty one; `positions` are the initial ones.
+    /// For `outside`, the outside of all bodies; `positions` are the initial ones. Of a model without contacts both are empty: nothing is remembered.
     #[must_use]
     pub fn new(outside: Surface, positions: &[Vector], depth: Depth) -> Self {
         let mut area = vec![0.0; positions.len()];
@@ -68,13 +68,13 @@ impl Traces {
     /// Sliding distance of a node, m.
     #[must_use]
     pub fn slip(&self, node: usize) -> f64 {
-        self.slip[node]
+        self.slip.get(node).copied().unwrap_or_default()
     }
 
     /// Friction work taken at a node by initial surface, J/m².
     #[must_use]
     pub fn heat(&self, node: usize) -> f64 {
-        if self.area[node] > 0.0 { self.heat[node] / self.area[node] } else { 0.0 }
+        self.area.get(node).filter(|&&area| area > 0.0).map_or(0.0, |area| self.heat[node] / area)
     }
 
     /// Contact pressure and shear stress (Pa) of every node, from the contact forces on the nodes (N/m) at their current positions: −f·n and f·t

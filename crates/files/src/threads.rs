@@ -4,7 +4,7 @@
 //! of threads. Pieces come from `vtu` and `picture`; how many threads there are says the run.
 
 use rayon::prelude::*;
-use std::sync::OnceLock;
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 /// A number of threads; they are started when they are first needed.
 #[derive(Debug)]
@@ -32,22 +32,50 @@ impl Threads {
         self.count
     }
 
-    /// `work` on each piece, in the order of the pieces; `scratch` makes what a thread needs for its pieces again and again.
-    pub(crate) fn map<T: Sync, S, R: Send>(
+    /// `work` on each piece, in the order of the pieces; each is done in one of the `rooms`, which `make` makes where none is free.
+    pub(crate) fn map<T: Sync, S: Send, R: Send>(
         &self,
         pieces: &[T],
-        scratch: impl Fn() -> S + Sync + Send,
+        rooms: &Rooms<S>,
+        make: impl Fn() -> S + Sync + Send,
         work: impl Fn(&mut S, &T) -> R + Sync + Send,
     ) -> Vec<R> {
         // Where the system gives no threads, the caller does the work.
         let pool = || rayon::ThreadPoolBuilder::new().num_threads(self.count).build().ok();
         match if self.count > 1 && pieces.len() > 1 { self.pool.get_or_init(pool).as_ref() } else { None } {
-            Some(pool) => pool.install(|| pieces.par_iter().with_max_len(1).map_init(scratch, work).collect()),
+            Some(pool) => pool.install(|| {
+                let in_room = |piece| {
+                    let mut room = rooms.free().pop().unwrap_or_else(&make);
+                    let result = work(&mut room, piece);
+                    rooms.free().push(room);
+                    result
+                };
+                pieces.par_iter().with_max_len(1).map(in_room).collect()
+            }),
             None => {
-                let mut scratch = scratch();
-                pieces.iter().map(|piece| work(&mut scratch, piece)).collect()
+                let mut room = rooms.free().pop().unwrap_or_else(make);
+                let results = pieces.iter().map(|piece| work(&mut room, piece)).collect();
+                rooms.free().push(room);
+                results
             }
         }
+    }
+}
+
+/// What threads need for their pieces again and again: buffers, a canvas. As many as worked at the same time; kept from one [`Threads::map`] to the next.
+#[derive(Debug)]
+pub(crate) struct Rooms<S>(Mutex<Vec<S>>);
+
+impl<S> Default for Rooms<S> {
+    fn default() -> Self {
+        Self(Mutex::default())
+    }
+}
+
+impl<S> Rooms<S> {
+    fn free(&self) -> std::sync::MutexGuard<'_, Vec<S>> {
+        // A push or a pop leaves nothing half done.
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -60,7 +88,17 @@ mod tests {
         let pieces: Vec<u64> = (0..1000).collect();
         let squares: Vec<u64> = pieces.iter().map(|k| k * k).collect();
         for count in [0, 1, 2, 7] {
-            assert_eq!(Threads::new(count).map(&pieces, || (), |(), k| k * k), squares);
+            assert_eq!(Threads::new(count).map(&pieces, &Rooms::default(), || (), |(), k| k * k), squares);
         }
+    }
+
+    #[test]
+    fn rooms_are_made_for_threads_and_not_for_pieces() {
+        let (rooms, made) = (Rooms::default(), std::sync::atomic::AtomicUsize::new(0));
+        let threads = Threads::new(3);
+        for _ in 0..20 {
+            threads.map(&[0; 50], &rooms, || made.fetch_add(1, std::sync::atomic::Ordering::Relaxed), |_, _| ());
+        }
+        assert!((1..=3).contains(&made.into_inner()));
     }
 }

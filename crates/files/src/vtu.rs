@@ -7,19 +7,25 @@
 //! [`crate::results`], ParaView and `tests/read_back.py` read them. `obstacles` makes a file of obstacles in the same way.
 //! Source: VTK file formats, "XML formats", `vtkZLibDataCompressor`.
 
-use crate::threads::Threads;
+mod pack;
+
+use crate::threads::{Rooms, Threads};
 use embate_solver::output::{CellKind, Cells, Field, FieldKind, Frame, Location};
-use flate2::Compression;
-use flate2::write::ZlibEncoder;
+use pack::{Array, Data, Packer, Plain, plain, zlib_blocks};
 use std::fmt::Write as _;
-use std::io::Write as _;
-use std::ops::Range;
+use std::io::{self, Seek, SeekFrom, Write};
 use thiserror::Error;
 
-/// Bytes of one block before compression.
-const BLOCK: usize = 1 << 17;
-/// Below so many bytes threads cost more than they bring.
-const SERIAL: usize = 1 << 20;
+/// Arrays are packed together up to so many bytes, and larger ones alone.
+const AT_ONCE: usize = 1 << 23;
+/// Characters of the place of an array in the head, quotes and the room behind them included.
+const PLACE: usize = 18;
+
+/// Attributes of arrays that every file has.
+const POINTS: &str = "type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"";
+const CONNECTIVITY: &str = "type=\"Int64\" Name=\"connectivity\"";
+const OFFSETS: &str = "type=\"Int64\" Name=\"offsets\"";
+const TYPES: &str = "type=\"UInt8\" Name=\"types\"";
 
 /// A frame that does not fit its cells; a fault of the program that made it, never of its user.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
@@ -44,58 +50,9 @@ pub enum VtuError {
     },
 }
 
-/// An array of the file: its XML attributes and its bytes in zlib blocks.
-#[derive(Clone, Debug)]
-struct Array {
-    attributes: String,
-    bytes: Vec<u8>,
-}
-
-/// An array before it is packed.
-struct Plain<'a> {
-    attributes: String,
-    data: Data<'a>,
-}
-
-/// The numbers of an array; they become bytes block by block.
-enum Data<'a> {
-    Bytes(Vec<u8>),
-    /// Whole numbers, written with 64 bits.
-    Indices(&'a [u32]),
-    Numbers(&'a [f64]),
-    /// `x y x y ...`, written as `x y 0 x y 0 ...`.
-    PlaneVectors(&'a [f64]),
-}
-
-impl Data<'_> {
-    /// Bytes in the file before compression.
-    fn len(&self) -> usize {
-        match self {
-            Self::Bytes(bytes) => bytes.len(),
-            Self::Indices(indices) => 8 * indices.len(),
-            Self::Numbers(values) => 8 * values.len(),
-            Self::PlaneVectors(values) => 24 * (values.len() / 2),
-        }
-    }
-
-    /// The bytes in a range of whole numbers, little-endian.
-    fn fill(&self, range: Range<usize>, bytes: &mut Vec<u8>) {
-        bytes.clear();
-        match self {
-            Self::Bytes(all) => bytes.extend_from_slice(&all[range]),
-            Self::Indices(all) => bytes.extend(all[range.start / 8..range.end / 8].iter().flat_map(|&i| i64::from(i).to_le_bytes())),
-            Self::Numbers(values) => bytes.extend(values[range.start / 8..range.end / 8].iter().flat_map(|v| v.to_le_bytes())),
-            Self::PlaneVectors(values) => {
-                let component = |k: usize| if k % 3 == 2 { 0.0 } else { values[2 * (k / 3) + k % 3] };
-                bytes.extend((range.start / 8..range.end / 8).map(component).flat_map(f64::to_le_bytes));
-            }
-        }
-    }
-}
-
 /// Writes the frames of one run.
-#[derive(Clone, Debug)]
 pub struct VtuWriter {
+    packers: Rooms<Packer>,
     cell_count: usize,
     node_last: Option<u32>,
     connectivity: Array,
@@ -108,112 +65,178 @@ impl VtuWriter {
     /// A writer for the frames of `cells`.
     #[must_use]
     pub fn new(cells: &Cells, threads: &Threads) -> Self {
-        let array = |attributes: &str, data| Plain { attributes: attributes.into(), data };
         let types = cells.kinds.iter().map(|&kind| vtk_cell_type(kind)).collect();
         let parts = cells.parts.iter().flat_map(|&p| p.to_le_bytes()).collect();
-        let plain = vec![
-            array("type=\"Int64\" Name=\"connectivity\"", Data::Indices(&cells.nodes)),
-            array("type=\"Int64\" Name=\"offsets\"", Data::Indices(cells.offsets.get(1..).unwrap_or_default())),
-            array("type=\"UInt8\" Name=\"types\"", Data::Bytes(types)),
-            array("type=\"Int32\" Name=\"part\"", Data::Bytes(parts)),
-        ];
-        let mut arrays = zlib_blocks(plain, threads).into_iter();
-        let mut next = || arrays.next().expect("there are as many arrays as were put in");
+        let packers = Rooms::default();
+        let packed = |attributes, data| zlib_blocks(&[&plain(attributes, data)], &packers, threads).next().expect("an array was put in");
         Self {
             cell_count: cells.len(),
             node_last: cells.nodes.iter().copied().max(),
-            connectivity: next(),
-            offsets: next(),
-            types: next(),
-            parts: next(),
+            connectivity: packed(CONNECTIVITY, Data::Indices(&cells.nodes)),
+            offsets: packed(OFFSETS, Data::Indices(cells.offsets.get(1..).unwrap_or_default())),
+            types: packed(TYPES, Data::Bytes(types)),
+            parts: packed("type=\"Int32\" Name=\"part\"", Data::Bytes(parts)),
+            packers,
         }
     }
 
-    /// The bytes of a `.vtu` file: points with z = 0, plane vectors with a third component 0, the fields named in `include`
+    /// A frame made ready for its file: points with z = 0, plane vectors with a third component 0, the fields named in `include`
     /// (empty: all), `part` for each cell, `vtkGhostType` where cells may be gone, and the time as the field datum `TimeValue`, which ParaView shows.
     ///
     /// # Errors
     /// [`VtuError`] when a field or a cell does not fit.
-    pub fn bytes(&self, frame: &Frame<2>, include: &[String], threads: &Threads) -> Result<Vec<u8>, VtuError> {
+    pub fn file<'a>(&'a self, frame: &'a Frame<2>, include: &[String]) -> Result<VtuFile<'a>, VtuError> {
         let nodes = frame.positions.len();
         if let Some(node) = self.node_last.filter(|&node| node as usize >= nodes) {
             return Err(VtuError::NodeMissing { node, nodes });
         }
-        let mut plain = vec![Plain {
-            attributes: "type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"".into(),
-            data: Data::PlaneVectors(frame.positions.as_flattened()),
-        }];
         let included = || frame.fields.iter().filter(|f| include.is_empty() || include.iter().any(|name| name == f.kind.name));
-        for field in included().filter(|field| field.kind.location == Location::Node) {
-            plain.push(field_array(field, nodes)?);
-        }
-        let first_of_cells = plain.len();
-        for field in included().filter(|field| field.kind.location == Location::Cell) {
-            plain.push(field_array(field, self.cell_count)?);
+        let (mut of_nodes, mut of_cells) = (Vec::new(), vec![Content::Packed(&self.parts)]);
+        for field in included() {
+            let (arrays, count) =
+                if field.kind.location == Location::Node { (&mut of_nodes, nodes) } else { (&mut of_cells, self.cell_count) };
+            arrays.push(Content::Plain(field_array(field, count)?));
         }
         // ParaView does not show cells of this type.
         if let Some(alive) = frame.fields.iter().find(|field| field.kind.name == "alive") {
             let types: Vec<u8> = alive.values.iter().map(|&alive| if alive == 0.0 { HIDDEN_CELL } else { 0 }).collect();
-            plain.push(Plain { attributes: "type=\"UInt8\" Name=\"vtkGhostType\"".into(), data: Data::Bytes(types) });
+            of_cells.push(Content::Plain(plain("type=\"UInt8\" Name=\"vtkGhostType\"", Data::Bytes(types))));
         }
-        let arrays = zlib_blocks(plain, threads);
-        let sections = [
-            ("PointData", arrays[1..first_of_cells].iter().collect()),
-            ("CellData", std::iter::once(&self.parts).chain(&arrays[first_of_cells..]).collect()),
-            ("Points", vec![&arrays[0]]),
-            ("Cells", vec![&self.connectivity, &self.offsets, &self.types]),
+        let points = plain(POINTS, Data::PlaneVectors(frame.positions.as_flattened()));
+        let sections = vec![
+            ("PointData", of_nodes),
+            ("CellData", of_cells),
+            ("Points", vec![Content::Plain(points)]),
+            ("Cells", [&self.connectivity, &self.offsets, &self.types].map(Content::Packed).into()),
         ];
-        Ok(grid_file(frame.time, [nodes, self.cell_count], &sections))
+        Ok(VtuFile { time: frame.time, counts: [nodes, self.cell_count], sections, packers: &self.packers })
     }
 }
 
-/// The bytes of a `.vtu` file of obstacles at one time: each line as line cells from point to point, with its index as the cell array `obstacle`.
+/// A file that is ready to be packed and written.
+pub struct VtuFile<'a> {
+    time: f64,
+    /// Points and cells.
+    counts: [usize; 2],
+    sections: Vec<(&'static str, Vec<Content<'a>>)>,
+    packers: &'a Rooms<Packer>,
+}
+
+/// An array of a file: packed before, or still to be.
+enum Content<'a> {
+    Packed(&'a Array),
+    Plain(Plain<'a>),
+}
+
+impl Content<'_> {
+    fn attributes(&self) -> &str {
+        match self {
+            Self::Packed(array) => &array.attributes,
+            Self::Plain(plain) => &plain.attributes,
+        }
+    }
+}
+
+impl VtuFile<'_> {
+    /// Packs the arrays and writes them, some megabytes at a time: a large frame is never there a second time.
+    ///
+    /// The data lie in the reverse order of their tags, which the format allows: meshio 5 replaces the offsets of the tags one by
+    /// one, in the order of the data, and takes the first tag that has the offset it looks for. In reverse order a tag whose offset
+    /// is new, and by chance equal to one still looked for, is never the first.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn write(&self, threads: &Threads, out: &mut (impl Write + Seek)) -> io::Result<()> {
+        let arrays: Vec<&Content<'_>> = self.sections.iter().rev().flat_map(|(_, arrays)| arrays.iter().rev()).collect();
+        let mut places = vec![0; arrays.len()];
+        // Where data lie is known when they are there; the head has as much room for any of them.
+        out.write_all(self.head(&places).as_bytes())?;
+        let (mut next, mut at) = (0, 0);
+        while let Some(&content) = arrays.get(next) {
+            let first = match content {
+                Content::Plain(plain) => plain,
+                Content::Packed(array) => {
+                    places[next] = at;
+                    at += array.write(out)?;
+                    next += 1;
+                    continue;
+                }
+            };
+            let (mut group, mut length) = (vec![first], first.data.len());
+            while let Some(Content::Plain(other)) = arrays.get(next + group.len())
+                && length + other.data.len() <= AT_ONCE
+            {
+                length += other.data.len();
+                group.push(other);
+            }
+            for array in zlib_blocks(&group, self.packers, threads) {
+                places[next] = at;
+                at += array.write(out)?;
+                next += 1;
+            }
+        }
+        out.write_all(b"\n</AppendedData>\n</VTKFile>\n")?;
+        out.seek(SeekFrom::Start(0))?;
+        out.write_all(self.head(&places).as_bytes())
+    }
+
+    /// All before the data; `places` of the arrays in the order of the data, bytes.
+    fn head(&self, places: &[usize]) -> String {
+        let (time, [points, cells]) = (self.time, self.counts);
+        let mut text = format!(
+            "<?xml version=\"1.0\"?>\n\
+             <VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" \
+             compressor=\"vtkZLibDataCompressor\">\n\
+             <UnstructuredGrid>\n\
+             <FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">{time:?}</DataArray>\n</FieldData>\n\
+             <Piece NumberOfPoints=\"{points}\" NumberOfCells=\"{cells}\">\n"
+        );
+        let mut places = places.iter().rev();
+        for (name, arrays) in &self.sections {
+            // Writing to a string can't fail.
+            let _ = writeln!(text, "<{name}>");
+            for array in arrays {
+                let place = format!("\"{}\"", places.next().unwrap_or(&0));
+                let _ = writeln!(text, "<DataArray {} format=\"appended\" offset={place:<PLACE$}/>", array.attributes());
+            }
+            let _ = writeln!(text, "</{name}>");
+        }
+        text.push_str("</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_");
+        text
+    }
+}
+
+/// Writes a `.vtu` file of obstacles at one time: each line as line cells from point to point, with its index as the cell array `obstacle`.
 /// (Poly-lines would be fewer cells, but meshio reads none.)
-pub(crate) fn obstacles(lines: &[Vec<[f64; 2]>], time: f64) -> Vec<u8> {
-    let array = |attributes: &str, bytes: Vec<u8>| Array { attributes: attributes.into(), bytes: packed(bytes) };
+///
+/// # Errors
+/// Those of `out`.
+pub(crate) fn write_obstacles(lines: &[Vec<[f64; 2]>], time: f64, out: &mut (impl Write + Seek)) -> io::Result<()> {
     let positions: Vec<f64> = lines.iter().flatten().flatten().copied().collect();
     let (mut connectivity, mut indices) = (Vec::new(), Vec::new());
     let mut first = 0;
-    for (index, line) in lines.iter().enumerate() {
-        for k in first..(first + line.len() as i64 - 1).max(first) {
+    for (index, line) in (0_i32..).zip(lines) {
+        for k in first..(first + line.len() as u32).saturating_sub(1).max(first) {
             connectivity.extend([k, k + 1]);
-            indices.push(index as i32);
+            indices.push(index);
         }
-        first += line.len() as i64;
+        first += line.len() as u32;
     }
     let count = indices.len();
-    let bytes_of = |numbers: &mut dyn Iterator<Item = i64>| -> Vec<u8> { numbers.flat_map(i64::to_le_bytes).collect() };
-    let indices: Vec<u8> = indices.iter().flat_map(|index| index.to_le_bytes()).collect();
-    let indices = array("type=\"Int32\" Name=\"obstacle\"", indices);
-    let data = Data::PlaneVectors(&positions);
-    let mut in_space = Vec::new();
-    data.fill(0..data.len(), &mut in_space);
-    let points = array("type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"", in_space);
-    let connectivity = array("type=\"Int64\" Name=\"connectivity\"", bytes_of(&mut connectivity.into_iter()));
-    let offsets = array("type=\"Int64\" Name=\"offsets\"", bytes_of(&mut (1..=count as i64).map(|k| 2 * k)));
-    let types = array("type=\"UInt8\" Name=\"types\"", vec![VTK_LINE; count]);
-    let sections =
-        [("PointData", vec![]), ("CellData", vec![&indices]), ("Points", vec![&points]), ("Cells", vec![&connectivity, &offsets, &types])];
-    grid_file(time, [first as usize, count], &sections)
-}
-
-/// A whole file from its arrays; `counts`: points and cells.
-fn grid_file(time: f64, counts: [usize; 2], sections: &[(&str, Vec<&Array>)]) -> Vec<u8> {
-    let (xml, appended) = append_sections(sections);
-    let [points, cells] = counts;
-    let mut file = format!(
-        "<?xml version=\"1.0\"?>\n\
-         <VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" \
-         compressor=\"vtkZLibDataCompressor\">\n\
-         <UnstructuredGrid>\n\
-         <FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">{time:?}</DataArray>\n</FieldData>\n\
-         <Piece NumberOfPoints=\"{points}\" NumberOfCells=\"{cells}\">\n{xml}</Piece>\n</UnstructuredGrid>\n\
-         <AppendedData encoding=\"raw\">\n_"
-    )
-    .into_bytes();
-    file.extend_from_slice(&appended);
-    file.extend_from_slice(b"\n</AppendedData>\n</VTKFile>\n");
-    file
+    let indices = Data::Bytes(indices.iter().flat_map(|index| index.to_le_bytes()).collect());
+    let offsets: Vec<u32> = (1..=count as u32).map(|k| 2 * k).collect();
+    let array = |attributes: &str, data| vec![Content::Plain(plain(attributes, data))];
+    let mut cells = array(CONNECTIVITY, Data::Indices(&connectivity));
+    cells.extend(array(OFFSETS, Data::Indices(&offsets)));
+    cells.extend(array(TYPES, Data::Bytes(vec![VTK_LINE; count])));
+    let sections = vec![
+        ("PointData", vec![]),
+        ("CellData", array("type=\"Int32\" Name=\"obstacle\"", indices)),
+        ("Points", array(POINTS, Data::PlaneVectors(&positions))),
+        ("Cells", cells),
+    ];
+    let packers = Rooms::default();
+    VtuFile { time, counts: [first as usize, count], sections, packers: &packers }.write(&Threads::one(), out)
 }
 
 /// The text of a `.pvd` file: each frame's time (s) and its path relative to the collection.
@@ -227,26 +250,6 @@ pub fn collection(frames: &[(f64, String)]) -> String {
     }
     text.push_str("</Collection>\n</VTKFile>\n");
     text
-}
-
-/// The XML of all sections and the binary data to which its offsets point.
-///
-/// The data lie in the reverse order of their tags, which the format allows: meshio 5 replaces the offsets of the tags one by
-/// one, in the order of the data, and takes the first tag that has the offset it looks for. In reverse order a tag whose offset
-/// is new, and by chance equal to one still looked for, is never the first.
-fn append_sections(sections: &[(&str, Vec<&Array>)]) -> (String, Vec<u8>) {
-    let mut tags = Vec::new();
-    let mut appended = Vec::new();
-    for (name, arrays) in sections.iter().rev() {
-        tags.push(format!("</{name}>\n"));
-        for array in arrays.iter().rev() {
-            tags.push(format!("<DataArray {} format=\"appended\" offset=\"{}\"/>\n", array.attributes, appended.len()));
-            appended.extend_from_slice(&array.bytes);
-        }
-        tags.push(format!("<{name}>\n"));
-    }
-    tags.reverse();
-    (tags.concat(), appended)
 }
 
 /// VTK's number of a line of two points.
@@ -293,46 +296,12 @@ fn field_attributes(kind: &FieldKind) -> String {
     attributes
 }
 
-/// An array by itself, packed by the caller's thread.
-fn packed(bytes: Vec<u8>) -> Vec<u8> {
-    let plain = Plain { attributes: String::new(), data: Data::Bytes(bytes) };
-    zlib_blocks(vec![plain], &Threads::one()).swap_remove(0).bytes
-}
-
-/// Arrays as VTK's compressed arrays: number of blocks, block size, size of the last block when it is shorter (else 0),
-/// the compressed size of each block (all 64 bits), then the zlib streams. Fast compression: what slower ones save is little, because digits are noise.
-fn zlib_blocks(arrays: Vec<Plain<'_>>, threads: &Threads) -> Vec<Array> {
-    let blocks_of = |data: &Data<'_>| data.len().div_ceil(BLOCK);
-    let mut pieces: Vec<(&Data<'_>, Range<usize>)> = Vec::new();
-    for data in arrays.iter().map(|array| &array.data) {
-        pieces.extend((0..blocks_of(data)).map(|k| (data, k * BLOCK..((k + 1) * BLOCK).min(data.len()))));
-    }
-    let work = |(encoder, bytes): &mut (ZlibEncoder<Vec<u8>>, Vec<u8>), (data, range): &(&Data<'_>, Range<usize>)| {
-        data.fill(range.clone(), bytes);
-        let mut stream = encoder.write_all(bytes).and_then(|()| encoder.reset(Vec::new())).expect("a vector takes every byte");
-        // Streams of a whole frame wait for each other.
-        stream.shrink_to_fit();
-        stream
-    };
-    let scratch = || (ZlibEncoder::new(Vec::new(), Compression::fast()), Vec::with_capacity(BLOCK));
-    let is_small = arrays.iter().map(|array| array.data.len()).sum::<usize>() < SERIAL;
-    let streams = if is_small { Threads::one().map(&pieces, scratch, work) } else { threads.map(&pieces, scratch, work) };
-    let mut streams = streams.into_iter();
-    let array = |Plain { attributes, data }: Plain<'_>| {
-        let own: Vec<Vec<u8>> = streams.by_ref().take(blocks_of(&data)).collect();
-        let mut bytes = Vec::with_capacity(8 * (3 + own.len()) + own.iter().map(Vec::len).sum::<usize>());
-        let head = [own.len(), BLOCK, data.len() % BLOCK].into_iter().chain(own.iter().map(Vec::len));
-        bytes.extend(head.flat_map(|number| (number as u64).to_le_bytes()));
-        own.iter().for_each(|stream| bytes.extend_from_slice(stream));
-        Array { attributes, bytes }
-    };
-    arrays.into_iter().map(array).collect()
-}
-
 #[cfg(test)]
 mod tests {
+    use super::pack::BLOCK;
     use super::*;
     use embate_solver::output::field_kind;
+    use std::io::Cursor;
     use std::io::Read;
 
     /// A quadrilateral and a triangle on its right.
@@ -385,9 +354,18 @@ mod tests {
         bytes.chunks_exact(8).map(|b| f64::from_le_bytes(b.try_into().unwrap())).collect()
     }
 
+    /// What is written of a frame.
+    fn bytes(cells: &Cells, frame: &Frame<2>, include: &[String], threads: usize) -> Result<Vec<u8>, VtuError> {
+        let threads = Threads::new(threads);
+        let writer = VtuWriter::new(cells, &threads);
+        let mut file = Cursor::new(Vec::new());
+        writer.file(frame, include)?.write(&threads, &mut file).unwrap();
+        Ok(file.into_inner())
+    }
+
     #[test]
     fn arrays_come_back_as_they_went_in() {
-        let file = VtuWriter::new(&cells(), &Threads::one()).bytes(&frame(), &[], &Threads::one()).unwrap();
+        let file = bytes(&cells(), &frame(), &[], 1).unwrap();
         let points = floats(&array(&file, "Points"));
         assert_eq!(points, [0., 0., 0., 1., 0., 0., 1., 1., 0., 0., 1., 0., 2., 0.5, 0.]);
         assert_eq!(floats(&array(&file, "velocity"))[..6], [0., 1., 0., 2., 3., 0.]);
@@ -402,7 +380,7 @@ mod tests {
 
     #[test]
     fn stress_components_have_their_names() {
-        let file = VtuWriter::new(&cells(), &Threads::one()).bytes(&frame(), &[], &Threads::one()).unwrap();
+        let file = bytes(&cells(), &frame(), &[], 1).unwrap();
         let text = String::from_utf8_lossy(&file);
         assert!(text.contains(
             "Name=\"stress\" NumberOfComponents=\"4\" ComponentName0=\"xx\" ComponentName1=\"yy\" ComponentName2=\"zz\" ComponentName3=\"xy\""
@@ -413,15 +391,15 @@ mod tests {
 
     #[test]
     fn only_the_wanted_fields_are_written() {
-        let file = VtuWriter::new(&cells(), &Threads::one()).bytes(&frame(), &["stress".to_string()], &Threads::one()).unwrap();
+        let file = bytes(&cells(), &frame(), &["stress".to_string()], 1).unwrap();
         let text = String::from_utf8_lossy(&file);
         assert!(text.contains("\"stress\"") && text.contains("\"part\"") && !text.contains("\"velocity\""));
     }
 
     #[test]
     fn equal_frames_give_equal_bytes() {
-        let once = VtuWriter::new(&cells(), &Threads::one()).bytes(&frame(), &[], &Threads::one()).unwrap();
-        assert_eq!(once, VtuWriter::new(&cells(), &Threads::one()).bytes(&frame(), &[], &Threads::one()).unwrap());
+        let once = bytes(&cells(), &frame(), &[], 1).unwrap();
+        assert_eq!(once, bytes(&cells(), &frame(), &[], 1).unwrap());
     }
 
     #[test]
@@ -434,10 +412,40 @@ mod tests {
         for nodes in [BLOCK / 24, BLOCK / 8, 40_000] {
             let positions: Vec<[f64; 2]> = (0..nodes).map(|_| [noise(), noise()]).collect();
             let frame = Frame { time: 0.0, step: 0, positions, fields: vec![], outlines: vec![] };
-            let file = VtuWriter::new(&Cells::default(), &Threads::one()).bytes(&frame, &[], &Threads::one()).unwrap();
+            let file = bytes(&Cells::default(), &frame, &[], 1).unwrap();
             let points = floats(&array(&file, "Points"));
             assert!(points.chunks(3).map(|p| [p[0], p[1]]).eq(frame.positions.iter().copied()));
         }
+    }
+
+    #[test]
+    fn large_and_small_arrays_in_one_file_come_back_with_their_bytes() {
+        // Some arrays are packed together, others are too large for that.
+        let count = AT_ONCE / 8 + 1000;
+        let numbers = |from: usize, width: usize| -> Vec<f64> { (0..width * count).map(|k| ((k + from) % 1013) as f64).collect() };
+        let names = ["von_mises", "stress", "pressure", "plastic_strain"];
+        let fields: Vec<Field> = names
+            .iter()
+            .enumerate()
+            .map(|(k, name)| {
+                let kind = field_kind(name).unwrap();
+                Field { kind, values: numbers(k, kind.width()) }
+            })
+            .collect();
+        let cells = Cells {
+            nodes: [0, 1, 2].repeat(count),
+            offsets: (0..=count as u32).map(|k| 3 * k).collect(),
+            kinds: vec![CellKind::Triangle; count],
+            parts: vec![0; count],
+            part_names: vec!["a".into()],
+        };
+        let frame = Frame { time: 0.0, step: 0, positions: vec![[1.0, 2.0]; 3], fields, outlines: vec![] };
+        let file = bytes(&cells, &frame, &[], 2).unwrap();
+        for field in &frame.fields {
+            assert!(floats(&array(&file, field.kind.name)) == field.values, "{}", field.kind.name);
+        }
+        assert_eq!(array(&file, "types"), vec![5; count]);
+        assert_eq!(floats(&array(&file, "Points")), [1.0, 2.0, 0.0].repeat(3));
     }
 
     #[test]
@@ -445,7 +453,7 @@ mod tests {
         let positions: Vec<[f64; 2]> = (0..60_000).map(f64::from).map(|k| [k.sin(), (0.01 * k).cos()]).collect();
         let velocity = Field { kind: field_kind("velocity").unwrap(), values: positions.as_flattened().to_vec() };
         let frame = Frame { time: 0.0, step: 0, positions, fields: vec![velocity], outlines: vec![] };
-        let file = |threads| VtuWriter::new(&Cells::default(), &Threads::new(threads)).bytes(&frame, &[], &Threads::new(threads)).unwrap();
+        let file = |threads| bytes(&Cells::default(), &frame, &[], threads).unwrap();
         let alone = file(1);
         assert!(floats(&array(&alone, "velocity")).chunks(3).zip(&frame.positions).all(|(v, x)| v == [x[0], x[1], 0.0]));
         assert!([2, 3, 8].into_iter().all(|threads| file(threads) == alone));
@@ -454,7 +462,9 @@ mod tests {
     #[test]
     fn obstacles_are_lines_with_their_index() {
         let lines = [vec![[0.0, 0.0], [1.0, 0.0], [1.0, 2.0]], vec![[5.0, 5.0]], vec![[3.0, 0.0], [4.0, 0.0]]];
-        let file = obstacles(&lines, 0.25);
+        let mut file = Cursor::new(Vec::new());
+        write_obstacles(&lines, 0.25, &mut file).unwrap();
+        let file = file.into_inner();
         assert!(String::from_utf8_lossy(&file).contains("NumberOfPoints=\"6\" NumberOfCells=\"3\""));
         assert_eq!(floats(&array(&file, "Points"))[6..12], [1.0, 2.0, 0.0, 5.0, 5.0, 0.0]);
         let numbers = |name: &str| -> Vec<u8> { array(&file, name).chunks_exact(8).map(|b| b[0]).collect() };
@@ -466,7 +476,7 @@ mod tests {
     #[test]
     fn no_cells_are_no_problem() {
         let frame = Frame { time: 0.0, step: 0, positions: vec![], fields: vec![], outlines: vec![] };
-        let file = VtuWriter::new(&Cells::default(), &Threads::one()).bytes(&frame, &[], &Threads::one()).unwrap();
+        let file = bytes(&Cells::default(), &frame, &[], 1).unwrap();
         assert!(array(&file, "connectivity").is_empty());
     }
 
@@ -474,14 +484,11 @@ mod tests {
     fn a_field_of_the_wrong_length_is_an_error() {
         let mut frame = frame();
         frame.fields[1].values.pop();
-        let error = VtuWriter::new(&cells(), &Threads::one()).bytes(&frame, &[], &Threads::one()).unwrap_err();
+        let error = bytes(&cells(), &frame, &[], 1).unwrap_err();
         assert_eq!(error, VtuError::FieldLength { name: "stress", found: 7, expected: 8 });
         frame.fields.clear();
         frame.positions.truncate(4);
-        assert_eq!(
-            VtuWriter::new(&cells(), &Threads::one()).bytes(&frame, &[], &Threads::one()).unwrap_err(),
-            VtuError::NodeMissing { node: 4, nodes: 4 }
-        );
+        assert_eq!(bytes(&cells(), &frame, &[], 1).unwrap_err(), VtuError::NodeMissing { node: 4, nodes: 4 });
     }
 
     #[test]

@@ -10,7 +10,7 @@ use embate_solver::contact::projection::node_segment::Target;
 use embate_solver::contact::search::registry;
 use embate_solver::contact::tracker::Tracker;
 use embate_solver::mesh::Mesh;
-use embate_solver::model::{Contact, Model, Partners};
+use embate_solver::model::{Contact, Friction, Interface, Model, Partners};
 use embate_solver::simulation::Options;
 use std::hint::black_box;
 use std::time::Instant;
@@ -23,10 +23,20 @@ fn main() {
     let elements = numbers.first().copied().unwrap_or(1_000_000);
     let threads = numbers.get(1).copied().unwrap_or(1);
     let all = Contact { name: "all".into(), partners: Partners::Bodies(Vec::new()), ..Contact::default() };
-    for (name, speed) in [("at rest", 0.0), ("in motion", 2.0)] {
+    for (name, speed, friction) in [("at rest", 0.0, 0.0), ("in motion", 2.0, 0.0), ("in motion with friction", 2.0, 0.3)] {
         let plain = strips(elements, speed);
         let mut touching = plain.clone();
-        touching.contacts.push(all.clone());
+        let interface = Interface {
+            friction: (friction > 0.0).then_some(Friction {
+                coefficient: friction,
+                dynamic: None,
+                decay: 0.0,
+                viscosity: 0.0,
+                limit: f64::INFINITY,
+            }),
+            ..Interface::default()
+        };
+        touching.contacts.push(Contact { interface, ..all.clone() });
         let options = Options { threads, simd: None };
         let ([without, with], [_, simulation]) =
             step_times([&plain, &touching], &options, 24, f64::INFINITY).expect("the models are sound");
@@ -54,7 +64,7 @@ fn track_alone(model: &Model, step: f64) {
     let (segments, positions) = (target.surface.segments.len(), &mesh.positions);
     let make = || Tracker::new(vec![target.clone()], &[(0, 0)], (registry::<2>()[0].make)(), positions).with_bodies(&mesh.bodies(), &[]);
     let mut tracker = make();
-    let still = Sweep { old: positions, new: positions };
+    let still = Sweep::between(positions, positions);
     let time = |work: &mut dyn FnMut()| {
         (0..7).fold(f64::INFINITY, |shortest: f64, _| {
             let start = Instant::now();
@@ -72,7 +82,7 @@ fn track_alone(model: &Model, step: f64) {
     let searched = time(&mut || {
         turn = !turn;
         let new = if turn { &far } else { positions };
-        black_box(tracker.track(Sweep { old: new, new }, 0.0).len());
+        black_box(tracker.track(Sweep::between(new, new), 0.0).len());
     });
     let touches = tracker.track(still, SIZE).to_vec();
     let swept = time(&mut || {

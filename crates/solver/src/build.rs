@@ -13,9 +13,12 @@ mod start;
 
 pub(crate) use again::{Lent, Origin};
 use fans::{Fans, Under};
+pub(crate) use mass::Shares;
+use mass::part_masses;
 
 use crate::assembly::Assembly;
 use crate::block::{Block, BlockInput, Initial, Motion, Report, Wrong, make};
+use crate::contact::forces::ContactForces;
 use crate::contact::formulation::{self, Setup, Side};
 use crate::contact::law::{self, Law};
 use crate::contact::mirror::Mirrored;
@@ -102,24 +105,27 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<(System, Ve
     builder.point_masses(&mut part_mass_true);
     let mass_added = builder.scale_mass(&mut blocks, level);
     let is_scaled = model.run.mass_scaling.is_some() || model.parts.iter().any(|part| part.mass_scale != 1.0);
-    let part_mass = if is_scaled {
+    let part_mass_scaled = is_scaled.then(|| {
         let mut part_mass = part_masses(&builder.mesh, &blocks);
         builder.point_masses(&mut part_mass);
         part_mass
-    } else {
-        part_mass_true.clone()
-    };
+    });
+    let part_mass = part_mass_scaled.as_ref().unwrap_or(&part_mass_true);
     for &(node, share) in part_mass.iter().flatten() {
         builder.mass[node as usize] += share;
     }
     // What is added to resist motion weighs nothing.
     let body_forces = BodyForces::new(model, &builder.mesh, &builder.curves, &builder.mass, &part_mass_true);
-    let mut damping = Damping::new(model, &builder.mesh, &builder.mass, &part_mass);
+    let mut damping = Damping::new(model, &builder.mesh, &builder.mass, part_mass);
     if model.run.relaxation.is_some() {
         damping.relax(0.0);
     }
-    let mut velocities = builder.velocities(&part_mass);
-    builder.rigid_parts(&part_mass);
+    let mut velocities = builder.velocities(part_mass);
+    builder.rigid_parts(part_mass);
+    let shares = builder.shares(&blocks, part_mass);
+    // From here on masses are those of nodes, and of parts as a whole: each list of them is as large as all positions.
+    blocks.iter_mut().for_each(|block| block.release_corner_masses());
+    drop((part_mass_scaled, part_mass_true));
     builder.measure_stiffness(&mut blocks, level);
     let springs = builder.springs();
     let (forces, boundary) = builder.loads();
@@ -143,10 +149,12 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<(System, Ve
     let nodes = positions.len();
     let assembly = Assembly::new(nodes, &blocks.iter().map(|block| block.slots()).collect::<Vec<_>>());
     velocities.resize(nodes, [0.0; 2]);
-    // A symmetry line is no surface: pressures count the length on the model's side.
+    // Made only to be told of elements that overlap where nothing touches. A symmetry line is no surface: pressures count the length on the model's side.
     let outside =
         mesh.outside_without(&[], |segment| contacts.is_empty() || constraints.is_mirror(segment)).map_err(|fault| vec![fault])?;
-    let traces = Traces::new(outside, &mesh.positions, Depth::of(model));
+    // Without contacts there is nothing to remember of any node.
+    let touched = if contacts.is_empty() { 0 } else { nodes };
+    let traces = Traces::new(outside, &mesh.positions[..touched.min(mesh.positions.len())], Depth::of(model));
     let run = &model.run;
     let (step, largest) = (run.step_limit.unwrap_or(0.0), run.time_step.unwrap_or(f64::INFINITY));
     let limits = Limits { end: run.end, safety: run.safety, energy: run.energy_limit, step, largest };
@@ -154,12 +162,13 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<(System, Ve
         slots: vec![[0.0; 2]; assembly.count],
         rigid: mesh.groups.iter().map(|group| model.parts[group.part].rigid.is_some()).chain(has_springs.then_some(false)).collect(),
         has_springs,
+        shares,
         positions_old: positions.clone(),
         positions,
         velocities_old: velocities.clone(),
         velocities,
-        contact_forces: vec![[0.0; 2]; nodes],
-        springs: Springs::new(nodes, bodies.len()),
+        contact_forces: ContactForces::new(touched),
+        springs: Springs::new(touched, bodies.len(), terms),
         reports: vec![Report::NOTHING; blocks.len()],
         sums: vec![Sums::default(); nodes.div_ceil(CHUNK)],
         groups: Groups::default(),
@@ -183,7 +192,6 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<(System, Ve
         assembly,
         mass,
         contacts,
-        terms,
         bodies,
         body_parts,
         curves,
@@ -222,33 +230,6 @@ fn with_axis(model: &Model, mesh: &Mesh<2>) -> Result<Option<Model>, Vec<Fault>>
     let mut model = model.clone();
     model.symmetries.push(axis);
     Ok(Some(model))
-}
-
-/// Mass of each part on each of its nodes, kg/m, nodes ascending.
-pub(crate) fn part_masses(mesh: &Mesh<2>, blocks: &[Box<dyn Block<2>>]) -> Vec<Vec<(u32, f64)>> {
-    let (mut sums, mut is_own) = (vec![0.0; mesh.positions.len()], vec![false; mesh.positions.len()]);
-    let of = |part: usize| {
-        let own = &mesh.parts[part].nodes;
-        own.iter().for_each(|&node| (sums[node as usize], is_own[node as usize]) = (0.0, true));
-        for (group, block) in mesh.groups.iter().zip(blocks).filter(|(group, _)| group.part == part) {
-            for (element, cell) in group.cells().enumerate() {
-                for (corner, &node) in cell.iter().enumerate() {
-                    sums[node as usize] += block.corner_mass(element, corner);
-                }
-            }
-        }
-        let mut masses: Vec<(u32, f64)> = Vec::with_capacity(own.len());
-        if own.len() < sums.len() / 16 {
-            // Few nodes among many: only they are looked at.
-            masses.extend(own.iter().map(|&node| (node, sums[node as usize])));
-            masses.sort_unstable_by_key(|&(node, _)| node);
-        } else {
-            masses.extend((0..).zip(&sums).zip(&is_own).filter(|(_, is_own)| **is_own).map(|((node, &sum), _)| (node, sum)));
-        }
-        own.iter().for_each(|&node| is_own[node as usize] = false);
-        masses
-    };
-    (0..mesh.parts.len()).map(of).collect()
 }
 
 struct Builder<'a> {

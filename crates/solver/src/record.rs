@@ -49,7 +49,7 @@ impl Recorded {
     pub(crate) fn new(model: &Model, system: &System) -> Result<Self, Vec<Fault>> {
         let has_failure = system.erosion.is_some();
         let has_contact = !system.contacts.is_empty();
-        let has_friction = system.terms.iter().any(|terms| matches!(terms.tangential, Tangential::Friction(_)));
+        let has_friction = system.springs.terms.iter().any(|terms| matches!(terms.tangential, Tangential::Friction(_)));
         let wanted = |kind: &&FieldKind| {
             let include = &model.output.include;
             let named = include.iter().any(|name| name == kind.name) || model.output.picture_field == kind.name;
@@ -119,11 +119,13 @@ impl Recorded {
             stores.total() - external,
         ]);
         let mut of_parts = vec![[0.0; 3]; system.mesh.parts.len()];
-        for ((group, block), report) in system.mesh.groups.iter().zip(&system.blocks).zip(&system.reports) {
-            let n = group.nodes_per_element;
-            let corner = |(k, &node): (usize, &u32)| block.corner_mass(k / n, k % n) * system.specific_kinetic(node as usize);
-            let energies = [group.connectivity.iter().enumerate().map(corner).sum(), report.stored + report.dissipated, report.dissipated];
-            of_parts[group.part].iter_mut().zip(energies).for_each(|(sum, energy): (&mut f64, f64)| *sum += energy);
+        for (group, report) in system.mesh.groups.iter().zip(&system.reports) {
+            let energies = [report.stored + report.dissipated, report.dissipated];
+            of_parts[group.part][1..].iter_mut().zip(energies).for_each(|(sum, energy)| *sum += energy);
+        }
+        for (index, (part, energies)) in system.mesh.parts.iter().zip(&mut of_parts).enumerate() {
+            let of_node = |&node: &u32| system.shares.of(index, node, system.mass[node as usize]) * system.specific_kinetic(node as usize);
+            energies[0] = part.nodes.iter().map(of_node).sum();
         }
         row.extend(of_parts.iter().flatten());
         for contact in &system.contacts {
@@ -196,28 +198,28 @@ struct OnSurface {
 /// Values of one of [`FIELDS`] at the nodes, in the user's order.
 fn fill_nodes(name: &str, system: &System, surface: &OnSurface, values: &mut Vec<f64>) {
     let traces = &system.traces;
-    let tractions = || surface.tractions.get_or_init(|| traces.tractions(&system.contact_forces, &system.positions));
+    let tractions = || surface.tractions.get_or_init(|| traces.tractions(system.contact_forces.values(), &system.positions));
     let states = || surface.states.get_or_init(|| traces.states(&system.springs));
     let moved = |node: usize| [0, 1].map(|d| system.positions[node][d] - system.mesh.positions[node][d]);
     match name {
         "displacement" => by_node(system, values, moved),
         "velocity" => by_node(system, values, |node| velocity(system, node)),
-        "contact_force" => by_node(system, values, |node| system.contact_forces[node]),
+        "contact_force" => by_node(system, values, |node| system.contact_forces.values().get(node).copied().unwrap_or_default()),
         "contact_pressure" => {
             let tractions = tractions();
-            by_node(system, values, |node| [tractions[node][0]]);
+            by_node(system, values, |node| [tractions.get(node).map_or(0.0, |it| it[0])]);
         }
         "contact_shear" => {
             let tractions = tractions();
-            by_node(system, values, |node| [tractions[node][1]]);
+            by_node(system, values, |node| [tractions.get(node).map_or(0.0, |it| it[1])]);
         }
         "contact_gap" => {
             let states = states();
-            by_node(system, values, |node| [states[node].gap]);
+            by_node(system, values, |node| [states.get(node).map_or(f64::NAN, |it| it.gap)]);
         }
         "contact_status" => {
             let states = states();
-            by_node(system, values, |node| [states[node].status]);
+            by_node(system, values, |node| [states.get(node).map_or(0.0, |it| it.status)]);
         }
         "contact_slip" => by_node(system, values, |node| [traces.slip(node)]),
         "friction_heat" => by_node(system, values, |node| [traces.heat(node)]),
@@ -349,7 +351,11 @@ pub(crate) fn state_hash(system: &System) -> String {
     let mut hash = 0xcbf2_9ce4_8422_2325u64;
     let moving = system.bodies.iter().filter(|body| !body.of_elements && !body.is_fixed());
     let states = moving.flat_map(|body| [body.centre[0], body.centre[1], body.angle].into_iter().chain(body.velocity));
-    for value in system.positions.iter().chain(&system.velocities).flatten().copied().chain(states) {
+    // Nodes in the order of the curve, then those of obstacles: as they are numbered only for speed, that is no matter here.
+    let nodes = || system.mesh.along_curve().chain(system.mesh.user_nodes.len()..system.positions.len());
+    let positions = nodes().flat_map(|node| system.positions[node]);
+    let velocities = nodes().flat_map(|node| system.velocities[node]);
+    for value in positions.chain(velocities).chain(states) {
         for byte in value.to_bits().to_le_bytes() {
             hash = (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
         }

@@ -185,7 +185,7 @@ impl Body {
     /// v^{n+½} with the contact forces, and its part in the books.
     fn accelerate(&mut self, mean_step: f64, contact_forces: &[Vector], positions: &[Vector], sums: &mut Sums) {
         for member in &self.members {
-            let force = contact_forces[member.node as usize];
+            let force = contact_forces.get(member.node as usize).copied().unwrap_or_default();
             if force != [0.0; 2] {
                 let moment = self.moment(positions[member.node as usize], force);
                 Self::add_force(&mut self.force, force, moment);

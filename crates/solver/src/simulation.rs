@@ -384,7 +384,7 @@ impl Simulation {
                 name: part.name.clone(),
                 elements: elements().count(),
                 nodes: part.nodes.len(),
-                mass: elements().map(|(block, element)| block.mass(element)).sum(),
+                mass: system.shares.whole[index],
                 stable_time_step: elements().map(|(block, element)| block.time_step_squared(element)).fold(f64::INFINITY, f64::min).sqrt(),
             }
         };

@@ -11,8 +11,10 @@ pub(crate) mod relaxation;
 use crate::assembly::Assembly;
 use crate::block::spring::together;
 use crate::block::{Block, Motion, Report};
+use crate::build::Shares;
+use crate::contact::forces::ContactForces;
 use crate::contact::obstacle::OutlineShape;
-use crate::contact::springs::{Lost, Springs, Terms, Update};
+use crate::contact::springs::{Lost, Springs, Update};
 use crate::contact::traces::Traces;
 use crate::contact::{Contact, Scene, Sweep};
 use crate::energy::{Entry, Ledger, Stores, Sums, Works};
@@ -80,8 +82,6 @@ pub struct System {
     pub(crate) mass: Vec<f64>,
     /// Contacts, then obstacles.
     pub(crate) contacts: Vec<Contact>,
-    /// What acts in springs, by the numbers that contacts and ties have of it.
-    pub(crate) terms: Vec<Terms>,
     pub(crate) bodies: Bodies,
     /// Rigid parts: the part and its body.
     pub(crate) body_parts: Vec<(usize, usize)>,
@@ -89,6 +89,8 @@ pub struct System {
     pub(crate) rigid: Vec<bool>,
     /// Whether the last block is one of springs, beyond those of the mesh.
     pub(crate) has_springs: bool,
+    /// What parts weigh.
+    pub(crate) shares: Shares,
     /// Shapes of the obstacles, for pictures.
     pub(crate) outlines: Vec<OutlineShape>,
     /// What contacts leave on the surfaces.
@@ -126,7 +128,7 @@ pub struct System {
     /// v^{n-1/2}.
     pub(crate) velocities_old: Vec<Vector>,
     /// Contact and obstacle forces at x^n, N/m.
-    pub(crate) contact_forces: Vec<Vector>,
+    pub(crate) contact_forces: ContactForces,
     /// What the elements pull with, by the slots of the blocks, N/m.
     pub(crate) slots: Vec<Vector>,
     pub(crate) springs: Springs,
@@ -158,7 +160,7 @@ macro_rules! nodes {
             dt: 0.5 * ($time_step + $system.time_step_old),
             assembly: &$system.assembly,
             slots: &$system.slots,
-            contact_forces: if $system.contacts.is_empty() { &[] } else { &$system.contact_forces },
+            contact_forces: if $system.contacts.is_empty() { None } else { Some(&$system.contact_forces) },
             loads: $system.forces.now(),
             gravity: $system.body_forces.accelerations(),
             mass: &$system.mass,
@@ -333,8 +335,8 @@ impl System {
             return;
         }
         self.springs.clear();
-        let sweep = Sweep { old: &self.positions_old, new: &self.positions };
-        let scene = Scene { sweep, bodies: &self.bodies, time: self.time, travel: self.travel };
+        let sweep = Sweep { old: &self.positions_old, new: &self.positions, travel: self.travel };
+        let scene = Scene { sweep, bodies: &self.bodies, time: self.time };
         for contact in &mut self.contacts {
             contact.detect(&scene, &mut self.springs);
             self.penetration_max = self.penetration_max.max(contact.penetration);
@@ -342,8 +344,8 @@ impl System {
         let nodes = nodes!(self, velocities, time_step);
         let update =
             Update { time_steps: [self.time_step_old, time_step], positions: &self.positions, nodes: &nodes, bodies: &self.bodies };
-        self.springs.solve(&update, &self.terms);
-        self.contact_forces.fill([0.0; 2]);
+        self.springs.solve(&update);
+        self.contact_forces.clear();
         for contact in &mut self.contacts {
             contact.collect(&self.springs, &mut self.contact_forces, &mut self.bodies, &mut self.traces, time_step);
         }
@@ -360,7 +362,7 @@ impl System {
         self.team.each(parts, |index, _, (velocities, next, sums)| sums.fill(nodes.update(index * CHUNK, velocities, next)));
         let groups = nodes.update_groups(&mut self.velocities);
         let steps = [nodes.dt, time_step];
-        self.of_bodies = self.bodies.accelerate(steps, &self.contact_forces, &self.positions, &mut self.velocities);
+        self.of_bodies = self.bodies.accelerate(steps, self.contact_forces.values(), &self.positions, &mut self.velocities);
         self.of_bodies += &groups;
         self.time_step = time_step;
         self.speed = self.largest_speed();

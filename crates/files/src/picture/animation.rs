@@ -5,7 +5,7 @@ use super::body::Look;
 use super::colour::{BORDER, GRID, INK, MAP, NO_VALUE, Rgb, SOLID, TEXT, TEXT_FAINT, WHITE, mix};
 use super::raster::Canvas;
 use super::{PictureError, lzw};
-use crate::threads::Threads;
+use crate::threads::{Rooms, Threads};
 use gif::{DisposalMethod, Encoder, EncodingError, Frame, Repeat};
 use std::borrow::Cow;
 use std::io::Write;
@@ -50,15 +50,20 @@ impl Palette {
         self.colours.as_flattened().to_vec()
     }
 
+    #[inline]
     fn index(&mut self, colour: Rgb) -> u8 {
+        let known = self.nearest[key(colour)];
+        if known == UNKNOWN { self.look_up(colour) } else { known }
+    }
+
+    #[cold]
+    fn look_up(&mut self, colour: Rgb) -> u8 {
         let key = key(colour);
-        if self.nearest[key] == UNKNOWN {
-            // The middle of the colours with these bits: which of them is asked for first must not matter.
-            let colour = colour.map(|c| c & !3 | 2);
-            let distance = |other: &Rgb| -> i32 { (0..3).map(|k| (i32::from(other[k]) - i32::from(colour[k])).pow(2)).sum() };
-            let best = self.colours.iter().enumerate().min_by_key(|(_, other)| distance(other));
-            self.nearest[key] = best.map_or(0, |(index, _)| index as u8);
-        }
+        // The middle of the colours with these bits: which of them is asked for first must not matter.
+        let colour = colour.map(|c| c & !3 | 2);
+        let distance = |other: &Rgb| -> i32 { (0..3).map(|k| (i32::from(other[k]) - i32::from(colour[k])).pow(2)).sum() };
+        let best = self.colours.iter().enumerate().min_by_key(|(_, other)| distance(other));
+        self.nearest[key] = best.map_or(0, |(index, _)| index as u8);
         self.nearest[key]
     }
 }
@@ -102,6 +107,7 @@ pub(super) struct Animation<'a> {
     height: usize,
     /// The frame before; empty before the first.
     before: Indices,
+    tables: Rooms<lzw::Table>,
     path: &'a Path,
 }
 
@@ -111,7 +117,7 @@ impl<'a> Animation<'a> {
         let (width, height) = (canvas.width, canvas.height);
         let mut encoder = Encoder::new(out, width as u16, height as u16, &palette.bytes()).map_err(|e| refused(path, e))?;
         encoder.set_repeat(Repeat::Infinite).map_err(|e| refused(path, e))?;
-        Ok(Self { encoder, width, height, before: Vec::new(), path })
+        Ok(Self { encoder, width, height, before: Vec::new(), tables: Rooms::default(), path })
     }
 
     /// Adds frames that follow each other, each with the hundredths of a second for which it stays.
@@ -119,7 +125,8 @@ impl<'a> Animation<'a> {
         let all: Vec<Indices> = std::iter::once(std::mem::take(&mut self.before)).chain(pictures).collect();
         let pieces: Vec<_> = all.windows(2).zip(delays).collect();
         let size = [self.width, self.height];
-        let packed = threads.map(&pieces, lzw::Table::default, |table, (pair, delay)| packed(size, &pair[0], &pair[1], **delay, table));
+        let packed =
+            threads.map(&pieces, &self.tables, Default::default, |table, (pair, delay)| packed(size, &pair[0], &pair[1], **delay, table));
         for frame in packed {
             self.encoder.write_lzw_pre_encoded_frame(&frame).map_err(|e| refused(self.path, e))?;
         }
@@ -147,7 +154,7 @@ fn packed([width, height]: [usize; 2], before: &[u8], now: &[u8], delay: u16, ta
         top: top as u16,
         width: (right - left) as u16,
         height: (bottom - top) as u16,
-        buffer: Cow::Owned(table.packed(&buffer)),
+        buffer: Cow::Owned(table.packed(&buffer, UNKNOWN)),
         ..Frame::default()
     }
 }
@@ -214,5 +221,56 @@ mod tests {
             frames.push((frame.left, frame.top, frame.width, frame.height, frame.delay));
         }
         assert_eq!(frames, [(0, 0, 40, 30, 5), (0, 0, 1, 1, 5), (10, 12, 10, 3, 150)]);
+    }
+
+    #[test]
+    fn a_reader_who_lays_frame_over_frame_sees_each_picture_whole() {
+        let mut canvas = Canvas::new(97, 61);
+        let mut palette = Palette::new(&[]);
+        let mut state = 7_u64;
+        let mut random = |below: usize| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            ((state >> 33) as usize % below) as f32
+        };
+        // Boxes come and go, some pictures stay as they were, one is white again.
+        let mut pictures = Vec::new();
+        for number in 0..30 {
+            match number {
+                9 => canvas = Canvas::new(97, 61),
+                4 | 20 => {}
+                _ => {
+                    let ([x, y], [wide, high]) = ([random(100) - 5.0, random(60) - 5.0], [random(60), random(40)]);
+                    canvas.rectangle(x, y, x + wide, y + high, MAP[random(256) as usize], 1.0);
+                }
+            }
+            pictures.push(palette.indices(&canvas, None));
+        }
+        let mut out = Vec::new();
+        {
+            let sink: &mut dyn Write = &mut out;
+            let mut animation = Animation::start(sink, &canvas, &palette, Path::new("x.gif")).unwrap();
+            let (first, rest) = pictures.split_at(11);
+            animation.frames(first.to_vec(), &[5; 11], &Threads::new(2)).unwrap();
+            animation.frames(rest.to_vec(), &[5; 19], &Threads::one()).unwrap();
+        }
+        let mut options = gif::DecodeOptions::new();
+        options.set_color_output(gif::ColorOutput::Indexed);
+        let mut decoder = options.read_info(&out[..]).unwrap();
+        let mut seen = vec![UNKNOWN; 97 * 61];
+        let mut written = 0;
+        for picture in &pictures {
+            let frame = decoder.read_next_frame().unwrap().unwrap();
+            assert_eq!(frame.dispose, DisposalMethod::Keep);
+            written += frame.buffer.len();
+            for (row, pixels) in frame.buffer.chunks_exact(usize::from(frame.width)).enumerate() {
+                let start = (usize::from(frame.top) + row) * 97 + usize::from(frame.left);
+                for (place, pixel) in seen[start..].iter_mut().zip(pixels).filter(|(_, pixel)| Some(**pixel) != frame.transparent) {
+                    *place = *pixel;
+                }
+            }
+            assert!(seen == *picture);
+        }
+        assert!(decoder.read_next_frame().unwrap().is_none());
+        assert!(written < 97 * 61 * 20, "only what changed: {written} pixels");
     }
 }

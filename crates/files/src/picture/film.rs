@@ -11,7 +11,7 @@ use super::scene::{Key, Moment, Plan, Scene};
 use super::view::{self, NOTHING, extent, joined, mirrored, size};
 use super::{PictureError, write_png, write_whole};
 use crate::outline::{Extent, Line, LineReader};
-use crate::threads::Threads;
+use crate::threads::{Rooms, Threads};
 use embate_solver::output::{Cells, Frame};
 use std::path::Path;
 
@@ -253,11 +253,12 @@ impl Film {
         let mut palette = Palette::new(scene.looks());
         let still = palette.indices(scene.still(), None);
         let path = folder.join("animation.gif");
+        let rooms = Rooms::default();
         write_whole(&path, |out| {
             let mut animation = Animation::start(out, &canvas, &palette, &path)?;
             for chosen in chosen.chunks(FRAMES_AT_ONCE * threads.count()) {
-                let scratch = || (scene.clone(), canvas.clone(), palette.clone());
-                let pictures: Vec<Indices> = threads.map(chosen, scratch, |(scene, canvas, palette), &index| {
+                let room = || (scene.clone(), canvas.clone(), palette.clone());
+                let pictures: Vec<Indices> = threads.map(chosen, &rooms, room, |(scene, canvas, palette), &index| {
                     self.draw(index, scene, mesh, show, notes, canvas);
                     palette.indices(canvas, Some((scene.still(), &still)))
                 });

@@ -43,9 +43,41 @@ impl Bits {
     }
 }
 
+/// Pixels that are compared at once.
+const STRIDE: usize = 32;
+
+/// Codes of the strings that hold one pixel again and again, by length: a run of it is looked up as a whole.
+struct Runs {
+    pixel: u8,
+    codes: Vec<u16>,
+}
+
+impl Runs {
+    fn of(pixel: u8) -> Self {
+        Self { pixel, codes: vec![u16::from(pixel)] }
+    }
+
+    /// The longest string of these with which `pixels` begin: its code and length, at least 1.
+    fn longest(&self, pixels: &[u8]) -> (u16, usize) {
+        let pixels = &pixels[..pixels.len().min(self.codes.len())];
+        let same = |pixel: &u8| *pixel == self.pixel;
+        let strides = pixels.chunks(STRIDE).take_while(|stride| stride.iter().all(same)).count();
+        let begun = (strides * STRIDE).min(pixels.len());
+        let length = begun + pixels[begun..].iter().take_while(|pixel| same(pixel)).count();
+        (self.codes[length - 1], length)
+    }
+
+    /// `code` with one more of the pixel has become `longer`.
+    fn learn(&mut self, code: u16, pixel: u8, longer: u16) {
+        if pixel == self.pixel && self.codes.last() == Some(&code) {
+            self.codes.push(longer);
+        }
+    }
+}
+
 impl Table {
-    /// The bytes of a frame: the bits of a pixel, then the codes.
-    pub(super) fn packed(&mut self, pixels: &[u8]) -> Vec<u8> {
+    /// The bytes of a frame: the bits of a pixel, then the codes. Runs of the pixel `common` cost next to nothing.
+    pub(super) fn packed(&mut self, pixels: &[u8], common: u8) -> Vec<u8> {
         let most = pixels.iter().copied().max().unwrap_or(0);
         let depth = (u32::from(most) + 1).max(4).next_power_of_two().trailing_zeros();
         // One code says that all strings are forgotten, the next that nothing follows, the one after it is the first of a string.
@@ -53,33 +85,40 @@ impl Table {
         let (end, first) = (clear + 1, clear + 2);
         let mut bits = Bits { bytes: vec![depth as u8], pending: 0, count: 0 };
         let (mut width, mut next) = (depth + 1, first);
+        let mut runs = Runs::of(common);
         self.places.fill(EMPTY);
         bits.push(clear, width);
-        if let Some((&pixel, rest)) = pixels.split_first() {
-            let mut code = u16::from(pixel);
-            for &pixel in rest {
+        let mut at = 0;
+        while at < pixels.len() {
+            // The longest string that is known.
+            let (mut code, known) = if pixels[at] == common { runs.longest(&pixels[at..]) } else { (u16::from(pixels[at]), 1) };
+            at += known;
+            while let Some(&pixel) = pixels.get(at) {
                 let string = (u32::from(code) << 8) | u32::from(pixel);
-                if let Some(longer) = self.find_or_add(string, next) {
-                    code = longer;
-                    continue;
-                }
-                bits.push(code, width);
-                next += 1;
-                // The reader is one string behind.
-                if u32::from(next) > 1 << width && width < WIDEST {
-                    width += 1;
-                }
-                if u32::from(next) > 1 << WIDEST {
-                    bits.push(clear, width);
-                    (width, next) = (depth + 1, first);
-                    self.places.fill(EMPTY);
-                }
-                code = u16::from(pixel);
+                let Some(longer) = self.find_or_add(string, next) else {
+                    runs.learn(code, pixel, next);
+                    break;
+                };
+                (code, at) = (longer, at + 1);
             }
             bits.push(code, width);
-            // It adds a string before it reads the end.
-            if u32::from(next) >= 1 << width && width < WIDEST {
+            if at == pixels.len() {
+                // The reader adds a string before it reads the end.
+                if u32::from(next) >= 1 << width && width < WIDEST {
+                    width += 1;
+                }
+                break;
+            }
+            next += 1;
+            // The reader is one string behind.
+            if u32::from(next) > 1 << width && width < WIDEST {
                 width += 1;
+            }
+            if u32::from(next) > 1 << WIDEST {
+                bits.push(clear, width);
+                (width, next) = (depth + 1, first);
+                self.places.fill(EMPTY);
+                runs = Runs::of(common);
             }
         }
         bits.push(end, width);
@@ -141,14 +180,15 @@ mod tests {
         for length in [1, 2, 3, 254, 255, 256, 257, 600, 3838, 3839, 3840, 3841, 3842, 4100, 20_000, 65_000] {
             for [from, colours] in [[255, 1], [0, 2], [3, 5], [100, 60], [0, 256]] {
                 let pixels: Vec<u8> = (0..length).map(|_| (from + random(colours)) as u8).collect();
-                let packed = table.packed(&pixels);
+                let packed = table.packed(&pixels, from as u8);
+                assert!(packed == table.packed(&pixels, (from + 2) as u8), "knowing of runs changes nothing");
                 assert!(packed.len() <= length_elsewhere(&pixels) + 2, "{length} pixels of {colours} colours from {from}");
                 assert!(read_back(packed, length) == pixels, "{length} pixels of {colours} colours from {from}");
             }
         }
         let noise: Vec<u8> = (0..5000).map(|k| (k * k / 7) as u8 | 128).collect();
         for length in 3800..3900 {
-            assert!(read_back(table.packed(&noise[..length]), length) == noise[..length], "{length}");
+            assert!(read_back(table.packed(&noise[..length], 128), length) == noise[..length], "{length}");
         }
     }
 }

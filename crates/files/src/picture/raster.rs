@@ -78,7 +78,7 @@ impl Coverage {
         let slope = (lower[0] - upper[0]) / (lower[1] - upper[1]);
         let mut x = upper[0];
         let mut y = upper[1];
-        for row in upper[1] as usize..(lower[1].ceil() as usize).min(self.high) {
+        for row in upper[1] as usize..up(lower[1]).min(self.high) {
             let y_next = (row as f32 + 1.0).min(lower[1]);
             let x_next = (x + slope * (y_next - y)).clamp(0.0, limit_x);
             let start = row * (self.wide + 2);
@@ -101,6 +101,13 @@ impl Coverage {
     }
 }
 
+/// The next whole number, as `ceil`, which is a call where processors may be old; 0 for negative ones.
+#[inline]
+fn up(value: f32) -> usize {
+    let whole = value as usize;
+    whole + usize::from((whole as f32) < value)
+}
+
 /// A piece of an edge within one row, from `left` to `right`, `height` tall (signed).
 fn span(sums: &mut [f32], left: f32, right: f32, height: f32) {
     let first = left as usize;
@@ -112,7 +119,7 @@ fn span(sums: &mut [f32], left: f32, right: f32, height: f32) {
     }
     let per_column = height / (right - left);
     let mut x = left;
-    for column in first..right.ceil() as usize {
+    for column in first..up(right) {
         let x_next = right.min(column as f32 + 1.0);
         let part = per_column * (x_next - x);
         let middle = 0.5 * (x + x_next) - column as f32;
@@ -202,13 +209,19 @@ impl Layer {
     pub(super) fn compose(&mut self, canvas: &mut Canvas, left: usize, top: usize) {
         for y in 0..self.height {
             let [from, to] = std::mem::replace(&mut self.touched[y], [self.width, 0]);
-            for x in from..to {
-                let sum = std::mem::take(&mut self.colour[y * self.width + x]);
-                let ink = std::mem::take(&mut self.ink[y * self.width + x]);
-                let pixel = &mut canvas.pixels[(top + y) * canvas.width + left + x];
+            if from >= to {
+                continue;
+            }
+            let (own, row) = (y * self.width, (top + y) * canvas.width + left);
+            let pixels = &mut canvas.pixels[row + from..row + to];
+            let (colour, inks) = (&mut self.colour[own + from..own + to], &mut self.ink[own + from..own + to]);
+            for ((pixel, colour), ink) in pixels.iter_mut().zip(colour).zip(inks) {
+                let (sum, ink) = (std::mem::take(colour), std::mem::take(ink));
                 if sum[3] > 0.0 {
-                    let body = [sum[0] / sum[3], sum[1] / sum[3], sum[2] / sum[3]].map(|c| (c + 0.5) as u8);
-                    *pixel = mix(*pixel, body, if sum[3] > 0.998 { 1.0 } else { sum[3] });
+                    // One cell that covers all of the pixel needs no mean.
+                    let mean = if sum[3] == 1.0 { [sum[0], sum[1], sum[2]] } else { [sum[0], sum[1], sum[2]].map(|c| c / sum[3]) };
+                    let body = mean.map(|c| (c + 0.5) as u8);
+                    *pixel = if sum[3] > 0.998 { body } else { mix(*pixel, body, sum[3]) };
                 }
                 if ink > 0.0 {
                     *pixel = mix(*pixel, INK, ink);
@@ -225,10 +238,10 @@ impl Layer {
     /// The pixel that holds the whole polygon, if one does.
     fn one_pixel(&self, polygon: &[[f32; 2]]) -> Option<(usize, usize)> {
         let first = polygon.first()?;
-        let pixel = [first[0].floor(), first[1].floor()];
-        let same = polygon.iter().all(|p| p[0].floor() == pixel[0] && p[1].floor() == pixel[1]);
-        let inside = pixel[0] >= 0.0 && pixel[1] >= 0.0 && pixel[0] < self.width as f32 && pixel[1] < self.height as f32;
-        (same && inside).then_some((pixel[0] as usize, pixel[1] as usize))
+        let (x, y) = (first[0] as usize, first[1] as usize);
+        let (left, top) = (x as f32, y as f32);
+        let is_in = |p: &[f32; 2]| p[0] >= left && p[0] < left + 1.0 && p[1] >= top && p[1] < top + 1.0;
+        (x < self.width && y < self.height && polygon.iter().all(is_in)).then_some((x, y))
     }
 
     /// Fills `coverage` with the part of the polygon inside the layer; returns the window's corner.
@@ -249,7 +262,7 @@ impl Layer {
             [low, high] = bounds(polygon)?;
         }
         let (left, top) = (low[0].max(0.0) as usize, low[1].max(0.0) as usize);
-        let (right, bottom) = ((high[0].ceil() as usize).min(self.width), (high[1].ceil() as usize).min(self.height));
+        let (right, bottom) = (up(high[0]).min(self.width), up(high[1]).min(self.height));
         if right <= left || bottom <= top {
             return None;
         }

@@ -1,12 +1,15 @@
 //! Whole files or none: everything is written as `NAME.part` and renamed when it is complete.
 //!
-//! [`write_whole`] takes the bytes of a file at once; [`PartFile`] grows while a run goes on.
+//! [`write_whole`] takes the bytes of a file at once, `write_whole_in_pieces` writes it from one end to the other; [`PartFile`] grows while a run goes on.
 
 use super::ResultsError;
 use std::ffi::OsString;
 use std::fs::{self, File, OpenOptions};
-use std::io::Write;
+use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
+
+/// Bytes that are collected before they are written: below what allocators fetch from the system each time.
+const PIECES: usize = 120 << 10;
 
 /// `path` with `.part` behind it.
 pub(super) fn part_path(path: &Path) -> PathBuf {
@@ -20,8 +23,27 @@ pub(super) fn part_path(path: &Path) -> PathBuf {
 /// # Errors
 /// [`ResultsError::File`]; no `.part` file is left behind.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), ResultsError> {
+    write_whole_by(path, |part| fs::write(part, bytes))
+}
+
+/// The same piece by piece: `write` gets the file under its name until it is complete.
+///
+/// # Errors
+/// [`ResultsError::File`]; no `.part` file is left behind.
+pub(super) fn write_whole_in_pieces(
+    path: &Path,
+    write: impl FnOnce(&mut BufWriter<File>) -> std::io::Result<()>,
+) -> Result<(), ResultsError> {
+    write_whole_by(path, |part| {
+        let mut out = BufWriter::with_capacity(PIECES, File::create(part)?);
+        write(&mut out)?;
+        out.flush()
+    })
+}
+
+fn write_whole_by(path: &Path, write: impl FnOnce(&Path) -> std::io::Result<()>) -> Result<(), ResultsError> {
     let part = part_path(path);
-    let written = fs::write(&part, bytes)
+    let written = write(&part)
         .map_err(ResultsError::file("write", path))
         .and_then(|()| fs::rename(&part, path).map_err(ResultsError::file("write", path)));
     if written.is_err() {

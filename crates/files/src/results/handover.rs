@@ -146,6 +146,8 @@ impl Handover {
     /// Waits for all jobs, then completes the files.
     pub(super) fn end(&mut self) -> End {
         let begin = Instant::now();
+        // Pictures need room of their own.
+        self.spare = Frame::default();
         let mut end = End { result: Ok(()), pictures_missing: None, worked: Duration::ZERO, waited: self.waited };
         if let Some(Desk { writer, worked, .. }) = self.desk() {
             let closing = Instant::now();

@@ -1,7 +1,7 @@
 //! What a run leaves behind while it goes on: history, field files, obstacles, film. Jobs come from `handover`; [`Writer::close`] completes the files.
 
 use super::ResultsError;
-use super::atomic::write_whole;
+use super::atomic::{write_whole, write_whole_in_pieces};
 use super::csv::CsvStream;
 use super::folder::ResultFolder;
 use crate::outline::{Extent, LineReader};
@@ -14,10 +14,8 @@ use std::time::{Duration, Instant};
 
 /// Rows that are kept for the plots; a longer history is thinned evenly.
 const PLOT_ROWS: usize = 4096;
-/// The collection is rewritten with each of so many frames, later only from time to time and at the end.
-const COLLECTION_FRAMES: usize = 200;
-/// Time from rewriting to rewriting a long collection.
-const COLLECTION_PAUSE: Duration = Duration::from_secs(1);
+/// Time from rewriting to rewriting the collections: a second file with each frame would cost as much as a small frame.
+const COLLECTION_PAUSE: Duration = Duration::from_millis(500);
 
 /// What the writer has to do: the rows since the last job, one after the other, and then a frame.
 #[derive(Debug, Default)]
@@ -160,11 +158,12 @@ impl Frames {
             return Ok(false);
         }
         let name = ResultFolder::frame_name(self.written.len());
-        write_whole(&folder.path().join(&name), &self.writer.bytes(frame, include, threads)?)?;
+        let file = self.writer.file(frame, include)?;
+        write_whole_in_pieces(&folder.path().join(&name), |out| file.write(threads, out))?;
         self.obstacles.write(frame, self.written.len(), folder)?;
         self.written.push((frame.time, name));
         self.step_last = Some(frame.step);
-        if self.written.len() <= COLLECTION_FRAMES || self.collected.elapsed() > COLLECTION_PAUSE {
+        if self.written.len() == 1 || self.collected.elapsed() > COLLECTION_PAUSE {
             self.write_collection(folder)?;
             self.collected = Instant::now();
         }
@@ -201,7 +200,7 @@ impl Obstacles {
         let near = self.extent.unwrap_or_default();
         let lines: Vec<Vec<[f64; 2]>> = self.lines.lines(frame).iter().map(|line| line.piece(near)).collect();
         let name = ResultFolder::obstacles_name(number);
-        write_whole(&folder.path().join(&name), &vtu::obstacles(&lines, frame.time))?;
+        write_whole_in_pieces(&folder.path().join(&name), |out| vtu::write_obstacles(&lines, frame.time, out))?;
         self.written.push((frame.time, name));
         Ok(())
     }

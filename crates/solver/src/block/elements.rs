@@ -50,7 +50,7 @@ pub(super) struct Elements<E, S, const D: usize, const N: usize, const P: usize>
     /// Forces of the elements in the last step, where they are kept.
     pub(super) kept: Vec<Batch>,
     pub(super) keeps_forces: bool,
-    /// Share of each corner in the element's mass: `N` batches per batch of elements.
+    /// Share of each corner in the element's mass: `N` batches per batch of elements; only until nodes have their masses.
     pub(super) corner_mass: Vec<Batch>,
     /// Initial volume of each element, one batch per batch of elements.
     pub(super) volume_initial: Vec<Batch>,
@@ -408,7 +408,11 @@ where
     }
 
     fn corner_mass(&self, element: usize, corner: usize) -> f64 {
-        self.corner_mass[element / BATCH * N + corner].0[element % BATCH]
+        self.corner_mass.get(element / BATCH * N + corner).map_or(f64::NAN, |batch| batch.0[element % BATCH])
+    }
+
+    fn release_corner_masses(&mut self) {
+        self.corner_mass = Vec::new();
     }
 
     fn time_step_squared(&self, element: usize) -> f64 {

@@ -116,6 +116,8 @@ pub trait Block<const D: usize>: Send + Sync {
     fn mass(&self, element: usize) -> f64;
     /// Share of corner `corner` in the mass of `element` (row sum of the consistent mass), kg/m in the plane.
     fn corner_mass(&self, element: usize, corner: usize) -> f64;
+    /// Frees the memory of the corner masses, once nodes have theirs: what is left of them, as of [`Block::mass`], may be not a number.
+    fn release_corner_masses(&mut self) {}
     /// Square of an element's stable step, s², in the state of the last [`Block::advance`].
     fn time_step_squared(&self, element: usize) -> f64;
     /// Mean state of an element.

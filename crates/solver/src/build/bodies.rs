@@ -61,7 +61,8 @@ impl Builder<'_> {
                 }
             }
         }
-        momentum.iter().zip(&self.mass).map(|(p, &m)| p.map(|p| p / m)).collect()
+        momentum.iter_mut().zip(&self.mass).for_each(|(p, &m)| *p = p.map(|p| p / m));
+        momentum
     }
 
     /// Makes the rigid parts.

@@ -1,8 +1,9 @@
-//! Mass scaling: elements made heavier for a longer stable step, before masses go to the nodes.
+//! Masses: elements made heavier for a longer stable step before masses go to the nodes, and what is kept of the masses of parts.
 
 use super::Builder;
 use crate::block::{Block, Motion};
 use crate::error::Fault;
+use crate::mesh::Mesh;
 use embate_lanes::{Level, Team};
 
 impl Builder<'_> {
@@ -11,8 +12,6 @@ impl Builder<'_> {
         let masses = |block: &dyn Block<2>| (0..block.elements()).map(|element| block.mass(element)).sum::<f64>();
         let (mut before, mut after) = (0.0, 0.0);
         let mut wanted_adds = 0.0;
-        let velocities = vec![[0.0; 2]; self.mesh.positions.len()];
-        let motion = Motion { positions: &self.mesh.positions, velocities: &velocities, time_step: 0.0 };
         for (block, group) in blocks.iter_mut().zip(&self.mesh.groups) {
             let part = &self.model.parts[group.part];
             let own = masses(block.as_ref());
@@ -24,6 +23,8 @@ impl Builder<'_> {
             }
             if let Some(scaling) = self.model.run.mass_scaling {
                 let scaled = masses(block.as_ref());
+                let velocities = vec![[0.0; 2]; self.mesh.positions.len()];
+                let motion = Motion { positions: &self.mesh.positions, velocities: &velocities, time_step: 0.0 };
                 let mut slots = vec![[0.0; 2]; block.slots().len()];
                 block.advance(&motion, level, &mut slots, &mut Team::alone());
                 let needed = (scaling.time_step / self.model.run.safety).powi(2);
@@ -54,5 +55,64 @@ impl Builder<'_> {
             ));
         }
         [after - before, before]
+    }
+}
+
+/// Mass of each part on each of its nodes, kg/m, nodes ascending.
+pub(super) fn part_masses(mesh: &Mesh<2>, blocks: &[Box<dyn Block<2>>]) -> Vec<Vec<(u32, f64)>> {
+    let (mut sums, mut is_own) = (vec![0.0; mesh.positions.len()], vec![false; mesh.positions.len()]);
+    let of = |part: usize| {
+        let own = &mesh.parts[part].nodes;
+        own.iter().for_each(|&node| (sums[node as usize], is_own[node as usize]) = (0.0, true));
+        for (group, block) in mesh.groups.iter().zip(blocks).filter(|(group, _)| group.part == part) {
+            for (element, cell) in group.cells().enumerate() {
+                for (corner, &node) in cell.iter().enumerate() {
+                    sums[node as usize] += block.corner_mass(element, corner);
+                }
+            }
+        }
+        let mut masses: Vec<(u32, f64)> = Vec::with_capacity(own.len());
+        if own.len() < sums.len() / 16 {
+            // Few nodes among many: only they are looked at.
+            masses.extend(own.iter().map(|&node| (node, sums[node as usize])));
+            masses.sort_unstable_by_key(|&(node, _)| node);
+        } else {
+            masses.extend((0..).zip(&sums).zip(&is_own).filter(|(_, is_own)| **is_own).map(|((node, &sum), _)| (node, sum)));
+        }
+        own.iter().for_each(|&node| is_own[node as usize] = false);
+        masses
+    };
+    (0..mesh.parts.len()).map(of).collect()
+}
+
+/// What parts weigh: as a whole, and on their nodes.
+pub(crate) struct Shares {
+    /// Mass of the elements of each part, kg/m.
+    pub(crate) whole: Vec<f64>,
+    /// Share of each part in nodes that weigh more than it gives them, kg/m: other parts have them too, or there are point masses. Nodes ascend.
+    shared: Vec<Vec<(u32, f64)>>,
+}
+
+impl Shares {
+    /// Mass of the elements of a part on one of its nodes, which weighs `mass` in all, kg/m.
+    pub(crate) fn of(&self, part: usize, node: u32, mass: f64) -> f64 {
+        let shared = &self.shared[part];
+        if shared.is_empty() {
+            return mass;
+        }
+        shared.binary_search_by_key(&node, |&(node, _)| node).map_or(mass, |at| shared[at].1)
+    }
+}
+
+impl Builder<'_> {
+    /// What is kept of the masses of parts; `part_mass` has those of all nodes, with point masses.
+    pub(super) fn shares(&self, blocks: &[Box<dyn Block<2>>], part_mass: &[Vec<(u32, f64)>]) -> Shares {
+        let of = |part: usize| self.mesh.groups.iter().zip(blocks).filter(move |(group, _)| group.part == part).map(|(_, block)| block);
+        let whole = |part: usize| of(part).flat_map(|block| (0..block.elements()).map(move |element| block.mass(element))).sum();
+        let of_elements = (!self.model.point_masses.is_empty()).then(|| part_masses(&self.mesh, blocks));
+        let weighs_more = |&&(node, share): &&(u32, f64)| self.mass[node as usize] != share;
+        let shared = |masses: &Vec<(u32, f64)>| masses.iter().filter(weighs_more).copied().collect();
+        let masses = of_elements.as_deref().unwrap_or(part_mass);
+        Shares { whole: (0..self.mesh.parts.len()).map(whole).collect(), shared: masses.iter().map(shared).collect() }
     }
 }

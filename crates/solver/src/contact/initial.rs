@@ -97,7 +97,7 @@ pub fn penetrations(tracker: &mut Tracker, thickness: f64, positions: &[Vector],
 
 fn inside(tracker: &mut Tracker, thickness: f64, positions: &[Vector], tolerance: f64) -> Vec<Touch> {
     tracker.forget();
-    let touches = tracker.track(Sweep { old: positions, new: positions }, thickness);
+    let touches = tracker.track(Sweep::between(positions, positions), thickness);
     touches.iter().filter(|touch| !touch.own && touch.projection.gap - thickness < -tolerance).copied().collect()
 }
 

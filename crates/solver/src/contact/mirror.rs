@@ -3,7 +3,7 @@
 //! Lines and nodes come from the builder; springs go to the same solution as those of the contact itself. By symmetry a node meets the image where it meets the line, at half of the
 //! gap. Of the two passes of the pair, node against image and image against node, half belongs to the model: with the stiffness k of a pass its energy is 2 · ½ k (2g)² / 2 = ½ (4k) g².
 
-use super::springs::{End, Spring, Springs};
+use super::springs::{Answers, End, Spring, Springs};
 use super::tied::Ties;
 use super::tracker::{Certificate, SearchReport};
 use super::{Formulation, Scene, Vector};
@@ -71,9 +71,9 @@ impl Formulation for Mirrored {
         self.contact.detect(scene, springs);
     }
 
-    fn remember(&mut self, solved: &[Spring]) {
+    fn remember(&mut self, solved: Answers<'_>) {
         // Nothing is found, and nothing solved, while the contact does not act.
-        self.contact.remember(&solved[self.found.min(solved.len())..]);
+        self.contact.remember(solved.part(self.found, usize::MAX));
     }
 
     fn inherit(&mut self, old: Box<dyn Any>) {

@@ -10,6 +10,7 @@ pub mod tracker;
 pub mod initial;
 pub mod law;
 pub mod springs;
+pub mod forces;
 pub mod formulation;
 pub mod node_segment;
 pub mod pinball;
@@ -22,7 +23,8 @@ pub mod traces;
 use crate::load::tributary::Depth;
 use crate::mesh::surface::Surface;
 use crate::rigid::Bodies;
-use springs::{Spring, Springs, Totals};
+use forces::ContactForces;
+use springs::{Answer, Answers, Springs, Totals};
 use std::any::Any;
 use std::ops::Range;
 use tied::Ties;
@@ -39,7 +41,7 @@ pub trait Formulation: Any + Send {
     fn detect(&mut self, scene: &Scene<'_>, springs: &mut Springs);
 
     /// Keeps what the next step needs of the solved springs, in the order of [`Formulation::detect`].
-    fn remember(&mut self, solved: &[Spring]);
+    fn remember(&mut self, solved: Answers<'_>);
 
     /// Takes over what its predecessor knew, which was of the same kind and made of the same contact before surfaces changed. What belongs to nodes and segments that are no
     /// more is forgotten.
@@ -75,8 +77,6 @@ pub struct Scene<'a> {
     pub bodies: &'a Bodies,
     /// Time, s.
     pub time: f64,
-    /// Way that no node has exceeded since the start, m: ∑ dt max |v|.
-    pub travel: f64,
 }
 
 /// Positions at both ends of a step.
@@ -86,6 +86,16 @@ pub struct Sweep<'a> {
     pub old: &'a [Vector],
     /// At the end, m: the configuration on which all forces are evaluated.
     pub new: &'a [Vector],
+    /// Way that no node has exceeded since the start, m: ∑ dt max |v|. What is far sleeps until its partners may have come near.
+    pub travel: f64,
+}
+
+impl<'a> Sweep<'a> {
+    /// From `old` to `new`, with nothing known of how far nodes go: nothing sleeps.
+    #[must_use]
+    pub fn between(old: &'a [Vector], new: &'a [Vector]) -> Self {
+        Self { old, new, travel: f64::INFINITY }
+    }
 }
 
 /// Whether a contact belongs to `[[contact]]` or `[[obstacle]]`.
@@ -172,17 +182,14 @@ impl Contact {
     }
 
     /// Sums up the solved springs: adds their forces to `forces` and `bodies`, and what they did in the update of `time_step` (s) to `traces`.
-    pub fn collect(&mut self, springs: &Springs, forces: &mut [Vector], bodies: &mut Bodies, traces: &mut Traces, time_step: f64) {
-        self.totals = springs.collect(self.found.clone(), forces, bodies);
+    pub fn collect(&mut self, springs: &Springs, forces: &mut ContactForces, bodies: &mut Bodies, traces: &mut Traces, time_step: f64) {
+        let answers = springs.answers(self.found.clone());
+        self.totals = answers.clone().collect_into(forces, bodies, traces);
         self.has_pressed |= self.totals.pressing > 0.0;
         self.friction_work += self.totals.lost.friction;
-        for spring in &springs.list[self.found.clone()] {
-            traces.mark(springs, spring, time_step);
-        }
-        self.formulation.remember(&springs.list[self.found.clone()]);
+        self.formulation.remember(answers.clone());
         let ends = self.acts_at(self.time) && !self.acts_at(self.time + time_step);
-        self.totals.lost.freed =
-            if ends { springs.list[self.found.clone()].iter().flat_map(|spring| spring.stored).sum() } else { self.formulation.freed() };
+        self.totals.lost.freed = if ends { answers.flat_map(|answer| answer.books().stored).sum() } else { self.formulation.freed() };
     }
 
     /// Goes on with another formulation of the same kind, made of changed surfaces.
@@ -200,14 +207,14 @@ impl Contact {
     /// Energy at n + ½ of the springs of the last step that have not broken, J/m.
     #[must_use]
     pub fn stored(&self, springs: &Springs) -> f64 {
-        let of = |spring: &Spring| spring.stored[0] + spring.stored[1];
-        springs.list[self.found.clone()].iter().map(of).sum::<f64>() - self.totals.lost.freed
+        let stored = |answer: Answer<'_>| answer.books().stored.iter().sum::<f64>();
+        springs.answers(self.found.clone()).map(stored).sum::<f64>() - self.totals.lost.freed
     }
 
     /// Energy at n − ½ of the springs of this step, J/m.
     #[must_use]
     pub fn stored_before(&self, springs: &Springs) -> f64 {
-        springs.list[self.found.clone()].iter().map(|spring| spring.stored_before).sum()
+        springs.answers(self.found.clone()).map(|answer| answer.books().stored_before).sum()
     }
 
     /// Its ties, if it has such.
@@ -234,13 +241,13 @@ impl Contact {
     #[must_use]
     pub fn moment(&self, body: usize, bodies: &Bodies, springs: &Springs, positions: &[Vector]) -> f64 {
         let centre = bodies.state(body).centre;
-        let ends = springs.list[self.found.clone()].iter().flat_map(|spring| springs.ends(spring).iter().map(move |end| (spring, end)));
-        let moment = |(spring, end): (&Spring, &springs::End)| {
+        let ends = springs.answers(self.found.clone()).flat_map(|answer| answer.ends().map(move |end| (answer, end)));
+        let moment = |(answer, end): (Answer<'_>, springs::End)| {
             let (on_body, point) = match positions.get(end.at as usize) {
                 Some(&x) => (bodies.of_node(end.at) == Some(body), x),
                 None => (end.at as usize - positions.len() == body, end.point),
             };
-            let force = if on_body { [0.0; 2] } else { end.force(spring) };
+            let force = if on_body { [0.0; 2] } else { end.force(answer.spring, answer.solved) };
             (point[0] - centre[0]) * force[1] - (point[1] - centre[1]) * force[0]
         };
         ends.map(moment).sum()
@@ -249,7 +256,7 @@ impl Contact {
     /// Slave nodes that are inside in the last step, with their depth, m.
     pub fn penetrations<'a>(&'a self, springs: &'a Springs) -> impl Iterator<Item = (u32, f64)> + 'a {
         let inside = springs.list[self.found.clone()].iter().filter(|spring| spring.gap < 0.0);
-        inside.filter_map(|spring| Some((springs.ends(spring).first()?.at, -spring.gap)))
+        inside.filter_map(|spring| Some((springs.ends(spring).next()?.at, -spring.gap)))
     }
 }
 
@@ -258,7 +265,7 @@ struct Nothing;
 
 impl Formulation for Nothing {
     fn detect(&mut self, _: &Scene<'_>, _: &mut Springs) {}
-    fn remember(&mut self, _: &[Spring]) {}
+    fn remember(&mut self, _: Answers<'_>) {}
     fn inherit(&mut self, _: Box<dyn Any>) {}
 }
 

@@ -5,7 +5,7 @@
 use super::formulation::{FormulationKind, Setup, both_passes, one_pass};
 use super::initial::{is_ignored, kept};
 use super::projection::node_segment::{Projection, Target};
-use super::springs::{End, Spring, Springs, tangent};
+use super::springs::{Answers, End, Spring, Springs, tangent};
 use super::tracker::{Certificate, Memory, SearchReport, Touch, Tracker, is_facing};
 use super::{Formulation, Scene, Sweep, Vector};
 use crate::mesh::surface::NONE;
@@ -45,8 +45,8 @@ pub struct NodeSegment {
     /// Initial positions, m: only where a surface meets itself at a distance.
     initial: Vec<Vector>,
     has_begun: bool,
-    /// What was found in this step.
-    touches: Vec<Touch>,
+    /// The touches of this step that made springs.
+    used: Vec<u32>,
 }
 
 /// What a pass knows of its nodes and segments.
@@ -124,7 +124,7 @@ impl NodeSegment {
         let initial = if thickness + reach > 0.0 { setup.positions.to_vec() } else { Vec::new() };
         let (ignores_start, stores) = (setup.ignores_start(), is_stored(&setup.contact.interface));
         let tracker = setup.tracker();
-        Self { tracker, passes: inputs, thickness, reach, stores, ignores_start, initial, has_begun: false, touches: Vec::new() }
+        Self { tracker, passes: inputs, thickness, reach, stores, ignores_start, initial, has_begun: false, used: Vec::new() }
     }
 
     /// For the passes of `tracker` with slaves whose stiffness is known; `reach` of the law, m.
@@ -132,8 +132,8 @@ impl NodeSegment {
     pub fn new(tracker: Tracker, slaves: Vec<Vec<Slave>>, interface: &model::Interface, reach: f64) -> Self {
         let passes = slaves.into_iter().map(|slaves| PassInput { slaves, ..PassInput::default() }).collect();
         let (ignores_start, stores) = (is_ignored(interface), is_stored(interface));
-        let (thickness, initial, touches) = (interface.thickness, Vec::new(), Vec::new());
-        Self { tracker, passes, thickness, reach, stores, ignores_start, initial, has_begun: false, touches }
+        let (thickness, initial, used) = (interface.thickness, Vec::new(), Vec::new());
+        Self { tracker, passes, thickness, reach, stores, ignores_start, initial, has_begun: false, used }
     }
 
     /// Gap less the thickness. A surface keeps no more distance from itself than half of what it had: neighbours along a surface are near, and stay so.
@@ -148,9 +148,9 @@ impl NodeSegment {
     }
 
     /// Gap as the spring sees it, and the gap that counts as zero.
-    fn beyond(&self, touch: &Touch) -> (f64, f64) {
+    fn beyond(&self, touch: &Touch, memory: &Memory) -> (f64, f64) {
         let gap = self.gap(touch);
-        let offset = kept(self.has_begun, touch.memory.offset, gap);
+        let offset = kept(self.has_begun, memory.offset, gap);
         let offset = if self.ignores_start && !touch.own { offset } else { 0.0 };
         (gap - offset, offset)
     }
@@ -160,9 +160,9 @@ impl NodeSegment {
     /// Which of the segments at a slave stand for it in a touch. At a sharp edge that is the one that faces the target, so that the corner of a block presses with half of the segment
     /// under it and not with the side wall; else, and where none faces the target, both. It stays so for as long as they are near: a spring that is closed may not change its
     /// stiffness.
-    fn faces(&self, touch: &Touch, positions: &[Vector]) -> u8 {
-        if touch.memory.faces != 0 {
-            return touch.memory.faces;
+    fn faces(&self, touch: &Touch, memory: &Memory, positions: &[Vector]) -> u8 {
+        if memory.faces != 0 {
+            return memory.faces;
         }
         let ([before, after], slaves) = self.tracker.segments_at(touch);
         if before == NONE || after == NONE || !slaves.is_edge(before, after, positions) {
@@ -179,26 +179,31 @@ impl NodeSegment {
 
     /// [`Formulation::detect`] for those slaves of the first pass that are not bound otherwise (`bound` by index; empty: all).
     pub(super) fn detect_free(&mut self, bound: &[bool], scene: &Scene<'_>, springs: &mut Springs) {
-        self.touches.clear();
-        self.touches.extend_from_slice(self.tracker.track(scene.sweep, self.thickness + self.reach));
-        self.touches.retain(|touch| touch.pass > 0 || !bound.get(touch.slave).copied().unwrap_or(false));
-        for index in 0..self.touches.len() {
-            let touch = self.touches[index];
-            let pass = &self.passes[touch.pass];
+        let count = self.tracker.track(scene.sweep, self.thickness + self.reach).len();
+        self.used.clear();
+        for index in 0..count {
+            let touch = self.tracker.touches()[index];
+            let slave = touch.slave as usize;
+            if touch.pass == 0 && bound.get(slave).copied().unwrap_or(false) {
+                continue;
+            }
+            let memory = *self.tracker.kept(&touch);
+            let pass = &self.passes[touch.pass as usize];
             let target = self.tracker.target(touch.pass);
             let mut ends = ends(touch.node, &touch.projection, target, scene.sweep.new);
             let Projection { normal, segment, .. } = touch.projection;
-            let faces = self.faces(&touch, scene.sweep.new);
-            let part = pass.part(touch.slave, faces);
-            let (stiffness, area) = (pass.stiffness_of(touch.slave, segment, part), part.length * pass.slaves[touch.slave].area);
-            let (gap, offset) = self.beyond(&touch);
+            let faces = self.faces(&touch, &memory, scene.sweep.new);
+            let part = pass.part(slave, faces);
+            let (stiffness, area) = (pass.stiffness_of(slave, segment, part), part.length * pass.slaves[slave].area);
+            let (gap, offset) = self.beyond(&touch, &memory);
             if touch.slope != 0.0 {
                 lean(&mut ends, &touch, scene.sweep.new);
             }
-            let carried = if self.stores { carried(&touch, gap, &ends, self.reach, scene.sweep) } else { 0.0 };
-            let (side, slip, gap) = (self.tracker.side(touch.pass), touch.memory.slip, gap + carried);
+            let carried = if self.stores { carried(&memory, normal, gap, &ends, self.reach, scene.sweep) } else { 0.0 };
+            let (side, slip, gap) = (self.tracker.side(touch.pass), memory.slip, gap + carried);
             springs.push(Spring { normal, gap, stiffness, area, side, slip, ..Spring::default() }, &ends);
-            self.touches[index].memory = Memory { offset, faces, carried, normal, ..touch.memory };
+            *self.tracker.kept_mut(&touch) = Memory { offset, faces, carried, normal, ..memory };
+            self.used.push(index as u32);
         }
         self.has_begun = true;
     }
@@ -209,9 +214,11 @@ impl Formulation for NodeSegment {
         self.detect_free(&[], scene, springs);
     }
 
-    fn remember(&mut self, solved: &[Spring]) {
-        for (touch, spring) in self.touches.iter().zip(solved) {
-            self.tracker.remember(touch, Memory { slip: spring.slip_new, half: spring.gap_new, ..touch.memory });
+    fn remember(&mut self, solved: Answers<'_>) {
+        for (&index, answer) in self.used.iter().zip(solved) {
+            let touch = self.tracker.touches()[index as usize];
+            let memory = self.tracker.kept_mut(&touch);
+            (memory.slip, memory.half) = (answer.solved.slip_new, answer.gap_new());
         }
     }
 
@@ -279,12 +286,11 @@ const TURNED: f64 = 0.87;
 ///
 /// The gap itself goes on there, its rate does not: g^{n−½} = g^n − ½ dt ġ^{n−½} would begin elsewhere, by up to what the node goes in half a step, and a spring that is not much deeper
 /// than that would lose or gain any multiple of its energy. What it was moved by stays for as long as it pushes, and then goes as the surfaces part.
-fn carried(touch: &Touch, gap: f64, ends: &[End], open: f64, sweep: Sweep<'_>) -> f64 {
-    let Memory { half, normal: before, carried, .. } = touch.memory;
+fn carried(memory: &Memory, normal: Vector, gap: f64, ends: &[End], open: f64, sweep: Sweep<'_>) -> f64 {
+    let Memory { half, normal: before, carried, .. } = *memory;
     if before == [0.0; 2] {
         return 0.0;
     }
-    let normal = touch.projection.normal;
     let is_turned = before[0] * normal[0] + before[1] * normal[1] < TURNED;
     if !is_turned && (carried == 0.0 || half < open) {
         return carried;
@@ -337,7 +343,7 @@ mod tests {
             let projection = target.beyond(x, 0, band, &positions).unwrap();
             let slope = fall_off(target.seen(x, 0, &positions).unwrap().beyond(), band)[1];
             assert!(slope > 0.0, "{x:?}");
-            let touch = Touch { pass: 0, slave: 0, node: 0, projection, slope, group: 0, own: false, memory: Memory::default() };
+            let touch = Touch { pass: 0, slave: 0, node: 0, projection, slope, group: 0, own: false };
             let mut ends = ends(0, &projection, &target, &positions);
             lean(&mut ends, &touch, &positions);
             let row = |end: &End| [0, 1].map(|d| end.share * projection.normal[d] + end.lean[d]);

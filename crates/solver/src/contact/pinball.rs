@@ -14,7 +14,7 @@ use super::formulation::{FormulationKind, Setup, Side, both_passes};
 use super::initial::kept;
 use super::law::penalty;
 use super::search::{Pair, Query, Search};
-use super::springs::{End, Spring, Springs};
+use super::springs::{Answers, End, Spring, Springs};
 use super::tracker::SKIN;
 use super::{Formulation, Scene, Sweep, Vector, length};
 use crate::model;
@@ -342,9 +342,9 @@ impl Formulation for Pinball {
         self.near = near;
     }
 
-    fn remember(&mut self, solved: &[Spring]) {
-        for (near, spring) in self.near.iter_mut().zip(solved) {
-            near.slip = spring.slip_new;
+    fn remember(&mut self, solved: Answers<'_>) {
+        for (near, answer) in self.near.iter_mut().zip(solved) {
+            near.slip = answer.solved.slip_new;
         }
     }
 }

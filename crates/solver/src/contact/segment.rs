@@ -14,8 +14,8 @@
 use super::formulation::{FormulationKind, Setup, both_passes};
 use super::initial::kept;
 use super::law::{Law, penalty};
-use super::springs::{End, Spring, Springs};
-use super::tracker::{Certificate, SearchReport, Touch, Tracker};
+use super::springs::{Answers, End, Spring, Springs};
+use super::tracker::{Certificate, SearchReport, Tracker};
 use super::{Formulation, Scene, Vector};
 use crate::load::tributary::Depth;
 use crate::mesh::surface::{NONE, Surface};
@@ -56,8 +56,6 @@ pub struct Segment {
     /// Largest gap at which the law pushes, m.
     reach: f64,
     start: Start,
-    /// Nodes that touch in this step.
-    touches: Vec<Touch>,
     /// Pairs of this step, ascending.
     pairs: Vec<[u32; 2]>,
     /// Those that have a common part.
@@ -157,7 +155,6 @@ impl Segment {
             thickness,
             reach,
             start,
-            touches: Vec::new(),
             pairs: Vec::new(),
             commons: Vec::new(),
             tree: vec![0; count],
@@ -180,16 +177,16 @@ impl Segment {
                 chain.depth[node as usize] = f64::NEG_INFINITY;
             }
         }
-        self.touches.clear();
-        self.touches.extend_from_slice(self.tracker.track(scene.sweep, self.thickness + self.reach));
-        for touch in &self.touches {
+        self.tracker.track(scene.sweep, self.thickness + self.reach);
+        for touch in self.tracker.touches() {
             let side = self.tracker.side(touch.pass);
             let [slave, target] = if side > 0.0 { [0, 1] } else { [self.chains.len() - 1, 0] };
             let chain = &mut self.chains[slave];
-            chain.depth[touch.slave] = chain.depth[touch.slave].max(-touch.projection.gap);
-            chain.deep.push(touch.slave as u32);
+            let depth = &mut chain.depth[touch.slave as usize];
+            *depth = depth.max(-touch.projection.gap);
+            chain.deep.push(touch.slave);
             let (surface, b) = (&self.tracker.targets()[target].surface, touch.projection.segment);
-            for &a in self.chains[slave].around.of(touch.slave) {
+            for &a in self.chains[slave].around.of(touch.slave as usize) {
                 for b in [surface.previous[b as usize], b, surface.next[b as usize]] {
                     if b != NONE {
                         let forward = if side == 0.0 { a < b } else { slave == 0 };
@@ -396,10 +393,11 @@ impl Formulation for Segment {
         Some(self.tracker.search_report())
     }
 
-    fn remember(&mut self, solved: &[Spring]) {
-        for (facing, springs) in self.facing.iter_mut().zip(solved.chunks_exact(self.rule.len())) {
-            for (slip, spring) in facing.slips.iter_mut().zip(springs) {
-                *slip = spring.slip_new;
+    fn remember(&mut self, solved: Answers<'_>) {
+        let count = self.rule.len();
+        for (index, facing) in self.facing.iter_mut().enumerate() {
+            for (slip, answer) in facing.slips.iter_mut().zip(solved.part(index * count, (index + 1) * count)) {
+                *slip = answer.solved.slip_new;
             }
         }
     }

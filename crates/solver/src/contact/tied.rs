@@ -11,7 +11,7 @@ use super::formulation::{FormulationKind, Setup, one_pass};
 use super::node_segment::{NodeSegment, PassInput, ends};
 use super::projection::node_segment::{Projection, Target};
 use super::search::{Query, Search};
-use super::springs::{Spring, Springs};
+use super::springs::{Answers, Spring, Springs};
 use super::tracker::{Certificate, SearchReport};
 use super::{Formulation, Scene, Vector, length};
 use crate::error::Fault;
@@ -167,23 +167,24 @@ impl Formulation for Tied {
         self.loose.detect_free(&self.bound, scene, springs);
     }
 
-    fn remember(&mut self, solved: &[Spring]) {
-        let (ties, loose) = solved.split_at(self.ties.len());
+    fn remember(&mut self, solved: Answers<'_>) {
+        let (mut ties, loose) = (solved.part(0, self.ties.len()), solved.part(self.ties.len(), usize::MAX));
         self.loose.remember(loose);
         self.freed = 0.0;
         if self.strength == f64::INFINITY {
             return;
         }
-        let (mut springs, strength, bound) = (ties.iter(), self.strength, &mut self.bound);
+        let (strength, bound) = (self.strength, &mut self.bound);
         let (broken, freed) = (&mut self.broken, &mut self.freed);
         self.ties.retain(|tie| {
-            let Some(spring) = springs.next() else { return true };
-            let pull = (-spring.force).max(0.0);
-            let holds = pull.hypot(spring.friction) <= strength * tie.area;
+            let Some(answer) = ties.next() else { return true };
+            let pull = (-answer.solved.force).max(0.0);
+            let holds = pull.hypot(answer.solved.friction) <= strength * tie.area;
             if !holds {
                 bound[tie.slave as usize] = false;
                 *broken += 1;
-                *freed += spring.stored[1] + if spring.force < 0.0 { spring.stored[0] } else { 0.0 };
+                let stored = answer.books().stored;
+                *freed += stored[1] + if answer.solved.force < 0.0 { stored[0] } else { 0.0 };
             }
             holds
         });

@@ -3,7 +3,7 @@
 //! Springs come solved; fields go to the record. Each spring stands for a length of surface on both sides, and a node has its shares of the springs at it.
 
 use super::Vector;
-use super::springs::{Spring, Springs};
+use super::springs::{Answer, Lost, Springs};
 use crate::load::tributary::Depth;
 use crate::mesh::surface::Surface;
 
@@ -30,7 +30,7 @@ pub struct State {
 }
 
 impl Traces {
-    /// For `outside`, the outside of all bodies of a model without contacts an empty one; `positions` are the initial ones.
+    /// For `outside`, the outside of all bodies; `positions` are the initial ones. Of a model without contacts both are empty: nothing is remembered.
     #[must_use]
     pub fn new(outside: Surface, positions: &[Vector], depth: Depth) -> Self {
         let mut area = vec![0.0; positions.len()];
@@ -48,19 +48,19 @@ impl Traces {
         *self = Self { slip, heat, ..Self::new(outside, positions, depth) };
     }
 
-    /// Adds what a solved spring did in an update of `time_step` (s).
-    pub fn mark(&mut self, springs: &Springs, spring: &Spring, time_step: f64) {
-        if spring.force == 0.0 {
+    /// Adds what a solved spring does in the coming update, which takes `lost` from the motion.
+    pub fn mark(&mut self, answer: &Answer<'_>, lost: &Lost) {
+        if answer.solved.force == 0.0 {
             return;
         }
-        let slid = spring.slip_rate.abs() * time_step * spring.area;
-        for end in springs.ends(spring) {
+        let slid = answer.slides_by() * answer.spring.area;
+        for end in answer.ends() {
             let (node, share) = (end.at as usize, end.share.abs());
             if let (Some(slip), Some(heat)) = (self.slip.get_mut(node), self.heat.get_mut(node)) {
                 if self.area[node] > 0.0 {
                     *slip += share * slid / self.area[node];
                 }
-                *heat += 0.5 * share * spring.lost.friction;
+                *heat += 0.5 * share * lost.friction;
             }
         }
     }
@@ -68,13 +68,13 @@ impl Traces {
     /// Sliding distance of a node, m.
     #[must_use]
     pub fn slip(&self, node: usize) -> f64 {
-        self.slip[node]
+        self.slip.get(node).copied().unwrap_or_default()
     }
 
     /// Friction work taken at a node by initial surface, J/m².
     #[must_use]
     pub fn heat(&self, node: usize) -> f64 {
-        if self.area[node] > 0.0 { self.heat[node] / self.area[node] } else { 0.0 }
+        self.area.get(node).filter(|&&area| area > 0.0).map_or(0.0, |area| self.heat[node] / area)
     }
 
     /// Contact pressure and shear stress (Pa) of every node, from the contact forces on the nodes (N/m) at their current positions: −f·n and f·t
@@ -109,8 +109,8 @@ impl Traces {
     #[must_use]
     pub fn states(&self, springs: &Springs) -> Vec<State> {
         let mut sums = vec![(0.0, 0.0, 0.0f64); self.area.len()];
-        for spring in &springs.list {
-            let status = if spring.force == 0.0 { 0.0 } else { 1.0 + f64::from(u8::from(spring.slides)) };
+        for Answer { spring, solved, .. } in springs.answers(0..springs.list.len()) {
+            let status = if solved.force == 0.0 { 0.0 } else { 1.0 + f64::from(u8::from(solved.slides)) };
             for end in springs.ends(spring) {
                 if let Some((gap, share, most)) = sums.get_mut(end.at as usize) {
                     *gap += end.share.abs() * spring.gap;

@@ -91,6 +91,8 @@ pub struct Mesh<const D: usize> {
     pub groups: Vec<ElementGroup>,
     /// The user's number of each node: its place in the parts as they were made or read.
     pub user_nodes: Vec<u32>,
+    /// Whether each node, in the order of the curve that they are sorted along, is on an outline: those are numbered first.
+    outlines: Vec<bool>,
     /// Named lines: `part.side` and one-dimensional groups, each with the body on the right.
     lines: BTreeMap<String, Vec<[u32; 2]>>,
     /// Named nodes: zero- and two-dimensional groups.

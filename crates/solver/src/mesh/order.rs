@@ -2,6 +2,8 @@
 //!
 //! Neighbours in space are neighbours in memory, and the order depends on the bodies alone, not on who numbered them: the same positions from
 //! a shape and from a mesh file give the same results to the last bit. Outputs and messages speak the user's numbering.
+//!
+//! Nodes on outlines come before all others, each kind in the order of the curve: what contact reads of them lies side by side and stays in the caches, however large the bodies are.
 
 use super::{ElementGroup, Mesh};
 use std::cmp::Ordering;
@@ -24,23 +26,58 @@ impl Mesh<2> {
             owner[a].cmp(&owner[b]).then_with(exact)
         });
         drop(owner);
-        let mut number = vec![0u32; order.len()];
-        for (&user, new) in order.iter().zip(0..) {
-            number[user as usize] = new;
-        }
-        self.positions = order.iter().map(|&user| self.positions[user as usize]).collect();
-        let rename = |nodes: &mut [u32]| nodes.iter_mut().for_each(|node| *node = number[*node as usize]);
-        self.parts.iter_mut().for_each(|part| rename(&mut part.nodes));
+        self.renumber(&order);
+        self.user_nodes = order;
         for group in &mut self.groups {
-            rename(&mut group.connectivity);
             group.reorder(&self.positions);
         }
+        self.put_outlines_first();
+    }
+
+    /// Numbers the nodes in the order that names their present numbers.
+    fn renumber(&mut self, order: &[u32]) {
+        let mut number = vec![0u32; order.len()];
+        for (&old, new) in order.iter().zip(0..) {
+            number[old as usize] = new;
+        }
+        self.positions = order.iter().map(|&old| self.positions[old as usize]).collect();
+        let rename = |nodes: &mut [u32]| nodes.iter_mut().for_each(|node| *node = number[*node as usize]);
+        self.parts.iter_mut().for_each(|part| rename(&mut part.nodes));
+        self.groups.iter_mut().for_each(|group| rename(&mut group.connectivity));
         self.lines.values_mut().flatten().for_each(|line| rename(line));
         for nodes in self.points.values_mut() {
             rename(nodes);
             nodes.sort_unstable();
         }
-        self.user_nodes = order;
+    }
+
+    /// Moves the nodes on outlines before the others.
+    fn put_outlines_first(&mut self) {
+        // Around a node inside each neighbour is once the next one and once the one before. (Where two fans meet in a point it may look as if it were inside: it only lies elsewhere.)
+        let mut around = vec![0u64; self.positions.len()];
+        for cell in self.groups.iter().flat_map(ElementGroup::cells) {
+            for (corner, &node) in cell.iter().enumerate() {
+                let [before, next] = [cell.len() - 1, 1].map(|by| u64::from(cell[(corner + by) % cell.len()]));
+                let sum = &mut around[node as usize];
+                *sum = sum.wrapping_add(next).wrapping_sub(before);
+            }
+        }
+        self.outlines = around.iter().map(|&sum| sum != 0).collect();
+        drop(around);
+        let of = |wanted: bool| (0..).zip(&self.outlines).filter(move |&(_, &is_outer)| is_outer == wanted).map(|(node, _)| node);
+        let order: Vec<u32> = of(true).chain(of(false)).collect();
+        self.renumber(&order);
+        self.user_nodes = order.iter().map(|&node| self.user_nodes[node as usize]).collect();
+    }
+
+    /// The nodes in the order of the curve.
+    pub(crate) fn along_curve(&self) -> impl Iterator<Item = usize> {
+        let mut next = [self.outlines.iter().filter(|&&is_outer| is_outer).count(), 0];
+        self.outlines.iter().map(move |&is_outer| {
+            let next = &mut next[usize::from(is_outer)];
+            *next += 1;
+            *next - 1
+        })
     }
 }
 
@@ -148,6 +185,7 @@ const fn stretch(bits: u32) -> [[(u8, u8); 64]; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::{Model, Part, Rectangle, Shape};
 
     #[test]
     fn neighbours_on_the_curve_are_neighbours_in_space() {
@@ -158,6 +196,22 @@ mod tests {
         for pair in cells.windows(2) {
             assert_eq!(pair[0][0].abs_diff(pair[1][0]) + pair[0][1].abs_diff(pair[1][1]), 1, "{pair:?}");
         }
+    }
+
+    #[test]
+    fn outlines_come_first_and_the_curve_is_still_known() {
+        let shape = |elements: [usize; 2]| Shape::Rectangle(Rectangle { size: [3.0, 2.0], elements, ..Rectangle::default() });
+        let part = |name: &str, elements| Part { name: name.into(), shape: shape(elements), ..Part::default() };
+        let mesh = Mesh::new(&Model { parts: vec![part("coarse", [3, 2]), part("fine", [7, 5])], ..Model::default() }).unwrap();
+        let is_outer = |[x, y]: [f64; 2]| x.min(y).min(3.0 - x).min(2.0 - y) < 1e-9;
+        let outer: Vec<bool> = mesh.positions.iter().map(|&x| is_outer(x)).collect();
+        assert!(outer.is_sorted_by(|a, b| a >= b) && outer.iter().filter(|&&outer| outer).count() == 10 + 24, "{outer:?}");
+        let along: Vec<usize> = mesh.along_curve().collect();
+        let codes = codes(along.iter().map(|&node| mesh.positions[node]));
+        assert!(codes.is_sorted(), "{codes:?}");
+        let mut all = along;
+        all.sort_unstable();
+        assert!(all.into_iter().eq(0..mesh.positions.len()));
     }
 
     /// The definition, one bit at a time.

@@ -123,8 +123,10 @@ impl Nodes<'_> {
         let old = L::load_points(self.velocities_old, node);
         let scale = dt / m;
         let mut force = internal;
-        if !self.contact_forces.is_empty() {
-            let contact = L::load_points(self.contact_forces, node);
+        if let Some(forces) = self.contact_forces {
+            // Adding zeros is for their sign.
+            let zero = [L::splat(0.0); 2];
+            let contact = if forces.has(first / BATCH) { L::load_points(forces.values(), node) } else { zero };
             force = [force[0] + contact[0], force[1] + contact[1]];
         }
         let mut v = [old[0] + scale * force[0], old[1] + scale * force[1]];

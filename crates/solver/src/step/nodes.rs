@@ -4,6 +4,7 @@
 //! [`crate::contact::springs`]. With m̃ = m (1 + a) I + ½ Δt C of damping (a) and dashpots (C), Δt = ½ (dt^{n−1} + dt^n), an impulse J changes the velocity by m̃⁻¹ J.
 
 use crate::assembly::Assembly;
+use crate::contact::forces::ContactForces;
 use crate::contact::springs::{Mover, Movers};
 use crate::energy::Sums;
 use crate::load::constraint::{Constraints, Held};
@@ -21,8 +22,8 @@ pub(crate) struct Nodes<'a> {
     pub(crate) dt: f64,
     pub(crate) assembly: &'a Assembly,
     pub(crate) slots: &'a [Vector],
-    /// N/m; empty without contacts.
-    pub(crate) contact_forces: &'a [Vector],
+    /// N/m; `None` without contacts.
+    pub(crate) contact_forces: Option<&'a ContactForces>,
     /// Forces on nodes, N/m; empty without.
     pub(crate) loads: &'a [Vector],
     /// Accelerations of mass, m/s²; empty without.
@@ -94,13 +95,17 @@ impl<'a> Nodes<'a> {
             mass: self.mass[node],
             old: self.velocities_old[node],
             internal: self.assembly.force(node, self.slots),
-            contact: self.contact_forces.get(node).copied().unwrap_or_default(),
+            contact: self.contact_force(node),
             load: self.loads.get(node).copied(),
             gravity: self.gravity.get(node).copied(),
             slowing: self.damping.factor(node),
             dashpot: self.boundary.of(node).map(|matrix| matrix.map(|c| 0.5 * self.dt * c)),
             held: self.constraints.of(node),
         }
+    }
+
+    fn contact_force(&self, node: usize) -> Vector {
+        self.contact_forces.map_or([0.0; 2], |forces| forces.values()[node])
     }
 
     fn pull_of(&self, group: &Group) -> Pull<'a> {
@@ -111,7 +116,7 @@ impl<'a> Nodes<'a> {
             mass,
             old: self.velocities_old[leader],
             internal: group.sum(|node| self.assembly.force(node, self.slots)),
-            contact: group.sum(|node| self.contact_forces.get(node).copied().unwrap_or_default()),
+            contact: group.sum(|node| self.contact_force(node)),
             load: (!self.loads.is_empty()).then(|| group.sum(|node| self.loads[node])),
             gravity: (!self.gravity.is_empty()).then(|| group.sum(weight).map(|force| force / mass)),
             slowing: whole(&|node| self.mass[node] * self.damping.factor(node)) / mass,
@@ -230,6 +235,11 @@ impl Movers for Nodes<'_> {
             free = [free[0] + self.dt / pull.mass * load[0], free[1] + self.dt / pull.mass * load[1]];
         }
         Mover { velocity_old: v, velocity: pull.held(pull.slowed(free)), mobility: self.mobility(&pull) }
+    }
+
+    fn moves(&self, leader: usize) -> bool {
+        let is_held = self.constraints.of(leader).is_some() || self.boundary.of(leader).is_some();
+        !is_held || self.mobility(&self.pull_on(leader)) != [0.0; 3]
     }
 }
 

@@ -95,7 +95,7 @@ proptest! {
                 }
             }
             let new = rings.placed(&places);
-            let touches = tracker.track(Sweep { old: &old, new: &new }, 0.0).to_vec();
+            let touches = tracker.track(Sweep::between(&old, &new), 0.0).to_vec();
             for (node, &x) in new.iter().enumerate() {
                 for body in 0..count as u32 {
                     let touch = touches.iter().find(|touch| {
@@ -154,7 +154,7 @@ fn corners_that_begin_exactly_on_each_other_go_in_and_out_again() {
         let mut old = at(0.0);
         for way in [0.0, 0.02, 0.03, 0.01, -0.01, -0.02, -0.01] {
             let new = at(way);
-            let touches = tracker.track(Sweep { old: &old, new: &new }, 0.0).to_vec();
+            let touches = tracker.track(Sweep::between(&old, &new), 0.0).to_vec();
             for node in [0, 4] {
                 let is_inside = touches.iter().any(|touch| touch.node == node && !touch.own && touch.projection.gap < 0.0);
                 assert_eq!(is_inside, way > 0.0, "node {node} at {way}, turned {quarter} times: {touches:?}");
@@ -178,7 +178,7 @@ fn who_leaves_one_face_of_an_overlapping_crack_is_held_by_the_other() {
     let mut tracker = tracker_of(&cells, &bodies, &old);
     for (way, depth) in [([0.0, 0.0], None), ([0.0, -0.1], Some(0.05)), ([0.0032, -0.1], Some(0.0052)), ([0.0034, -0.1], Some(0.0054))] {
         let new = at(way);
-        let touches = tracker.track(Sweep { old: &old, new: &new }, 0.0).to_vec();
+        let touches = tracker.track(Sweep::between(&old, &new), 0.0).to_vec();
         let inside = touches.iter().find(|touch| touch.node == 10 && touch.projection.gap < 0.0);
         assert_eq!(inside.is_some(), depth.is_some(), "{way:?}: {touches:?}");
         if let (Some(touch), Some(depth)) = (inside, depth) {
@@ -198,4 +198,41 @@ fn a_contact_that_transmits_nothing_is_mentioned() {
     let (simulation, _) = run(&model);
     let warnings = simulation.summary().warnings;
     assert_eq!(warnings, ["contact \"one-two\" transmitted nothing in the whole run"]);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// What sleeps is found as if it had been looked at: the same touches, searches and proof in every step, with nodes that go as far as the travel allows and some that go slower.
+    #[test]
+    fn what_sleeps_misses_nothing(
+        moves in prop::collection::vec((prop::array::uniform2(-1.0..1.0_f64), -1.0..1.0_f64), 6 * 40),
+        speeds in prop::collection::vec(-5.0..-0.5_f64, 40),
+    ) {
+        let cells: Vec<[u32; 4]> = (0..6).map(|k| [0, 1, 2, 3].map(|corner| 4 * k + corner)).collect();
+        let bodies: Vec<u32> = (0..24).map(|node| node / 4).collect();
+        let mut old: Vec<Vector> = (0..6)
+            .flat_map(|k| {
+                let (x, y) = (1.05 * f64::from(k % 3), 1.05 * f64::from(k / 3));
+                [[x, y], [x + 1.0, y], [x + 1.0, y + 1.0], [x, y + 1.0]]
+            })
+            .collect();
+        let (mut sleepy, mut awake) = (tracker_of(&cells, &bodies, &old), tracker_of(&cells, &bodies, &old));
+        let mut travel = 0.0;
+        for (step, speed) in speeds.iter().enumerate() {
+            let speed = 10.0_f64.powf(*speed);
+            let way = |node: usize| {
+                let ([u, v], stretch) = moves[6 * step + node / 4];
+                let slow = if node.is_multiple_of(4) { stretch } else { 1.0 };
+                [0.7 * speed * u * slow, 0.7 * speed * v * slow]
+            };
+            let new: Vec<Vector> = old.iter().enumerate().map(|(node, x)| [x[0] + way(node)[0], x[1] + way(node)[1]]).collect();
+            travel += (0..old.len()).map(way).map(|[x, y]| (x * x + y * y).sqrt()).fold(0.0, f64::max);
+            let touches = awake.track(Sweep::between(&old, &new), 0.0).to_vec();
+            prop_assert_eq!(sleepy.track(Sweep { old: &old, new: &new, travel }, 0.0), &touches[..], "step {}", step);
+            old = new;
+        }
+        prop_assert_eq!(sleepy.certificate(), awake.certificate());
+        prop_assert_eq!(sleepy.search_report(), awake.search_report());
+    }
 }

@@ -11,8 +11,8 @@ use super::{Memory, Shape, State, Way};
 use crate::contact::Vector;
 use crate::contact::initial::kept;
 use crate::contact::node_segment::{Slave, segment_ends};
-use crate::contact::springs::{End, Spring, Springs};
-use crate::contact::tracker::{self, Certificate, SearchReport, Touch, Tracker};
+use crate::contact::springs::{Answers, End, Spring, Springs};
+use crate::contact::tracker::{Certificate, SearchReport, Touch, Tracker};
 use crate::contact::{Formulation, Scene};
 use std::any::Any;
 
@@ -120,7 +120,6 @@ pub struct RoundSegments {
     /// Whether gaps that are negative when it begins to act count as zero.
     ignores_start: bool,
     has_begun: bool,
-    found: Vec<Touch>,
 }
 
 impl RoundSegments {
@@ -128,7 +127,7 @@ impl RoundSegments {
     /// as zero until the surfaces part.
     #[must_use]
     pub fn new(tracker: Tracker, slave: Slave, [radius, reach]: [f64; 2], body: usize, ignores_start: bool) -> Self {
-        Self { tracker, slave, radius, reach, body, ignores_start, has_begun: false, found: Vec::new() }
+        Self { tracker, slave, radius, reach, body, ignores_start, has_begun: false }
     }
 
     /// The spring at a body that is near, and its ends.
@@ -142,32 +141,32 @@ impl RoundSegments {
         // A node comes first: it stands for the place in messages.
         let [a, b] = segment_ends(segment, &projection, gap, positions);
         let ends = [a, b, End { at: (positions.len() + self.body) as u32, share: 1.0, point, ..End::default() }];
-        let (Slave { stiffness, area, .. }, slip) = (self.slave, touch.memory.slip);
-        let gap = gap - touch.memory.offset;
+        let (Slave { stiffness, area, .. }, memory) = (self.slave, self.tracker.kept(touch));
+        let (slip, gap) = (memory.slip, gap - memory.offset);
         (Spring { normal, gap, stiffness, area, side: -1.0, slip, ..Spring::default() }, ends)
     }
 }
 
 impl Formulation for RoundSegments {
     fn detect(&mut self, scene: &Scene<'_>, springs: &mut Springs) {
-        let mut found = std::mem::take(&mut self.found);
-        found.clear();
-        found.extend_from_slice(self.tracker.track(scene.sweep, self.radius + self.reach));
-        for touch in &mut found {
+        let count = self.tracker.track(scene.sweep, self.radius + self.reach).len();
+        for index in 0..count {
+            let touch = self.tracker.touches()[index];
             if self.ignores_start {
                 let gap = touch.projection.gap - self.radius;
-                touch.memory.offset = kept(self.has_begun, touch.memory.offset, gap);
+                let memory = self.tracker.kept_mut(&touch);
+                memory.offset = kept(self.has_begun, memory.offset, gap);
             }
-            let (spring, ends) = self.spring(touch, scene.sweep.new);
+            let (spring, ends) = self.spring(&touch, scene.sweep.new);
             springs.push(spring, &ends);
         }
-        self.found = found;
         self.has_begun = true;
     }
 
-    fn remember(&mut self, solved: &[Spring]) {
-        for (touch, spring) in self.found.iter().zip(solved) {
-            self.tracker.remember(touch, tracker::Memory { slip: spring.slip_new, ..touch.memory });
+    fn remember(&mut self, solved: Answers<'_>) {
+        for (index, answer) in solved.enumerate() {
+            let touch = self.tracker.touches()[index];
+            self.tracker.kept_mut(&touch).slip = answer.solved.slip_new;
         }
     }
 

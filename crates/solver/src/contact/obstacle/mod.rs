@@ -8,7 +8,7 @@ pub mod plane;
 
 use super::initial::kept;
 use super::node_segment::Slave;
-use super::springs::{End, Spring, Springs};
+use super::springs::{Answers, End, Spring, Springs};
 use super::tracker::{Certificate, SearchReport};
 use super::{Formulation, Scene, Vector};
 use crate::output::Outline;
@@ -120,7 +120,7 @@ impl Near {
 
     /// Whether the far nodes are still far.
     fn holds(&self, scene: &Scene<'_>, place: (f64, Vector), reach: f64) -> bool {
-        self.place == place && self.since.is_some_and(|since| scene.travel - since < Self::WAY * reach)
+        self.place == place && self.since.is_some_and(|since| scene.sweep.travel - since < Self::WAY * reach)
     }
 }
 
@@ -142,7 +142,7 @@ impl Formulation for NodeObstacle {
         let place = (body.angle, body.centre);
         let looks_at_all = !self.near.holds(scene, place, self.reach);
         if looks_at_all {
-            (self.near.since, self.near.place) = (Some(scene.travel), place);
+            (self.near.since, self.near.place) = (Some(scene.sweep.travel), place);
             self.near.indices.clear();
             self.near.indices.extend(0..self.nodes.len() as u32);
         }
@@ -196,10 +196,10 @@ impl Formulation for NodeObstacle {
         }
     }
 
-    fn remember(&mut self, solved: &[Spring]) {
-        for (&index, spring) in self.found.iter().zip(solved) {
-            self.nodes[index as usize].1.slip = spring.slip_new;
-            self.memories[index as usize].presses = spring.force != 0.0;
+    fn remember(&mut self, solved: Answers<'_>) {
+        for (&index, answer) in self.found.iter().zip(solved) {
+            self.nodes[index as usize].1.slip = answer.solved.slip_new;
+            self.memories[index as usize].presses = answer.solved.force != 0.0;
         }
     }
 }
@@ -246,10 +246,9 @@ impl Formulation for Both {
         self.parts.iter().find_map(|part| part.search_report())
     }
 
-    fn remember(&mut self, solved: &[Spring]) {
+    fn remember(&mut self, solved: Answers<'_>) {
         // Nothing is found, and nothing solved, while the contact does not act.
-        let (first, second) = solved.split_at(self.split.min(solved.len()));
-        self.parts[0].remember(first);
-        self.parts[1].remember(second);
+        self.parts[0].remember(solved.part(0, self.split));
+        self.parts[1].remember(solved.part(self.split, usize::MAX));
     }
 }

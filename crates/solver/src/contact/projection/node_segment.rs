@@ -36,6 +36,8 @@ pub struct Projection {
 const END_TOLERANCE: f64 = 1e-6;
 /// Round-off of f, and of the comparison with it, over lengths of both factors.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
+/// Off a node by this part of the distance, squared, the inside of a segment is nearer than the node whatever rounds.
+const CLEAR: f64 = 1e-6;
 /// Two sides are equally near when their distances differ by less than this fraction.
 const TIE: f64 = 1e-9;
 /// Cosine of the angle between two segments from which on their common node is an edge, not a facet of something round.
@@ -67,6 +69,15 @@ pub struct Held {
     pub band: f64,
     /// Gap up to which it is held, m.
     pub gap: f64,
+}
+
+/// What a node has ahead of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ahead {
+    /// Segment that the nearest feature in front belongs to, and the projection on it: `None` where the surface is cut off there.
+    pub first: Option<(u32, Option<Projection>)>,
+    /// So far all candidates are away, in front or behind, m: until one of them is nearer nothing is touched or passed through. Minus infinity if one has no length.
+    pub clear: f64,
 }
 
 /// A node as a segment's line sees it.
@@ -165,17 +176,18 @@ impl Target {
             return None;
         }
         let s = dot(minus(x, c1), t) / length_squared;
-        let normal = outward(t, length_squared.sqrt());
+        let length = length_squared.sqrt();
+        let normal = outward(t, length);
         if (-END_TOLERANCE..=1.0 + END_TOLERANCE).contains(&s) {
             // The sign is that of `crossing` at the beginning of the next step, to the last bit.
-            let gap = cross(t, minus(x, c1)) / length_squared.sqrt();
+            let gap = cross(t, minus(x, c1)) / length;
             let projection = Some(Projection { segment, weights: [1.0 - s, s], gap, normal });
-            return Some(Feature { segment, at: Place::Inside, distance: gap.abs(), projection });
+            return Some(Feature { segment, at: Place::Inside, distance: gap.abs(), length, projection });
         }
         let (node, end, weights, at) = if s < 0.0 { (n1, c1, [1.0, 0.0], Place::Begin) } else { (n2, c2, [0.0, 1.0], Place::End) };
         let away = minus(x, end);
         let distance = dot(away, away).sqrt();
-        let cut_off = Feature { segment, at, distance, projection: None };
+        let cut_off = Feature { segment, at, distance, length, projection: None };
         let pseudo = match self.neighbour_normal(segment, at, positions) {
             Some(other) => plus(normal, other),
             None => match self.mirrors.binary_search_by_key(&node, |&(node, _)| node) {
@@ -214,15 +226,24 @@ impl Target {
     /// plate's far side nor that of its own body. `None` where the nearest is an end at which the surface is cut off.
     #[must_use]
     pub fn ahead(&self, x: Vector, candidates: &[u32], rounding: f64, positions: &[Vector]) -> Option<Projection> {
-        self.first_ahead(x, candidates, rounding, positions)?.1
+        self.look_ahead(x, candidates, rounding, positions).first?.1
     }
 
-    /// As [`Target::ahead`], with the segment that the nearest feature belongs to: it is told where the surface is cut off, too.
+    /// As [`Target::ahead`], with what the way to the nearest feature tells besides.
     #[must_use]
-    pub fn first_ahead(&self, x: Vector, candidates: &[u32], rounding: f64, positions: &[Vector]) -> Option<(u32, Option<Projection>)> {
-        let features = candidates.iter().filter_map(|&segment| self.feature(x, segment, positions));
-        let in_front = features.filter(|feature| feature.projection.is_none_or(|projection| projection.gap >= -rounding));
-        in_front.reduce(nearer).map(|feature| (feature.segment, feature.projection))
+    pub fn look_ahead(&self, x: Vector, candidates: &[u32], rounding: f64, positions: &[Vector]) -> Ahead {
+        let (mut first, mut clear) = (None, f64::INFINITY);
+        for &segment in candidates {
+            let Some(feature) = self.feature(x, segment, positions) else {
+                clear = f64::NEG_INFINITY;
+                continue;
+            };
+            clear = clear.min(feature.distance - 2.0 * END_TOLERANCE * feature.length);
+            if feature.projection.is_none_or(|projection| projection.gap >= -rounding) {
+                first = Some(first.map_or(feature, |best| nearer(best, feature)));
+            }
+        }
+        Ahead { first: first.map(|feature| (feature.segment, feature.projection)), clear }
     }
 
     /// Nearest feature to `x` among `candidates`; of equally near ones the first. `None` where that is an end at which the surface is cut off.
@@ -259,7 +280,10 @@ impl Target {
             }
             for end in PLACES {
                 let neighbour = self.neighbour(here.segment, end);
-                if !self.goes_on(neighbour, own) || (here.at == Place::Inside && self.is_edge(here.segment, neighbour, positions)) {
+                if !self.goes_on(neighbour, own) || self.is_left_behind(x, &here, neighbour, end, positions) {
+                    continue;
+                }
+                if here.at == Place::Inside && self.is_edge(here.segment, neighbour, positions) {
                     continue;
                 }
                 let other = self.feature(x, neighbour, positions).filter(|other| other.at != end || here.at == end);
@@ -270,6 +294,21 @@ impl Target {
             }
         }
         self.between_sides(x, best, own, positions, false)
+    }
+
+    /// Whether `x`, which projects on the inside of `here`, can't be nearer to the neighbour at its end `end`: it is beyond the common node as the neighbour sees it, so that node
+    /// is what it would find there, and clearly off that node on `here`. This is so for nearly all nodes on nearly flat surfaces, and costs no root and no division.
+    #[inline]
+    fn is_left_behind(&self, x: Vector, here: &Feature, neighbour: u32, end: Place, positions: &[Vector]) -> bool {
+        let Some(Projection { weights, gap, .. }) = here.projection.filter(|_| here.at == Place::Inside) else { return false };
+        let [a, b] = self.surface.segments[neighbour as usize].map(|node| positions[node as usize]);
+        let (along, weight) = (minus(b, a), weights[usize::from(end == Place::Begin)]);
+        let (back, common) = if end == Place::Begin { (along, b) } else { (minus(a, b), a) };
+        let (square, off) = (dot(along, along), weight * here.length);
+        square > 0.0
+            && dot(minus(x, common), back) > 2.0 * END_TOLERANCE * square
+            && weight > END_TOLERANCE
+            && off * off > CLEAR * gap * gap
     }
 
     /// Whether there is a segment, and not one of node `own`.
@@ -286,7 +325,10 @@ impl Target {
         }
         for (end, weights, corner) in [(Place::Begin, [1.0, 0.0], 0), (Place::End, [0.0, 1.0], 1)] {
             let neighbour = self.neighbour(feature.segment, end);
-            if !self.goes_on(neighbour, own) || (!over_edges && self.is_edge(feature.segment, neighbour, positions)) {
+            if !self.goes_on(neighbour, own) || self.is_left_behind(x, &feature, neighbour, end, positions) {
+                continue;
+            }
+            if !over_edges && self.is_edge(feature.segment, neighbour, positions) {
                 continue;
             }
             let other = self.feature(x, neighbour, positions).filter(|other| other.at == Place::Inside);
@@ -402,6 +444,8 @@ struct Feature {
     segment: u32,
     at: Place,
     distance: f64,
+    /// Of the segment.
+    length: f64,
     /// `None` beyond an end at which the surface is cut off.
     projection: Option<Projection>,
 }

@@ -60,9 +60,9 @@ fn springs_of(model: &Facing2, penalty: Penalty, depth: Depth) -> Springs {
         passes: both_passes(&contact),
     };
     let mut formulation = (KIND.make)(setup).unwrap();
-    let mut springs = Springs::new(model.positions.len(), 0);
-    let sweep = Sweep { old: &model.positions, new: &model.positions };
-    formulation.detect(&Scene { sweep, bodies: &Bodies::default(), time: 0.0, travel: 0.0 }, &mut springs);
+    let mut springs = Springs::new(model.positions.len(), 0, Vec::new());
+    let sweep = Sweep::between(&model.positions, &model.positions);
+    formulation.detect(&Scene { sweep, bodies: &Bodies::default(), time: 0.0 }, &mut springs);
     springs
 }
 

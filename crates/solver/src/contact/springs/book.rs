@@ -1,80 +1,79 @@
 //! Energies and works of solved springs.
 //!
-//! Links come from [`super::solve`]; what is booked stays in the springs, from where [`super::Springs::collect`] sums it up.
+//! Springs and what was found of them come from [`super::answers`], which sums up what is booked here.
 
-use super::link::Link;
-use super::{Lost, Spring, Springs, Tangential, Terms};
-use rayon::prelude::*;
+use super::{Answer, Lost, Tangential};
 
-/// Springs that one task books.
-const CHUNK: usize = 1024;
-
-impl Springs {
-    /// Takes forces from the links, with their energies and works.
-    pub(super) fn book(&mut self, time_steps: [f64; 2], terms: &[Terms], parallel: bool) {
-        let (links, rank, terms_of) = (&self.work.links, &self.work.rank, &self.terms_of);
-        let book = |first: usize, springs: &mut [Spring]| {
-            let begin = first * CHUNK;
-            for ((spring, &rank), &number) in springs.iter_mut().zip(&rank[begin..]).zip(&terms_of[begin..]) {
-                spring.book(&links[rank as usize], &terms[number as usize], time_steps);
-            }
-        };
-        if parallel {
-            self.list.par_chunks_mut(CHUNK).enumerate().for_each(|(first, springs)| book(first, springs));
-        } else {
-            self.list.chunks_mut(CHUNK).enumerate().for_each(|(first, springs)| book(first, springs));
-        }
-    }
+/// The books of a spring, J/m.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Books {
+    /// Energy at the whole step n, in step with ½ Σ m v^{n-1/2}·v^{n+1/2}: ½ (V(g^{n−½}) + V(g^{n+½})) + ½ F (g^{n+½} + g^{n−½} − 2 g^n).
+    pub energy: f64,
+    /// Energy at n + ½ of the gap, and of a tie's slip.
+    pub stored: [f64; 2],
+    /// The sum of both at n − ½.
+    pub stored_before: f64,
+    /// Energy of the elastic slip at n: ¼ k (s^{n−½}² + s^{n+½}²).
+    pub slip_energy: f64,
+    /// Work of both forces in the velocity update.
+    pub work: f64,
+    /// What the update took for good or for the elastic slip: minus the work of friction, damping and multipliers.
+    pub lost: Lost,
 }
 
-impl Spring {
-    fn book(&mut self, link: &Link, terms: &Terms, time_steps: [f64; 2]) {
-        let [before, after] = time_steps;
+impl Answer<'_> {
+    /// Energies and works of the spring.
+    #[must_use]
+    pub fn books(&self) -> Books {
+        let ([before, after], terms, spring, solved) = (self.time_steps(), self.terms(), self.spring, self.solved);
+        let [rate_old, rate] = solved.rates;
+        let [slip_rate_old, slip_rate] = solved.slip_rates;
         let mean_step = 0.5 * (before + after);
-        (self.force, self.friction) = (link.force, link.friction);
-        (self.slip_new, self.slides, self.slip_rate) = (link.slip_new, link.slides, link.rates[1]);
-        let spring = *self;
-        let gap_new = self.gap + 0.5 * after * link.rates[0];
-        self.gap_new = gap_new;
-        let (stored_old, stored_new) = (terms.law.stored(&spring, link.gap_old), terms.law.stored(&spring, gap_new));
+        let (gap_old, gap_new) = (self.gap_old(), self.gap_new());
+        let (stored_old, stored_new) = (terms.law.stored(spring, gap_old), terms.law.stored(spring, gap_new));
         // Part of the force that the energy explains; the rest is damping, or a multiplier's.
         let elastic = match terms.law.is_elastic() {
             false => 0.0,
-            true if terms.damping == 0.0 => self.force,
-            true => terms.law.mean_force(&spring, link.gap_old, gap_new),
+            true if terms.damping == 0.0 => solved.force,
+            true => terms.law.mean_force(spring, gap_old, gap_new),
         };
-        let bend = gap_new + link.gap_old - 2.0 * self.gap;
-        self.energy = 0.5 * (stored_old + stored_new) + 0.5 * elastic * bend;
-        self.stored = [stored_new, 0.0];
-        self.stored_before = stored_old;
-        let rate_mean = 0.5 * (link.rate_old + link.rates[0]);
-        let slip_mean = 0.5 * (link.slip_rate_old + link.rates[1]);
-        self.work = mean_step * (self.force * rate_mean + self.friction * slip_mean);
-        let inelastic = self.force - elastic;
-        self.lost = Lost { damping: -mean_step * inelastic * rate_mean, ..Lost::default() };
-        self.lost.old[1] = -mean_step * inelastic * link.rate_old;
+        let bend = gap_new + gap_old - 2.0 * spring.gap;
+        let rate_mean = 0.5 * (rate_old + rate);
+        let slip_mean = 0.5 * (slip_rate_old + slip_rate);
+        let inelastic = solved.force - elastic;
+        let mut lost = Lost { damping: -mean_step * inelastic * rate_mean, ..Lost::default() };
+        lost.old[1] = -mean_step * inelastic * rate_old;
+        let mut books = Books {
+            energy: 0.5 * (stored_old + stored_new) + 0.5 * elastic * bend,
+            stored: [stored_new, 0.0],
+            stored_before: stored_old,
+            slip_energy: 0.0,
+            work: mean_step * (solved.force * rate_mean + solved.friction * slip_mean),
+            lost,
+        };
         match terms.tangential {
-            Tangential::Free => self.slides = self.force != 0.0,
+            Tangential::Free => {}
             Tangential::Friction(_) => {
-                self.lost.friction = -mean_step * self.friction * slip_mean;
-                self.lost.old[0] = -mean_step * self.friction * link.slip_rate_old;
-                let stiffness = terms.law.slip_stiffness(&spring);
+                books.lost.friction = -mean_step * solved.friction * slip_mean;
+                books.lost.old[0] = -mean_step * solved.friction * slip_rate_old;
+                let stiffness = terms.law.slip_stiffness(spring);
                 if stiffness.is_finite() {
-                    self.slip_energy = 0.25 * stiffness * (self.slip * self.slip + self.slip_new * self.slip_new);
+                    books.slip_energy = 0.25 * stiffness * (spring.slip * spring.slip + solved.slip_new * solved.slip_new);
                 }
             }
             Tangential::Tied => {
-                let stiffness = terms.law.slip_stiffness(&spring);
+                let stiffness = terms.law.slip_stiffness(spring);
                 if stiffness.is_finite() {
-                    let (old, new) = (self.slip - 0.5 * before * link.slip_rate_old, self.slip + 0.5 * after * link.rates[1]);
-                    self.stored[1] = 0.5 * stiffness * new * new;
-                    self.stored_before += 0.5 * stiffness * old * old;
-                    self.energy += 0.25 * stiffness * (old * old + new * new) + 0.5 * self.friction * (old + new - 2.0 * self.slip);
+                    let (old, new) = (spring.slip - 0.5 * before * slip_rate_old, spring.slip + 0.5 * after * slip_rate);
+                    books.stored[1] = 0.5 * stiffness * new * new;
+                    books.stored_before += 0.5 * stiffness * old * old;
+                    books.energy += 0.25 * stiffness * (old * old + new * new) + 0.5 * solved.friction * (old + new - 2.0 * spring.slip);
                 } else {
-                    self.lost.damping -= mean_step * self.friction * slip_mean;
-                    self.lost.old[1] -= mean_step * self.friction * link.slip_rate_old;
+                    books.lost.damping -= mean_step * solved.friction * slip_mean;
+                    books.lost.old[1] -= mean_step * solved.friction * slip_rate_old;
                 }
             }
         }
+        books
     }
 }

@@ -3,6 +3,8 @@
 //! Springs and the state of the step come from [`super::Springs`]; links and arms, island by island, go to [`super::relax`]. Velocities are counted from those that there are
 //! without springs: what a force changes is then exact to its own last digits, however fast the bodies move.
 
+use super::ends::Ends;
+use super::islands::NONE;
 use super::{End, Mover, Movers, Spring, Tangential, Update, Vector, tangent};
 use crate::load::join;
 use std::ops::Range;
@@ -10,7 +12,6 @@ use std::ops::Range;
 /// A node or rigid body that springs act on.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Movable {
-    pub(super) at: u32,
     /// x, y and, of a rigid body, angular.
     velocity_old: [f64; 3],
     /// v^{n+½} without springs.
@@ -33,11 +34,6 @@ impl Mobility {
 }
 
 impl Movable {
-    /// One of which only the number is known.
-    pub(super) fn unknown(at: u32) -> Self {
-        Self { at, ..Self::default() }
-    }
-
     /// The node or (from `nodes` on) rigid body `at` at the beginning of the solution.
     pub(super) fn new<M: Movers>(at: u32, nodes: usize, update: &Update<'_, M>) -> Self {
         let mean_step = 0.5 * (update.time_steps[0] + update.time_steps[1]);
@@ -46,16 +42,18 @@ impl Movable {
             let body = update.bodies.state(node - nodes);
             let [x, y, spin] = body.inverse_mass.map(|inverse| mean_step * inverse);
             let (velocity_old, velocity_free) = (body.velocity_old, body.velocity_free);
-            return Self { at, velocity_old, velocity_free, mobility: Mobility([x, 0.0, y, spin]), centre: Some(body.centre) };
+            return Self { velocity_old, velocity_free, mobility: Mobility([x, 0.0, y, spin]), centre: Some(body.centre) };
         }
         let Mover { velocity_old: [ox, oy], velocity: [vx, vy], mobility: [xx, xy, yy] } = update.nodes.mover(node);
-        Self { at, velocity_old: [ox, oy, 0.0], velocity_free: [vx, vy, 0.0], mobility: Mobility([xx, xy, yy, 0.0]), centre: None }
+        Self { velocity_old: [ox, oy, 0.0], velocity_free: [vx, vy, 0.0], mobility: Mobility([xx, xy, yy, 0.0]), centre: None }
     }
 
-    /// Whether forces move it at all.
-    #[inline]
-    pub(super) fn moves(&self) -> bool {
-        self.mobility != Mobility::default()
+    /// Whether forces move the node or rigid body `at` at all.
+    pub(super) fn moves<M: Movers>(at: u32, nodes: usize, update: &Update<'_, M>) -> bool {
+        if (at as usize) < nodes {
+            return update.nodes.moves(at as usize);
+        }
+        Self::new(at, nodes, update).mobility != Mobility::default()
     }
 
     /// A row of force `row` at an end, with its moment on a rigid body; of the image of a node as its leader feels it.
@@ -113,8 +111,6 @@ pub(super) struct Link {
     /// Elastic slip at n + ½.
     pub(super) slip_new: f64,
     pub(super) slides: bool,
-    /// ġ^{n+½} and ṡ^{n+½} of the solution.
-    pub(super) rates: [f64; 2],
 }
 
 impl Link {
@@ -125,58 +121,82 @@ impl Link {
 }
 
 /// Ends of springs, and what is at them.
-#[derive(Clone, Copy)]
-pub(super) struct Joints<'a> {
+pub(super) struct Joints<'a, M: Movers> {
     pub(super) list: &'a [Spring],
-    pub(super) ends: &'a [End],
-    /// Movable of each end.
+    pub(super) ends: &'a Ends,
+    /// Place of each end.
     pub(super) places: &'a [u32],
-    pub(super) movables: &'a [Movable],
-    /// Slot of each movable in its island.
+    /// Node or rigid body of each place.
+    pub(super) at: &'a [u32],
+    /// Slot of each place in its island; [`NONE`]: it does not move.
     pub(super) slots: &'a [u32],
-    pub(super) time_steps: [f64; 2],
+    pub(super) update: &'a Update<'a, M>,
 }
 
-impl Joints<'_> {
-    /// The link of a spring; its arms fill `arms` and `slips` from `first` on, its slots `slots`.
-    pub(super) fn link(
-        &self,
-        number: u32,
-        tangential: Tangential,
-        first: u32,
-        arms: &mut [Arm],
-        slips: &mut [[f64; 3]],
-        slots: &mut [Slot],
-    ) -> Link {
+/// An island while it is solved. It stays in the caches where islands are small.
+#[derive(Default)]
+pub(super) struct Bench {
+    pub(super) links: Vec<Link>,
+    pub(super) arms: Vec<Arm>,
+    /// Rows of the slip, as `arms`.
+    pub(super) slips: Vec<[f64; 3]>,
+    pub(super) slots: Vec<Slot>,
+    /// What is in each slot.
+    movables: Vec<Movable>,
+}
+
+impl Bench {
+    pub(super) fn clear(&mut self) {
+        self.links.clear();
+        self.arms.clear();
+        self.slips.clear();
+        self.slots.clear();
+        self.movables.clear();
+    }
+}
+
+impl<M: Movers> Joints<'_, M> {
+    /// Adds the link of a spring, with its arms and the slots that come with it.
+    pub(super) fn link(&self, number: u32, tangential: Tangential, bench: &mut Bench) {
         let spring = &self.list[number as usize];
-        let [before, after] = self.time_steps;
+        let [before, after] = self.update.time_steps;
         let t = tangent(spring.normal);
         let has_slip = !matches!(tangential, Tangential::Free);
-        let mut link = Link { spring: number, first, ..Link::default() };
+        let mut link = Link { spring: number, first: bench.arms.len() as u32, ..Link::default() };
         for k in spring.ends() {
-            let (end, place) = (&self.ends[k], self.places[k] as usize);
-            let movable = &self.movables[place];
-            let row = movable.row(end.gap_row(spring.normal), end);
-            let slip_row = if has_slip { movable.row(end.slip_row(t), end) } else { [0.0; 3] };
+            let (end, slot) = (self.ends.get(k), self.slots[self.places[k] as usize]);
+            let movable = self.movable(k, slot, bench);
+            let row = movable.row(end.gap_row(spring.normal), &end);
+            let slip_row = if has_slip { movable.row(end.slip_row(t), &end) } else { [0.0; 3] };
             link.rate_old += dot(row, movable.velocity_old);
             link.rate_free += dot(row, movable.velocity_free);
             link.slip_rate_old += dot(slip_row, movable.velocity_old);
             link.slip_rate_free += dot(slip_row, movable.velocity_free);
-            if !movable.moves() {
+            if slot == NONE {
                 continue;
             }
-            let slot = self.slots[place];
             link.compliance += 0.5 * after * dot(row, movable.mobility.response(row));
-            slots[slot as usize] = Slot { change: [0.0; 3], mobility: movable.mobility, is_body: movable.centre.is_some() };
-            let arm = (first + link.count) as usize;
-            arms[arm] = Arm { slot, row };
-            slips[arm] = slip_row;
+            bench.arms.push(Arm { slot, row });
+            bench.slips.push(slip_row);
             link.slip_compliance += dot(slip_row, movable.mobility.response(slip_row));
             link.count += 1;
         }
         link.gap_old = spring.gap - 0.5 * before * link.rate_old;
         link.gap_free = spring.gap + 0.5 * after * link.rate_free;
-        link
+        bench.links.push(link);
+    }
+
+    /// What is at an end. Slots are filled in the order in which they are met, which is that of their numbers.
+    fn movable(&self, k: usize, slot: u32, bench: &mut Bench) -> Movable {
+        if let Some(known) = bench.movables.get(slot as usize) {
+            return *known;
+        }
+        let movable = Movable::new(self.at[self.places[k] as usize], self.update.nodes.count(), self.update);
+        if slot != NONE {
+            bench.slots.push(Slot { change: [0.0; 3], mobility: movable.mobility, is_body: movable.centre.is_some() });
+            bench.movables.push(movable);
+        }
+        movable
     }
 }
 

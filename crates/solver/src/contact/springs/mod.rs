@@ -15,11 +15,13 @@
 //!
 //! g^{n+½} depends on F itself and on the other springs at the same nodes. Springs that share none are in different `islands`; those of one are swept over in their fixed order
 //! (`relax`: Gauss-Seidel, normal force and friction in turn) until no force changes, and where that is slow, Newton's step predicts the forces (`newton`, `skyline`). Pair forces
-//! keep both momenta exactly at any time. `solve` leads through the step, `link` has what springs act on, `book` the energies. Laws of the normal force are in [`super::law`],
+//! keep both momenta exactly at any time. `solve` leads through the step, `link` has what springs act on, `book` the energies, `answers` what contacts are told. Laws of the normal force are in [`super::law`],
 //! friction is in [`friction`].
 
 pub mod friction;
+mod answers;
 mod book;
+mod ends;
 mod islands;
 mod link;
 mod newton;
@@ -27,15 +29,18 @@ mod relax;
 mod skyline;
 mod solve;
 
+pub use answers::{Answer, Answers};
+
 use super::law::Law;
 use crate::rigid::Bodies;
+use ends::Ends;
 use friction::Friction;
 use std::ops::Range;
 
 /// A vector of the plane.
 pub type Vector = [f64; 2];
 
-/// A spring between two surfaces: it pushes along `normal` on the ends with positive shares and against it on the others.
+/// A spring between two surfaces: it pushes along `normal` on the ends with positive shares and against it on the others. A cache line: there is one for every node that touches.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Spring {
     /// Unit vector.
@@ -50,30 +55,6 @@ pub struct Spring {
     pub side: f64,
     /// Friction: elastic slip at n − ½ (memory of the contact), m. Tie: slip at n, m.
     pub slip: f64,
-    /// F, N/m.
-    pub force: f64,
-    /// T, N/m: friction along the tangent.
-    pub friction: f64,
-    /// Elastic slip at n + ½, m.
-    pub slip_new: f64,
-    /// Slip rate in v^{n+½}, m/s, along the tangent.
-    pub slip_rate: f64,
-    /// Whether friction is at its limit, or there is none.
-    pub slides: bool,
-    /// Energy at the whole step n, J/m, in step with ½ Σ m v^{n-1/2}·v^{n+1/2}: ½ (V(g^{n−½}) + V(g^{n+½})) + ½ F (g^{n+½} + g^{n−½} − 2 g^n).
-    pub energy: f64,
-    /// g^{n+½}, m.
-    pub gap_new: f64,
-    /// Energy at n + ½ of the gap, and of a tie's slip, J/m.
-    pub stored: [f64; 2],
-    /// The sum of both at n − ½, J/m.
-    pub stored_before: f64,
-    /// Energy of the elastic slip at n, J/m: ¼ k (s^{n−½}² + s^{n+½}²).
-    pub slip_energy: f64,
-    /// Work of both forces in the velocity update, J/m.
-    pub work: f64,
-    /// What the update took for good or for the elastic slip, J/m: minus the work of friction, damping and multipliers.
-    pub lost: Lost,
     pub(super) first: u32,
     pub(super) count: u32,
 }
@@ -84,6 +65,23 @@ impl Spring {
     fn ends(&self) -> Range<usize> {
         self.first as usize..(self.first + self.count) as usize
     }
+}
+
+/// What the solution found of a spring: what the books and the contacts need of it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Solved {
+    /// F, N/m.
+    pub force: f64,
+    /// T, N/m: friction along the tangent.
+    pub friction: f64,
+    /// Elastic slip at n + ½, m.
+    pub slip_new: f64,
+    /// Whether friction is at its limit, or there is none.
+    pub slides: bool,
+    /// Rates of the gap in v^{n−½} and v^{n+½}, m/s.
+    pub rates: [f64; 2],
+    /// The same of the slip along the tangent, m/s.
+    pub slip_rates: [f64; 2],
 }
 
 /// Work that no normal spring stores, J/m: positive is taken from the motion.
@@ -137,9 +135,10 @@ impl End {
 
     /// Force of a solved spring on this end, N/m.
     #[must_use]
-    pub fn force(&self, spring: &Spring) -> Vector {
+    #[inline]
+    pub fn force(&self, spring: &Spring, solved: &Solved) -> Vector {
         let (gap_row, slip_row) = (self.gap_row(spring.normal), self.slip_row(tangent(spring.normal)));
-        [0, 1].map(|d| gap_row[d] * spring.force + slip_row[d] * spring.friction)
+        [0, 1].map(|d| gap_row[d] * solved.force + slip_row[d] * solved.friction)
     }
 
     /// Row of the gap's rate.
@@ -187,9 +186,13 @@ pub enum Tangential {
 pub struct Springs {
     /// In the order in which contacts and obstacles found them.
     pub list: Vec<Spring>,
-    ends: Vec<End>,
-    /// Number of what acts in each.
+    ends: Ends,
+    /// What acts in springs, by number.
+    pub terms: Vec<Terms>,
+    /// Terms of each spring.
     terms_of: Vec<u32>,
+    /// dt^{n−1}, dt^n of the last solution, s.
+    time_steps: [f64; 2],
     work: solve::Workspace,
     /// Most sweeps that a step took so far.
     pub sweeps_max: usize,
@@ -217,6 +220,10 @@ pub trait Movers {
     fn leader(&self, node: u32) -> (u32, Option<Vector>);
     /// Motion of a node that leads itself.
     fn mover(&self, leader: usize) -> Mover;
+    /// Whether forces move it at all.
+    fn moves(&self, leader: usize) -> bool {
+        self.mover(leader).mobility != [0.0; 3]
+    }
 }
 
 /// A node without springs.
@@ -261,10 +268,10 @@ pub struct Totals {
 }
 
 impl Springs {
-    /// For `nodes` nodes and `bodies` rigid bodies.
+    /// For `nodes` nodes and `bodies` rigid bodies; springs follow one of the `terms`.
     #[must_use]
-    pub fn new(nodes: usize, bodies: usize) -> Self {
-        Self { work: solve::Workspace::new(nodes + bodies), ..Self::default() }
+    pub fn new(nodes: usize, bodies: usize, terms: Vec<Terms>) -> Self {
+        Self { work: solve::Workspace::new(nodes + bodies), terms, ..Self::default() }
     }
 
     /// Forgets the springs of the last step.
@@ -276,46 +283,25 @@ impl Springs {
 
     /// Adds a spring with its ends.
     pub fn push(&mut self, spring: Spring, ends: &[End]) {
-        let first = self.ends.len() as u32;
-        self.ends.extend_from_slice(ends);
+        let first = self.ends.len();
+        ends.iter().for_each(|end| self.ends.push(end));
         self.list.push(Spring { first, count: ends.len() as u32, ..spring });
     }
 
-    /// Ends the springs of a contact: what was pushed since the last group follows `terms`.
+    /// Ends the springs of a contact: what was pushed since the last group follows the terms number `terms`.
     pub fn close_group(&mut self, terms: usize) {
         self.terms_of.resize(self.list.len(), terms as u32);
     }
 
     /// The ends of a spring.
-    #[must_use]
-    pub fn ends(&self, spring: &Spring) -> &[End] {
-        &self.ends[spring.ends()]
+    pub fn ends(&self, spring: &Spring) -> impl Iterator<Item = End> {
+        spring.ends().map(|k| self.ends.get(k))
     }
 
-    /// Sums up the springs `range`: adds their forces to `forces` (of nodes) and `bodies` (of bodies without nodes at the ends).
-    pub fn collect(&self, range: Range<usize>, forces: &mut [Vector], bodies: &mut Bodies) -> Totals {
-        let mut totals = Totals::default();
-        for spring in &self.list[range] {
-            totals.energy += spring.energy;
-            totals.slip_energy += spring.slip_energy;
-            totals.work += spring.work;
-            totals.lost += spring.lost;
-            if spring.force == 0.0 && spring.friction == 0.0 {
-                continue;
-            }
-            totals.pressing += spring.force.abs();
-            for end in self.ends(spring) {
-                let force = end.force(spring);
-                if end.share > 0.0 {
-                    totals.resultant = [totals.resultant[0] + spring.side * force[0], totals.resultant[1] + spring.side * force[1]];
-                }
-                match forces.get_mut(end.at as usize) {
-                    Some(sum) => *sum = [sum[0] + force[0], sum[1] + force[1]],
-                    None => bodies.push_at(end.at as usize - forces.len(), force, end.point),
-                }
-            }
-        }
-        totals
+    /// What the last solution found of the springs `range`.
+    #[must_use]
+    pub fn answers(&self, range: Range<usize>) -> Answers<'_> {
+        Answers { springs: self, range }
     }
 }
 

@@ -6,7 +6,7 @@
 use super::friction::{self, Stick};
 use super::link::{Arm, Link, Slot, dot};
 use super::newton::Newton;
-use super::{Closing, Spring, Tangential, Terms};
+use super::{Closing, Solved, Spring, Tangential, Terms};
 use crate::contact::law;
 
 /// An island is solved when a sweep changes no force by more than this fraction of the island's largest.
@@ -324,13 +324,15 @@ impl Island<'_> {
         }
     }
 
-    /// Keeps the rates that the solution leads to.
-    pub(super) fn settle(&mut self) {
-        for i in 0..self.links.len() {
-            let slips = !matches!(self.terms_of(i).tangential, Tangential::Free);
-            let rate = self.links[i].rate_free + self.gap_rate(i);
-            let slip_rate = if slips { self.links[i].slip_rate_free + self.slip_rate(i) } else { 0.0 };
-            self.links[i].rates = [rate, slip_rate];
+    /// Tells what was found, with the rates that the forces lead to.
+    pub(super) fn settle(&self, solved: &mut [Solved]) {
+        for (i, (link, solved)) in self.links.iter().zip(solved).enumerate() {
+            let is_free = matches!(self.terms_of(i).tangential, Tangential::Free);
+            let Link { force, friction, slip_new, rate_old, slip_rate_old, .. } = *link;
+            let rate = link.rate_free + self.gap_rate(i);
+            let slip_rate = if is_free { 0.0 } else { link.slip_rate_free + self.slip_rate(i) };
+            let slides = if is_free { force != 0.0 } else { link.slides };
+            *solved = Solved { force, friction, slip_new, slides, rates: [rate_old, rate], slip_rates: [slip_rate_old, slip_rate] };
         }
     }
 }

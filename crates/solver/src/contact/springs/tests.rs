@@ -23,8 +23,8 @@ fn a_bouncing_mass_keeps_its_energy_for_every_stiffness() {
     for k in [0.1, 1.0, 30.0, 1e4] {
         let dt = 1.0;
         let (mut x, mut v) = (10.3f64, [-0.37, 0.0]);
-        let mut springs = Springs::new(1, 0);
-        let (bodies, terms) = (Bodies::default(), [Terms { law: Box::new(Penalty), tangential: Tangential::Free, damping: 0.0 }]);
+        let (bodies, terms) = (Bodies::default(), vec![Terms { law: Box::new(Penalty), tangential: Tangential::Free, damping: 0.0 }]);
+        let mut springs = Springs::new(1, 0, terms);
         for _ in 0..2000 {
             springs.clear();
             for (normal, gap) in [(1.0, x), (-1.0, 20.0 - x)] {
@@ -39,10 +39,10 @@ fn a_bouncing_mass_keeps_its_energy_for_every_stiffness() {
                 nodes: &Mover { velocity_old: old[0], velocity: free, mobility: [dt, 0.0, dt] },
                 bodies: &bodies,
             };
-            springs.solve(&update, &terms);
-            v[0] += dt * (springs.list[0].force - springs.list[1].force);
+            springs.solve(&update);
+            v[0] += dt * springs.answers(0..2).map(|answer| answer.spring.normal[0] * answer.solved.force).sum::<f64>();
             x += dt * v[0];
-            let energy = 0.5 * old[0][0] * v[0] + springs.list.iter().map(|s| s.energy).sum::<f64>();
+            let energy = 0.5 * old[0][0] * v[0] + springs.answers(0..2).map(|answer| answer.books().energy).sum::<f64>();
             assert!((energy / (0.5 * 0.37 * 0.37) - 1.0).abs() < 1e-9, "stiffness {k}: {energy}");
         }
     }
@@ -99,41 +99,40 @@ impl Movers for Rows {
 }
 
 impl Rows {
-    fn solve(&self, terms: &[Terms]) -> Springs {
-        let mut springs = Springs::new(self.mass.len(), 0);
+    fn solve(&self, terms: Terms) -> Springs {
+        let mut springs = Springs::new(self.mass.len(), 0, vec![terms]);
         for (spring, ends) in &self.springs {
             springs.push(*spring, ends);
         }
         springs.close_group(0);
         let update = Update { time_steps: [0.01; 2], positions: &self.positions, nodes: self, bodies: &Bodies::default() };
-        springs.solve(&update, terms);
+        springs.solve(&update);
         springs
     }
 
     /// What is wrong with the forces, as a fraction of the largest: what each law wants where the others are.
-    fn error(&self, springs: &Springs, terms: &Terms) -> f64 {
-        let dt = 0.01;
+    fn error(&self, springs: &Springs) -> f64 {
+        let (dt, terms) = (0.01, &springs.terms[0]);
+        let answers = springs.answers(0..springs.list.len());
         let mut velocities = self.velocities.clone();
-        for spring in &springs.list {
-            for end in springs.ends(spring) {
-                let force = end.force(spring);
+        for answer in answers.clone() {
+            for end in answer.ends() {
+                let force = end.force(answer.spring, answer.solved);
                 (0..2).for_each(|d| velocities[end.at as usize][d] += dt * force[d] / self.mass[end.at as usize]);
             }
         }
         let rate = |spring: &Spring, v: &[Vector]| {
             springs
                 .ends(spring)
-                .iter()
                 .map(|end| end.share * (v[end.at as usize][0] * spring.normal[0] + v[end.at as usize][1] * spring.normal[1]))
                 .sum::<f64>()
         };
-        let largest = springs.list.iter().map(|spring| spring.force).fold(0.0, f64::max);
-        let errors = springs.list.iter().map(|spring| {
-            let compliance: f64 =
-                springs.ends(spring).iter().map(|end| 0.5 * dt * dt * end.share * end.share / self.mass[end.at as usize]).sum();
+        let largest = answers.clone().map(|answer| answer.solved.force).fold(0.0, f64::max);
+        let errors = answers.map(|Answer { spring, solved, .. }| {
+            let compliance: f64 = springs.ends(spring).map(|end| 0.5 * dt * dt * end.share * end.share / self.mass[end.at as usize]).sum();
             let old = spring.gap - 0.5 * dt * rate(spring, &self.velocities);
-            let free = spring.gap + 0.5 * dt * rate(spring, &velocities) - compliance * spring.force;
-            (terms.law.force(&Closing { spring, old, free, compliance }, [dt; 2]) - spring.force).abs() / largest
+            let free = spring.gap + 0.5 * dt * rate(spring, &velocities) - compliance * solved.force;
+            (terms.law.force(&Closing { spring, old, free, compliance }, [dt; 2]) - solved.force).abs() / largest
         });
         errors.fold(0.0, f64::max)
     }
@@ -150,10 +149,10 @@ fn springs_far_stiffer_than_the_nodes_between_them_are_solved_in_few_sweeps() {
         let unit = 1e4 / counts[0] as f64;
         for scale in [0.1, 1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e7] {
             for tangential in [Tangential::Free, coulomb(0.3), coulomb(5.0)] {
-                let terms = [Terms { law: Box::new(Penalty), tangential, damping: 0.0 }];
+                let terms = Terms { law: Box::new(Penalty), tangential, damping: 0.0 };
                 let rows = rows(counts, scale * unit);
-                let springs = rows.solve(&terms);
-                let (error, sweeps) = (rows.error(&springs, &terms[0]), springs.sweeps_max);
+                let springs = rows.solve(terms);
+                let (error, sweeps) = (rows.error(&springs), springs.sweeps_max);
                 assert!(
                     springs.unsolved == 0 && error < 1e-11 && sweeps <= 80,
                     "{counts:?} {scale:e} {tangential:?}: {error:e}, {sweeps} sweeps"
@@ -167,10 +166,10 @@ fn springs_far_stiffer_than_the_nodes_between_them_are_solved_in_few_sweeps() {
 fn more_constraints_than_nodes_to_move_are_solved() {
     for counts in [[4, 5], [8, 11], [60, 77]] {
         for tangential in [Tangential::Free, coulomb(0.3)] {
-            let terms = [Terms { law: Box::new(Multiplier), tangential, damping: 0.0 }];
+            let terms = Terms { law: Box::new(Multiplier), tangential, damping: 0.0 };
             let rows = rows(counts, 0.0);
-            let springs = rows.solve(&terms);
-            let (error, sweeps) = (rows.error(&springs, &terms[0]), springs.sweeps_max);
+            let springs = rows.solve(terms);
+            let (error, sweeps) = (rows.error(&springs), springs.sweeps_max);
             assert!(springs.unsolved == 0 && error < 1e-11 && sweeps <= 80, "{counts:?} {tangential:?}: {error:e}, {sweeps} sweeps");
         }
     }
@@ -190,14 +189,17 @@ fn islands_are_solved_to_the_same_bits_by_any_number_of_threads() {
     }
     assert!(all.springs.len() > 1500);
     let solved = |threads: Option<usize>| {
-        let solve = || all.solve(&[Terms { law: Box::new(Penalty), tangential: coulomb(0.2), damping: 0.0 }]).list;
+        let solve = || {
+            let springs = all.solve(Terms { law: Box::new(Penalty), tangential: coulomb(0.2), damping: 0.0 });
+            springs.answers(0..springs.list.len()).map(|answer| *answer.solved).collect::<Vec<_>>()
+        };
         match threads {
             None => solve(),
             Some(threads) => rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(solve),
         }
     };
     let alone = solved(None);
-    assert!(alone.iter().filter(|spring| spring.force > 0.0).count() > 500);
+    assert!(alone.iter().filter(|solved| solved.force > 0.0).count() > 500);
     for threads in [1, 2, 8] {
         assert!(solved(Some(threads)) == alone, "{threads} threads");
     }
@@ -245,8 +247,8 @@ proptest! {
             let spring = Spring { normal: [angle.cos(), angle.sin()], gap, stiffness: k * 1e4, slip: 0.3 * gap, ..Spring::default() };
             rows.springs.push((spring, ends.to_vec()));
         }
-        let terms = [Terms { law: Box::new(Tie { rigid: false }), tangential: Tangential::Tied, damping: 0.0 }];
-        let springs = rows.solve(&terms);
+        let terms = Terms { law: Box::new(Tie { rigid: false }), tangential: Tangential::Tied, damping: 0.0 };
+        let springs = rows.solve(terms);
         let (dt, count) = (0.01, rows.springs.len());
         let direction = |u: usize| if u < count { rows.springs[u].0.normal } else { tangent(rows.springs[u - count].0.normal) };
         let row = |u: usize, node: usize| {
@@ -261,8 +263,8 @@ proptest! {
         let wanted = dense(matrix, right);
         let largest = wanted.iter().fold(0.0f64, |largest, force| largest.max(force.abs()));
         prop_assert_eq!(springs.unsolved, 0);
-        for (i, spring) in springs.list.iter().enumerate() {
-            let errors = [spring.force - wanted[i], spring.friction - wanted[count + i]].map(|error| error.abs() / largest);
+        for (i, Answer { solved, .. }) in springs.answers(0..count).enumerate() {
+            let errors = [solved.force - wanted[i], solved.friction - wanted[count + i]].map(|error| error.abs() / largest);
             // Both lose digits where a spring is much stiffer than its nodes.
             prop_assert!(errors[0].max(errors[1]) < 1e-11 * k.max(1.0), "{:?} {}", errors, springs.sweeps_max);
         }

@@ -7,11 +7,12 @@ use super::super::projection::node_segment::{Target, Vector};
 use super::super::search::Query;
 use super::Memory;
 use super::ends::Ends;
-use super::locate::View;
+use super::locate::{Located, View};
 use super::reach::{Reach, SLACK};
+use super::sleep::AWAKE;
 use crate::mesh::surface::NONE;
 
-/// A slave node and a body of the target surface.
+/// A slave node and a body of the target surface. Half a cache line: whoever is awake is read in every step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Group {
     /// Index of the node in its surface.
@@ -29,7 +30,8 @@ pub(super) struct Group {
     pub(super) own: bool,
     /// Whether the body's surface has ends: then a node can get around it, and the level is no proof.
     pub(super) open: bool,
-    pub(super) kept: Memory,
+    /// Whether it touched in the last step. Else nothing is kept of it.
+    pub(super) touches: bool,
 }
 
 impl Group {
@@ -38,7 +40,7 @@ impl Group {
     }
 
     /// Whether it knows something that must not be forgotten.
-    fn matters(&self) -> bool {
+    pub(super) fn matters(&self) -> bool {
         self.memory != NONE || self.level != 0
     }
 }
@@ -56,9 +58,14 @@ pub(super) struct Pass {
     pub(super) lids: Vec<([u32; 2], u32)>,
     /// Ascending by slave and body.
     pub(super) groups: Vec<Group>,
+    /// What is kept of each group while it touches.
+    pub(super) kept: Vec<Memory>,
+    /// Until when each group sleeps: see [`super::sleep`].
+    pub(super) wakes: Vec<f64>,
     pub(super) candidates: Vec<u32>,
     pub(super) ends: Ends,
-    spare: Vec<Group>,
+    /// Groups of the last search and what is kept of them.
+    spare: (Vec<Group>, Vec<Memory>),
     /// Candidates (body, segment) of one slave.
     found: Vec<(u32, u32)>,
 }
@@ -67,9 +74,21 @@ impl Pass {
     pub(super) fn new(slave: usize, target: usize, targets: &[Target]) -> Self {
         let slave_bodies = vec![slave as u32; targets[slave].surface.nodes.len()];
         let segment_bodies = vec![target as u32; targets[target].surface.segments.len()];
-        let (groups, candidates, spare, found) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        let (open, lids, ends) = (Vec::new(), Vec::new(), Ends::default());
-        let mut pass = Self { slave, target, slave_bodies, segment_bodies, open, lids, groups, candidates, ends, spare, found };
+        let mut pass = Self {
+            slave,
+            target,
+            slave_bodies,
+            segment_bodies,
+            open: Vec::new(),
+            lids: Vec::new(),
+            groups: Vec::new(),
+            kept: Vec::new(),
+            wakes: Vec::new(),
+            candidates: Vec::new(),
+            ends: Ends::default(),
+            spare: Default::default(),
+            found: Vec::new(),
+        };
         pass.find_open(&targets[target]);
         pass
     }
@@ -85,7 +104,22 @@ impl Pass {
 
     pub(super) fn forget(&mut self) {
         self.groups.clear();
+        self.kept.clear();
+        self.wakes.clear();
         self.candidates.clear();
+    }
+
+    /// Begins the groups anew; those that there are become the spare ones.
+    fn begin_groups(&mut self) {
+        std::mem::swap(&mut self.groups, &mut self.spare.0);
+        std::mem::swap(&mut self.kept, &mut self.spare.1);
+        self.groups.clear();
+        self.kept.clear();
+    }
+
+    fn add(&mut self, group: Group, kept: Memory) {
+        self.groups.push(group);
+        self.kept.push(kept);
     }
 
     fn find_open(&mut self, target: &Target) {
@@ -110,10 +144,11 @@ impl Pass {
         targets: &'a [Target],
         number: usize,
         skin_and_extra: [f64; 2],
-        sweep: Sweep<'a>,
-    ) -> (&'a mut [Group], &'a [u32], View<'a>) {
-        let view = View::new([&targets[self.slave], &targets[self.target]], &self.ends, number, skin_and_extra, sweep);
-        (&mut self.groups, &self.candidates, view)
+        (sweep, way): (Sweep<'a>, f64),
+    ) -> (Located<'a>, View<'a>) {
+        let surfaces = [&targets[self.slave], &targets[self.target]];
+        let view = View::new(surfaces, &self.ends, &self.candidates, number, skin_and_extra, (sweep, way));
+        (Located { first: 0, groups: &mut self.groups, kept: &mut self.kept, wakes: &mut self.wakes }, view)
     }
 
     /// Global search, then a filter by distance: candidates are the same whatever the search, and few.
@@ -124,8 +159,7 @@ impl Pass {
         let query =
             Query { positions_old: sweep.old, positions_new: sweep.new, slaves, facets: &target.surface.segments, reach: SLACK * distance };
         reach.search.pairs(&query, &mut reach.pairs);
-        std::mem::swap(&mut self.groups, &mut self.spare);
-        self.groups.clear();
+        self.begin_groups();
         self.candidates.clear();
         let mut old = 0;
         for pairs in reach.pairs.chunk_by(|a, b| a.slave == b.slave) {
@@ -147,6 +181,8 @@ impl Pass {
             self.add_groups(slave, node, &mut old);
         }
         self.keep_until(&mut old, (u32::MAX, u32::MAX));
+        self.wakes.clear();
+        self.wakes.resize(self.groups.len(), AWAKE);
     }
 
     /// New groups of a slave from its candidates, with what the old ones from number `old` on remember.
@@ -158,24 +194,23 @@ impl Pass {
             let begin = self.candidates.len() as u32;
             self.candidates.extend(candidates.iter().map(|&(_, segment)| segment));
             let end = self.candidates.len() as u32;
-            let group = match self.spare.get(*old).filter(|group| group.key() == (slave, body)) {
+            match self.spare.0.get(*old).filter(|group| group.key() == (slave, body)) {
                 Some(&group) => {
+                    self.add(Group { begin, end, ..group }, self.spare.1[*old]);
                     *old += 1;
-                    Group { begin, end, ..group }
                 }
-                None => Group { begin, end, ..self.group(slave, node, body) },
-            };
-            self.groups.push(group);
+                None => self.add(Group { begin, end, ..self.group(slave, node, body) }, Memory::default()),
+            }
         }
         self.found = found;
     }
 
     /// Old groups before `key` that matter, without candidates.
     fn keep_until(&mut self, old: &mut usize, key: (u32, u32)) {
-        while let Some(group) = self.spare.get(*old).filter(|group| group.key() < key) {
+        while let Some(&group) = self.spare.0.get(*old).filter(|group| group.key() < key) {
             if group.matters() {
                 let here = self.candidates.len() as u32;
-                self.groups.push(Group { begin: here, end: here, ..*group });
+                self.add(Group { begin: here, end: here, ..group }, self.spare.1[*old]);
             }
             *old += 1;
         }
@@ -183,25 +218,25 @@ impl Pass {
 
     pub(super) fn group(&self, slave: u32, node: u32, body: u32) -> Group {
         let own = self.slave_bodies[slave as usize] == body;
-        let (open, kept) = (self.is_open(body), Memory::default());
-        Group { slave, node, body, begin: 0, end: 0, memory: NONE, level: 0, own, open, kept }
+        let open = self.is_open(body);
+        Group { slave, node, body, begin: 0, end: 0, memory: NONE, level: 0, own, open, touches: false }
     }
 
     /// Adds groups without candidates, or changes memory and level of those that are there.
     pub(super) fn enter(&mut self, mut inside: Vec<Group>) {
         inside.sort_by_key(Group::key);
-        std::mem::swap(&mut self.groups, &mut self.spare);
-        self.groups.clear();
+        self.begin_groups();
         let mut inside = inside.into_iter().peekable();
-        for group in &self.spare {
+        for at in 0..self.spare.0.len() {
+            let (group, kept) = (self.spare.0[at], self.spare.1[at]);
             while let Some(added) = inside.next_if(|added| added.key() < group.key()) {
-                self.groups.push(Group { begin: group.begin, end: group.begin, ..added });
+                self.add(Group { begin: group.begin, end: group.begin, ..added }, Memory::default());
             }
             let changed = inside.next_if(|added| added.key() == group.key());
-            self.groups.push(changed.map_or(*group, |Group { memory, level, .. }| Group { memory, level, ..*group }));
+            self.add(changed.map_or(group, |Group { memory, level, .. }| Group { memory, level, ..group }), kept);
         }
         let here = self.candidates.len() as u32;
-        self.groups.extend(inside.map(|added| Group { begin: here, end: here, ..added }));
+        inside.for_each(|added| self.add(Group { begin: here, end: here, ..added }, Memory::default()));
     }
 
     /// Candidates of a slave and a body.

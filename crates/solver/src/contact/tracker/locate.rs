@@ -1,12 +1,13 @@
 //! Where each slave node lies in a step: on the chain that it came in through while it is inside, else by crossing, else ahead of the nearest feature.
 //!
-//! Groups come with their candidates; touches go to the tracker. Every candidate is swept in every step, whatever is known of the node: the level of a group, the sum
-//! of entries less exits, is the proof that none was missed.
+//! Groups come with their candidates; touches go to the tracker. Every candidate is swept in every step, whatever is known of the node, unless it is so far that it can't have come
+//! near (`sleep.rs`): the level of a group, the sum of entries less exits, is the proof that none was missed.
 
 use super::super::Sweep;
 use super::super::projection::node_segment::{Held, Projection, Target, Vector};
 use super::ends::Ends;
 use super::group::Group;
+use super::sleep::{awake, wake_at};
 use super::{Certificate, Found, Memory, Touch};
 use crate::mesh::surface::NONE;
 
@@ -20,10 +21,19 @@ const HOLD: f64 = 4e-6;
 const LOOK_AHEAD: f64 = 4.0;
 const START: f64 = 0.02;
 
+/// Groups of a pass from number `first` on, what is kept of them, and until when they sleep.
+pub(super) struct Located<'a> {
+    pub(super) first: usize,
+    pub(super) groups: &'a mut [Group],
+    pub(super) kept: &'a mut [Memory],
+    pub(super) wakes: &'a mut [f64],
+}
+
 /// What locating reads.
 #[derive(Clone, Copy)]
 pub(super) struct View<'a> {
     target: &'a Target,
+    candidates: &'a [u32],
     /// Surface of the slaves, and what is known of ends.
     slaves: &'a Target,
     ends: &'a Ends,
@@ -37,6 +47,8 @@ pub(super) struct View<'a> {
     /// Distance at which nodes are seen that do not move, m.
     near: f64,
     sweep: Sweep<'a>,
+    /// Who wakes later sleeps on.
+    awake: f64,
 }
 
 /// What the candidates of a group did in a step.
@@ -50,29 +62,52 @@ struct Passages {
 
 impl<'a> View<'a> {
     /// `[slaves, target]` of the pass.
-    pub(super) fn new([slaves, target]: [&'a Target; 2], ends: &'a Ends, pass: usize, [skin, extra]: [f64; 2], sweep: Sweep<'a>) -> Self {
-        let own_surface = std::ptr::eq(slaves, target);
-        Self { target, slaves, ends, pass, own_surface, rounding: ROUNDING * skin, hold: HOLD * skin, near: extra + START * skin, sweep }
+    pub(super) fn new(
+        [slaves, target]: [&'a Target; 2],
+        ends: &'a Ends,
+        candidates: &'a [u32],
+        pass: usize,
+        [skin, extra]: [f64; 2],
+        (sweep, way): (Sweep<'a>, f64),
+    ) -> Self {
+        let (own_surface, near) = (std::ptr::eq(slaves, target), extra + START * skin);
+        let (rounding, hold, awake) = (ROUNDING * skin, HOLD * skin, awake(near, LOOK_AHEAD, sweep.travel, way));
+        Self { target, candidates, slaves, ends, pass, own_surface, rounding, hold, near, sweep, awake }
     }
 
-    /// Locates the groups from number `first` on.
-    pub(super) fn look_at(&self, first: usize, groups: &mut [Group], candidates: &[u32], found: &mut Found) {
-        for (number, group) in groups.iter_mut().enumerate() {
-            let candidates = &candidates[group.begin as usize..group.end as usize];
-            found.certificate.pairs_swept += candidates.len() as u64;
-            match self.locate(group, candidates, &mut found.certificate) {
+    /// Locates those of the groups that do not sleep.
+    pub(super) fn look_at(&self, located: Located<'_>, found: &mut Found) {
+        let Located { first, groups, kept, wakes } = located;
+        for (number, wake) in wakes.iter_mut().enumerate() {
+            if *wake > self.awake {
+                continue;
+            }
+            let group = &mut groups[number];
+            let candidates = &self.candidates[group.begin as usize..group.end as usize];
+            let mut clear = f64::NEG_INFINITY;
+            let projection = self.locate(group, candidates, &mut clear, &mut found.certificate);
+            let touched = std::mem::replace(&mut group.touches, projection.is_some());
+            match projection {
                 Some(projection) => {
-                    let Group { slave, node, own, kept, .. } = *group;
+                    let Group { slave, node, own, .. } = *group;
                     let slope = self.ends.slope(slave, &projection, self.target, self.sweep.new);
-                    let (slave, group) = (slave as usize, first + number);
-                    found.touches.push(Touch { pass: self.pass, slave, node, projection, slope, group, own, memory: kept });
+                    let (pass, group) = (self.pass as u32, (first + number) as u32);
+                    found.touches.push(Touch { pass, slave, node, projection, slope, group, own });
                 }
-                None => group.kept = Memory::default(),
+                None => {
+                    if touched {
+                        kept[number] = Memory::default();
+                    }
+                    if !group.matters() && !candidates.iter().any(|&segment| self.ends.is_near(segment)) {
+                        *wake = wake_at(clear, self.sweep.travel);
+                    }
+                }
             }
         }
     }
 
-    fn locate(&self, group: &mut Group, candidates: &[u32], certificate: &mut Certificate) -> Option<Projection> {
+    /// The projection of a group that touches or may come to it. Of one that does not, `clear` tells how far its candidates are away, as far as that is known.
+    fn locate(&self, group: &mut Group, candidates: &[u32], clear: &mut f64, certificate: &mut Certificate) -> Option<Projection> {
         let x = self.sweep.new[group.node as usize];
         let passages = self.sweep_through(group.node, candidates);
         group.level -= passages.exits;
@@ -122,7 +157,11 @@ impl<'a> View<'a> {
         let (nearest, ahead) = match entries[0] {
             // In and out again through another face.
             Some((_, segment)) => (segment, self.follow(x, segment, group)),
-            None => self.target.first_ahead(x, candidates, self.rounding, self.sweep.new)?,
+            None => {
+                let ahead = self.target.look_ahead(x, candidates, self.rounding, self.sweep.new);
+                *clear = ahead.clear;
+                ahead.first?
+            }
         };
         let beside = if self.ends.is_near(nearest) && !group.own { self.beside(x, group, nearest) } else { None };
         let at_end = |ahead: Projection| if self.ends.is_near(ahead.segment) { self.at_end(x, group, ahead) } else { Some(ahead) };

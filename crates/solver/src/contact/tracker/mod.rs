@@ -11,6 +11,7 @@ mod group;
 mod locate;
 mod past;
 mod reach;
+mod sleep;
 mod start;
 
 pub use certificate::{Certificate, SearchReport};
@@ -23,6 +24,7 @@ use super::search::Search;
 use crate::mesh::surface::NONE;
 use ends::Ends;
 use group::{Group, Pass};
+use locate::Located;
 use rayon::prelude::*;
 use reach::Reach;
 
@@ -30,9 +32,9 @@ use reach::Reach;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Touch {
     /// Pass that found it.
-    pub pass: usize,
+    pub pass: u32,
     /// Index of the node in its surface.
-    pub slave: usize,
+    pub slave: u32,
     /// The node.
     pub node: u32,
     /// Where it lies.
@@ -40,11 +42,9 @@ pub struct Touch {
     /// Slope with which the face falls off there: 0 but beyond the end of a face.
     pub slope: f64,
     /// Number of the group of slave and body in this step.
-    pub group: usize,
+    pub group: u32,
     /// Whether it is the node's own body.
     pub own: bool,
-    /// What [`Tracker::remember`] was told of this group last; zero where it did not touch in the last step.
-    pub memory: Memory,
 }
 
 /// What a formulation keeps of a slave and a body while they touch.
@@ -69,15 +69,17 @@ pub struct Tracker {
     targets: Vec<Target>,
     passes: Vec<Pass>,
     reach: Reach,
-    touches: Vec<Touch>,
+    /// Touches of this step, and what was checked so far.
+    found: Found,
     /// What the chunks of groups found in this step.
     chunks: Vec<Found>,
-    certificate: Certificate,
+    /// Way that no node had exceeded in the last step, m.
+    travel: f64,
     /// What each pass recalls from before the surfaces changed, until the first search.
-    past: Option<Vec<Vec<Group>>>,
+    past: Option<Vec<Vec<(Group, Memory)>>>,
 }
 
-/// What a chunk of groups found.
+/// What groups were found to do.
 #[derive(Default)]
 struct Found {
     touches: Vec<Touch>,
@@ -98,7 +100,7 @@ impl Tracker {
     pub fn new(targets: Vec<Target>, passes: &[(usize, usize)], search: Box<dyn Search<2>>, positions: &[Vector]) -> Self {
         let passes = passes.iter().map(|&(slave, target)| Pass::new(slave, target, &targets)).collect();
         let reach = Reach::new(search, &targets, positions);
-        Self { targets, passes, reach, touches: Vec::new(), chunks: Vec::new(), certificate: Certificate::default(), past: None }
+        Self { targets, passes, reach, found: Found::default(), chunks: Vec::new(), travel: 0.0, past: None }
     }
 
     /// With the body of each node of the model, and per surface the segments that were left out of it because they lie on a symmetry line.
@@ -122,8 +124,8 @@ impl Tracker {
     /// Segments of its own surface that end and begin at the slave node of a touch, and the surface; [`crate::mesh::surface::NONE`] where there is none. Known only with [`Tracker::with_ends`].
     #[must_use]
     pub fn segments_at(&self, touch: &Touch) -> ([u32; 2], &Target) {
-        let pass = &self.passes[touch.pass];
-        (pass.ends.around.get(touch.slave).copied().unwrap_or([NONE; 2]), &self.targets[pass.slave])
+        let pass = &self.passes[touch.pass as usize];
+        (pass.ends.around.get(touch.slave as usize).copied().unwrap_or([NONE; 2]), &self.targets[pass.slave])
     }
 
     /// The surfaces.
@@ -134,21 +136,21 @@ impl Tracker {
 
     /// Target of a pass.
     #[must_use]
-    pub fn target(&self, pass: usize) -> &Target {
-        &self.targets[self.passes[pass].target]
+    pub fn target(&self, pass: u32) -> &Target {
+        &self.targets[self.passes[pass as usize].target]
     }
 
     /// Whether the slaves of a pass are the first surface (1), the second (−1), or both in one (0).
     #[must_use]
-    pub fn side(&self, pass: usize) -> f64 {
-        let Pass { slave, target, .. } = self.passes[pass];
+    pub fn side(&self, pass: u32) -> f64 {
+        let Pass { slave, target, .. } = self.passes[pass as usize];
         if slave == target { 0.0 } else { 1.0 - 2.0 * slave as f64 }
     }
 
     /// What was checked so far, and whether something was missed.
     #[must_use]
     pub fn certificate(&self) -> Certificate {
-        self.certificate
+        self.found.certificate
     }
 
     /// What the search cost so far.
@@ -169,7 +171,8 @@ impl Tracker {
     pub fn track(&mut self, sweep: Sweep<'_>, extra: f64) -> &[Touch] {
         self.reach.report.steps += 1;
         let mut sweep = sweep;
-        if self.reach.is_left(sweep.new) {
+        let way = sweep.travel - std::mem::replace(&mut self.travel, sweep.travel);
+        if self.reach.is_left(sweep) {
             let (at_start, past) = (self.reach.is_new(), self.past.take());
             if at_start && past.is_none() {
                 sweep.old = sweep.new;
@@ -185,36 +188,50 @@ impl Tracker {
                 }
                 pass.search(&self.targets, sweep, reach, &mut self.reach);
             }
-            self.reach.settle(sweep.new);
+            self.reach.settle(sweep);
         }
-        self.touches.clear();
+        self.found.touches.clear();
         // Within a pool of threads the groups are shared among them, in chunks that do not depend on their number.
         let threads = rayon::current_thread_index().is_some();
         for (number, pass) in self.passes.iter_mut().enumerate() {
-            let (groups, candidates, view) = pass.view(&self.targets, number, [self.reach.skin, extra], sweep);
-            let count = groups.len().div_ceil(CHUNK);
+            // Each pair belongs to one group; those of groups that sleep are proven by their distance.
+            self.found.certificate.pairs_swept += pass.candidates.len() as u64;
+            let (all, view) = pass.view(&self.targets, number, [self.reach.skin, extra], (sweep, way));
+            if !(threads && all.groups.len() >= SERIAL) {
+                view.look_at(all, &mut self.found);
+                continue;
+            }
+            let count = all.groups.len().div_ceil(CHUNK);
             self.chunks.resize_with(count.max(self.chunks.len()), Found::default);
-            let look = |(index, (groups, found)): (usize, (&mut [group::Group], &mut Found))| {
+            let found = &mut self.chunks[..count];
+            let groups = all.groups.par_chunks_mut(CHUNK).zip(all.kept.par_chunks_mut(CHUNK)).zip(all.wakes.par_chunks_mut(CHUNK));
+            groups.zip(found.par_iter_mut()).enumerate().for_each(|(index, (((groups, kept), wakes), found))| {
                 found.touches.clear();
                 found.certificate = Certificate::default();
-                view.look_at(index * CHUNK, groups, candidates, found);
-            };
-            let found = &mut self.chunks[..count];
-            if threads && groups.len() >= SERIAL {
-                groups.par_chunks_mut(CHUNK).zip(found.par_iter_mut()).enumerate().for_each(look);
-            } else {
-                groups.chunks_mut(CHUNK).zip(found.iter_mut()).enumerate().for_each(look);
-            }
+                view.look_at(Located { first: index * CHUNK, groups, kept, wakes }, found);
+            });
             for found in &self.chunks[..count] {
-                self.touches.extend_from_slice(&found.touches);
-                self.certificate += found.certificate;
+                self.found.touches.extend_from_slice(&found.touches);
+                self.found.certificate += found.certificate;
             }
         }
-        &self.touches
+        &self.found.touches
     }
 
-    /// Keeps something of a touch of this step for the next.
-    pub fn remember(&mut self, touch: &Touch, memory: Memory) {
-        self.passes[touch.pass].groups[touch.group].kept = memory;
+    /// What [`Tracker::track`] found last.
+    #[must_use]
+    pub fn touches(&self) -> &[Touch] {
+        &self.found.touches
+    }
+
+    /// What is kept of the slave and the body of a touch: zero where they did not touch in the last step.
+    #[must_use]
+    pub fn kept(&self, touch: &Touch) -> &Memory {
+        &self.passes[touch.pass as usize].kept[touch.group as usize]
+    }
+
+    /// The same to change it.
+    pub fn kept_mut(&mut self, touch: &Touch) -> &mut Memory {
+        &mut self.passes[touch.pass as usize].kept[touch.group as usize]
     }
 }

@@ -4,9 +4,9 @@
 //! (`start.rs`), and the step itself is swept as any other: whatever came in or left is proven as before. Who was inside through a segment that is no more is outside, unless the new
 //! surfaces say otherwise.
 
-use super::Tracker;
 use super::certificate::SearchReport;
 use super::group::{Group, Pass};
+use super::{Memory, Tracker};
 use crate::contact::projection::node_segment::Target;
 use crate::mesh::surface::NONE;
 
@@ -28,7 +28,7 @@ impl ByNodes {
 impl Tracker {
     /// Takes over what `old` knows, which followed the same passes over surfaces that are no more.
     pub fn inherit(&mut self, old: &Self) {
-        self.certificate = old.certificate;
+        self.found.certificate = old.found.certificate;
         self.reach.report = SearchReport { skin: self.reach.report.skin, ..old.reach.report };
         if old.reach.is_new() {
             return;
@@ -36,8 +36,8 @@ impl Tracker {
         let recalled = |(number, pass): (usize, &Pass)| {
             let before = &old.passes[number];
             let mut segments: Vec<u32> = before.groups.iter().map(|group| group.memory).collect();
-            for touch in old.touches.iter().filter(|touch| touch.pass == number) {
-                let segment = &mut segments[touch.group];
+            for touch in old.found.touches.iter().filter(|touch| touch.pass as usize == number) {
+                let segment = &mut segments[touch.group as usize];
                 if *segment == NONE {
                     *segment = touch.projection.segment;
                 }
@@ -51,38 +51,36 @@ impl Tracker {
 
 impl Pass {
     /// Groups of `before` that are still possible, ascending; `segments` are those that each group touches. Surfaces: slaves and target, old and new.
-    fn recalled(&self, before: &Self, segments: &[u32], [old_slaves, old_target, slaves, target]: [&Target; 4]) -> Vec<Group> {
+    fn recalled(&self, before: &Self, segments: &[u32], [old_slaves, old_target, slaves, target]: [&Target; 4]) -> Vec<(Group, Memory)> {
         let by_nodes = ByNodes::new(target);
         let neighbours = |pass: &Self, surface: &Target, slave: u32| {
             let around = pass.ends.around.get(slave as usize).copied().unwrap_or([NONE; 2]);
             around.map(|segment| surface.surface.segments.get(segment as usize).copied())
         };
-        let of = |(group, &segment): (&Group, &u32)| {
+        let of = |((group, &kept), &segment): ((&Group, &Memory), &u32)| {
             let nodes = *old_target.surface.segments.get(segment as usize)?;
             let (segment, slave) = (by_nodes.find(nodes)?, slaves.surface.nodes.binary_search(&group.node).ok()? as u32);
             let mut now = self.group(slave, group.node, self.segment_bodies[segment as usize]);
             if group.memory != NONE {
                 (now.memory, now.level) = (segment, group.level);
             }
-            now.kept = group.kept;
-            if neighbours(before, old_slaves, group.slave) != neighbours(self, slaves, slave) {
-                now.kept.faces = 0;
-            }
-            Some(now)
+            now.touches = group.touches;
+            let is_as_before = neighbours(before, old_slaves, group.slave) == neighbours(self, slaves, slave);
+            Some((now, if is_as_before { kept } else { Memory { faces: 0, ..kept } }))
         };
-        let mut recalled: Vec<Group> = before.groups.iter().zip(segments).filter_map(of).collect();
-        recalled.sort_by_key(Group::key);
-        recalled.dedup_by_key(|group| group.key());
+        let mut recalled: Vec<_> = before.groups.iter().zip(&before.kept).zip(segments).filter_map(of).collect();
+        recalled.sort_by_key(|(group, _)| group.key());
+        recalled.dedup_by_key(|(group, _)| group.key());
         recalled
     }
 
     /// Adds what groups knew to those that the first search and `start` have found.
-    pub(super) fn recall(&mut self, recalled: &[Group]) {
-        for &past in recalled {
+    pub(super) fn recall(&mut self, recalled: &[(Group, Memory)]) {
+        for &(past, kept) in recalled {
             match self.groups.binary_search_by_key(&past.key(), Group::key) {
                 Ok(at) => {
                     let group = &mut self.groups[at];
-                    group.kept = past.kept;
+                    (group.touches, self.kept[at]) = (past.touches, kept);
                     if past.memory != NONE {
                         group.memory = past.memory;
                         // Nobody is inside its own body at a start.
@@ -95,6 +93,7 @@ impl Pass {
                     let here = self.groups.get(at).map_or(self.candidates.len() as u32, |next| next.begin);
                     let level = if past.own { past.level } else { 0 };
                     self.groups.insert(at, Group { begin: here, end: here, level, ..past });
+                    self.kept.insert(at, kept);
                 }
             }
         }

@@ -9,6 +9,8 @@ use super::certificate::SearchReport;
 pub const SKIN: f64 = 0.25;
 /// The global search is asked for a little more than is kept, so that what is kept does not depend on how each search rounds.
 pub(super) const SLACK: f64 = 1.001;
+/// Where no node has gone so far since the search, as a fraction of the skin, none has gone half of it.
+const SAFE: f64 = 0.499;
 
 /// The global search, and what it found.
 pub(super) struct Reach {
@@ -18,6 +20,8 @@ pub(super) struct Reach {
     nodes: Vec<u32>,
     /// Their positions at the last search; empty before the first.
     positions: Vec<Vector>,
+    /// Way that no node had exceeded then, m.
+    travel: f64,
     /// Pairs within this distance were found, m.
     pub(super) skin: f64,
     pub(super) report: SearchReport,
@@ -32,7 +36,7 @@ impl Reach {
         let count = targets.iter().map(|target| target.surface.segments.len()).sum::<usize>().max(1);
         let skin = SKIN * lengths.sum::<f64>() / count as f64;
         let report = SearchReport { skin, ..SearchReport::default() };
-        Self { search, pairs: Vec::new(), nodes, positions: Vec::new(), skin, report }
+        Self { search, pairs: Vec::new(), nodes, positions: Vec::new(), travel: 0.0, skin, report }
     }
 
     /// Whether nothing has been searched yet.
@@ -50,10 +54,11 @@ impl Reach {
     }
 
     /// Notes where the nodes were searched.
-    pub(super) fn settle(&mut self, positions: &[Vector]) {
+    pub(super) fn settle(&mut self, sweep: Sweep<'_>) {
         self.report.searches += 1;
+        self.travel = sweep.travel;
         self.positions.clear();
-        self.positions.extend(self.nodes.iter().map(|&node| positions[node as usize]));
+        self.positions.extend(self.nodes.iter().map(|&node| sweep.new[node as usize]));
     }
 
     /// Longest way of a node in the step, m: so far a spring must be seen ahead.
@@ -62,11 +67,14 @@ impl Reach {
     }
 
     /// Whether some node has moved by more than half the skin since the last search (or there was none).
-    pub(super) fn is_left(&self, positions: &[Vector]) -> bool {
+    pub(super) fn is_left(&self, sweep: Sweep<'_>) -> bool {
         let limit = 0.25 * self.skin * self.skin;
+        if !self.is_new() && (0.0..SAFE * self.skin).contains(&(sweep.travel - self.travel)) {
+            return false;
+        }
         self.positions.is_empty()
             || self.nodes.iter().zip(&self.positions).any(|(&node, from)| {
-                let x = positions[node as usize];
+                let x = sweep.new[node as usize];
                 let moved = [x[0] - from[0], x[1] - from[1]];
                 // NaN counts as moved
                 !(moved[0] * moved[0] + moved[1] * moved[1] <= limit)

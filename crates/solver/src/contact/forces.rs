@@ -1,0 +1,78 @@
+//! Contact forces on nodes: few nodes of a model have any, so they are kept with what tells where they are, eight nodes at a time.
+//!
+//! Solved springs add to them ([`super::Contact::collect`]); the velocity update, rigid bodies and records read them. A step costs as much as there are nodes in contact.
+
+use super::Vector;
+
+/// Nodes that share a mark.
+const GROUP: usize = 8;
+
+/// ContactForces of contacts and obstacles on nodes, N/m.
+#[derive(Clone, Debug, Default)]
+pub struct ContactForces {
+    values: Vec<Vector>,
+    /// Whether any node of a group of eight was pushed in this step.
+    marks: Vec<bool>,
+    /// The groups that were.
+    marked: Vec<u32>,
+}
+
+impl ContactForces {
+    /// None on so many nodes.
+    #[must_use]
+    pub fn new(nodes: usize) -> Self {
+        Self { values: vec![[0.0; 2]; nodes], marks: vec![false; nodes.div_ceil(GROUP)], marked: Vec::new() }
+    }
+
+    /// Takes all forces away.
+    pub fn clear(&mut self) {
+        for group in self.marked.drain(..) {
+            let first = group as usize * GROUP;
+            let end = self.values.len().min(first + GROUP);
+            self.values[first..end].fill([0.0; 2]);
+            self.marks[group as usize] = false;
+        }
+    }
+
+    /// Pushes a node; `false`: there is no node of this number.
+    #[inline]
+    pub fn push(&mut self, node: u32, force: Vector) -> bool {
+        let Some(sum) = self.values.get_mut(node as usize) else { return false };
+        *sum = [sum[0] + force[0], sum[1] + force[1]];
+        let group = node as usize / GROUP;
+        if !std::mem::replace(&mut self.marks[group], true) {
+            self.marked.push(group as u32);
+        }
+        true
+    }
+
+    /// Of each node.
+    #[must_use]
+    pub fn values(&self) -> &[Vector] {
+        &self.values
+    }
+
+    /// Whether any of the eight nodes from number 8 `group` on may have one.
+    #[inline]
+    #[must_use]
+    pub fn has(&self, group: usize) -> bool {
+        self.marks.get(group).copied().unwrap_or(false)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_was_pushed_is_there_until_it_is_taken_away() {
+        let mut forces = ContactForces::new(19);
+        for round in 0..3 {
+            assert!(forces.values().iter().all(|force| *force == [0.0; 2]) && !(0..4).any(|group| forces.has(group)), "{round}");
+            assert!(forces.push(17, [1.0, 2.0]) && forces.push(17, [0.5, 0.0]) && forces.push(3, [0.0, 1.0]) && !forces.push(19, [1.0; 2]));
+            assert_eq!([forces.values()[17], forces.values()[3], forces.values()[16]], [[1.5, 2.0], [0.0, 1.0], [0.0; 2]]);
+            assert_eq!([0, 1, 2, 3].map(|group| forces.has(group)), [true, false, true, false]);
+            forces.clear();
+        }
+    }
+}

@@ -1,0 +1,120 @@
+//! What contacts are told of their springs once these are solved.
+//!
+//! Springs and what was found of them lie in [`Springs`]; energies and works are worked out where they are asked for (`book.rs`), so that nothing is stored that is only summed up.
+
+use super::book::Books;
+use super::{End, Solved, Spring, Springs, Terms, Totals};
+use crate::contact::forces::ContactForces;
+use crate::contact::traces::Traces;
+use crate::rigid::Bodies;
+use std::ops::Range;
+
+/// Solved springs, in the order in which they were found.
+#[derive(Clone)]
+pub struct Answers<'a> {
+    pub(super) springs: &'a Springs,
+    pub(super) range: Range<usize>,
+}
+
+/// A solved spring.
+#[derive(Clone, Copy)]
+pub struct Answer<'a> {
+    springs: &'a Springs,
+    /// The spring.
+    pub spring: &'a Spring,
+    /// What was found of it.
+    pub solved: &'a Solved,
+    terms: u32,
+}
+
+impl<'a> Answers<'a> {
+    /// Those of the springs from number `from` on and before number `to`, as far as there are so many.
+    #[must_use]
+    pub fn part(&self, from: usize, to: usize) -> Self {
+        let at = |number: usize| self.range.end.min(self.range.start.saturating_add(number));
+        Self { springs: self.springs, range: at(from)..at(to) }
+    }
+}
+
+impl<'a> Iterator for Answers<'a> {
+    type Item = Answer<'a>;
+
+    #[inline]
+    fn next(&mut self) -> Option<Answer<'a>> {
+        let (springs, number) = (self.springs, self.range.next()?);
+        let solved = &springs.work.solved[springs.work.rank[number] as usize];
+        Some(Answer { springs, spring: &springs.list[number], solved, terms: springs.terms_of[number] })
+    }
+}
+
+impl<'a> Answer<'a> {
+    /// What acts in it.
+    pub(super) fn terms(&self) -> &'a Terms {
+        &self.springs.terms[self.terms as usize]
+    }
+
+    /// dt^{n−1}, dt^n, s.
+    pub(super) fn time_steps(&self) -> [f64; 2] {
+        self.springs.time_steps
+    }
+
+    /// Its ends.
+    pub fn ends(self) -> impl Iterator<Item = End> {
+        self.springs.ends(self.spring)
+    }
+
+    /// g^{n−½}, m.
+    #[must_use]
+    pub fn gap_old(&self) -> f64 {
+        self.spring.gap - 0.5 * self.springs.time_steps[0] * self.solved.rates[0]
+    }
+
+    /// g^{n+½}, m.
+    #[must_use]
+    pub fn gap_new(&self) -> f64 {
+        self.spring.gap + 0.5 * self.springs.time_steps[1] * self.solved.rates[1]
+    }
+}
+
+impl Answers<'_> {
+    /// Sums the springs up: adds their forces to `forces` (of nodes) and `bodies` (of bodies without nodes at the ends), and what they did in the coming update to `traces`.
+    pub fn collect_into(self, forces: &mut ContactForces, bodies: &mut Bodies, traces: &mut Traces) -> Totals {
+        let mut totals = Totals::default();
+        for answer in self {
+            let Books { energy, slip_energy, work, lost, .. } = answer.books();
+            totals.energy += energy;
+            totals.slip_energy += slip_energy;
+            totals.work += work;
+            totals.lost += lost;
+            answer.push(forces, bodies, &mut totals);
+            traces.mark(&answer, &lost);
+        }
+        totals
+    }
+}
+
+impl Answer<'_> {
+    /// Adds its force to what is at the ends, and to the resultant.
+    fn push(&self, forces: &mut ContactForces, bodies: &mut Bodies, totals: &mut Totals) {
+        let (spring, solved) = (self.spring, self.solved);
+        if solved.force == 0.0 && solved.friction == 0.0 {
+            return;
+        }
+        totals.pressing += solved.force.abs();
+        for end in self.ends() {
+            let force = end.force(spring, solved);
+            if end.share > 0.0 {
+                totals.resultant = [totals.resultant[0] + spring.side * force[0], totals.resultant[1] + spring.side * force[1]];
+            }
+            if !forces.push(end.at, force) {
+                bodies.push_at(end.at as usize - forces.values().len(), force, end.point);
+            }
+        }
+    }
+
+    /// How far it slides in the coming update, m.
+    #[must_use]
+    pub fn slides_by(&self) -> f64 {
+        self.solved.slip_rates[1].abs() * self.springs.time_steps[1]
+    }
+}

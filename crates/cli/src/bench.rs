@@ -219,7 +219,7 @@ impl Bench {
         let mut touching = plain.clone();
         touching.contacts.push(Contact { name: "all".into(), partners: Partners::Bodies(Vec::new()), ..Contact::default() });
         let one = Options { threads: 1, simd: None };
-        let ([without, with], [simulation, _]) = bench::step_times([&plain, &touching], &one, 24, self.each).map_err(failed)?;
+        let ([without, with], [simulation, _]) = bench::step_times([&plain, &touching], &one, 9, self.each).map_err(failed)?;
         Ok(Share { elements: simulation.summary().elements, without, with })
     }
 }

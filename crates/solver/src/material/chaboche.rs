@@ -277,8 +277,7 @@ impl Chaboche {
             // q(η) turns within q over the moduli.
             let reach = L::splat(self.reach).min(q * L::splat(1.0 / (3.0 * modulus)));
             let goes_on = newton.next_curved(value, slope, bend - (end.modulus_curvature + flow.curvature), reach);
-            let after = flow.after(newton.moved);
-            isotropic = [L::select(live, after[0], isotropic[0]), L::select(live, after[1], isotropic[1])];
+            isotropic = flow.after(newton.moved, live, isotropic);
             if !goes_on {
                 break;
             }

@@ -114,8 +114,7 @@ impl<H: Hardening> J2With<H> {
             let change = -(stiffness + flow.slope);
             let goes_on =
                 if H::CURVED { newton.next_curved(value, change, -flow.curvature, flow.reach) } else { newton.next(value, change) };
-            let [stress, slope] = flow.after(newton.moved);
-            end = [L::select(live, stress, end[0]), L::select(live, slope, end[1])];
+            end = flow.after(newton.moved, live, end);
             if !goes_on {
                 break;
             }

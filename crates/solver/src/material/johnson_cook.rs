@@ -233,8 +233,7 @@ impl JohnsonCook {
             let curvature = flow.stress * rate_curvature - (flow.curvature * rate + two * flow.slope * rate_slope);
             let live = newton.live();
             let goes_on = newton.next_curved(value, slope, curvature, reach.min(flow.reach));
-            let after = power.after(newton.moved);
-            end = [L::select(live, after[0], end[0]), L::select(live, after[1], end[1])];
+            end = power.after(newton.moved, live, end);
             if !goes_on {
                 break;
             }

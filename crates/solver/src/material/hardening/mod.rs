@@ -72,10 +72,12 @@ pub struct Flow<L> {
 }
 
 impl<L: Lane> Flow<L> {
-    /// Stress and slope a short way on.
+    /// Stress and slope a short way on in the lanes that are `live`; `before` in the others.
     #[inline(always)]
-    pub(super) fn after(&self, step: L) -> [L; 2] {
-        [self.stress + step * (self.slope + L::splat(0.5) * self.curvature * step), self.slope + self.curvature * step]
+    pub(super) fn after(&self, step: L, live: L::Mask, before: [L; 2]) -> [L; 2] {
+        let stress = self.stress + step * (self.slope + L::splat(0.5) * self.curvature * step);
+        let slope = self.slope + self.curvature * step;
+        [L::select(live, stress, before[0]), L::select(live, slope, before[1])]
     }
 
     /// Of a stress that falls: stress and slope zero where it would be negative, a kink that is not told.

@@ -5,7 +5,7 @@
 pub mod error;
 pub mod quantity;
 pub mod tensor;
-mod rows;
+pub mod rows;
 pub mod model;
 pub mod mesh;
 pub mod material;

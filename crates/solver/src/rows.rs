@@ -4,7 +4,7 @@
 
 /// A list of items for each key below a count.
 #[derive(Clone, Debug)]
-pub(crate) struct Rows<T> {
+pub struct Rows<T> {
     /// Where the items of each key begin; one more than keys.
     starts: Vec<u32>,
     items: Vec<T>,
@@ -18,7 +18,7 @@ impl<T> Default for Rows<T> {
 
 impl<T: Copy + Default> Rows<T> {
     /// From pairs of a key below `count` and an item; the items of a key keep the order of the pairs.
-    pub(crate) fn new(count: usize, pairs: impl Iterator<Item = (u32, T)> + Clone) -> Self {
+    pub fn new(count: usize, pairs: impl Iterator<Item = (u32, T)> + Clone) -> Self {
         let mut starts = vec![0_u32; count + 1];
         pairs.clone().for_each(|(key, _)| starts[key as usize + 1] += 1);
         for key in 0..count {
@@ -34,18 +34,18 @@ impl<T: Copy + Default> Rows<T> {
     }
 
     /// Number of keys.
-    pub(crate) fn count(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.starts.len() - 1
     }
 
     /// Items of a key below the count.
     #[inline]
-    pub(crate) fn of(&self, key: usize) -> &[T] {
+    pub fn of(&self, key: usize) -> &[T] {
         &self.items[self.starts[key] as usize..self.starts[key + 1] as usize]
     }
 
     /// The same, to be put into another order.
-    pub(crate) fn of_mut(&mut self, key: usize) -> &mut [T] {
+    pub fn of_mut(&mut self, key: usize) -> &mut [T] {
         &mut self.items[self.starts[key] as usize..self.starts[key + 1] as usize]
     }
 }

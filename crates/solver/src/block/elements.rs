@@ -24,7 +24,7 @@ use std::marker::PhantomData;
 use std::sync::{Mutex, PoisonError};
 
 /// Batches that one task advances: small enough to share, large enough to be worth it; fixed, so that sums do not depend on threads.
-pub(super) const CHUNK: usize = 64;
+pub const CHUNK: usize = 64;
 
 /// The elements of a block with their state.
 pub(super) struct Elements<E, S, const D: usize, const N: usize, const P: usize> {

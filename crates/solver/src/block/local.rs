@@ -10,9 +10,9 @@ use super::{Motion, NO_NODE};
 use embate_lanes::{BATCH, Indices};
 
 /// Places of the corners of a block's elements among the nodes of their chunk.
-pub(super) struct LocalNodes {
+pub struct LocalNodes {
     /// One row per corner and batch of elements.
-    pub(super) places: Indices,
+    pub places: Indices,
     /// Nodes of the chunks, ascending: [`LocalNodes::width`] per chunk, filled up with [`NO_NODE`].
     slots: Vec<u32>,
     /// Nodes of each chunk.
@@ -21,7 +21,8 @@ pub(super) struct LocalNodes {
 
 impl LocalNodes {
     /// Of elements with so many `corners`.
-    pub(super) fn new(connectivity: &[u32], corners: usize) -> Self {
+    #[must_use]
+    pub fn new(connectivity: &[u32], corners: usize) -> Self {
         let count = connectivity.len() / corners;
         let batches = count.div_ceil(BATCH);
         let chunks: Vec<Vec<u32>> = connectivity
@@ -50,12 +51,14 @@ impl LocalNodes {
     }
 
     /// Slots of a chunk.
-    pub(super) fn width(&self) -> usize {
+    #[must_use]
+    pub fn width(&self) -> usize {
         self.places.bound()
     }
 
     /// The node of every slot.
-    pub(super) fn slots(&self) -> &[u32] {
+    #[must_use]
+    pub fn slots(&self) -> &[u32] {
         &self.slots
     }
 

@@ -20,7 +20,9 @@ mod strain;
 pub mod stress_state;
 mod strip;
 
+pub use elements::CHUNK;
 pub use initial::{Initial, Wrong};
+pub use local::LocalNodes;
 pub use make::{BlockInput, make};
 
 use crate::failure::Criterion;

@@ -3,7 +3,7 @@
 use crate::block::ElementState;
 use crate::contact::ContactKind;
 use crate::contact::springs::Tangential;
-use crate::contact::traces::State;
+use crate::contact::traces::{State, Traces};
 use crate::error::Fault;
 use crate::material::Variable;
 use crate::mesh::ElementGroup;
@@ -198,28 +198,28 @@ struct OnSurface {
 /// Values of one of [`FIELDS`] at the nodes, in the user's order.
 fn fill_nodes(name: &str, system: &System, surface: &OnSurface, values: &mut Vec<f64>) {
     let traces = &system.traces;
-    let tractions = || surface.tractions.get_or_init(|| traces.tractions(system.contact_forces.values(), &system.positions));
-    let states = || surface.states.get_or_init(|| traces.states(&system.springs));
+    let tractions = || surface.tractions.get_or_init(|| traces.tractions(&system.contact_forces, &system.positions));
+    let states = || surface.states.get_or_init(|| Traces::states(&system.springs, system.positions.len()));
     let moved = |node: usize| [0, 1].map(|d| system.positions[node][d] - system.mesh.positions[node][d]);
     match name {
         "displacement" => by_node(system, values, moved),
         "velocity" => by_node(system, values, |node| velocity(system, node)),
-        "contact_force" => by_node(system, values, |node| system.contact_forces.values().get(node).copied().unwrap_or_default()),
+        "contact_force" => by_node(system, values, |node| system.contact_forces.of(node)),
         "contact_pressure" => {
             let tractions = tractions();
-            by_node(system, values, |node| [tractions.get(node).map_or(0.0, |it| it[0])]);
+            by_node(system, values, |node| [tractions[node][0]]);
         }
         "contact_shear" => {
             let tractions = tractions();
-            by_node(system, values, |node| [tractions.get(node).map_or(0.0, |it| it[1])]);
+            by_node(system, values, |node| [tractions[node][1]]);
         }
         "contact_gap" => {
             let states = states();
-            by_node(system, values, |node| [states.get(node).map_or(f64::NAN, |it| it.gap)]);
+            by_node(system, values, |node| [states[node].gap]);
         }
         "contact_status" => {
             let states = states();
-            by_node(system, values, |node| [states.get(node).map_or(0.0, |it| it.status)]);
+            by_node(system, values, |node| [states[node].status]);
         }
         "contact_slip" => by_node(system, values, |node| [traces.slip(node)]),
         "friction_heat" => by_node(system, values, |node| [traces.heat(node)]),

@@ -8,6 +8,7 @@
 //! and a node is at x = X + R(θ) r. Where a degree of freedom is driven its velocity is prescribed, it has no mass in the books, and what drives it does
 //! the work that the forces do not.
 
+use crate::contact::forces::ContactForces;
 use crate::energy::Sums;
 use crate::load::body_force::BodyForces;
 use crate::load::curve::{Curves, Speed};
@@ -183,9 +184,9 @@ impl Body {
     }
 
     /// v^{n+½} with the contact forces, and its part in the books.
-    fn accelerate(&mut self, mean_step: f64, contact_forces: &[Vector], positions: &[Vector], sums: &mut Sums) {
+    fn accelerate(&mut self, mean_step: f64, contact_forces: &ContactForces, positions: &[Vector], sums: &mut Sums) {
         for member in &self.members {
-            let force = contact_forces.get(member.node as usize).copied().unwrap_or_default();
+            let force = contact_forces.of(member.node as usize);
             if force != [0.0; 2] {
                 let moment = self.moment(positions[member.node as usize], force);
                 Self::add_force(&mut self.force, force, moment);
@@ -430,7 +431,7 @@ impl Bodies {
     pub fn accelerate(
         &mut self,
         [mean_step, time_step]: [f64; 2],
-        contact_forces: &[Vector],
+        contact_forces: &ContactForces,
         positions: &[Vector],
         velocities: &mut [Vector],
     ) -> Sums {

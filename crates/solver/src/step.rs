@@ -362,7 +362,7 @@ impl System {
         self.team.each(parts, |index, _, (velocities, next, sums)| sums.fill(nodes.update(index * CHUNK, velocities, next)));
         let groups = nodes.update_groups(&mut self.velocities);
         let steps = [nodes.dt, time_step];
-        self.of_bodies = self.bodies.accelerate(steps, self.contact_forces.values(), &self.positions, &mut self.velocities);
+        self.of_bodies = self.bodies.accelerate(steps, &self.contact_forces, &self.positions, &mut self.velocities);
         self.of_bodies += &groups;
         self.time_step = time_step;
         self.speed = self.largest_speed();

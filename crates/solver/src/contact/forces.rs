@@ -3,11 +3,9 @@
 //! Solved springs add to them ([`super::Contact::collect`]); the velocity update, rigid bodies and records read them. A step costs as much as there are nodes in contact.
 
 use super::Vector;
+use embate_lanes::BATCH;
 
-/// Nodes that share a mark.
-const GROUP: usize = 8;
-
-/// ContactForces of contacts and obstacles on nodes, N/m.
+/// Forces of contacts and obstacles on nodes, N/m. Of a model without contacts there are none, not even of zero: [`ContactForces::new`] of no nodes.
 #[derive(Clone, Debug, Default)]
 pub struct ContactForces {
     values: Vec<Vector>,
@@ -21,14 +19,14 @@ impl ContactForces {
     /// None on so many nodes.
     #[must_use]
     pub fn new(nodes: usize) -> Self {
-        Self { values: vec![[0.0; 2]; nodes], marks: vec![false; nodes.div_ceil(GROUP)], marked: Vec::new() }
+        Self { values: vec![[0.0; 2]; nodes], marks: vec![false; nodes.div_ceil(BATCH)], marked: Vec::new() }
     }
 
     /// Takes all forces away.
     pub fn clear(&mut self) {
         for group in self.marked.drain(..) {
-            let first = group as usize * GROUP;
-            let end = self.values.len().min(first + GROUP);
+            let first = group as usize * BATCH;
+            let end = self.values.len().min(first + BATCH);
             self.values[first..end].fill([0.0; 2]);
             self.marks[group as usize] = false;
         }
@@ -39,11 +37,18 @@ impl ContactForces {
     pub fn push(&mut self, node: u32, force: Vector) -> bool {
         let Some(sum) = self.values.get_mut(node as usize) else { return false };
         *sum = [sum[0] + force[0], sum[1] + force[1]];
-        let group = node as usize / GROUP;
+        let group = node as usize / BATCH;
         if !std::mem::replace(&mut self.marks[group], true) {
             self.marked.push(group as u32);
         }
         true
+    }
+
+    /// That on a node; zero where there are none.
+    #[inline]
+    #[must_use]
+    pub fn of(&self, node: usize) -> Vector {
+        self.values.get(node).copied().unwrap_or_default()
     }
 
     /// Of each node.
@@ -52,7 +57,7 @@ impl ContactForces {
         &self.values
     }
 
-    /// Whether any of the eight nodes from number 8 `group` on may have one.
+    /// Whether any node of a group of [`BATCH`] may have one.
     #[inline]
     #[must_use]
     pub fn has(&self, group: usize) -> bool {
@@ -70,7 +75,7 @@ mod tests {
         for round in 0..3 {
             assert!(forces.values().iter().all(|force| *force == [0.0; 2]) && !(0..4).any(|group| forces.has(group)), "{round}");
             assert!(forces.push(17, [1.0, 2.0]) && forces.push(17, [0.5, 0.0]) && forces.push(3, [0.0, 1.0]) && !forces.push(19, [1.0; 2]));
-            assert_eq!([forces.values()[17], forces.values()[3], forces.values()[16]], [[1.5, 2.0], [0.0, 1.0], [0.0; 2]]);
+            assert_eq!([17, 3, 16, 19].map(|node| forces.of(node)), [[1.5, 2.0], [0.0, 1.0], [0.0; 2], [0.0; 2]]);
             assert_eq!([0, 1, 2, 3].map(|group| forces.has(group)), [true, false, true, false]);
             forces.clear();
         }

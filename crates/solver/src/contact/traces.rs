@@ -3,6 +3,7 @@
 //! Springs come solved; fields go to the record. Each spring stands for a length of surface on both sides, and a node has its shares of the springs at it.
 
 use super::Vector;
+use super::forces::ContactForces;
 use super::springs::{Answer, Lost, Springs};
 use crate::load::tributary::Depth;
 use crate::mesh::surface::Surface;
@@ -80,7 +81,7 @@ impl Traces {
     /// Contact pressure and shear stress (Pa) of every node, from the contact forces on the nodes (N/m) at their current positions: −f·n and f·t
     /// by current area, t along the surface with the body on its right. In pairs; zero inside.
     #[must_use]
-    pub fn tractions(&self, forces: &[Vector], positions: &[Vector]) -> Vec<[f64; 2]> {
+    pub fn tractions(&self, forces: &ContactForces, positions: &[Vector]) -> Vec<[f64; 2]> {
         let mut along = vec![[0.0; 2]; positions.len()];
         let mut area = vec![0.0; positions.len()];
         for &segment in &self.outside.segments {
@@ -93,22 +94,22 @@ impl Traces {
                 area[node as usize] += share;
             }
         }
-        let traction = |((f, t), area): ((&Vector, &Vector), &f64)| {
+        let traction = |((node, t), area): ((usize, &Vector), &f64)| {
             let norm = (t[0] * t[0] + t[1] * t[1]).sqrt();
             if norm == 0.0 {
                 return [0.0; 2];
             }
-            let per = 1.0 / (norm * area);
+            let (f, per) = (forces.of(node), 1.0 / (norm * area));
             // n = (−t₂, t₁)
             [(f[0] * t[1] - f[1] * t[0]) * per, (f[0] * t[0] + f[1] * t[1]) * per]
         };
-        forces.iter().zip(&along).zip(&area).map(traction).collect()
+        along.iter().enumerate().zip(&area).map(traction).collect()
     }
 
-    /// State of every node from the solved springs of the step.
+    /// State of so many nodes from the solved springs of the step.
     #[must_use]
-    pub fn states(&self, springs: &Springs) -> Vec<State> {
-        let mut sums = vec![(0.0, 0.0, 0.0f64); self.area.len()];
+    pub fn states(springs: &Springs, nodes: usize) -> Vec<State> {
+        let mut sums = vec![(0.0, 0.0, 0.0f64); nodes];
         for Answer { spring, solved, .. } in springs.answers(0..springs.list.len()) {
             let status = if solved.force == 0.0 { 0.0 } else { 1.0 + f64::from(u8::from(solved.slides)) };
             for end in springs.ends(spring) {

@@ -105,7 +105,7 @@ impl<'a> Nodes<'a> {
     }
 
     fn contact_force(&self, node: usize) -> Vector {
-        self.contact_forces.map_or([0.0; 2], |forces| forces.values()[node])
+        self.contact_forces.map_or([0.0; 2], |forces| forces.of(node))
     }
 
     fn pull_of(&self, group: &Group) -> Pull<'a> {

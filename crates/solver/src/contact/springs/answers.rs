@@ -66,34 +66,15 @@ impl<'a> Answer<'a> {
     /// g^{n−½}, m.
     #[must_use]
     pub fn gap_old(&self) -> f64 {
-        self.spring.gap - 0.5 * self.springs.time_steps[0] * self.solved.rates[0]
+        self.spring.gap - 0.5 * self.time_steps()[0] * self.solved.rates[0]
     }
 
     /// g^{n+½}, m.
     #[must_use]
     pub fn gap_new(&self) -> f64 {
-        self.spring.gap + 0.5 * self.springs.time_steps[1] * self.solved.rates[1]
+        self.spring.gap + 0.5 * self.time_steps()[1] * self.solved.rates[1]
     }
-}
 
-impl Answers<'_> {
-    /// Sums the springs up: adds their forces to `forces` (of nodes) and `bodies` (of bodies without nodes at the ends), and what they did in the coming update to `traces`.
-    pub fn collect_into(self, forces: &mut ContactForces, bodies: &mut Bodies, traces: &mut Traces) -> Totals {
-        let mut totals = Totals::default();
-        for answer in self {
-            let Books { energy, slip_energy, work, lost, .. } = answer.books();
-            totals.energy += energy;
-            totals.slip_energy += slip_energy;
-            totals.work += work;
-            totals.lost += lost;
-            answer.push(forces, bodies, &mut totals);
-            traces.mark(&answer, &lost);
-        }
-        totals
-    }
-}
-
-impl Answer<'_> {
     /// Adds its force to what is at the ends, and to the resultant.
     fn push(&self, forces: &mut ContactForces, bodies: &mut Bodies, totals: &mut Totals) {
         let (spring, solved) = (self.spring, self.solved);
@@ -115,6 +96,23 @@ impl Answer<'_> {
     /// How far it slides in the coming update, m.
     #[must_use]
     pub fn slides_by(&self) -> f64 {
-        self.solved.slip_rates[1].abs() * self.springs.time_steps[1]
+        self.solved.slip_rates[1].abs() * self.time_steps()[1]
+    }
+}
+
+impl Answers<'_> {
+    /// Sums the springs up: adds their forces to `forces` (of nodes) and `bodies` (of bodies without nodes at the ends), and what they did in the coming update to `traces`.
+    pub fn collect_into(self, forces: &mut ContactForces, bodies: &mut Bodies, traces: &mut Traces) -> Totals {
+        let mut totals = Totals::default();
+        for answer in self {
+            let Books { energy, slip_energy, work, lost, .. } = answer.books();
+            totals.energy += energy;
+            totals.slip_energy += slip_energy;
+            totals.work += work;
+            totals.lost += lost;
+            answer.push(forces, bodies, &mut totals);
+            traces.mark(&answer, &lost);
+        }
+        totals
     }
 }

@@ -49,11 +49,14 @@ impl Stays {
         hold: f64,
         level: Level,
     ) -> Self {
-        let is_steady = |(i, group): (usize, &Group)| {
-            let own = &candidates[group.begin as usize..group.end as usize];
-            u32::from(group.memory != NONE && is_awake(i) && *own == [group.memory]) << i
-        };
-        let steady = groups.iter().enumerate().map(is_steady).sum::<u32>();
+        // Who sleeps is not even read.
+        let mut steady = 0;
+        for lane in (0..groups.len()).filter(|&lane| is_awake(lane)) {
+            let group = &groups[lane];
+            if group.memory != NONE && candidates[group.begin as usize..group.end as usize] == [group.memory] {
+                steady |= 1u32 << lane;
+            }
+        }
         if steady.count_ones() < FEW {
             return Self::NONE;
         }

@@ -1,5 +1,6 @@
 //! `embate run`: a model from its file to its results.
 
+use crate::complaint::Complaint;
 use crate::input::{self, ModelArguments};
 use crate::interrupt::Interrupt;
 use crate::numbers::{grouped, per_cent, table, with_unit};
@@ -7,6 +8,7 @@ use crate::progress::Display;
 use crate::{Failure, cpu, terminal};
 use clap::Args;
 use embate_files::results::{Recorder, Report, ResultFolder, ResultsError, RunStatus};
+use embate_solver::error::Error;
 use embate_solver::model::Model;
 use embate_solver::simulation::{ContactSearch, Control, Options, Progress, Simulation};
 use std::path::{Path, PathBuf};
@@ -67,9 +69,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if !arguments.quiet {
         // Those of the model come first, and have been told.
         let of_run = report.warnings.iter().skip(simulation.model_warnings().len());
-        of_run.for_each(|warning| terminal::complain(&format!("warning: {warning}")));
+        of_run.for_each(|notice| terminal::complain(&Complaint::from(notice).to_string()));
     }
-    result.map_err(|error| failure_text(&error, &path)).map_err(Failure::Run)?;
+    result.map_err(|complaint| Failure::Run(with_results(complaint, &path)))?;
     if !arguments.quiet {
         terminal::print(&closing_text(&report, &path))?;
     }
@@ -80,7 +82,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 fn in_the_way(error: ResultsError) -> Failure {
-    Failure::Input(format!("error: {error}"))
+    Failure::Input(Complaint::new(error.kind(), error))
 }
 
 /// Runs and records: the report, what went wrong, and whether the user stopped it.
@@ -90,7 +92,7 @@ fn record(
     folder: ResultFolder,
     threads: usize,
     is_quiet: bool,
-) -> Result<(Report, Result<(), String>, bool), Failure> {
+) -> Result<(Report, Result<(), Complaint>, bool), Failure> {
     let interrupt = Interrupt::watch();
     let mut display = Display::new(is_quiet);
     let mut is_interrupted = false;
@@ -107,22 +109,18 @@ fn record(
     };
     let (columns, cells) = (simulation.history_columns(), simulation.cells());
     let mut recorder = Recorder::new(folder, model, columns, cells, threads, Box::new(on_progress)).map_err(in_the_way)?;
-    let result = simulation.run(&mut recorder).map_err(|error| input::told(&error));
-    let outcome = recorder.finish(result.as_ref().err().map(|text| bare(text)), &simulation.summary(), cpu::user_seconds);
+    let result = simulation.run(&mut recorder);
+    let outcome = recorder.finish(result.as_ref().err().map(Error::with_code), &simulation.summary(), cpu::user_seconds);
     display.close();
     // What went wrong first is what matters.
-    let result = result.and(outcome.unwritten.map_or(Ok(()), |error| Err(format!("error: {error}"))));
+    let unwritten = outcome.unwritten.map_or(Ok(()), |error| Err(Complaint::new(error.kind(), error)));
+    let result = result.map_err(|error| Complaint::from(&error)).and(unwritten);
     Ok((outcome.report, result, is_interrupted))
 }
 
-/// A message without its `error: `, for the summary.
-fn bare(text: &str) -> String {
-    text.strip_prefix("error: ").unwrap_or(text).to_string()
-}
-
-fn failure_text(error: &str, path: &Path) -> String {
+fn with_results(complaint: Complaint, path: &Path) -> Complaint {
     let kept: Vec<&str> = FILES.iter().map(|(name, _)| *name).filter(|name| path.join(name).exists()).collect();
-    if kept.is_empty() { error.to_string() } else { format!("{error}\n  results until then: {} ({})", path.display(), kept.join(", ")) }
+    if kept.is_empty() { complaint } else { complaint.and(format!("  results until then: {} ({})", path.display(), kept.join(", "))) }
 }
 
 /// A line for each contact between surfaces.

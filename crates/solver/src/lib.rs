@@ -2,6 +2,7 @@
 //!
 //! The contents are listed in the order in which the data walks through them.
 
+pub mod message;
 pub mod error;
 pub mod quantity;
 pub mod tensor;

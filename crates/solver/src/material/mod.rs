@@ -7,6 +7,7 @@
 pub mod eos;
 pub mod hardening;
 mod parameters;
+pub(crate) mod messages;
 pub mod points;
 mod rubber;
 mod softening;
@@ -19,6 +20,7 @@ pub use parameters::{BULK, DENSITY, POISSON, ParameterFault, Parameters, YOUNG, 
 pub use softening::Softening;
 pub use state::{Orientation, State, Tensors, Variable};
 
+use crate::message::Message;
 use crate::quantity::Parameter;
 use crate::tensor::{Solid, SymmetricTensor};
 use embate_lanes::Lane;
@@ -112,6 +114,9 @@ pub trait Law: Copy + Send + Sync + 'static {
     /// Whether it has no pressure of its own.
     const NEEDS_EQUATION_OF_STATE: bool = false;
 
+    /// Kinds of messages that it alone tells.
+    const MESSAGES: &'static [&'static Message] = &[];
+
     /// Reads its parameters, which have been checked against [`Law::KIND`].
     fn new(parameters: &Parameters<'_>) -> Self;
 
@@ -165,6 +170,8 @@ macro_rules! laws {
         /// Every law, in the order in which it is listed.
         pub const LAWS: &[LawKind] = &[$($(<$law as Law>::KIND),+),*];
 
+        const OF_LAWS: &[&[&Message]] = &[$($(<$law as Law>::MESSAGES),+),*];
+
         /// Calls `visitor` with the law called `name`; `None` when there is none.
         pub fn with_law<V: LawVisitor>(name: &str, visitor: V) -> Option<V::Output> {
             match name {
@@ -190,6 +197,11 @@ laws! {
     ogden: Ogden;
     viscoelastic: Viscoelastic;
     null: Null;
+}
+
+/// Kinds of messages that laws alone tell.
+pub(crate) fn messages() -> impl Iterator<Item = &'static Message> {
+    OF_LAWS.iter().flat_map(|of_law| of_law.iter().copied())
 }
 
 /// What the law called `name` finds wrong with parameters whose ranges are right.

@@ -33,11 +33,11 @@ pub struct Projection {
 
 /// Nodes that project beyond a segment's end by this fraction of its length still project on it. Two bars of one height meet corner on corner:
 /// round-off must not decide whether they touch.
-const END_TOLERANCE: f64 = 1e-6;
+pub(in crate::contact) const END_TOLERANCE: f64 = 1e-6;
 /// Round-off of f, and of the comparison with it, over lengths of both factors.
-const ROUNDING: f64 = 16.0 * f64::EPSILON;
+pub(in crate::contact) const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// Off a node by this part of the distance, squared, the inside of a segment is nearer than the node whatever rounds.
-const CLEAR: f64 = 1e-6;
+pub(in crate::contact) const CLEAR: f64 = 1e-6;
 /// Two sides are equally near when their distances differ by less than this fraction.
 const TIE: f64 = 1e-9;
 /// Cosine of the angle between two segments from which on their common node is an edge, not a facet of something round.

@@ -8,8 +8,10 @@ use super::super::projection::node_segment::{Held, Projection, Target, Vector};
 use super::ends::Ends;
 use super::group::Group;
 use super::sleep::{awake, wake_at};
+use super::steady::Stays;
 use super::{Certificate, Found, Memory, Touch};
 use crate::mesh::surface::NONE;
+use embate_lanes::{BATCH, Level};
 
 /// A node nearer than this fraction of the skin is on the surface, as far as rounding lets one tell.
 const ROUNDING: f64 = 4e-9;
@@ -49,6 +51,7 @@ pub(super) struct View<'a> {
     sweep: Sweep<'a>,
     /// Who wakes later sleeps on.
     awake: f64,
+    level: Level,
 }
 
 /// What the candidates of a group did in a step.
@@ -72,20 +75,30 @@ impl<'a> View<'a> {
     ) -> Self {
         let (own_surface, near) = (std::ptr::eq(slaves, target), extra + START * skin);
         let (rounding, hold, awake) = (ROUNDING * skin, HOLD * skin, awake(near, LOOK_AHEAD, sweep.travel, way));
-        Self { target, candidates, slaves, ends, pass, own_surface, rounding, hold, near, sweep, awake }
+        Self { target, candidates, slaves, ends, pass, own_surface, rounding, hold, near, sweep, awake, level: Level::best() }
     }
 
     /// Locates those of the groups that do not sleep.
     pub(super) fn look_at(&self, located: Located<'_>, found: &mut Found) {
         let Located { first, groups, kept, wakes } = located;
-        for (number, wake) in wakes.iter_mut().enumerate() {
+        let mut stays = Stays::NONE;
+        for number in 0..groups.len() {
+            if number % BATCH == 0 {
+                let eight = number..(number + BATCH).min(groups.len());
+                let is_awake = |lane: usize| wakes[number + lane] <= self.awake;
+                stays = Stays::find(&groups[eight], self.candidates, is_awake, self.target, self.sweep, self.hold, self.level);
+            }
+            let wake = &mut wakes[number];
             if *wake > self.awake {
                 continue;
             }
             let group = &mut groups[number];
             let candidates = &self.candidates[group.begin as usize..group.end as usize];
             let mut clear = f64::NEG_INFINITY;
-            let projection = self.locate(group, candidates, &mut clear, &mut found.certificate);
+            let projection = match stays.projection(number % BATCH, group.memory) {
+                None => self.locate(group, candidates, &mut clear, &mut found.certificate),
+                stays => stays,
+            };
             let touched = std::mem::replace(&mut group.touches, projection.is_some());
             match projection {
                 Some(projection) => {

@@ -13,6 +13,7 @@ mod past;
 mod reach;
 mod sleep;
 mod start;
+mod steady;
 
 pub use certificate::{Certificate, SearchReport};
 pub use ends::is_facing;

@@ -64,11 +64,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     input::warn(&loaded, &simulation);
     // Only now: a model that can't run must not cost the results of an earlier one.
     let folder = ResultFolder::create(&path, arguments.force).map_err(in_the_way)?;
-    let (report, result, is_interrupted) = record(model, &mut simulation, folder, options.thread_count(), arguments.quiet)?;
+    let Recorded { report, result, is_interrupted, told } =
+        record(model, &mut simulation, folder, options.thread_count(), arguments.quiet)?;
 
     if !arguments.quiet {
-        // Those of the model come first, and have been told.
+        // Those of the model come first, and have been told, as has what was seen on the way: the summary says how it went on.
         let of_run = report.warnings.iter().skip(simulation.model_warnings().len());
+        let of_run = of_run.filter(|notice| !told.iter().any(|text| notice.text.starts_with(text)));
         of_run.for_each(|notice| terminal::complain(&Complaint::from(notice).to_string()));
     }
     result.map_err(|complaint| Failure::Run(with_results(complaint, &path)))?;
@@ -85,19 +87,29 @@ fn in_the_way(error: ResultsError) -> Failure {
     Failure::Input(Complaint::new(error.kind(), error))
 }
 
-/// Runs and records: the report, what went wrong, and whether the user stopped it.
-fn record(
-    model: &Model,
-    simulation: &mut Simulation,
-    folder: ResultFolder,
-    threads: usize,
-    is_quiet: bool,
-) -> Result<(Report, Result<(), Complaint>, bool), Failure> {
+/// How a run ended.
+struct Recorded {
+    report: Report,
+    /// What went wrong.
+    result: Result<(), Complaint>,
+    /// Whether the user stopped it.
+    is_interrupted: bool,
+    /// What was told of it on the way.
+    told: Vec<String>,
+}
+
+/// Runs and records.
+fn record(model: &Model, simulation: &mut Simulation, folder: ResultFolder, threads: usize, is_quiet: bool) -> Result<Recorded, Failure> {
     let interrupt = Interrupt::watch();
     let mut display = Display::new(is_quiet);
     let mut is_interrupted = false;
+    let mut told = Vec::new();
     let on_progress = |progress: &Progress<'_>| {
         display.update(progress);
+        for notice in progress.notices {
+            display.say(&Complaint::from(notice).to_string());
+            told.push(notice.text.clone());
+        }
         if !interrupt.is_pressed() {
             return Control::Continue;
         }
@@ -115,7 +127,7 @@ fn record(
     // What went wrong first is what matters.
     let unwritten = outcome.unwritten.map_or(Ok(()), |error| Err(Complaint::new(error.kind(), error)));
     let result = result.map_err(|error| Complaint::from(&error)).and(unwritten);
-    Ok((outcome.report, result, is_interrupted))
+    Ok(Recorded { report: outcome.report, result, is_interrupted, told })
 }
 
 fn with_results(complaint: Complaint, path: &Path) -> Complaint {

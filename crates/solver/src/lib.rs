@@ -22,6 +22,7 @@ pub mod step;
 pub mod build;
 mod culprit;
 mod record;
+mod watch;
 pub mod output;
 pub mod simulation;
 pub mod bench;

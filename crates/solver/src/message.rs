@@ -3,7 +3,7 @@
 //! Entries stand beside the code that raises them, as statics that a `MESSAGES` list of their file names; [`all`] joins those of the solver, and the rooms above
 //! add theirs. Whatever tells an error takes a `&'static Message`, so there is none without an entry. `embate explain` and `docs/messages.md` print them.
 
-use crate::{contact, error, load, material, mesh, model};
+use crate::{contact, error, load, material, mesh, model, watch};
 use std::fmt;
 
 /// One kind of message.
@@ -108,6 +108,7 @@ pub fn all() -> Vec<&'static Message> {
         contact::messages::MESSAGES,
         load::messages::MESSAGES,
         error::MESSAGES,
+        watch::MESSAGES,
     ];
     rooms.iter().copied().flatten().copied().chain(material::messages()).collect()
 }

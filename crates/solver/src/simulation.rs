@@ -10,7 +10,8 @@ use crate::mesh::PartMesh;
 use crate::model::{self, Cadence, Model};
 use crate::output::{Cells, Eroded, Erosion, Frame, Summary};
 use crate::record::{Momentum, Recorded};
-use crate::step::{Governor, System};
+use crate::step::System;
+use crate::watch::{Shortest, Watch};
 use embate_lanes::Level;
 use std::collections::BTreeMap;
 
@@ -49,6 +50,8 @@ pub struct Progress<'a> {
     pub governor: &'a str,
     /// Energy drift so far, fraction of the largest total energy.
     pub energy_drift: f64,
+    /// What is new since the last call that the user should know at once; the summary has all of it.
+    pub notices: &'a [Notice],
 }
 
 /// Whether a run goes on.
@@ -136,6 +139,7 @@ pub struct Simulation {
     pub(crate) recorded: Recorded,
     pub(crate) momentum: Option<Momentum>,
     shortest: Shortest,
+    watch: Watch,
     pub(crate) threads: usize,
     model_warnings: Vec<Warning>,
     pub(crate) warnings: Vec<Notice>,
@@ -176,6 +180,7 @@ impl Simulation {
             momentum: None,
             recorded,
             shortest: Shortest::default(),
+            watch: Watch::new(model, &system),
             threads: if pool.is_some() { threads } else { 1 },
             model_warnings,
             warnings: Vec::new(),
@@ -308,6 +313,7 @@ impl Simulation {
                 self.show(observer)?;
                 last_frame = Some(self.system.step);
             }
+            let notices = self.watch.look(&self.system, &self.shortest, over);
             if over {
                 return Ok(());
             }
@@ -319,6 +325,7 @@ impl Simulation {
                 time_step: self.system.time_step,
                 governor: &governor,
                 energy_drift: self.system.ledger.drift(),
+                notices: &notices,
             };
             if observer.progress(&progress) == Control::Stop {
                 if last_frame != Some(self.system.step) {
@@ -327,7 +334,8 @@ impl Simulation {
                 return Ok(());
             }
             if let Err(error) = self.advance(rows.next().min(frames.next()), PROGRESS) {
-                // The state of the failure is what the user needs to see.
+                // The state of the failure is what the user needs to see, and what was to be seen of it before.
+                self.watch.look(&self.system, &self.shortest, true);
                 if self.system.time > last_row {
                     observer.row(&self.history_row()).map_err(output)?;
                 }
@@ -404,6 +412,7 @@ impl Simulation {
 
     fn warnings(&self) -> Vec<Notice> {
         let mut warnings: Vec<Notice> = self.model_warnings.iter().map(Notice::from).chain(self.warnings.iter().cloned()).collect();
+        warnings.extend(self.watch.notices());
         let mut tell = |kind, text: String| warnings.push(Notice::new(kind, text));
         for contact in &self.system.contacts {
             let Some(ties) = contact.ties() else { continue };
@@ -523,29 +532,6 @@ fn output(error: ObserverError) -> Error {
 
 fn search_name(contact: &model::Contact) -> String {
     if contact.search.is_empty() { search::registry::<2>()[0].name.into() } else { contact.search.clone() }
-}
-
-/// The shortest step so far and who governed it.
-struct Shortest {
-    time_step: f64,
-    governor: String,
-}
-
-impl Default for Shortest {
-    fn default() -> Self {
-        Self { time_step: f64::INFINITY, governor: String::new() }
-    }
-}
-
-impl Shortest {
-    /// Takes the step of `system`. Who governs is found by a search: only when the step falls noticeably, and by more than the schedule.
-    fn note(&mut self, system: &System) {
-        let governed = system.governor != Governor::Schedule || self.time_step.is_infinite();
-        if governed && system.time_step < 0.999 * self.time_step {
-            self.time_step = system.time_step;
-            self.governor = system.governor_name(system.governor);
-        }
-    }
 }
 
 /// Output times k × interval.

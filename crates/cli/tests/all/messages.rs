@@ -178,3 +178,29 @@ fn of_each_code_twenty_messages_are_shown_and_the_rest_is_counted() {
     assert_eq!(answer.err.matches("error[E0106]").count(), 20);
     assert!(answer.err.contains("\nand 37 more of E0106\n57 faults: nothing was run\n"), "{}", answer.err);
 }
+
+#[test]
+fn what_is_seen_on_the_way_is_told_once_and_counted_in_the_summary() {
+    let folder = fresh("seen-on-the-way");
+    let springs = catalogue().into_iter().find(|message| message.code == "W0612").unwrap();
+    let Example::Model(lines) = springs.example else { panic!("its example is a model") };
+    fs::write(folder.join("model.toml"), merged(BASE, lines)).unwrap();
+    let answer = embate(&folder, ["run", "model.toml", "--out", "out"]);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    assert_eq!(answer.err.matches("warning[W0612]").count(), 1, "{}", answer.err);
+    assert!(answer.err.find("warning[W0612]").unwrap() < answer.err.find(" 90 %").unwrap(), "told while it runs: {}", answer.err);
+    let summary: serde_json::Value = serde_json::from_str(&fs::read_to_string(folder.join("out/summary.json")).unwrap()).unwrap();
+    let warnings: Vec<&str> = summary["warnings"].as_array().unwrap().iter().map(|text| text.as_str().unwrap()).collect();
+    assert!(
+        matches!(warnings[..], [text] if text.starts_with("W0612: ") && text.contains("contact \"hit\"") && text.ends_with("% at most")),
+        "{warnings:?}"
+    );
+}
+
+#[test]
+fn of_a_run_in_which_all_is_well_nothing_is_told() {
+    let folder = fresh("all-is-well");
+    fs::write(folder.join("model.toml"), BASE).unwrap();
+    let answer = embate(&folder, ["run", "model.toml", "--out", "out"]);
+    assert!(answer.code == Some(0) && !answer.err.contains("warning"), "{}", answer.err);
+}

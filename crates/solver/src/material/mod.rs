@@ -130,6 +130,11 @@ pub trait Law: Copy + Send + Sync + 'static {
         None
     }
 
+    /// Plastic strain at which the table of its flow stress ends; `None` where it has none.
+    fn table_end(_parameters: &Parameters<'_>) -> Option<f64> {
+        None
+    }
+
     /// History at the start, zero unless the law says otherwise.
     fn start<L: Lane, T: SymmetricTensor<L>>(&self) -> Self::State<L, T> {
         State::zero()
@@ -225,6 +230,19 @@ pub fn softening(name: &str, parameters: &Parameters<'_>) -> Option<Softening> {
         type Output = Option<Softening>;
         fn visit<M: Law>(self) -> Self::Output {
             M::softening(self.0)
+        }
+    }
+    with_law(name, Ask(parameters)).flatten()
+}
+
+/// Plastic strain at which the table of the law called `name` ends; `None` where it has none. Parameters are sound.
+#[must_use]
+pub fn table_end(name: &str, parameters: &Parameters<'_>) -> Option<f64> {
+    struct Ask<'a>(&'a Parameters<'a>);
+    impl LawVisitor for Ask<'_> {
+        type Output = Option<f64>;
+        fn visit<M: Law>(self) -> Self::Output {
+            M::table_end(self.0)
         }
     }
     with_law(name, Ask(parameters)).flatten()

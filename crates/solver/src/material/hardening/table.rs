@@ -79,6 +79,10 @@ impl Hardening for Table {
         Vec::new()
     }
 
+    fn end(parameters: &Parameters<'_>) -> Option<f64> {
+        parameters.list("plastic_strain").last().copied()
+    }
+
     fn falling(parameters: &Parameters<'_>) -> Option<(&'static str, f64, Option<f64>)> {
         let steepest = Self::new(parameters, 0.0).steepest();
         (steepest < 0.0).then_some(("stress", steepest, None))

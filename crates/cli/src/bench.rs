@@ -2,7 +2,7 @@
 //!
 //! Bodies and rates are those of `embate_solver::bench`; here are the choice of rows, the time that each may take, the tables and the JSON.
 
-use crate::input::told;
+use crate::complaint::Complaint;
 use crate::interrupt::Interrupt;
 use crate::numbers::{grouped, table};
 use crate::{Failure, machine, terminal};
@@ -132,7 +132,7 @@ pub(crate) fn bench(arguments: &Arguments) -> Result<(), Failure> {
         "wall_seconds": begin.elapsed().as_secs_f64(),
     });
     let text = serde_json::to_string_pretty(&value).expect("plain numbers, texts and lists always have a JSON form") + "\n";
-    write_whole(file, text.as_bytes()).map_err(|error| Failure::Run(format!("error: {error}")))
+    write_whole(file, text.as_bytes()).map_err(|error| Failure::Run(Complaint::new(error.kind(), error)))
 }
 
 impl Bench {
@@ -225,7 +225,7 @@ impl Bench {
 }
 
 fn failed(error: Error) -> Failure {
-    Failure::Run(told(&error))
+    Failure::Run(Complaint::from(&error))
 }
 
 impl Ceilings {

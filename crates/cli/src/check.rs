@@ -1,9 +1,11 @@
 //! `embate check`: what a model is, without running it, and a picture of its mesh.
 
+use crate::complaint::Complaint;
 use crate::input::{self, ModelArguments};
 use crate::numbers::{grouped, table, with_unit};
 use crate::{Failure, terminal};
 use clap::Args;
+use embate_files::results::messages::NO_PICTURES;
 use embate_files::{picture, results};
 use embate_solver::model::Model;
 use embate_solver::simulation::{Options, Overview, Simulation};
@@ -28,7 +30,7 @@ pub(crate) fn check(arguments: &Arguments) -> Result<(), Failure> {
     let folder = arguments.out.clone().unwrap_or_else(|| input::default_folder(model));
     match draw(model, &simulation, &folder) {
         Ok(path) => text.push_str(&format!("picture: {}\n", path.display())),
-        Err(message) => terminal::complain(&format!("warning: no picture: {message}")),
+        Err(message) => terminal::complain(&Complaint::new(&NO_PICTURES, message).to_string()),
     }
     terminal::print(&text)
 }
@@ -52,8 +54,8 @@ fn overview_text(model: &Model, overview: &Overview) -> String {
         grouped(overview.steps_expected),
         with_unit(model.run.end, "s")
     ));
-    for (title, lines) in
-        [("probes", &overview.probes), ("initial penetrations", &overview.initial_penetrations), ("warnings", &overview.warnings)]
+    let warnings = overview.warnings.iter().map(ToString::to_string).collect();
+    for (title, lines) in [("probes", &overview.probes), ("initial penetrations", &overview.initial_penetrations), ("warnings", &warnings)]
     {
         if !lines.is_empty() {
             text.push_str(&format!("{title}\n  {}\n", lines.join("\n  ")));

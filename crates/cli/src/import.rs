@@ -1,11 +1,12 @@
 //! `embate import`: a deck of Abaqus or CalculiX becomes a folder with a model, its mesh, and a report of what became of each keyword.
 
-use crate::input::told;
+use crate::complaint::Complaint;
+use crate::messages::{IGNORED, SOURCE_IN_THE_WAY};
 use crate::{Failure, terminal};
 use clap::Args;
 use embate_files::abaqus::import::{self, Imported, MESH_NAME, Units};
+use embate_files::results::messages::{EXISTS, REFUSED};
 use embate_files::{model_file, results};
-use embate_solver::error::Error;
 use std::path::{Path, PathBuf};
 
 /// Name of the report in the folder.
@@ -29,25 +30,26 @@ pub(crate) struct Arguments {
 
 pub(crate) fn import(arguments: &Arguments) -> Result<(), Failure> {
     let units = match &arguments.units {
-        Some(text) => Units::parse(text).map_err(|fault| Failure::Input(told(&Error::Model(vec![fault]))))?,
+        Some(text) => Units::parse(text).map_err(|fault| Failure::Input(Complaint::from([fault].as_slice())))?,
         None => Units::default(),
     };
-    let imported = import::import(&arguments.deck, &units).map_err(|faults| Failure::Input(told(&Error::Model(faults))))?;
+    let imported = import::import(&arguments.deck, &units).map_err(|faults| Failure::Input(Complaint::from(faults.as_slice())))?;
     let report = imported.report.text();
     write(arguments, &imported, &report)?;
     terminal::print(&report)?;
     let model = arguments.out.join(model_file::FILE_NAME);
     terminal::print(&format!("\n{} is the model; look at it with: embate check {}\n", model.display(), arguments.out.display()))?;
     if let Err(diagnostics) = model_file::load(&model, &[]) {
-        return Err(Failure::Incomplete(format!(
-            "{}\nthe model that was written has faults: mend them in {}",
-            diagnostics.rendered.trim_end(),
-            model.display()
-        )));
+        return Err(Failure::Incomplete(
+            Complaint::from(&diagnostics).and(format!("the model that was written has faults: mend them in {}", model.display())),
+        ));
     }
     if imported.report.has_ignored() {
         let report = arguments.out.join(REPORT_NAME);
-        return Err(Failure::Incomplete(format!("warning: something of the deck does not act in the model: see {}", report.display())));
+        return Err(Failure::Incomplete(Complaint::new(
+            &IGNORED,
+            format!("something of the deck does not act in the model: see {}", report.display()),
+        )));
     }
     Ok(())
 }
@@ -58,15 +60,22 @@ fn write(arguments: &Arguments, imported: &Imported, report: &str) -> Result<(),
     for (name, _) in files {
         let file = folder.join(name);
         if is_same(&file, &arguments.deck) {
-            return Err(Failure::Input(format!("error: {} is the deck itself; choose another folder", file.display())));
+            return Err(Failure::Input(Complaint::new(
+                &SOURCE_IN_THE_WAY,
+                format!("{} is the deck itself; choose another folder", file.display()),
+            )));
         }
         if file.exists() && !arguments.force {
-            return Err(Failure::Input(format!("error: {} exists; choose another folder, or replace it with --force", file.display())));
+            return Err(Failure::Input(Complaint::new(
+                &EXISTS,
+                format!("{} exists; choose another folder, or replace it with --force", file.display()),
+            )));
         }
     }
-    std::fs::create_dir_all(folder).map_err(|error| Failure::Input(format!("error: can't create {}: {error}", folder.display())))?;
+    std::fs::create_dir_all(folder)
+        .map_err(|error| Failure::Input(Complaint::new(&REFUSED, format!("can't create {}: {error}", folder.display()))))?;
     for (name, text) in files {
-        results::write_whole(&folder.join(name), text.as_bytes()).map_err(|error| Failure::Input(format!("error: {error}")))?;
+        results::write_whole(&folder.join(name), text.as_bytes()).map_err(|error| Failure::Input(Complaint::new(error.kind(), error)))?;
     }
     Ok(())
 }

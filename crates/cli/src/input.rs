@@ -1,9 +1,9 @@
 //! What `run` and `check` share: reading a model, making it ready, and where its results go.
 
+use crate::complaint::Complaint;
 use crate::{Failure, terminal};
 use clap::Args;
 use embate_files::model_file::{self, Loaded};
-use embate_solver::error::{Error, Fault};
 use embate_solver::model::Model;
 use embate_solver::simulation::{Options, Simulation};
 use std::ffi::OsStr;
@@ -28,18 +28,12 @@ fn key_and_value(text: &str) -> Result<String, String> {
 
 /// Reads a model; all faults of the file become one message.
 pub(crate) fn load(arguments: &ModelArguments) -> Result<Loaded, Failure> {
-    model_file::load_with_places(&arguments.model, &arguments.set).map_err(|diagnostics| {
-        if diagnostics.rendered.is_empty() {
-            Failure::Input(format!("error: {} can't be used as a model", arguments.model.display()))
-        } else {
-            Failure::Input(diagnostics.rendered)
-        }
-    })
+    model_file::load_with_places(&arguments.model, &arguments.set).map_err(|diagnostics| Failure::Input(Complaint::from(&diagnostics)))
 }
 
 /// Makes a model ready to step.
 pub(crate) fn ready(model: &Model, options: &Options) -> Result<Simulation, Failure> {
-    Simulation::new(model, options).map_err(|error| Failure::Input(told(&error)))
+    Simulation::new(model, options).map_err(|error| Failure::Input(Complaint::from(&error)))
 }
 
 /// Prints what the user should know of a model before he trusts its results.
@@ -48,20 +42,6 @@ pub(crate) fn warn(loaded: &Loaded, simulation: &Simulation) {
     if warnings.count > 0 {
         terminal::complain(&warnings.rendered);
     }
-}
-
-/// An error as the user reads it: one paragraph for each fault.
-pub(crate) fn told(error: &Error) -> String {
-    match error {
-        Error::Model(faults) if !faults.is_empty() => faults.iter().map(told_fault).collect::<Vec<_>>().join("\n"),
-        _ => format!("error: {error}"),
-    }
-}
-
-fn told_fault(fault: &Fault) -> String {
-    let place = if fault.path.is_empty() { String::new() } else { format!("{}: ", fault.path) };
-    let help = if fault.help.is_empty() { String::new() } else { format!("\n  help: {}", fault.help) };
-    format!("error: {place}{}{help}", fault.message)
 }
 
 /// The results folder when none is given: `results/NAME`.
@@ -87,11 +67,5 @@ mod tests {
     fn overrides_need_a_key_and_a_value() {
         assert!(key_and_value("run.end=1").is_ok());
         assert!(key_and_value("run.end").is_err() && key_and_value("=1").is_err());
-    }
-
-    #[test]
-    fn every_fault_is_told_with_its_help() {
-        let error = Error::Model(vec![Fault::new("run.end", "is 0", "give a time"), Fault::new("", "no parts", "")]);
-        assert_eq!(told(&error), "error: run.end: is 0\n  help: give a time\nerror: no parts");
     }
 }

@@ -5,12 +5,15 @@
 
 mod bench;
 mod check;
+mod complaint;
 mod cpu;
+mod explain;
 mod import;
 mod input;
 mod interrupt;
 mod list;
 mod machine;
+mod messages;
 mod new;
 mod numbers;
 mod progress;
@@ -20,7 +23,9 @@ mod sweep;
 mod terminal;
 mod verify;
 
+use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
+use complaint::Complaint;
 use std::process::ExitCode;
 
 /// Explicit finite elements for contact-impact between flexible bodies in large deformation.
@@ -49,6 +54,8 @@ enum Command {
     Verify(verify::Arguments),
     /// Measure how fast this machine is: kernels, whole steps, contact, beside what its memory and arithmetic allow
     Bench(bench::Arguments),
+    /// Explain a message by its code, or list all messages
+    Explain(explain::Arguments),
     /// Print the JSON schema of the model file (for completion in editors)
     Schema,
 }
@@ -57,11 +64,11 @@ enum Command {
 #[derive(Debug)]
 enum Failure {
     /// Bad input, or results in the way; nothing was done.
-    Input(String),
+    Input(Complaint),
     /// A run failed, or its results could not be written.
-    Run(String),
+    Run(Complaint),
     /// A deck was imported, but not all of it acts in the model.
-    Incomplete(String),
+    Incomplete(Complaint),
     /// The user stopped a run.
     Interrupted,
 }
@@ -79,7 +86,10 @@ impl Failure {
 
 fn main() -> ExitCode {
     terminal::announce_bugs();
-    let command = CommandLine::parse().command;
+    let command = match CommandLine::try_parse() {
+        Ok(line) => line.command,
+        Err(error) => return not_understood(&error),
+    };
     // The hook has told the user about a panic; here it only becomes an exit code.
     let Ok(result) = std::panic::catch_unwind(|| obey(&command)) else {
         return ExitCode::from(1);
@@ -88,11 +98,21 @@ fn main() -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             if let Failure::Input(text) | Failure::Run(text) | Failure::Incomplete(text) = &failure {
-                terminal::complain(text);
+                terminal::complain(&text.to_string());
             }
             ExitCode::from(failure.code())
         }
     }
+}
+
+/// Help and version are no errors; an error gets its code in place of the bare word.
+fn not_understood(error: &clap::Error) -> ExitCode {
+    if matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion | ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand) {
+        error.exit();
+    }
+    let text = error.to_string();
+    terminal::complain(&Complaint::new(&messages::USAGE, text.strip_prefix("error: ").unwrap_or(&text)).to_string());
+    ExitCode::from(2)
 }
 
 fn obey(command: &Command) -> Result<(), Failure> {
@@ -105,6 +125,7 @@ fn obey(command: &Command) -> Result<(), Failure> {
         Command::Import(arguments) => import::import(arguments),
         Command::Verify(arguments) => verify::verify(arguments),
         Command::Bench(arguments) => bench::bench(arguments),
+        Command::Explain(arguments) => explain::explain(arguments),
         Command::Schema => schema::schema(),
     }
 }

@@ -1,7 +1,10 @@
 //! `embate new`: a folder with a commented model to start from.
 
+use crate::complaint::Complaint;
+use crate::messages::NO_NAME;
 use crate::{Failure, terminal};
 use clap::Args;
+use embate_files::results::messages::{EXISTS, REFUSED};
 use embate_files::{model_file, results};
 use std::path::PathBuf;
 
@@ -18,13 +21,21 @@ pub(crate) struct Arguments {
 pub(crate) fn new(arguments: &Arguments) -> Result<(), Failure> {
     let folder = &arguments.name;
     let Some(name) = folder.file_name().and_then(|name| name.to_str()) else {
-        return Err(Failure::Input(format!("error: {} names no folder; write for example `embate new my-model`", folder.display())));
+        return Err(Failure::Input(Complaint::new(
+            &NO_NAME,
+            format!("{} names no folder; write for example `embate new my-model`", folder.display()),
+        )));
     };
     let file = folder.join("model.toml");
     if file.exists() && !arguments.force {
-        return Err(Failure::Input(format!("error: {} exists; choose another name, or replace it with --force", file.display())));
+        return Err(Failure::Input(Complaint::new(
+            &EXISTS,
+            format!("{} exists; choose another name, or replace it with --force", file.display()),
+        )));
     }
-    std::fs::create_dir_all(folder).map_err(|error| Failure::Input(format!("error: can't create {}: {error}", folder.display())))?;
-    results::write_whole(&file, model_file::starter(name).as_bytes()).map_err(|error| Failure::Input(format!("error: {error}")))?;
+    std::fs::create_dir_all(folder)
+        .map_err(|error| Failure::Input(Complaint::new(&REFUSED, format!("can't create {}: {error}", folder.display()))))?;
+    results::write_whole(&file, model_file::starter(name).as_bytes())
+        .map_err(|error| Failure::Input(Complaint::new(error.kind(), error)))?;
     terminal::print(&format!("{} is a model to start from; run it with: embate run {}\n", file.display(), folder.display()))
 }

@@ -1,5 +1,6 @@
 //! `embate run`: a model from its file to its results.
 
+use crate::complaint::Complaint;
 use crate::input::{self, ModelArguments};
 use crate::interrupt::Interrupt;
 use crate::numbers::{grouped, per_cent, table, with_unit};
@@ -7,6 +8,7 @@ use crate::progress::Display;
 use crate::{Failure, cpu, terminal};
 use clap::Args;
 use embate_files::results::{Recorder, Report, ResultFolder, ResultsError, RunStatus};
+use embate_solver::error::Error;
 use embate_solver::model::Model;
 use embate_solver::simulation::{ContactSearch, Control, Options, Progress, Simulation};
 use std::path::{Path, PathBuf};
@@ -62,14 +64,16 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     input::warn(&loaded, &simulation);
     // Only now: a model that can't run must not cost the results of an earlier one.
     let folder = ResultFolder::create(&path, arguments.force).map_err(in_the_way)?;
-    let (report, result, is_interrupted) = record(model, &mut simulation, folder, options.thread_count(), arguments.quiet)?;
+    let Recorded { report, result, is_interrupted, told } =
+        record(model, &mut simulation, folder, options.thread_count(), arguments.quiet)?;
 
     if !arguments.quiet {
-        // Those of the model come first, and have been told.
+        // Those of the model come first, and have been told, as has what was seen on the way: the summary says how it went on.
         let of_run = report.warnings.iter().skip(simulation.model_warnings().len());
-        of_run.for_each(|warning| terminal::complain(&format!("warning: {warning}")));
+        let of_run = of_run.filter(|notice| !told.iter().any(|text| notice.text.starts_with(text)));
+        of_run.for_each(|notice| terminal::complain(&Complaint::from(notice).to_string()));
     }
-    result.map_err(|error| failure_text(&error, &path)).map_err(Failure::Run)?;
+    result.map_err(|complaint| Failure::Run(with_results(complaint, &path)))?;
     if !arguments.quiet {
         terminal::print(&closing_text(&report, &path))?;
     }
@@ -80,22 +84,32 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 fn in_the_way(error: ResultsError) -> Failure {
-    Failure::Input(format!("error: {error}"))
+    Failure::Input(Complaint::new(error.kind(), error))
 }
 
-/// Runs and records: the report, what went wrong, and whether the user stopped it.
-fn record(
-    model: &Model,
-    simulation: &mut Simulation,
-    folder: ResultFolder,
-    threads: usize,
-    is_quiet: bool,
-) -> Result<(Report, Result<(), String>, bool), Failure> {
+/// How a run ended.
+struct Recorded {
+    report: Report,
+    /// What went wrong.
+    result: Result<(), Complaint>,
+    /// Whether the user stopped it.
+    is_interrupted: bool,
+    /// What was told of it on the way.
+    told: Vec<String>,
+}
+
+/// Runs and records.
+fn record(model: &Model, simulation: &mut Simulation, folder: ResultFolder, threads: usize, is_quiet: bool) -> Result<Recorded, Failure> {
     let interrupt = Interrupt::watch();
     let mut display = Display::new(is_quiet);
     let mut is_interrupted = false;
+    let mut told = Vec::new();
     let on_progress = |progress: &Progress<'_>| {
         display.update(progress);
+        for notice in progress.notices {
+            display.say(&Complaint::from(notice).to_string());
+            told.push(notice.text.clone());
+        }
         if !interrupt.is_pressed() {
             return Control::Continue;
         }
@@ -107,22 +121,18 @@ fn record(
     };
     let (columns, cells) = (simulation.history_columns(), simulation.cells());
     let mut recorder = Recorder::new(folder, model, columns, cells, threads, Box::new(on_progress)).map_err(in_the_way)?;
-    let result = simulation.run(&mut recorder).map_err(|error| input::told(&error));
-    let outcome = recorder.finish(result.as_ref().err().map(|text| bare(text)), &simulation.summary(), cpu::user_seconds);
+    let result = simulation.run(&mut recorder);
+    let outcome = recorder.finish(result.as_ref().err().map(Error::with_code), &simulation.summary(), cpu::user_seconds);
     display.close();
     // What went wrong first is what matters.
-    let result = result.and(outcome.unwritten.map_or(Ok(()), |error| Err(format!("error: {error}"))));
-    Ok((outcome.report, result, is_interrupted))
+    let unwritten = outcome.unwritten.map_or(Ok(()), |error| Err(Complaint::new(error.kind(), error)));
+    let result = result.map_err(|error| Complaint::from(&error)).and(unwritten);
+    Ok(Recorded { report: outcome.report, result, is_interrupted, told })
 }
 
-/// A message without its `error: `, for the summary.
-fn bare(text: &str) -> String {
-    text.strip_prefix("error: ").unwrap_or(text).to_string()
-}
-
-fn failure_text(error: &str, path: &Path) -> String {
+fn with_results(complaint: Complaint, path: &Path) -> Complaint {
     let kept: Vec<&str> = FILES.iter().map(|(name, _)| *name).filter(|name| path.join(name).exists()).collect();
-    if kept.is_empty() { error.to_string() } else { format!("{error}\n  results until then: {} ({})", path.display(), kept.join(", ")) }
+    if kept.is_empty() { complaint } else { complaint.and(format!("  results until then: {} ({})", path.display(), kept.join(", "))) }
 }
 
 /// A line for each contact between surfaces.

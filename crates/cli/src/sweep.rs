@@ -2,12 +2,15 @@
 //!
 //! Plan, runs, table and plot are those of `embate-files`; here are the command line, the progress and what is told at the end.
 
+use crate::complaint::Complaint;
 use crate::input::{self, ModelArguments};
 use crate::interrupt::Interrupt;
+use crate::messages::RUNS_FAILED;
 use crate::numbers::{grouped, table, with_unit};
 use crate::progress::Display;
 use crate::{Failure, cpu, machine, terminal};
 use clap::Args;
+use embate_files::results::messages::BUG;
 use embate_files::sweep::{Advance, Ended, Keep, PLOT_NAME, Request, Running, Sweep, SweepError, TABLE_NAME};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
@@ -111,7 +114,10 @@ pub(crate) fn sweep(arguments: &Arguments) -> Result<(), Failure> {
         Some((run, error)) => {
             let failed = ended.advance.failed;
             let what = if failed == 1 { "1 run".to_string() } else { format!("{failed} runs") };
-            Err(Failure::Run(format!("error: {what} of {} failed; the first is run {run}: {error}", ended.advance.of)))
+            Err(Failure::Run(Complaint::new(
+                &RUNS_FAILED,
+                format!("{what} of {} failed; the first is run {run}: {error}", ended.advance.of),
+            )))
         }
         None => Ok(()),
     }
@@ -123,10 +129,13 @@ fn state(advance: &Advance) -> String {
 }
 
 fn told(error: SweepError) -> Failure {
+    let complaint = match (&error, error.kind()) {
+        (SweepError::Model(diagnostics), _) => Complaint::from(diagnostics),
+        (_, kind) => Complaint::new(kind.unwrap_or(&BUG), &error),
+    };
     match error {
-        SweepError::Model(diagnostics) => Failure::Input(diagnostics.rendered),
-        SweepError::Table { .. } | SweepError::Other { .. } | SweepError::Busy { .. } => Failure::Input(format!("error: {error}")),
-        SweepError::Output(_) | SweepError::Results(_) | SweepError::Plot(_) => Failure::Run(format!("error: {error}")),
+        SweepError::Output(_) | SweepError::Results(_) | SweepError::Plot(_) => Failure::Run(complaint),
+        _ => Failure::Input(complaint),
     }
 }
 

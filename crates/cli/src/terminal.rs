@@ -1,13 +1,17 @@
 //! Standard output and standard error: a reader that goes away is no fault, and a bug is told as one.
 
 use crate::Failure;
+use crate::complaint::Complaint;
+use embate_files::results::messages::{BUG, REFUSED};
 use std::io::{ErrorKind, Write};
 
 /// Writes `text` to standard output. A closed pipe (`embate list | head`) is fine.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
     let mut out = std::io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Failure::Run(format!("error: can't write to standard output: {error}"))),
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(Failure::Run(Complaint::new(&REFUSED, format!("can't write to standard output: {error}"))))
+        }
         _ => Ok(()),
     }
 }
@@ -24,10 +28,7 @@ pub(crate) fn announce_bugs() {
         let payload = panic.payload();
         let text = payload.downcast_ref::<&str>().copied().or_else(|| payload.downcast_ref::<String>().map(String::as_str));
         let place = panic.location().map(|l| format!(" at {}:{}", l.file(), l.line())).unwrap_or_default();
-        complain(&format!(
-            "error: this is a bug in embate {}: {}{place}\n  help: please report it with this message, the command and the model file",
-            env!("CARGO_PKG_VERSION"),
-            text.unwrap_or("unknown")
-        ));
+        let what = format!("this is a bug in embate {}: {}{place}", env!("CARGO_PKG_VERSION"), text.unwrap_or("unknown"));
+        complain(&Complaint::new(&BUG, what).help("please report it with this message, the command and the model file").to_string());
     }));
 }

@@ -2,8 +2,9 @@
 //!
 //! Cases come from `embate-files`; here are the choice of cases, the table and the exit code: 1 when a check fails.
 
-use crate::input;
+use crate::complaint::Complaint;
 use crate::interrupt::Interrupt;
+use crate::messages::{CHECKS_FAILED, NO_CASE};
 use crate::numbers::{per_cent, significant, table, with_unit};
 use crate::progress::Display;
 use crate::{Failure, terminal};
@@ -55,7 +56,7 @@ pub(crate) fn verify(arguments: &Arguments) -> Result<(), Failure> {
         case.examine(&options).map_err(|error| told(&error))?;
         for (model, _) in arguments.out.iter().filter(|_| !arguments.force).flat_map(|_| &case.models) {
             let folder = arguments.out.iter().fold(PathBuf::new(), |_, out| out.join(&case.name).join(model));
-            ResultFolder::refuse_existing(&folder).map_err(|error| Failure::Input(format!("error: {error}")))?;
+            ResultFolder::refuse_existing(&folder).map_err(|error| Failure::Input(Complaint::new(error.kind(), error)))?;
         }
     }
     let interrupt = Interrupt::watch();
@@ -69,7 +70,7 @@ pub(crate) fn verify(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(file) = &arguments.json {
         let mut json = serde_json::to_string_pretty(&outcomes).expect("plain numbers, texts and lists always have a JSON form");
         json.push('\n');
-        write_whole(file, json.as_bytes()).map_err(|error| Failure::Run(format!("error: {error}")))?;
+        write_whole(file, json.as_bytes()).map_err(|error| Failure::Run(Complaint::new(error.kind(), error)))?;
     }
     closing(&outcomes)
 }
@@ -96,18 +97,22 @@ fn chosen(arguments: &Arguments) -> Result<Vec<Case>, Failure> {
     let known: Vec<&str> = names.iter().map(String::as_str).collect();
     if let Some(unknown) = arguments.cases.iter().find(|name| !names.contains(name)) {
         let help = suggestion(unknown, &known);
-        return Err(Failure::Input(format!("error: there is no case `{unknown}` in {}\n  help: {help}", arguments.folder.display())));
+        return Err(Failure::Input(
+            Complaint::new(&NO_CASE, format!("there is no case `{unknown}` in {}", arguments.folder.display())).help(help),
+        ));
     }
     let mut cases = Vec::new();
     for name in names.iter().filter(|name| arguments.cases.is_empty() || arguments.cases.contains(name)) {
-        let case = verification::load(&arguments.folder.join(name)).map_err(|diagnostics| Failure::Input(diagnostics.rendered))?;
+        let case = verification::load(&arguments.folder.join(name)).map_err(|diagnostics| Failure::Input(Complaint::from(&diagnostics)))?;
         if !arguments.cases.is_empty() || arguments.all || arguments.list || case.tier == Tier::Every {
             cases.push(case);
         }
     }
     if cases.is_empty() {
         let help = "name cases, or run all with --all";
-        return Err(Failure::Input(format!("error: no case in {} has tier `every`\n  help: {help}", arguments.folder.display())));
+        return Err(Failure::Input(
+            Complaint::new(&NO_CASE, format!("no case in {} has tier `every`", arguments.folder.display())).help(help),
+        ));
     }
     Ok(cases)
 }
@@ -117,7 +122,7 @@ fn names(folder: &Path) -> Result<Vec<String>, Failure> {
     let nowhere = |why: &str| {
         let shown = folder.display();
         let help = "the cases lie in the folder `verification` of embate's source: go there, or name the folder with --in DIR";
-        Failure::Input(format!("error: {shown} {why}\n  help: {help}"))
+        Failure::Input(Complaint::new(&NO_CASE, format!("{shown} {why}")).help(help))
     };
     let entries = std::fs::read_dir(folder).map_err(|error| nowhere(&format!("can't be read as a folder of cases: {error}")))?;
     let cases = entries.flatten().filter(|entry| entry.path().join(verification::FILE_NAME).is_file());
@@ -128,9 +133,11 @@ fn names(folder: &Path) -> Result<Vec<String>, Failure> {
 
 fn told(error: &VerifyError) -> Failure {
     match error {
-        VerifyError::Expected(diagnostics) => Failure::Input(diagnostics.rendered.clone()),
-        VerifyError::Model { case, name, error } => Failure::Input(format!("model `{name}` of the case `{case}`\n{}", input::told(error))),
-        VerifyError::Results(error) => Failure::Run(format!("error: {error}")),
+        VerifyError::Expected(diagnostics) => Failure::Input(Complaint::from(diagnostics)),
+        VerifyError::Model { case, name, error } => {
+            Failure::Input(Complaint::from(error).under(format!("model `{name}` of the case `{case}`")))
+        }
+        VerifyError::Results(error) => Failure::Run(Complaint::new(error.kind(), error)),
     }
 }
 
@@ -185,5 +192,5 @@ fn closing(outcomes: &[CaseOutcome]) -> Result<(), Failure> {
     if cases.is_empty() {
         return terminal::print(&format!("all {count} checks hold (cases: {})\n", outcomes.len()));
     }
-    Err(Failure::Run(format!("error: {failed} of {count} checks fail, in {}", cases.join(", "))))
+    Err(Failure::Run(Complaint::new(&CHECKS_FAILED, format!("{failed} of {count} checks fail, in {}", cases.join(", ")))))
 }

@@ -11,6 +11,10 @@ mod mirrors;
 mod obstacles;
 mod start;
 
+use crate::contact::messages::{NO_STEP, ON_SYMMETRY, TIED_TWICE};
+use crate::material::messages::INITIAL_STATE;
+use crate::mesh::messages::NEGATIVE_RADIUS;
+use crate::model::messages::UNKNOWN_NAME;
 pub(crate) use again::{Lent, Origin};
 use fans::{Fans, Under};
 pub(crate) use mass::Shares;
@@ -219,7 +223,7 @@ fn with_axis(model: &Model, mesh: &Mesh<2>) -> Result<Option<Model>, Vec<Fault>>
     let size = mesh.positions.iter().flatten().fold(0.0f64, |size, x| size.max(x.abs()));
     if let Some([x, y]) = mesh.positions.iter().find(|x| x[0] < -ON_AXIS * size) {
         let message = format!("an axisymmetric part has a node at a negative radius, ({x:.6e}, {y:.6e}) m");
-        return Err(vec![Fault::new("part", message, "x is the radius: move the part to the right of the axis x = 0")]);
+        return Err(vec![Fault::new(&NEGATIVE_RADIUS, "part", message, "x is the radius: move the part to the right of the axis x = 0")]);
     }
     let touches = mesh.positions.iter().any(|x| x[0] <= ON_AXIS * size);
     let axis = Symmetry { normal: [1.0, 0.0], ..Symmetry::default() };
@@ -271,6 +275,7 @@ impl Builder<'_> {
             let (i, part) = (group.part, &self.model.parts[group.part]);
             let Some(material) = self.model.materials.get(&part.material) else {
                 self.faults.push(Fault::new(
+                    &UNKNOWN_NAME,
                     format!("part[{i}].material"),
                     format!("there is no material \"{}\"", part.material),
                     "define it",
@@ -291,11 +296,13 @@ impl Builder<'_> {
                 Some(mut block) => {
                     let initial = Initial { stress: part.stress_initial.as_ref(), temperature: part.temperature_initial };
                     if let Err(Wrong { key, message, help }) = block.begin(&initial, &self.mesh.positions) {
-                        self.faults.push(Fault::new(format!("part[{i}].{key}"), message, help));
+                        self.faults.push(Fault::new(&INITIAL_STATE, format!("part[{i}].{key}"), message, help));
                     }
                     blocks.push(block);
                 }
-                None => self.faults.push(Fault::new(format!("part[{i}]"), "its element or law is unknown", "see `embate list`")),
+                None => {
+                    self.faults.push(Fault::new(&UNKNOWN_NAME, format!("part[{i}]"), "its element or law is unknown", "see `embate list`"))
+                }
             }
         }
         blocks
@@ -320,6 +327,7 @@ impl Builder<'_> {
             self.time_step = elements.min(self.model.run.time_step.unwrap_or(f64::INFINITY));
             if self.time_step == f64::INFINITY {
                 self.faults.push(Fault::new(
+                    &NO_STEP,
                     "run.time_step",
                     "a penalty is made from the time step, but all parts are rigid and no step is given",
                     "give `time_step`, or take another `penalty_from`",
@@ -394,6 +402,7 @@ impl Builder<'_> {
         if let Some((node, other)) = twice {
             let [x, y] = self.mesh.positions[node as usize];
             self.faults.push(Fault::new(
+                &TIED_TWICE,
                 path,
                 format!("the node at ({x:.6e}, {y:.6e}) m is tied already by contact \"{other}\""),
                 "leave one of the two ties out, name smaller surfaces, or let the other surface be the slave",
@@ -423,11 +432,11 @@ impl Builder<'_> {
         let mirrors = self.mirrors_of(contact, &sides[0]);
         let Some(search) = search_by_name(&contact.search) else {
             let message = format!("there is no search \"{}\"", contact.search);
-            return Err(vec![Fault::new("search", message, "see `embate list searches`")]);
+            return Err(vec![Fault::new(&UNKNOWN_NAME, "search", message, "see `embate list searches`")]);
         };
         let Some(kind) = formulation::kind_of(contact) else {
             let message = format!("there is no formulation \"{}\"", contact.formulation.name());
-            return Err(vec![Fault::new("formulation", message, "see `embate list formulations`")]);
+            return Err(vec![Fault::new(&UNKNOWN_NAME, "formulation", message, "see `embate list formulations`")]);
         };
         let setup = Setup {
             contact,
@@ -481,7 +490,7 @@ impl Builder<'_> {
             is_lid
         })?;
         if surface.segments.is_empty() {
-            return Err(Fault::new("", format!("{what} lies on a symmetry line altogether"), "name another surface"));
+            return Err(Fault::new(&ON_SYMMETRY, "", format!("{what} lies on a symmetry line altogether"), "name another surface"));
         }
         Ok(Outlined { target: self.with_mirrors(surface), lids: lids.into_inner() })
     }

@@ -1,11 +1,104 @@
-//! What can go wrong: faults of a model (all are reported at once), warnings of one that is accepted, and failures of a run (the first ends it).
+//! What can go wrong: faults of a model (all are reported at once), warnings of one that is accepted, failures of a run (the first ends it), and what should be
+//! known of one that goes on. Each is of a kind that is in the catalogue of messages (`message.rs`); those of runs are here.
 
+use crate::message::{Example, Message};
 use std::fmt;
 use thiserror::Error;
+
+pub(crate) static MESSAGES: &[&Message] =
+    &[&INVERTED, &COLLAPSED, &ENERGY_DRIFT, &NOT_FINITE, &OUTPUT, &MASS_SCALING, &INSTRUCTIONS, &MASS_ADDED, &ERODED, &RELAXED];
+
+static INVERTED: Message = Message {
+    code: "E0601",
+    title: "an element turned inside out",
+    example: Example::Model(
+        "[[constraint]]\non = \"wall.right\"\nvelocity = { x = \"-3 km/s\" }\n\n[[constraint]]\non = \"wall.left\"\nfixed = \"x\"\n",
+    ),
+    cause: "The element was squeezed or sheared until its volume was gone at some point: a load or velocity that the material can't bear, wrong units, or hourglass motion.",
+    cure: "Refine the mesh at the place that the message names, lower the load or velocity, check the units of the material, or let elements fail before (`failure`).",
+};
+
+static COLLAPSED: Message = Message {
+    code: "E0602",
+    title: "the stable time step collapsed",
+    example: Example::Model("[run]\nstep_limit = \"5 us\"\n"),
+    cause: "The step goes with the smallest element over the speed of sound in it: an element was squeezed flat, or grew very stiff.",
+    cure: "Look at the element that the message names in the last written state; or lower `run.step_limit`.",
+};
+
+static ENERGY_DRIFT: Message = Message {
+    code: "E0603",
+    title: "energy came from nowhere or was lost",
+    example: Example::Words(
+        "Contact penalties far stiffer than the bodies, or a step that is not stable (`safety` near 1 with strong contact).",
+    ),
+    cause: "The sum of all energies is not the sum of all works: the run is not a solution of its equations.",
+    cure: "Lower `run.safety`, check contact penalties and initial penetrations; raise `run.energy_limit` only if the loss is understood.",
+};
+
+static NOT_FINITE: Message = Message {
+    code: "E0604",
+    title: "a number is no longer finite",
+    example: Example::Model(
+        "[curve.push]\ntime = [0, \"1 us\"]\nvalue = [0, \"1e300 m/s\"]\n\n[[constraint]]\non = \"wall.right\"\nvelocity = { x = \"push\" }\n",
+    ),
+    cause: "Parameters, loads or units are wrong by powers of ten, so that a value overflowed or zero was divided by zero.",
+    cure: "Check material parameters, loads and units of what the message names.",
+};
+
+static OUTPUT: Message = Message {
+    code: "E0701",
+    title: "results can't be written",
+    example: Example::Words("The disk becomes full while a run writes its fields."),
+    cause: "The system refused to write; its own words are in the message.",
+    cure: "Free some space, or write to another disk with --out.",
+};
+
+pub(crate) static MASS_SCALING: Message = Message {
+    code: "E0605",
+    title: "mass scaling would add more than its limit",
+    example: Example::Model("[run]\nmass_scaling = { time_step = \"10 us\", limit = 0.01 }\n"),
+    cause: "The step that is asked for needs more mass than `limit` allows: inertia would be wrong.",
+    cure: "Take a smaller step, mend the smallest elements, or raise `limit` where inertia does not matter.",
+};
+
+pub(crate) static INSTRUCTIONS: Message = Message {
+    code: "E0801",
+    title: "an instruction set that this machine does not have",
+    example: Example::Command("run model.toml --simd sse9"),
+    cause: "The processor, or the program as it was built for it, does not know the set.",
+    cure: "Take one of those that the message lists, or leave --simd out; results do not depend on it.",
+};
+
+pub(crate) static MASS_ADDED: Message = Message {
+    code: "W0601",
+    title: "mass scaling added mass",
+    example: Example::Model("[run]\nmass_scaling = { time_step = \"600 ns\", limit = 2 }\n"),
+    cause: "`mass_scaling` makes the smallest elements heavier, so that a longer step is stable.",
+    cure: "Nothing, where the mass is small and inertia does not matter; else a smaller `time_step`.",
+};
+
+pub(crate) static ERODED: Message = Message {
+    code: "W0602",
+    title: "elements were eroded",
+    example: Example::Words("A part with `failure` is strained until its first element fails."),
+    cause: "Elements reached the limit of a criterion and were taken out; the message names the first.",
+    cure: "Nothing, where that is what is computed; else look at the place and time of the first.",
+};
+
+pub(crate) static RELAXED: Message = Message {
+    code: "W0603",
+    title: "how a relaxation ended",
+    example: Example::Model("[run]\nrelaxation = {}\n"),
+    cause: "A run with `relaxation` ends at rest, or at its end time without having come to rest.",
+    cure: "Give a later `end`, or a larger `tolerance`, where it is not at rest.",
+};
 
 /// One fault of a model: where in the input, what is wrong, and what to do.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
+    /// Its kind.
+    pub kind: &'static Message,
     /// Path of the key in the input, `part[0].ring.inner` for example; empty for the whole model.
     pub path: String,
     /// What is wrong, with the value.
@@ -15,9 +108,9 @@ pub struct Fault {
 }
 
 impl Fault {
-    /// A fault at `path`.
-    pub fn new(path: impl Into<String>, message: impl Into<String>, help: impl Into<String>) -> Self {
-        Self { path: path.into(), message: message.into(), help: help.into() }
+    /// A fault of a kind at `path`.
+    pub fn new(kind: &'static Message, path: impl Into<String>, message: impl Into<String>, help: impl Into<String>) -> Self {
+        Self { kind, path: path.into(), message: message.into(), help: help.into() }
     }
 }
 
@@ -37,6 +130,8 @@ impl fmt::Display for Fault {
 /// Something of a sound model that the user should know before he trusts its results: the model is accepted.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Warning {
+    /// Its kind.
+    pub kind: &'static Message,
     /// Path of the key in the input, as in [`Fault`].
     pub path: String,
     /// What it is, with the value.
@@ -53,6 +148,34 @@ impl fmt::Display for Warning {
             write!(f, "{}: ", self.path)?;
         }
         write!(f, "{}: {} ({})", self.message, self.consequence, self.help)
+    }
+}
+
+/// Something of a run that goes on, or has ended, that the user should know.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Notice {
+    /// Its kind.
+    pub kind: &'static Message,
+    /// What it is.
+    pub text: String,
+}
+
+impl Notice {
+    /// A notice of a kind.
+    pub fn new(kind: &'static Message, text: impl Into<String>) -> Self {
+        Self { kind, text: text.into() }
+    }
+}
+
+impl From<&Warning> for Notice {
+    fn from(warning: &Warning) -> Self {
+        Self::new(warning.kind, warning.to_string())
+    }
+}
+
+impl fmt::Display for Notice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.kind.code, self.text)
     }
 }
 
@@ -128,6 +251,34 @@ pub enum Error {
     /// The observer could not take a result.
     #[error("results can't be written: {0}")]
     Output(String),
+}
+
+impl Error {
+    /// Its kind; `None` for a model, whose faults are of many.
+    #[must_use]
+    pub fn kind(&self) -> Option<&'static Message> {
+        match self {
+            Self::Model(_) => None,
+            Self::Inverted { .. } => Some(&INVERTED),
+            Self::Collapsed { .. } => Some(&COLLAPSED),
+            Self::EnergyDrift { .. } => Some(&ENERGY_DRIFT),
+            Self::NotFinite { .. } => Some(&NOT_FINITE),
+            Self::Output(_) => Some(&OUTPUT),
+        }
+    }
+
+    /// As files have it: its code, a colon, what it is; of a model the first fault.
+    #[must_use]
+    pub fn with_code(&self) -> String {
+        match (self, self.kind()) {
+            (_, Some(kind)) => format!("{}: {self}", kind.code),
+            (Self::Model(faults), _) if !faults.is_empty() => {
+                let Fault { kind, path, message, .. } = &faults[0];
+                format!("{}: {path}: {message}", kind.code)
+            }
+            _ => self.to_string(),
+        }
+    }
 }
 
 fn place(at: &[f64]) -> String {

@@ -2,6 +2,7 @@
 //!
 //! The contents are listed in the order in which the data walks through them.
 
+pub mod message;
 pub mod error;
 pub mod quantity;
 pub mod tensor;
@@ -21,6 +22,7 @@ pub mod step;
 pub mod build;
 mod culprit;
 mod record;
+mod watch;
 pub mod output;
 pub mod simulation;
 pub mod bench;

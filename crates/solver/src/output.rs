@@ -2,6 +2,7 @@
 //! Values only, no formats; goes to the writers of `embate-files`.
 
 use crate::contact::tracker::Certificate;
+use crate::error::Notice;
 use crate::material::Variable;
 
 /// Shape of a cell.
@@ -287,5 +288,5 @@ pub struct Summary {
     /// Instruction set used.
     pub simd: String,
     /// Things the user should know, each said once.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Notice>,
 }

@@ -7,6 +7,7 @@ use crate::contact::traces::{State, Traces};
 use crate::error::Fault;
 use crate::material::Variable;
 use crate::mesh::ElementGroup;
+use crate::model::messages::UNKNOWN_NAME;
 use crate::model::{Model, ProbeAt};
 use crate::output::{CellKind, Cells, FIELDS, Field, FieldKind, Frame, Location, Needs};
 use crate::rigid::Body;
@@ -70,7 +71,9 @@ impl Recorded {
         for (i, probe) in model.probes.iter().enumerate() {
             match resolve(&probe.at, system) {
                 Ok((nodes, line)) => probes.push(Probe { name: probe.name.clone(), nodes, line: format!("{}: {line}", probe.name) }),
-                Err(message) => faults.push(Fault::new(format!("probe[{i}]"), message, "name a part, a side as part.side, or a group")),
+                Err(message) => {
+                    faults.push(Fault::new(&UNKNOWN_NAME, format!("probe[{i}]"), message, "name a part, a side as part.side, or a group"))
+                }
             }
         }
         if faults.is_empty() { Ok(Self { fields, probes }) } else { Err(faults) }

@@ -2,16 +2,18 @@
 
 use crate::build;
 use crate::contact::initial::{self, Penetration};
+use crate::contact::messages::{INSIDE_AT_START, MISSED, NO_FORCE, TIES_BROKE, UNSOLVED};
 use crate::contact::tracker::{Certificate, SearchReport};
 use crate::contact::{Contact, ContactKind, search};
-use crate::error::{Error, Fault, Warning};
+use crate::error::{ERODED, Error, Fault, INSTRUCTIONS, MASS_ADDED, Notice, RELAXED, Warning};
 use crate::mesh::PartMesh;
 use crate::model::{self, Cadence, Model};
 use crate::output::{Cells, Eroded, Erosion, Frame, Summary};
 use crate::record::{Momentum, Recorded};
-use crate::step::{Governor, System};
+use crate::step::System;
+use crate::watch::{Shortest, Watch};
 use embate_lanes::Level;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 /// How a simulation is run; changes no result.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -48,6 +50,8 @@ pub struct Progress<'a> {
     pub governor: &'a str,
     /// Energy drift so far, fraction of the largest total energy.
     pub energy_drift: f64,
+    /// What is new since the last call that the user should know at once; the summary has all of it.
+    pub notices: &'a [Notice],
 }
 
 /// Whether a run goes on.
@@ -113,7 +117,7 @@ pub struct Overview {
     /// Probes, one line each: which node, its place, its distance from the wanted point.
     pub probes: Vec<String>,
     /// Things the user should know besides [`Simulation::model_warnings`].
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Notice>,
 }
 
 /// What the global search of a contact did.
@@ -135,9 +139,10 @@ pub struct Simulation {
     pub(crate) recorded: Recorded,
     pub(crate) momentum: Option<Momentum>,
     shortest: Shortest,
+    watch: Watch,
     pub(crate) threads: usize,
     model_warnings: Vec<Warning>,
-    pub(crate) warnings: BTreeSet<String>,
+    pub(crate) warnings: Vec<Notice>,
     history: Cadence,
     fields: Cadence,
     max_steps: u64,
@@ -160,6 +165,7 @@ impl Simulation {
             Some(name) => Level::named(name).ok_or_else(|| {
                 let has: Vec<_> = Level::available().iter().map(|level| level.name()).collect();
                 Error::Model(vec![Fault::new(
+                    &INSTRUCTIONS,
                     "",
                     format!("instruction set \"{name}\" is not available here"),
                     format!("this machine has {}", has.join(", ")),
@@ -174,9 +180,10 @@ impl Simulation {
             momentum: None,
             recorded,
             shortest: Shortest::default(),
+            watch: Watch::new(model, &system),
             threads: if pool.is_some() { threads } else { 1 },
             model_warnings,
-            warnings: BTreeSet::new(),
+            warnings: Vec::new(),
             history: model.output.history,
             fields: model.output.fields,
             max_steps: model.run.max_steps.unwrap_or(u64::MAX),
@@ -191,10 +198,11 @@ impl Simulation {
         let [added, of] = simulation.system.mass_added;
         if added != 0.0 {
             let message = format!("mass scaling added {added:.6e} kg/m, {:.3} % of the mass of the deformable parts", 100.0 * added / of);
-            simulation.warnings.insert(message);
+            simulation.warnings.push(Notice::new(&MASS_ADDED, message));
         }
         if !simulation.system.initial_penetrations.is_empty() {
-            simulation.warnings.insert("some nodes were inside other bodies at the start: `embate check` lists them".into());
+            let text = "some nodes were inside other bodies at the start: `embate check` lists them";
+            simulation.warnings.push(Notice::new(&INSIDE_AT_START, text));
         }
         Ok(simulation)
     }
@@ -305,6 +313,7 @@ impl Simulation {
                 self.show(observer)?;
                 last_frame = Some(self.system.step);
             }
+            let notices = self.watch.look(&self.system, &self.shortest, over);
             if over {
                 return Ok(());
             }
@@ -316,6 +325,7 @@ impl Simulation {
                 time_step: self.system.time_step,
                 governor: &governor,
                 energy_drift: self.system.ledger.drift(),
+                notices: &notices,
             };
             if observer.progress(&progress) == Control::Stop {
                 if last_frame != Some(self.system.step) {
@@ -324,7 +334,8 @@ impl Simulation {
                 return Ok(());
             }
             if let Err(error) = self.advance(rows.next().min(frames.next()), PROGRESS) {
-                // The state of the failure is what the user needs to see.
+                // The state of the failure is what the user needs to see, and what was to be seen of it before.
+                self.watch.look(&self.system, &self.shortest, true);
                 if self.system.time > last_row {
                     observer.row(&self.history_row()).map_err(output)?;
                 }
@@ -395,50 +406,63 @@ impl Simulation {
             steps_expected: (system.limits.end / system.time_step).ceil() as u64,
             initial_penetrations: self.system.initial_penetrations.clone(),
             probes: self.recorded.probe_lines(),
-            warnings: self.warnings.iter().cloned().collect(),
+            warnings: self.warnings.clone(),
         }
     }
 
-    fn warnings(&self) -> Vec<String> {
-        let mut warnings: Vec<String> = self.model_warnings.iter().map(ToString::to_string).chain(self.warnings.iter().cloned()).collect();
+    fn warnings(&self) -> Vec<Notice> {
+        let mut warnings: Vec<Notice> = self.model_warnings.iter().map(Notice::from).chain(self.warnings.iter().cloned()).collect();
+        warnings.extend(self.watch.notices());
+        let mut tell = |kind, text: String| warnings.push(Notice::new(kind, text));
         for contact in &self.system.contacts {
             let Some(ties) = contact.ties() else { continue };
             let all = ties.nodes.len() + ties.broken;
             if ties.broken > 0 {
-                warnings.push(format!("contact \"{}\": {} of {all} ties broke", contact.name, ties.broken));
+                tell(&TIES_BROKE, format!("contact \"{}\": {} of {all} ties broke", contact.name, ties.broken));
             } else if all == 0 {
-                warnings.push(format!("contact \"{}\": its ties bound no node", contact.name));
+                tell(&TIES_BROKE, format!("contact \"{}\": its ties bound no node", contact.name));
             }
         }
         if let Some(Erosion { elements, first: Eroded { part, element, at: [x, y], time, criterion }, .. }) = self.erosion() {
             let all: Vec<String> = elements.iter().map(|(part, count)| format!("{count} of part \"{part}\"")).collect();
-            warnings.push(format!(
-                "elements were eroded: {}; the first was element {element} of part \"{part}\" at ({x:.6e}, {y:.6e}) m, at {time:.6e} s by `{criterion}`",
-                all.join(", ")
-            ));
+            tell(
+                &ERODED,
+                format!(
+                    "elements were eroded: {}; the first was element {element} of part \"{part}\" at ({x:.6e}, {y:.6e}) m, at {time:.6e} s by `{criterion}`",
+                    all.join(", ")
+                ),
+            );
         }
         if let Some(relaxation) = &self.system.relaxation {
-            warnings.push(match relaxation.rest {
-                Some(time) => format!(
-                    "relaxation: at rest at {time:.6e} s, where the run ended; kinetic over internal energy {:.3e}",
-                    relaxation.ratio
-                ),
-                None => format!("relaxation: not at rest; kinetic over internal energy {:.3e}", relaxation.ratio),
-            });
+            tell(
+                &RELAXED,
+                match relaxation.rest {
+                    Some(time) => format!(
+                        "relaxation: at rest at {time:.6e} s, where the run ended; kinetic over internal energy {:.3e}",
+                        relaxation.ratio
+                    ),
+                    None => format!("relaxation: not at rest; kinetic over internal energy {:.3e}", relaxation.ratio),
+                },
+            );
         }
         let unsolved = self.system.springs.unsolved;
         if unsolved > 0 {
-            warnings
-                .push(format!("in {unsolved} step(s) the contact forces were not solved to the last digit: lower the contact penalties"));
+            tell(
+                &UNSOLVED,
+                format!("in {unsolved} step(s) the contact forces were not solved to the last digit: lower the contact penalties"),
+            );
         }
         let unverified = self.certificate().unverified;
         if unverified > 0 {
-            warnings.push(format!(
-                "{unverified} time(s) a node was inside a body without being in contact with it: a contact was missed, or a body went through itself"
-            ));
+            tell(
+                &MISSED,
+                format!(
+                    "{unverified} time(s) a node was inside a body without being in contact with it: a contact was missed, or a body went through itself"
+                ),
+            );
         }
         for contact in self.system.contacts.iter().filter(|contact| self.system.step > 0 && !contact.has_pressed) {
-            warnings.push(format!("{} \"{}\" transmitted nothing in the whole run", contact.kind.name(), contact.name));
+            tell(&NO_FORCE, format!("{} \"{}\" transmitted nothing in the whole run", contact.kind.name(), contact.name));
         }
         warnings
     }
@@ -508,29 +532,6 @@ fn output(error: ObserverError) -> Error {
 
 fn search_name(contact: &model::Contact) -> String {
     if contact.search.is_empty() { search::registry::<2>()[0].name.into() } else { contact.search.clone() }
-}
-
-/// The shortest step so far and who governed it.
-struct Shortest {
-    time_step: f64,
-    governor: String,
-}
-
-impl Default for Shortest {
-    fn default() -> Self {
-        Self { time_step: f64::INFINITY, governor: String::new() }
-    }
-}
-
-impl Shortest {
-    /// Takes the step of `system`. Who governs is found by a search: only when the step falls noticeably, and by more than the schedule.
-    fn note(&mut self, system: &System) {
-        let governed = system.governor != Governor::Schedule || self.time_step.is_infinite();
-        if governed && system.time_step < 0.999 * self.time_step {
-            self.time_step = system.time_step;
-            self.governor = system.governor_name(system.governor);
-        }
-    }
 }
 
 /// Output times k × interval.

@@ -5,6 +5,7 @@ mod bench;
 mod command_line;
 mod estimates;
 mod examples;
+mod messages;
 mod sweep;
 mod verification;
 mod warnings;

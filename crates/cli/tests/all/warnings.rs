@@ -54,10 +54,10 @@ fn check_and_run_tell_warnings_once_and_accept_the_model() {
     let warnings: Vec<&str> = summary["warnings"].as_array().unwrap().iter().map(|text| text.as_str().unwrap()).collect();
     assert_eq!(warnings.len(), 3, "{warnings:?}");
     assert!(
-        warnings[0].starts_with("material.steel.hardening: the flow stress falls") && warnings[0].contains("lose ellipticity"),
+        warnings[0].starts_with("W0301: material.steel.hardening: the flow stress falls") && warnings[0].contains("lose ellipticity"),
         "{warnings:?}"
     );
-    assert!(warnings[1].starts_with("part[1]: nothing acts") && warnings[2].contains("transmitted nothing"), "{warnings:?}");
+    assert!(warnings[1].starts_with("W0401: part[1]: nothing acts") && warnings[2].contains("transmitted nothing"), "{warnings:?}");
 }
 
 #[test]

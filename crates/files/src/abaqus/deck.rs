@@ -5,6 +5,7 @@
 
 use super::element_kind::{self, ElementKind, Found};
 use super::text::{Block, Line, Text, folded, shown};
+use crate::abaqus::messages::{DECK_MESH, SYNTAX, UNKNOWN};
 use embate_solver::error::Fault;
 use std::collections::BTreeMap;
 
@@ -174,18 +175,23 @@ impl Deck {
                 block
                     .parameter("NAME")
                     .filter(|name| !name.is_empty())
-                    .ok_or_else(|| text.fault(block.line, format!("*{} has no name", block.keyword), "add NAME=..."))
+                    .ok_or_else(|| text.fault(&SYNTAX, block.line, format!("*{} has no name", block.keyword), "add NAME=..."))
             };
             match block.keyword.as_str() {
                 "PART" | "INSTANCE" if scope != Scope::Root => {
                     let message = format!("*{} inside of a part or instance", block.keyword);
-                    return Err(text.fault(block.line, message, "end the one before with *END PART or *END INSTANCE"));
+                    return Err(text.fault(&SYNTAX, block.line, message, "end the one before with *END PART or *END INSTANCE"));
                 }
                 "PART" => scope = Scope::Part(folded(named()?)),
                 "INSTANCE" => {
                     let instance = instance(text, block, named()?)?;
                     if self.instances.iter().any(|other| folded(&other.name) == folded(&instance.name)) {
-                        return Err(text.fault(block.line, format!("a second instance {}", shown(&instance.name)), "give it another name"));
+                        return Err(text.fault(
+                            &UNKNOWN,
+                            block.line,
+                            format!("a second instance {}", shown(&instance.name)),
+                            "give it another name",
+                        ));
                     }
                     scope = Scope::Instance(folded(&instance.name));
                     self.instances.push(instance);
@@ -198,7 +204,12 @@ impl Deck {
             }
             if matches!(block.keyword.as_str(), "NGEN" | "NFILL" | "ELGEN" | "NCOPY" | "ELCOPY" | "NMAP" | "SYSTEM" | "SUBMODEL") {
                 let message = format!("*{} makes or moves nodes or elements, which is not read", block.keyword);
-                return Err(text.fault(block.line, message, "write the mesh with all its nodes and elements, as preprocessors do"));
+                return Err(text.fault(
+                    &DECK_MESH,
+                    block.line,
+                    message,
+                    "write the mesh with all its nodes and elements, as preprocessors do",
+                ));
             }
         }
         let defined = |part: &str| self.scopes.iter().any(|scope| matches!(scope, Scope::Part(name) if name == part));
@@ -206,7 +217,7 @@ impl Deck {
             if block.keyword == "INSTANCE" && matches!(scope, Scope::Instance(_)) {
                 let part = block.parameter("PART").unwrap_or_default();
                 if !defined(&folded(part)) {
-                    return Err(text.fault(block.line, format!("there is no part {}", shown(part)), "name a *PART of the deck"));
+                    return Err(text.fault(&UNKNOWN, block.line, format!("there is no part {}", shown(part)), "name a *PART of the deck"));
                 }
             }
         }
@@ -229,7 +240,12 @@ impl Deck {
         let mut sets: Vec<(String, Vec<u64>)> = Vec::new();
         for block in self.blocks_of(text, instance, "NODE") {
             if block.has("SYSTEM") && !block.is("SYSTEM", "R") {
-                return Err(text.fault(block.line, "coordinates that are not rectangular", "write x and y of each node, without SYSTEM"));
+                return Err(text.fault(
+                    &DECK_MESH,
+                    block.line,
+                    "coordinates that are not rectangular",
+                    "write x and y of each node, without SYSTEM",
+                ));
             }
             let first = nodes.len();
             for &line in &block.data {
@@ -248,14 +264,14 @@ impl Deck {
             }
         }
         if self.nodes.len() + nodes.len() > u32::MAX as usize - 1 {
-            return Err(Fault::new(text.shown_name(), "the mesh has more nodes than 32 bits can number", "use a coarser mesh"));
+            return Err(Fault::new(&DECK_MESH, text.shown_name(), "the mesh has more nodes than 32 bits can number", "use a coarser mesh"));
         }
         let first = self.nodes.len() as u32;
         let mut sorted: Vec<(u64, u32)> = (first..).zip(&nodes).map(|(index, node)| (node.tag, index)).collect();
         sorted.sort_unstable();
         if let Some(pair) = sorted.windows(2).find(|pair| pair[0].0 == pair[1].0) {
             let line = nodes[(pair[1].1 - first) as usize].line;
-            return Err(text.fault(line, format!("a second node with the number {}", pair[0].0), "remove one of them"));
+            return Err(text.fault(&UNKNOWN, line, format!("a second node with the number {}", pair[0].0), "remove one of them"));
         }
         self.nodes.extend(nodes);
         self.instances[instance].nodes = sorted;
@@ -273,7 +289,7 @@ impl Deck {
         let mut beside = Vec::new();
         for block in self.blocks_of(text, instance, "ELEMENT") {
             let Some(name) = block.parameter("TYPE").map(folded) else {
-                return Err(text.fault(block.line, "*ELEMENT has no type", "add TYPE=..., CPE4R for example"));
+                return Err(text.fault(&SYNTAX, block.line, "*ELEMENT has no type", "add TYPE=..., CPE4R for example"));
             };
             let first = elements.len();
             match element_kind::named(&name) {
@@ -282,7 +298,7 @@ impl Deck {
                     beside.push((block.parameter("ELSET").unwrap_or_default().to_string(), name, block.data.len(), block.line))
                 }
                 Found::Refused(..) if block.data.is_empty() => {}
-                Found::Refused(why, help) => return Err(text.fault(block.line, format!("element type {name} {why}"), help)),
+                Found::Refused(why, help) => return Err(text.fault(&DECK_MESH, block.line, format!("element type {name} {why}"), help)),
             }
             if let Some(set) = block.parameter("ELSET").filter(|_| elements.len() > first) {
                 sets.push((set.to_string(), first..elements.len()));
@@ -293,7 +309,7 @@ impl Deck {
         sorted.sort_unstable();
         if let Some(pair) = sorted.windows(2).find(|pair| pair[0].0 == pair[1].0) {
             let line = elements[(pair[1].1 - first) as usize].line;
-            return Err(text.fault(line, format!("a second element with the number {}", pair[0].0), "remove one of them"));
+            return Err(text.fault(&UNKNOWN, line, format!("a second element with the number {}", pair[0].0), "remove one of them"));
         }
         self.elements.extend(elements);
         self.instances[instance].elements = sorted;
@@ -327,7 +343,7 @@ impl Deck {
             }
             if fields.len() != kind.nodes + 1 {
                 let message = format!("an element {} of {} numbers; it has a number and {} nodes", kind.name, fields.len(), kind.nodes);
-                return Err(text.fault(line, message, "look at the type of the elements, and at the line"));
+                return Err(text.fault(&SYNTAX, line, message, "look at the type of the elements, and at the line"));
             }
             let tag = text.tag(line, fields[0], "the number of an element")?;
             let mut nodes = [0; 4];
@@ -335,11 +351,11 @@ impl Deck {
                 let node = text.tag(line, field, "a node of an element")?;
                 nodes[k] = self.instances[instance].node(node).ok_or_else(|| {
                     let message = format!("element {tag} needs node {node}, which is not there");
-                    text.fault(line, message, "each part has its own nodes; look for the number in *NODE")
+                    text.fault(&UNKNOWN, line, message, "each part has its own nodes; look for the number in *NODE")
                 })?;
                 if nodes[..k].contains(&nodes[k]) {
                     let help = "a triangle is an element of three nodes, CPE3 for example";
-                    return Err(text.fault(line, format!("element {tag} has node {node} twice"), help));
+                    return Err(text.fault(&UNKNOWN, line, format!("element {tag} has node {node} twice"), help));
                 }
             }
             elements.push(Element { kind, tag, nodes, line });
@@ -399,7 +415,7 @@ fn instance(text: &Text, block: &Block, name: &str) -> Result<Instance, Fault> {
         let axis = [it[3] - it[0], it[4] - it[1], it[5] - it[2]];
         if it[6] != 0.0 && (axis[0] != 0.0 || axis[1] != 0.0 || axis[2] == 0.0) {
             let help = "bodies lie in the plane of x and y: an axis of rotation is parallel to z";
-            return Err(text.fault(line, format!("instance {} is turned out of the plane", shown(name)), help));
+            return Err(text.fault(&DECK_MESH, line, format!("instance {} is turned out of the plane", shown(name)), help));
         }
         instance.turn = (it[6] != 0.0).then(|| {
             let degrees = it[6] * axis[2].signum();

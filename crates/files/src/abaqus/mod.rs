@@ -4,6 +4,7 @@
 //! surfaces, with instances in place; `element_kind.rs` is the table of element types) → `plane.rs` (the mesh), or `import/` (a model file
 //! with a report of what became of each keyword).
 
+pub(crate) mod messages;
 mod deck;
 mod element_kind;
 pub mod import;
@@ -12,6 +13,7 @@ mod plane;
 mod sets;
 mod text;
 
+use crate::gmsh::messages::MESH_FILE;
 use deck::Deck;
 use embate_solver::error::Fault;
 use embate_solver::model::ImportedMesh;
@@ -50,7 +52,7 @@ pub fn parse(bytes: &[u8], source: &str, folder: &Path, scale: f64) -> Result<Im
 fn mesh(text: &Text, scale: f64) -> Result<ImportedMesh, Vec<Fault>> {
     if !(scale.is_finite() && scale > 0.0) {
         let message = format!("the mesh's unit is {scale} m");
-        return Err(vec![Fault::new(text.shown_name(), message, "it is a finite number greater than 0")]);
+        return Err(vec![Fault::new(&MESH_FILE, text.shown_name(), message, "it is a finite number greater than 0")]);
     }
     let deck = Deck::read(text).map_err(|fault| vec![fault])?;
     plane::mesh(&deck, text, scale)

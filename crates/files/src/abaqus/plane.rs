@@ -4,7 +4,9 @@
 
 use super::deck::{Deck, Element, Surface};
 use super::text::Text;
+use crate::abaqus::messages::DECK_MESH;
 use crate::gmsh::faults::Faults;
+use crate::gmsh::messages::NODE;
 use embate_solver::error::Fault;
 use embate_solver::model::{ImportedMesh, MeshGroup};
 use std::collections::{BTreeMap, BTreeSet};
@@ -66,7 +68,7 @@ pub(super) fn mesh(deck: &Deck, text: &Text, scale: f64) -> Result<ImportedMesh,
     let source = text.shown_name();
     if deck.elements.is_empty() {
         let help = "known are CPE4R, CPE4, CPE3, CPS4R, CAX4R and their like, of first order";
-        return Err(vec![Fault::new(source, "the deck has no plane elements", help)]);
+        return Err(vec![Fault::new(&DECK_MESH, source, "the deck has no plane elements", help)]);
     }
     let used = used(deck);
     check_positions(deck, text, scale, &used)?;
@@ -136,12 +138,12 @@ fn check_positions(deck: &Deck, text: &Text, scale: f64, used: &[bool]) -> Resul
         if !(x * scale).is_finite() || !(y * scale).is_finite() {
             faults.add("nodes that are nowhere", || {
                 let message = format!("node {} is at ({x:e}, {y:e}): not a place", node.tag);
-                text.fault(node.line, message, "coordinates are finite numbers; check the file and its unit in the model")
+                text.fault(&NODE, node.line, message, "coordinates are finite numbers; check the file and its unit in the model")
             });
         } else if z.abs() > OFF_PLANE * size {
             faults.add("nodes off the plane z = 0", || {
                 let message = format!("node {} is at z = {z:e}, off the plane z = 0", node.tag);
-                text.fault(node.line, message, "bodies lie in the plane of x and y: move the geometry there")
+                text.fault(&NODE, node.line, message, "bodies lie in the plane of x and y: move the geometry there")
             });
         }
     }

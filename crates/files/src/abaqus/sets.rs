@@ -4,6 +4,7 @@
 
 use super::deck::{Deck, Scope, Set, Surface, extend};
 use super::text::{Block, Line, Text, folded, shown};
+use crate::abaqus::messages::{SYNTAX, UNKNOWN};
 use embate_solver::error::Fault;
 use std::collections::BTreeMap;
 
@@ -35,7 +36,7 @@ impl Deck {
         if let (Some(name), Scope::Root) = (block.parameter("INSTANCE"), &self.scopes[at]) {
             let found = self.instances.iter().position(|it| !it.name.is_empty() && folded(&it.name) == folded(name));
             let instance = found.ok_or_else(|| {
-                text.fault(block.line, format!("there is no instance {}", shown(name)), "name an *INSTANCE of the assembly")
+                text.fault(&UNKNOWN, block.line, format!("there is no instance {}", shown(name)), "name an *INSTANCE of the assembly")
             })?;
             return Ok(vec![(0, instance)]);
         }
@@ -44,7 +45,7 @@ impl Deck {
 
     fn read_set(&mut self, text: &Text, block: &Block, of_nodes: bool, named_in: usize, looked_in: usize) -> Result<(), Fault> {
         let Some(name) = block.parameter(&block.keyword).filter(|name| !name.is_empty()) else {
-            return Err(text.fault(block.line, format!("*{} has no name", block.keyword), format!("add {}=...", block.keyword)));
+            return Err(text.fault(&SYNTAX, block.line, format!("*{} has no name", block.keyword), format!("add {}=...", block.keyword)));
         };
         let mut members = Vec::new();
         if of_nodes && let Some(elements) = block.parameter("ELSET") {
@@ -83,7 +84,7 @@ impl Deck {
             let node = self.instances[instance].node(tag);
             return node
                 .map(|node| vec![node])
-                .ok_or_else(|| text.fault(line, format!("there is no node {tag}"), "look for the number in *NODE"));
+                .ok_or_else(|| text.fault(&UNKNOWN, line, format!("there is no node {tag}"), "look for the number in *NODE"));
         }
         for name in [self.full(instance, name), folded(name)] {
             if let Some(set) = self.node_sets.get(&name) {
@@ -93,7 +94,7 @@ impl Deck {
                 return Ok(vec![node]);
             }
         }
-        Err(text.fault(line, format!("there is no node set {}", shown(name)), ABOVE))
+        Err(text.fault(&UNKNOWN, line, format!("there is no node set {}", shown(name)), ABOVE))
     }
 
     /// The elements of a set, or the element of a number; empty for masses, springs and the like.
@@ -102,7 +103,7 @@ impl Deck {
             return match self.instances[instance].element(tag) {
                 Some(element) => Ok(vec![element]),
                 None if !self.beside.is_empty() => Ok(Vec::new()),
-                None => Err(text.fault(line, format!("there is no element {tag}"), "look for the number in *ELEMENT")),
+                None => Err(text.fault(&UNKNOWN, line, format!("there is no element {tag}"), "look for the number in *ELEMENT")),
             };
         }
         for name in [self.full(instance, name), folded(name)] {
@@ -116,7 +117,7 @@ impl Deck {
                 return Ok(vec![element]);
             }
         }
-        Err(text.fault(line, format!("there is no element set {}", shown(name)), ABOVE))
+        Err(text.fault(&UNKNOWN, line, format!("there is no element set {}", shown(name)), ABOVE))
     }
 
     /// `INSTANCE.12`: the instance and the number.
@@ -128,7 +129,7 @@ impl Deck {
 
     fn read_surface(&mut self, text: &Text, block: &Block, instance: usize) -> Result<(), Fault> {
         let Some(name) = block.parameter("NAME").filter(|name| !name.is_empty()) else {
-            return Err(text.fault(block.line, "*SURFACE has no name", "add NAME=..."));
+            return Err(text.fault(&SYNTAX, block.line, "*SURFACE has no name", "add NAME=..."));
         };
         let surface = match block.parameter("TYPE").map_or("ELEMENT".into(), folded).as_str() {
             _ if block.has("COMBINE") || block.has("CROP") => Surface::Other("made of other surfaces".into()),
@@ -146,7 +147,7 @@ impl Deck {
         let name = self.full_shown(instance, name);
         match self.surfaces.entry(folded(&name)) {
             std::collections::btree_map::Entry::Occupied(_) => {
-                Err(text.fault(block.line, format!("a second surface {}", shown(&name)), "give it another name"))
+                Err(text.fault(&UNKNOWN, block.line, format!("a second surface {}", shown(&name)), "give it another name"))
             }
             std::collections::btree_map::Entry::Vacant(entry) => {
                 entry.insert(Set { name, members: vec![surface] });
@@ -192,7 +193,7 @@ impl Deck {
         number.map(|number| number - 1).ok_or_else(|| {
             let letter = if kind.shell { 'E' } else { 'S' };
             let message = format!("an element {} has no edge {}", kind.name, shown(face));
-            text.fault(line, message, format!("its edges are {letter}1 to {letter}{}", kind.nodes))
+            text.fault(&SYNTAX, line, message, format!("its edges are {letter}1 to {letter}{}", kind.nodes))
         })
     }
 

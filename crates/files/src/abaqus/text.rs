@@ -3,7 +3,9 @@
 //! Every later message takes its place (file, line) from here. Keywords and names of parameters are in capitals with single spaces; values
 //! keep their spelling, because names are compared without case but shown as written.
 
+use crate::abaqus::messages::{DECK, SYNTAX};
 use embate_solver::error::Fault;
+use embate_solver::message::Message;
 use std::path::{Path, PathBuf};
 
 /// How deep files may include each other.
@@ -76,7 +78,7 @@ impl Text {
     /// Reads a file and what it includes.
     pub(super) fn read(path: &Path, shown: &str) -> Result<Self, Fault> {
         let bytes = std::fs::read(path).map_err(|error| {
-            Fault::new(shown, format!("the file can't be read: {error}"), "check its path, which starts at the model file's folder")
+            Fault::new(&DECK, shown, format!("the file can't be read: {error}"), "check its path, which starts at the model file's folder")
         })?;
         Self::parse(&bytes, shown, path.parent().unwrap_or(Path::new("")))
     }
@@ -90,12 +92,12 @@ impl Text {
 
     fn add(&mut self, bytes: &[u8], name: String, folder: &Path, depth: usize) -> Result<(), Fault> {
         if bytes.starts_with(b"HDF") || bytes.iter().take(4096).any(|b| *b == 0) {
-            return Err(Fault::new(name, "this is not a text", "an input deck (.inp) is a text of keywords that begin with a star"));
+            return Err(Fault::new(&DECK, name, "this is not a text", "an input deck (.inp) is a text of keywords that begin with a star"));
         }
         self.bytes += bytes.len();
         if self.sources.len() >= FILES_MAX || self.bytes > BYTES_MAX {
             let message = format!("the deck has more than {FILES_MAX} files or {} MiB", BYTES_MAX >> 20);
-            return Err(Fault::new(name, message, "look whether a file includes itself"));
+            return Err(Fault::new(&DECK, name, message, "look whether a file includes itself"));
         }
         let source = self.sources.len() as u32;
         // Comments in older encodings are no reason to stop.
@@ -141,7 +143,7 @@ impl Text {
     fn data(&mut self, line: Line) -> Result<(), Fault> {
         let Some(block) = self.blocks.last_mut() else {
             let help = "the first line of a deck is a keyword such as *NODE; is it the right file?";
-            return Err(self.fault(line, "this is not an Abaqus or CalculiX deck", help));
+            return Err(self.fault(&SYNTAX, line, "this is not an Abaqus or CalculiX deck", help));
         };
         block.data.push(line);
         Ok(())
@@ -151,7 +153,7 @@ impl Text {
         let mut words = split(whole.strip_prefix('*').unwrap_or(whole)).into_iter();
         let keyword = folded(words.next().unwrap_or_default());
         if keyword.is_empty() {
-            return Err(self.fault(line, "a keyword line without a keyword", "a comment begins with two stars"));
+            return Err(self.fault(&SYNTAX, line, "a keyword line without a keyword", "a comment begins with two stars"));
         }
         let mut parameters = Vec::new();
         for word in words.map(str::trim).filter(|word| !word.is_empty()) {
@@ -163,16 +165,16 @@ impl Text {
 
     fn include(&mut self, block: &Block, folder: &Path, depth: usize) -> Result<(), Fault> {
         let Some(file) = block.parameter("INPUT").filter(|file| !file.is_empty()) else {
-            return Err(self.fault(block.line, "*INCLUDE names no file", "write *INCLUDE, INPUT=file.inp"));
+            return Err(self.fault(&SYNTAX, block.line, "*INCLUDE names no file", "write *INCLUDE, INPUT=file.inp"));
         };
         if depth + 1 >= DEPTH_MAX {
             let message = format!("files include each other more than {DEPTH_MAX} deep");
-            return Err(self.fault(block.line, message, "look whether a file includes itself"));
+            return Err(self.fault(&DECK, block.line, message, "look whether a file includes itself"));
         }
         let path: PathBuf = folder.join(file);
         let bytes = std::fs::read(&path).map_err(|error| {
             let message = format!("the file {} can't be read: {error}", shown(file));
-            self.fault(block.line, message, "paths begin at the folder of the file that includes")
+            self.fault(&DECK, block.line, message, "paths begin at the folder of the file that includes")
         })?;
         let inner = path.parent().unwrap_or(folder).to_path_buf();
         self.add(&bytes, file.to_string(), &inner, depth + 1)
@@ -202,8 +204,8 @@ impl Text {
         format!("{}, line {}", self.sources[line.source as usize].name, line.number)
     }
 
-    pub(super) fn fault(&self, line: Line, message: impl Into<String>, help: impl Into<String>) -> Fault {
-        Fault::new(self.place(line), message, help)
+    pub(super) fn fault(&self, kind: &'static Message, line: Line, message: impl Into<String>, help: impl Into<String>) -> Fault {
+        Fault::new(kind, self.place(line), message, help)
     }
 
     /// A number; Fortran's exponent letter D is read too.
@@ -211,8 +213,8 @@ impl Text {
         let plain = field.replace(['d', 'D'], "e");
         match plain.parse::<f64>() {
             Ok(value) if value.is_finite() && !field.is_empty() => Ok(value),
-            _ if field.is_empty() => Err(self.fault(line, format!("{what} is missing"), "give a number")),
-            _ => Err(self.fault(line, format!("{what} is {}, not a number", shown(field)), "write numbers with a decimal point")),
+            _ if field.is_empty() => Err(self.fault(&SYNTAX, line, format!("{what} is missing"), "give a number")),
+            _ => Err(self.fault(&SYNTAX, line, format!("{what} is {}, not a number", shown(field)), "write numbers with a decimal point")),
         }
     }
 
@@ -221,7 +223,7 @@ impl Text {
         let whole = field.parse::<u64>().ok();
         whole.filter(|tag| *tag > 0).ok_or_else(|| {
             let message = if field.is_empty() { format!("{what} is missing") } else { format!("{what} is {}", shown(field)) };
-            self.fault(line, message, "numbers of nodes and elements are whole and greater than 0")
+            self.fault(&SYNTAX, line, message, "numbers of nodes and elements are whole and greater than 0")
         })
     }
 

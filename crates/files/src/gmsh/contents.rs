@@ -4,6 +4,7 @@
 
 use super::element_kind::ElementKind;
 use super::reader::{Least, Reader};
+use crate::gmsh::messages::{DAMAGED, ELEMENT_TYPE};
 use embate_solver::error::Fault;
 use std::collections::BTreeMap;
 
@@ -91,12 +92,12 @@ impl Contents {
             let name = line.strip_prefix(b"\"").and_then(|name| name.strip_suffix(b"\"")).and_then(|name| std::str::from_utf8(name).ok());
             let (Some(name), 0..=3) = (name, dimension) else {
                 let help = "a line here is, for example, 2 1 \"plate\": dimension 0 to 3, tag, name in quotes (UTF-8)";
-                return Err(reader.fault(at, "this is not the name of a physical group", help));
+                return Err(reader.fault(&DAMAGED, at, "this is not the name of a physical group", help));
             };
             // An empty name is no name.
             if !name.is_empty() && self.names.insert((dimension, tag.unsigned_abs()), name.to_string()).is_some() {
                 let message = format!("physical group {tag} of dimension {dimension} has two names, the second is {name:?}");
-                return Err(reader.fault(at, message, "remove one of them"));
+                return Err(reader.fault(&DAMAGED, at, message, "remove one of them"));
             }
         }
         Ok(())
@@ -107,7 +108,7 @@ impl Contents {
 pub(super) fn element_kind(reader: &Reader, at: usize, number: i64) -> Result<&'static ElementKind, Fault> {
     ElementKind::numbered(number).ok_or_else(|| {
         let help = "known are those with a fixed number of nodes; mesh with triangles and quadrilaterals, or the file is damaged here";
-        reader.fault(at, format!("element type {number} is not known"), help)
+        reader.fault(&ELEMENT_TYPE, at, format!("element type {number} is not known"), help)
     })
 }
 

@@ -43,10 +43,10 @@ impl Faults {
     pub(crate) fn into_list(self, source: &str) -> Vec<Fault> {
         let mut list = Vec::new();
         for kind in self.kinds {
+            let more = kind.faults.first().filter(|_| kind.more > 0);
+            let more = more.map(|one| Fault::new(one.kind, source, format!("{} more {}", kind.more, kind.name), ""));
             list.extend(kind.faults);
-            if kind.more > 0 {
-                list.push(Fault::new(source, format!("{} more {}", kind.more, kind.name), ""));
-            }
+            list.extend(more);
         }
         list
     }

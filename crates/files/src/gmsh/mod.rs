@@ -7,12 +7,14 @@
 
 mod contents;
 mod element_kind;
+pub(crate) mod messages;
 pub(crate) mod faults;
 mod plane;
 mod reader;
 mod version2;
 mod version4;
 
+use crate::gmsh::messages::{DAMAGED, FORMAT, MESH_FILE};
 use contents::Contents;
 use embate_solver::error::Fault;
 use embate_solver::model::ImportedMesh;
@@ -28,6 +30,7 @@ pub fn read(path: &Path, scale: f64) -> Result<ImportedMesh, Vec<Fault>> {
     let source = path.display().to_string();
     let bytes = std::fs::read(path).map_err(|error| {
         vec![Fault::new(
+            &MESH_FILE,
             &source,
             format!("the mesh file can't be read: {error}"),
             "check its path, which starts at the model file's folder",
@@ -55,7 +58,7 @@ pub fn read(path: &Path, scale: f64) -> Result<ImportedMesh, Vec<Fault>> {
 /// away from every surface; two groups of one name.
 pub fn parse(bytes: &[u8], source: &str, scale: f64) -> Result<ImportedMesh, Vec<Fault>> {
     if !(scale.is_finite() && scale > 0.0) {
-        return Err(vec![Fault::new(source, format!("the mesh's unit is {scale} m"), "it is a finite number greater than 0")]);
+        return Err(vec![Fault::new(&MESH_FILE, source, format!("the mesh's unit is {scale} m"), "it is a finite number greater than 0")]);
     }
     let mut reader = Reader::new(bytes, source);
     let contents = read_contents(&mut reader).map_err(|fault| vec![fault])?;
@@ -99,7 +102,7 @@ fn read_contents(reader: &mut Reader) -> Result<Contents, Fault> {
     for (names, what) in [(&["Nodes", "ParametricNodes"][..], "$Nodes"), (&["Elements"], "$Elements")] {
         if !has(names) {
             let help = "the file was cut, or it holds no mesh; mesh the geometry in Gmsh before saving";
-            return Err(reader.fault(reader.at(), format!("the file has no section {what}"), help));
+            return Err(reader.fault(&DAMAGED, reader.at(), format!("the file has no section {what}"), help));
         }
     }
     Ok(contents)
@@ -110,11 +113,11 @@ fn check_order(reader: &Reader, start: usize, name: &str, seen: &[&str]) -> Resu
     const ONCE: [&str; 7] = ["MeshFormat", "PhysicalNames", "Entities", "PartitionedEntities", "Nodes", "ParametricNodes", "Elements"];
     if ONCE.contains(&name) && (seen.contains(&name) || name == "MeshFormat") {
         let help = "one mesh in a file: two files were joined, or it is damaged here";
-        return Err(reader.fault(start, format!("a second section ${name}"), help));
+        return Err(reader.fault(&DAMAGED, start, format!("a second section ${name}"), help));
     }
     if matches!(name, "Entities" | "PartitionedEntities") && seen.contains(&"Elements") {
         let help = "entities come before the elements, as Gmsh writes them";
-        return Err(reader.fault(start, format!("section ${name} stands after $Elements"), help));
+        return Err(reader.fault(&DAMAGED, start, format!("section ${name} stands after $Elements"), help));
     }
     Ok(())
 }
@@ -126,24 +129,24 @@ fn read_format(reader: &mut Reader) -> Result<Version, Fault> {
     let start = reader.at();
     match reader.section_start() {
         Ok("MeshFormat") => {}
-        Ok("NOD" | "ELM") => return Err(reader.fault(start, "the file is of version 1; 2.2 and 4.1 are read", AGAIN)),
+        Ok("NOD" | "ELM") => return Err(reader.fault(&FORMAT, start, "the file is of version 1; 2.2 and 4.1 are read", AGAIN)),
         _ => {
             let help = "the first line of such a file is $MeshFormat; is it the right file?";
-            return Err(reader.fault(start, "this is not a Gmsh mesh file", help));
+            return Err(reader.fault(&FORMAT, start, "this is not a Gmsh mesh file", help));
         }
     }
     let at = reader.at();
     let version = match reader.word("the version of the format")? {
         b"2.2" => Version::Two,
         b"4.1" => Version::Four,
-        other => return Err(reader.fault(at, format!("the file is of version {}; 2.2 and 4.1 are read", shown(other)), AGAIN)),
+        other => return Err(reader.fault(&FORMAT, at, format!("the file is of version {}; 2.2 and 4.1 are read", shown(other)), AGAIN)),
     };
     let kind: i64 = reader.text("the kind of file (0 text, 1 binary)")?;
     let size: usize = reader.text("the size of numbers in bytes")?;
     reader.end_of_line()?;
     // Version 2 gives the size of a floating point number, version 4 that of a size_t.
     if !(size == 8 || size == 4 && version == Version::Four) {
-        return Err(reader.fault(at, format!("the file's numbers have {size} bytes; 8 are read"), AGAIN));
+        return Err(reader.fault(&FORMAT, at, format!("the file's numbers have {size} bytes; 8 are read"), AGAIN));
     }
     match kind {
         0 => {}
@@ -153,12 +156,17 @@ fn read_format(reader: &mut Reader) -> Result<Version, Fault> {
                 [0, 0, 0, 1] => true,
                 mark => {
                     let help = "the number one is expected here: the file was changed by a text tool, or is damaged";
-                    return Err(reader.fault(reader.at(), format!("the file's byte order can't be told from the bytes {mark:?}"), help));
+                    return Err(reader.fault(
+                        &DAMAGED,
+                        reader.at(),
+                        format!("the file's byte order can't be told from the bytes {mark:?}"),
+                        help,
+                    ));
                 }
             };
             reader.set_encoding(Encoding::Binary { big_endian, size_bytes: size });
         }
-        other => return Err(reader.fault(at, format!("the kind of file is {other}"), "it is 0 (text) or 1 (binary)")),
+        other => return Err(reader.fault(&FORMAT, at, format!("the kind of file is {other}"), "it is 0 (text) or 1 (binary)")),
     }
     reader.section_end("MeshFormat")?;
     Ok(version)

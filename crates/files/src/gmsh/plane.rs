@@ -5,6 +5,7 @@
 use super::contents::{Contents, FileCell, FileNode, GroupKey, Occurrence};
 use super::faults::Faults;
 use super::reader::Reader;
+use crate::gmsh::messages::{CELL, ELEMENT_TYPE, NODE, PHYSICAL_GROUP};
 use embate_solver::error::Fault;
 use embate_solver::model::{ImportedMesh, MeshGroup};
 use std::collections::BTreeMap;
@@ -82,13 +83,13 @@ fn groups<'a>(contents: &'a Contents, reader: &Reader, faults: &mut Faults) -> V
         } else {
             ("the file holds no triangles or quadrilaterals", "in Gmsh, mesh in two dimensions before saving")
         };
-        faults.add("meshes without surfaces", || Fault::new(reader.source(), message, help));
+        faults.add("meshes without surfaces", || Fault::new(&PHYSICAL_GROUP, reader.source(), message, help));
     }
     let mut first: BTreeMap<&str, u8> = BTreeMap::new();
     for group in &groups {
         if let Some(other) = first.insert(&group.name, group.dimension) {
             let message = format!("two physical groups are named {:?}, of dimensions {other} and {}", group.name, group.dimension);
-            faults.add("names of two groups", || Fault::new(reader.source(), message, "rename one of them in Gmsh"));
+            faults.add("names of two groups", || Fault::new(&PHYSICAL_GROUP, reader.source(), message, "rename one of them in Gmsh"));
         }
     }
     groups
@@ -103,7 +104,7 @@ fn foreign(reader: &Reader, group: &str, occurrence: &Occurrence) -> Fault {
     } else {
         "only nodes at corners are computed: mesh with Mesh.ElementOrder = 1 (gmsh -order 1), or take it out of the physical group"
     };
-    reader.fault(*first, message, help)
+    reader.fault(&ELEMENT_TYPE, *first, message, help)
 }
 
 /// Where the node with a tag stands in the file's order.
@@ -116,7 +117,7 @@ impl NodeIndex {
     fn new(nodes: &[FileNode], reader: &Reader, faults: &mut Faults) -> Self {
         if u32::try_from(nodes.len()).is_err() {
             let message = format!("the mesh has {} nodes, more than 32 bits can number", nodes.len());
-            faults.add("too many nodes", || Fault::new(reader.source(), message, "use a coarser mesh"));
+            faults.add("too many nodes", || Fault::new(&NODE, reader.source(), message, "use a coarser mesh"));
             return Self { sorted: Vec::new() };
         }
         let mut sorted: Vec<_> = (0..).zip(nodes).map(|(index, node)| (node.tag, index)).collect();
@@ -125,7 +126,7 @@ impl NodeIndex {
             if pair[0].0 == pair[1].0 {
                 faults.add("nodes whose tag is there twice", || {
                     let node = &nodes[pair[1].1 as usize];
-                    reader.fault(node.at, format!("a second node with the tag {}", node.tag), AGAIN)
+                    reader.fault(&NODE, node.at, format!("a second node with the tag {}", node.tag), AGAIN)
                 });
             }
         }
@@ -165,6 +166,7 @@ fn resolve<'a>(group: &Group<'a>, index: &NodeIndex, reader: &Reader, faults: &m
                 Some(node) => cell.nodes[k] = node,
                 None => faults.add("references to missing nodes", || {
                     reader.fault(
+                        &NODE,
                         file.at,
                         format!("{} needs node {}, which is not in the file", described(file, &group.name), file.nodes[k]),
                         AGAIN,
@@ -210,13 +212,13 @@ impl<'a> Nodes<'a> {
             if !x.iter().all(|x| x.is_finite()) {
                 faults.add("nodes that are nowhere", || {
                     let message = format!("node {} is at ({:e}, {:e}, {:e}) m: not a place", node.tag, x[0], x[1], x[2]);
-                    reader.fault(node.at, message, "coordinates are finite numbers; check the file and its unit in the model")
+                    reader.fault(&NODE, node.at, message, "coordinates are finite numbers; check the file and its unit in the model")
                 });
             } else if x[2].abs() > OFF_PLANE * self.size {
                 faults.add("nodes off the plane z = 0", || {
                     let message = format!("node {} is at z = {:e} m, off the plane z = 0", node.tag, x[2]);
                     let help = "bodies lie in the plane of x and y: move the geometry there, or look whether the mesh is three-dimensional";
-                    reader.fault(node.at, message, help)
+                    reader.fault(&NODE, node.at, message, help)
                 });
             }
         }
@@ -275,7 +277,7 @@ struct Check<'a> {
 impl Check<'_> {
     fn fault(&mut self, kind: &'static str, cell: &Cell, message: impl FnOnce() -> String, help: &str) {
         let (group, reader) = (self.group, self.reader);
-        self.faults.add(kind, || reader.fault(cell.file.at, format!("{} {}", described(cell.file, group), message()), help));
+        self.faults.add(kind, || reader.fault(&CELL, cell.file.at, format!("{} {}", described(cell.file, group), message()), help));
     }
 
     fn cell(&mut self, cell: &Cell) {

@@ -4,7 +4,9 @@
 //! a fault with its line (text) or byte offset (binary). A count is handed out only after a check against the bytes that are left, so no
 //! file makes the program allocate more than a small multiple of its own size.
 
+use crate::gmsh::messages::DAMAGED;
 use embate_solver::error::Fault;
+use embate_solver::message::Message;
 use std::str::FromStr;
 
 /// How numbers stand in the file.
@@ -63,7 +65,7 @@ impl<'a> Reader<'a> {
     }
 
     /// A fault at the byte offset `at`, given as a line in a text file.
-    pub(super) fn fault(&self, at: usize, message: impl Into<String>, help: impl Into<String>) -> Fault {
+    pub(super) fn fault(&self, kind: &'static Message, at: usize, message: impl Into<String>, help: impl Into<String>) -> Fault {
         let place = match self.encoding {
             Encoding::Text => {
                 let before = &self.bytes[..at.min(self.bytes.len())];
@@ -71,7 +73,7 @@ impl<'a> Reader<'a> {
             }
             Encoding::Binary { .. } => format!("byte {at}"),
         };
-        Fault::new(format!("{}, {place}", self.source), message, help)
+        Fault::new(kind, format!("{}, {place}", self.source), message, help)
     }
 
     fn rest(&self) -> &'a [u8] {
@@ -95,9 +97,9 @@ impl<'a> Reader<'a> {
         let rest = self.rest();
         let length = rest.iter().take_while(|b| !b.is_ascii_whitespace()).count();
         match rest.first() {
-            None => Err(self.fault(self.at, format!("the file ends where {what} is expected"), CUT)),
-            Some(b'$') => Err(self.fault(self.at, format!("expected {what}, found {}", shown(&rest[..length])), CUT)),
-            Some(_) if length == 0 => Err(self.fault(self.at, format!("the line ends where {what} is expected"), SHORT)),
+            None => Err(self.fault(&DAMAGED, self.at, format!("the file ends where {what} is expected"), CUT)),
+            Some(b'$') => Err(self.fault(&DAMAGED, self.at, format!("expected {what}, found {}", shown(&rest[..length])), CUT)),
+            Some(_) if length == 0 => Err(self.fault(&DAMAGED, self.at, format!("the line ends where {what} is expected"), SHORT)),
             Some(_) => {
                 self.at += length;
                 Ok(&rest[..length])
@@ -111,7 +113,7 @@ impl<'a> Reader<'a> {
         let number = std::str::from_utf8(word).ok().and_then(|word| word.parse().ok());
         number.ok_or_else(|| {
             let at = self.at - word.len();
-            self.fault(at, format!("expected {what}, found {}", shown(word)), "the file is damaged here; export the mesh again")
+            self.fault(&DAMAGED, at, format!("expected {what}, found {}", shown(word)), "the file is damaged here; export the mesh again")
         })
     }
 
@@ -133,7 +135,7 @@ impl<'a> Reader<'a> {
             [b'\r', b'\n', ..] => 2,
             _ => {
                 let word = rest.split(u8::is_ascii_whitespace).next().unwrap_or(rest);
-                return Err(self.fault(self.at, format!("expected the end of the line, found {}", shown(word)), LONG));
+                return Err(self.fault(&DAMAGED, self.at, format!("expected the end of the line, found {}", shown(word)), LONG));
             }
         };
         self.at += length;
@@ -169,7 +171,7 @@ impl<'a> Reader<'a> {
                 self.at += N;
                 Ok(*bytes)
             }
-            None => Err(self.fault(self.at, format!("the file ends inside {what}"), CUT)),
+            None => Err(self.fault(&DAMAGED, self.at, format!("the file ends inside {what}"), CUT)),
         }
     }
 
@@ -191,7 +193,8 @@ impl<'a> Reader<'a> {
     pub(super) fn natural(&mut self, what: &str) -> Result<u64, Fault> {
         let at = self.at;
         let value = self.int(what)?;
-        u64::try_from(value).map_err(|_| self.fault(at, format!("{what} is {value}"), "it can't be negative: the file is damaged here"))
+        u64::try_from(value)
+            .map_err(|_| self.fault(&DAMAGED, at, format!("{what} is {value}"), "it can't be negative: the file is damaged here"))
     }
 
     /// A `size_t`: 8 (or 4) bytes in a binary file.
@@ -236,7 +239,7 @@ impl<'a> Reader<'a> {
         let (each, room) = if self.is_binary() { (least.bytes, left) } else { (2 * least.numbers, left + 1) };
         usize::try_from(count).ok().filter(|n| n.saturating_mul(each) <= room).ok_or_else(|| {
             let message = format!("the file announces {count} {what}, but only {left} bytes follow");
-            self.fault(at, message, "the count is wrong or the file was cut; export the mesh again")
+            self.fault(&DAMAGED, at, message, "the count is wrong or the file was cut; export the mesh again")
         })
     }
 
@@ -249,7 +252,12 @@ impl<'a> Reader<'a> {
         let name = word.strip_prefix(b"$").filter(|name| !name.is_empty()).and_then(|name| std::str::from_utf8(name).ok());
         let Some(name) = name else {
             let message = format!("expected a section such as $Nodes, found {}", shown(word));
-            return Err(self.fault(at, message, "a count above is too small, or the file is damaged here; export the mesh again"));
+            return Err(self.fault(
+                &DAMAGED,
+                at,
+                message,
+                "a count above is too small, or the file is damaged here; export the mesh again",
+            ));
         };
         self.at += word.len();
         self.end_of_line()?;
@@ -269,6 +277,7 @@ impl<'a> Reader<'a> {
             };
             let message = format!("expected $End{name}, found {found}");
             return Err(self.fault(
+                &DAMAGED,
                 self.at,
                 message,
                 "the section's counts don't agree with what it holds, or the file was cut; export the mesh again",
@@ -291,7 +300,7 @@ impl<'a> Reader<'a> {
             }
             from += 1;
         }
-        Err(self.fault(start, format!("section ${name} has no ${}", &mark[1..]), "the file was cut; export the mesh again"))
+        Err(self.fault(&DAMAGED, start, format!("section ${name} has no ${}", &mark[1..]), "the file was cut; export the mesh again"))
     }
 }
 

@@ -6,6 +6,7 @@
 
 use super::contents::{Contents, FileNode, element_kind, element_nodes};
 use super::reader::{Least, Reader};
+use crate::gmsh::messages::DAMAGED;
 use embate_solver::error::Fault;
 
 /// Reads `$Nodes`; with `parametric`, `$ParametricNodes`: each node's entity and its parameters there follow and are left out.
@@ -65,7 +66,7 @@ fn read_runs(reader: &mut Reader, contents: &mut Contents, count: usize) -> Resu
         let run = reader.checked(run, start, "elements of one type", least)?;
         if run == 0 || run > count - read {
             let message = format!("a run of {run} elements where {} are missing of the announced {count}", count - read);
-            return Err(reader.fault(start, message, "the counts don't agree: the file is damaged; export the mesh again"));
+            return Err(reader.fault(&DAMAGED, start, message, "the counts don't agree: the file is damaged; export the mesh again"));
         }
         for _ in 0..run {
             let at = reader.at();

@@ -5,6 +5,7 @@
 
 use super::contents::{Contents, FileNode, element_kind, element_nodes};
 use super::reader::{Least, Reader};
+use crate::gmsh::messages::DAMAGED;
 use embate_solver::error::Fault;
 use std::collections::BTreeMap;
 
@@ -91,7 +92,7 @@ pub(super) fn read_nodes(reader: &mut Reader, contents: &mut Contents) -> Result
         reader.end_of_record()?;
         if !(0..=3).contains(&dimension) || !(0..=1).contains(&parametric) {
             let message = format!("a block of nodes of dimension {dimension}, parametric {parametric}");
-            return Err(reader.fault(at, message, "the dimension is 0 to 3, parametric 0 or 1: the file is damaged here"));
+            return Err(reader.fault(&DAMAGED, at, message, "the dimension is 0 to 3, parametric 0 or 1: the file is damaged here"));
         }
         let first = contents.nodes.len();
         for _ in 0..count {
@@ -131,13 +132,13 @@ pub(super) fn read_elements(reader: &mut Reader, contents: &mut Contents, entiti
         reader.end_of_record()?;
         if i64::from(kind.dimension) != dimension {
             let message = format!("elements of type {} ({}) in an entity of dimension {dimension}", kind.number, kind.name);
-            return Err(reader.fault(start, message, "the file is damaged here; export the mesh again"));
+            return Err(reader.fault(&DAMAGED, start, message, "the file is damaged here; export the mesh again"));
         }
         let groups = match entities {
             None => &[][..],
             Some(entities) => entities.get(&(dimension, entity)).ok_or_else(|| {
                 let message = format!("entity {entity} of dimension {dimension} is not in $Entities");
-                reader.fault(start, message, "the physical group of its elements is not known; export the mesh again")
+                reader.fault(&DAMAGED, start, message, "the physical group of its elements is not known; export the mesh again")
             })?,
         };
         for _ in 0..count {
@@ -177,6 +178,6 @@ impl Blocks {
             return Ok(());
         }
         let message = format!("the file announces {} {what}, but its blocks hold {read}", self.items);
-        Err(reader.fault(self.at, message, "the counts don't agree: the file is damaged; export the mesh again"))
+        Err(reader.fault(&DAMAGED, self.at, message, "the counts don't agree: the file is damaged; export the mesh again"))
     }
 }

@@ -5,10 +5,9 @@
 use super::tree::{Node, Place};
 use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet, normalize_untrusted_str};
 use embate_solver::error::Warning;
+use embate_solver::message::{Message, SHOWN};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Faults of one kind beyond this number are counted, not shown.
-const SHOWN_PER_KIND: usize = 20;
 /// Lines longer than this are not shown, only named.
 const LINE_MAX: usize = 400;
 
@@ -22,7 +21,6 @@ pub struct Diagnostics {
     /// They in the order of the text.
     pub entries: Vec<Diagnostic>,
     lines: Vec<Option<Line>>,
-    kinds: Vec<String>,
     severity: Severity,
 }
 
@@ -37,6 +35,8 @@ enum Severity {
 /// One fault or warning with its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
+    /// Its kind.
+    pub kind: &'static Message,
     /// File as it was named, or `--set`.
     pub file: String,
     /// Line from 1; 0 when the fault belongs to no line.
@@ -71,7 +71,7 @@ pub(crate) struct Source {
 /// A fault or warning on its way.
 #[derive(Clone, Debug)]
 struct Problem {
-    kind: String,
+    kind: &'static Message,
     path: String,
     message: String,
     consequence: String,
@@ -89,20 +89,20 @@ pub(crate) struct Faults {
 
 impl Faults {
     /// A fault of the value at `path`; later faults at or under this path are its consequences.
-    pub(crate) fn value(&mut self, kind: &str, path: &str, place: Place, wrong: (String, String)) {
+    pub(crate) fn value(&mut self, kind: &'static Message, path: &str, place: Place, wrong: (String, String)) {
         self.cover(path);
         self.beside(kind, path, Some(place), wrong);
     }
 
     /// A fault that leaves the values at and under `path` meaningful.
-    pub(crate) fn beside(&mut self, kind: &str, path: &str, place: Option<Place>, (message, help): (String, String)) {
-        self.problems.push(Problem { kind: kind.to_string(), path: path.to_string(), message, consequence: String::new(), help, place });
+    pub(crate) fn beside(&mut self, kind: &'static Message, path: &str, place: Option<Place>, (message, help): (String, String)) {
+        self.problems.push(Problem { kind, path: path.to_string(), message, consequence: String::new(), help, place });
     }
 
     /// Warnings of a model that has no faults.
     pub(crate) fn warnings(warnings: &[Warning]) -> Self {
-        let of = |Warning { path, message, consequence, help }: &Warning| Problem {
-            kind: last_key(path),
+        let of = |Warning { kind, path, message, consequence, help }: &Warning| Problem {
+            kind,
             path: path.clone(),
             message: message.clone(),
             consequence: consequence.clone(),
@@ -137,15 +137,15 @@ impl Faults {
         }
         problems.sort_by_key(|problem| problem.place);
         let starts: Vec<Vec<usize>> = sources.iter().map(|source| line_starts(&source.text)).collect();
-        let (mut entries, mut lines, mut kinds) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut entries, mut lines) = (Vec::new(), Vec::new());
         let mut cursor = Cursor::default();
         for problem in problems {
             let source = &sources[problem.place.map_or(0, |place| place.source.min(sources.len() - 1))];
             let found = problem.place.map(|place| cursor.line(&source.text, &starts[place.source.min(sources.len() - 1)], place));
             let (line, column) = found.as_ref().map_or((0, 0), |(line, column, _)| (*line, *column));
             lines.push(found.map(|(.., line)| line));
-            kinds.push(problem.kind);
             entries.push(Diagnostic {
+                kind: problem.kind,
                 file: source.name.clone(),
                 line,
                 column,
@@ -155,15 +155,10 @@ impl Faults {
                 help: problem.help,
             });
         }
-        let mut diagnostics = Diagnostics { rendered: String::new(), count: entries.len(), entries, lines, kinds, severity: self.severity };
+        let mut diagnostics = Diagnostics { rendered: String::new(), count: entries.len(), entries, lines, severity: self.severity };
         diagnostics.rendered = diagnostics.render(false);
         diagnostics
     }
-}
-
-/// Name of the key that a path ends with, without its index: what faults of one kind share.
-pub(crate) fn last_key(path: &str) -> String {
-    path.split('.').next_back().and_then(|key| key.split('[').next()).unwrap_or_default().to_string()
 }
 
 /// Byte at which each line starts.
@@ -211,32 +206,24 @@ impl Cursor {
 
 impl Diagnostics {
     /// Faults without a text that they could point into.
-    pub(crate) fn plain(file: String, message: String, help: String) -> Self {
+    pub(crate) fn plain(kind: &'static Message, file: String, message: String, help: String) -> Self {
         let mut faults = Faults::default();
-        faults.beside("file", "", None, (message, help));
+        faults.beside(kind, "", None, (message, help));
         faults.into_diagnostics(&[Source { name: file, text: String::new() }], None)
     }
 
     /// Faults of several variants of a model as one list: what is wrong in several is told once, with the runs that have it;
     /// run 0: no run's fault. `of`: the number of runs.
     pub(crate) fn merged(found: Vec<(usize, Self)>, of: usize) -> Self {
-        let mut all = Self {
-            rendered: String::new(),
-            count: 0,
-            entries: Vec::new(),
-            lines: Vec::new(),
-            kinds: Vec::new(),
-            severity: Severity::Fault,
-        };
+        let mut all = Self { rendered: String::new(), count: 0, entries: Vec::new(), lines: Vec::new(), severity: Severity::Fault };
         let mut runs: Vec<Vec<usize>> = Vec::new();
         let mut known: BTreeMap<(String, usize, usize, String, String), usize> = BTreeMap::new();
         for (run, one) in found {
-            for ((entry, line), kind) in one.entries.into_iter().zip(one.lines).zip(one.kinds) {
+            for (entry, line) in one.entries.into_iter().zip(one.lines) {
                 let identity = (entry.file.clone(), entry.line, entry.column, entry.path.clone(), entry.message.clone());
                 let at = *known.entry(identity).or_insert_with(|| {
                     all.entries.push(entry);
                     all.lines.push(line);
-                    all.kinds.push(kind);
                     runs.push(Vec::new());
                     runs.len() - 1
                 });
@@ -259,17 +246,16 @@ impl Diagnostics {
         let renderer = if color { Renderer::styled() } else { Renderer::plain() }.term_width(160);
         let mut shown: BTreeMap<&str, usize> = BTreeMap::new();
         let mut text = String::new();
-        for ((entry, line), kind) in self.entries.iter().zip(&self.lines).zip(&self.kinds) {
-            let count = shown.entry(kind).or_default();
+        for (entry, line) in self.entries.iter().zip(&self.lines) {
+            let count = shown.entry(entry.kind.code).or_default();
             *count += 1;
-            if *count <= SHOWN_PER_KIND {
+            if *count <= SHOWN {
                 text.push_str(&renderer.render(&[group(entry, line.as_ref(), self.severity)]));
                 text.push_str("\n\n");
             }
         }
-        let hidden: usize = shown.values().map(|count| count.saturating_sub(SHOWN_PER_KIND)).sum();
-        if hidden > 0 {
-            text.push_str(&format!("and {hidden} more of the same kinds\n"));
+        for (code, count) in shown.into_iter().filter(|(_, count)| *count > SHOWN) {
+            text.push_str(&format!("and {} more of {code}\n", count - SHOWN));
         }
         text.push_str(&match (self.severity, self.count) {
             (Severity::Fault, 1) => "1 fault: nothing was run\n".to_string(),
@@ -297,7 +283,7 @@ fn group<'a>(entry: &'a Diagnostic, line: Option<&'a Line>, severity: Severity) 
         Severity::Fault => Level::ERROR,
         Severity::Warning => Level::WARNING,
     };
-    let title = level.primary_title(normalize_untrusted_str(&entry.message));
+    let title = level.primary_title(normalize_untrusted_str(&entry.message)).id(entry.kind.code);
     let group = match line.map(|line| (line, &line.text)) {
         Some((line, Some(text))) => {
             let mark = AnnotationKind::Primary.span(line.start..line.end);

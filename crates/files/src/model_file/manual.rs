@@ -124,7 +124,8 @@ pub(crate) fn table(out: &mut String, keys: &[Key], rules: &[Rule]) {
 const FAULTS_AND_WARNINGS: &str = "\
 ## Faults and warnings
 
-A *fault* keeps a model from being run: all are told at once, each with its line, the reason and what to do; exit code 2. A *warning* does not: the model is accepted, and
+A *fault* keeps a model from being run: all are told at once, each with its code, its line, the reason and what to do; exit code 2. `embate explain CODE` says how such a fault comes about; [messages](messages.md)
+has all codes. Of each code at most 20 are shown, the rest is counted. A *warning* keeps no model from being run: it is accepted, and
 `embate check` (exit code 0) and `embate run` tell what it is, what follows from it, and what to do, with line and excerpt. `run --quiet` tells warnings of the model, too,
 since they are no part of the summary that it leaves out; `summary.json` lists them first in `warnings`. Only what is certain before the run is a warning:
 

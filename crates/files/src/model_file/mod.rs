@@ -8,6 +8,7 @@ mod build;
 mod decimal;
 mod diagnostics;
 mod manual;
+pub(crate) mod messages;
 mod reader;
 mod schema;
 mod set;
@@ -28,6 +29,7 @@ pub(crate) use reader::{Document, Record, Vocabulary};
 pub(crate) use template::{Change, Template};
 pub(crate) use tree::Node;
 
+use crate::model_file::messages::{ENCODING, FILE, SYNTAX};
 use embate_solver::error::Warning;
 use embate_solver::model::Model;
 use embate_solver::quantity::Dimension;
@@ -102,7 +104,7 @@ impl Described {
 /// The text of a file.
 fn source(file: &Path) -> Result<Source, Diagnostics> {
     let shown = file.display().to_string();
-    let bytes = read(file).map_err(|(message, help)| Diagnostics::plain(shown.clone(), message, help))?;
+    let bytes = read(file).map_err(|(message, help)| Diagnostics::plain(&FILE, shown.clone(), message, help))?;
     match String::from_utf8(bytes) {
         Ok(text) => Ok(Source { name: shown, text }),
         Err(error) => {
@@ -111,7 +113,7 @@ fn source(file: &Path) -> Result<Source, Diagnostics> {
             let mut faults = Faults::default();
             let place = tree::Place { source: 0, start: at, end: at + 1 };
             let texts = ("the file is not UTF-8 text".to_string(), "save it with the encoding UTF-8".to_string());
-            faults.beside("encoding", "", Some(place), texts);
+            faults.beside(&ENCODING, "", Some(place), texts);
             Err(faults.into_diagnostics(&[Source { name: shown, text }], None))
         }
     }
@@ -170,7 +172,7 @@ fn parsed(mut source: Source) -> Result<(Source, Node), Diagnostics> {
             let mut faults = Faults::default();
             let place = fault.place.map(|range| tree::Place { source: 0, start: range.start, end: range.end });
             let help = syntax_help(&fault.message).to_string();
-            faults.beside("syntax", "", place, (fault.message, help));
+            faults.beside(&SYNTAX, "", place, (fault.message, help));
             Err(faults.into_diagnostics(&[source], None))
         }
     }

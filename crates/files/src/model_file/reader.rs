@@ -5,11 +5,13 @@
 use super::diagnostics::Faults;
 use super::tree::{Entry, Node, Place, Value};
 use super::value::{self, Datum, Wrong};
+use crate::model_file::messages::{FORM, MISSING_KEY, MISSING_SECTION, UNKNOWN_KEY};
 use embate_solver::block::stress_state::STRESS_STATES;
 use embate_solver::mesh::shapes::Values;
 use embate_solver::model::describe::{
     Form, Key, Kind, MOVED, Need, Rule, SECTIONS, Section, TOP, nearest, section as section_by_name, suggestion,
 };
+use embate_solver::model::messages::CLASH;
 use embate_solver::quantity::Dimension;
 use std::collections::BTreeMap;
 
@@ -207,7 +209,7 @@ pub(super) fn read(root: &Node, vocabulary: &Vocabulary, faults: &mut Faults) ->
     for section in vocabulary.sections.iter().filter(|section| section.required && !document.sections.contains_key(section.name)) {
         let message = format!("the {} has no {}", vocabulary.what, header(section));
         reader.faults.cover(section.name);
-        reader.faults.beside("missing section", section.name, None, (message, section.doc.to_string()));
+        reader.faults.beside(&MISSING_SECTION, section.name, None, (message, section.doc.to_string()));
     }
     document
 }
@@ -270,7 +272,7 @@ impl Reader<'_> {
             _ => {
                 let help = if section.form == Form::Repeated { "in double brackets, because there may be several" } else { "" };
                 let texts = (format!("`{name}` must be written as {}", header(section)), help.to_string());
-                self.faults.value("form", name, entry.node.place, texts);
+                self.faults.value(&FORM, name, entry.node.place, texts);
                 Vec::new()
             }
         }
@@ -282,7 +284,7 @@ impl Reader<'_> {
             return Some(self.table(section, entries, &path, item.place));
         }
         self.faults.value(
-            "form",
+            &FORM,
             &path,
             item.place,
             (format!("`{}` is not a list of tables", section.name), format!("write {}", header(section))),
@@ -298,7 +300,7 @@ impl Reader<'_> {
             return Some(record);
         }
         let message = format!("`{}` stands in `{}` without a name", shown(&entry.key), section.name);
-        self.faults.value("form", &path, entry.place, (message, format!("give it a name: write {}", header(section))));
+        self.faults.value(&FORM, &path, entry.place, (message, format!("give it a name: write {}", header(section))));
         None
     }
 
@@ -356,7 +358,7 @@ impl Reader<'_> {
         let what = if section.name.is_empty() { format!("the {}", self.vocabulary.what) } else { called(section, path) };
         let message = format!("{what} has no `{}`", key.name);
         let help = format!("add `{} = {}`: {}", key.name, value::example(key), lower(key.doc));
-        self.faults.value("missing key", path, place, (message, help));
+        self.faults.value(&MISSING_KEY, path, place, (message, help));
     }
 
     fn unknown(&mut self, section: &Section, keys: &[Key], entry: &Entry, path: &str) {
@@ -379,7 +381,7 @@ impl Reader<'_> {
             },
         };
         let what = if section.name.is_empty() { format!("a {}", self.vocabulary.what) } else { called(section, path) };
-        self.faults.value("unknown key", path, entry.place, (format!("{what} has no key `{}`", shown(name)), help));
+        self.faults.value(&UNKNOWN_KEY, path, entry.place, (format!("{what} has no key `{}`", shown(name)), help));
     }
 
     fn rule(&mut self, rule: &Rule, section: &Section, record: &Record, place: Place) {
@@ -423,7 +425,7 @@ impl Reader<'_> {
             }
             _ => return,
         };
-        self.faults.beside("rule", &record.path, Some(at), (message, help));
+        self.faults.beside(&CLASH, &record.path, Some(at), (message, help));
         if let Rule::Needs(_, other) = rule {
             self.faults.cover(&record.key(other));
         }
@@ -441,7 +443,7 @@ impl Reader<'_> {
                     format!("`{name}` in {} goes only with {only}", called(section, &record.path)),
                     format!("add {only}, or leave `{name}` out"),
                 );
-                self.faults.value("rule", &record.key(name), place, texts);
+                self.faults.value(&CLASH, &record.key(name), place, texts);
             }
         }
     }
@@ -453,7 +455,7 @@ impl Reader<'_> {
             let message = format!("{} has {} but no `{name}`", called(section, &record.path), written((by, value)));
             let example =
                 section.all_keys().find(|key| key.name == *name).map_or(String::new(), |key| format!(" = {}", value::example(key)));
-            self.faults.beside("rule", &record.path, Some(place), (message, format!("add `{name}{example}`")));
+            self.faults.beside(&CLASH, &record.path, Some(place), (message, format!("add `{name}{example}`")));
             self.faults.cover(&record.key(name));
         }
     }

@@ -4,6 +4,7 @@
 
 use super::diagnostics::{Faults, Source};
 use super::tree::{self, Entry, Node, Place, Value};
+use crate::model_file::messages::OVERRIDE;
 use embate_solver::model::describe::{Form, section, suggestion};
 
 /// Deepest path that any key needs, with some to spare.
@@ -15,7 +16,7 @@ pub(super) fn apply(root: &mut Node, texts: &[String], sources: &mut Vec<Source>
         let source = sources.len();
         sources.push(Source { name: "--set".to_string(), text: text.clone() });
         if let Err(wrong) = one(root, text, source) {
-            faults.beside("set", "", Some(Place { source, start: 0, end: text.len() }), wrong);
+            faults.beside(&OVERRIDE, "", Some(Place { source, start: 0, end: text.len() }), wrong);
         }
     }
 }

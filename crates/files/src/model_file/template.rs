@@ -3,10 +3,12 @@
 //! The tree comes from `tree.rs`, overrides and changes go into it through `set.rs` before a model is read from it, so every check of the reader holds for
 //! every variant, and a fault shows the text that a value came from. [`Template::model`] gives models to `load` and to sweeps.
 
-use super::diagnostics::{Diagnostics, Faults, Source, last_key};
+use super::diagnostics::{Diagnostics, Faults, Source};
 use super::tree::{self, Node, Place, Value};
 use super::{FILE_NAME, Loaded, build, name_of, parsed, reader, set, source};
+use crate::model_file::messages::OVERRIDE;
 use embate_solver::error::Fault;
+use embate_solver::message::Message;
 use embate_solver::model::Model;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -67,8 +69,8 @@ impl Template {
     }
 
     /// A fault in one of the added texts.
-    pub(crate) fn fault(faults: &mut Faults, source: usize, at: Range<usize>, wrong: (String, String)) {
-        faults.beside("argument", "", Some(Place { source, start: at.start, end: at.end }), wrong);
+    pub(crate) fn fault(kind: &'static Message, faults: &mut Faults, source: usize, at: Range<usize>, wrong: (String, String)) {
+        faults.beside(kind, "", Some(Place { source, start: at.start, end: at.end }), wrong);
     }
 
     /// Faults with their places.
@@ -118,7 +120,7 @@ impl Template {
                 node.place = place(&change.place);
             }
             if let Err(wrong) = set::replace(&mut root, change.path, node, place(&change.key)) {
-                faults.beside("path", "", Some(place(&change.key)), wrong);
+                faults.beside(&OVERRIDE, "", Some(place(&change.key)), wrong);
             }
         }
         (root, faults)
@@ -129,7 +131,7 @@ impl Template {
 fn note(faults: &mut Faults, found: Vec<Fault>) {
     for fault in found {
         if !faults.covers(&fault.path) {
-            faults.beside(&last_key(&fault.path), &fault.path, None, (fault.message, fault.help));
+            faults.beside(fault.kind, &fault.path, None, (fault.message, fault.help));
         }
     }
 }

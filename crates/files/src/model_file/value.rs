@@ -6,8 +6,11 @@
 use super::reader::Record;
 use super::tree::{Node, Place, Value};
 use super::units::{self, Wanted};
+use crate::model_file::messages::{CHOICE, TYPE, UNIT, UNKNOWN_KEY};
+use embate_solver::message::Message;
 use embate_solver::model::check::name_is_plain;
 use embate_solver::model::describe::{Key, Kind, out_of_range, suggestion};
+use embate_solver::model::messages::{LIST_LENGTH, RANGE};
 use embate_solver::model::{Cadence, Drive, Penalty};
 use embate_solver::quantity::{Dimension, Range};
 
@@ -45,7 +48,7 @@ pub(super) enum Course {
 /// What is wrong with a value or an item of it.
 #[derive(Clone, Debug)]
 pub(super) struct Wrong {
-    pub kind: &'static str,
+    pub kind: &'static Message,
     pub path: String,
     pub place: Place,
     pub texts: (String, String),
@@ -68,13 +71,13 @@ impl<'a> At<'a> {
         self.path.rsplit('.').next().unwrap_or(self.path)
     }
 
-    fn wrong<T>(&self, kind: &'static str, message: String, help: impl Into<String>) -> Read<T> {
+    fn wrong<T>(&self, kind: &'static Message, message: String, help: impl Into<String>) -> Read<T> {
         Err(vec![Wrong { kind, path: self.path.to_string(), place: self.node.place, texts: (message, help.into()) }])
     }
 
     /// The type is wrong.
     fn unlike<T>(&self) -> Read<T> {
-        self.wrong("type", format!("`{}` must be {}, but it is {}", self.name(), words(self.kind), self.node.words()), like(self.key))
+        self.wrong(&TYPE, format!("`{}` must be {}, but it is {}", self.name(), words(self.kind), self.node.words()), like(self.key))
     }
 
     /// An item of this list or table.
@@ -103,7 +106,7 @@ impl<'a> At<'a> {
             Value::Integer(_, _, value) | Value::Float(_, value) => (*value, usual),
             Value::Text(text) => match units::read(text, Wanted { name: self.name(), dimensions, angle }) {
                 Ok(read) => read,
-                Err((message, help)) => return self.wrong("unit", message, help),
+                Err((message, help)) => return self.wrong(&UNIT, message, help),
             },
             _ => return self.unlike(),
         };
@@ -113,7 +116,7 @@ impl<'a> At<'a> {
         let unit = if matches!(self.node.value, Value::Text(_)) { String::new() } else { format!(" {}", units::si(usual, angle)) };
         let shown = format!("{}{unit}", self.node.words().trim_matches('"'));
         let (message, help) = out_of_range(self.name(), shown.trim_end(), value, range);
-        self.wrong("range", message, help)
+        self.wrong(&RANGE, message, help)
     }
 
     fn integer(&self, least: u64) -> Read<u64> {
@@ -121,9 +124,9 @@ impl<'a> At<'a> {
             Value::Integer(text, value, _) => match value.map(u64::try_from) {
                 Some(Ok(value)) if value >= least => Ok(value),
                 Some(_) if value.is_some_and(|value| value < i128::from(least)) => {
-                    self.wrong("range", format!("`{}` must be at least {least}, but it is {text}", self.name()), "")
+                    self.wrong(&RANGE, format!("`{}` must be at least {least}, but it is {text}", self.name()), "")
                 }
-                _ => self.wrong("range", format!("`{}` is too large: {}", self.name(), self.node.words()), "give a smaller number"),
+                _ => self.wrong(&RANGE, format!("`{}` is too large: {}", self.name(), self.node.words()), "give a smaller number"),
             },
             _ => self.unlike(),
         }
@@ -139,7 +142,7 @@ impl<'a> At<'a> {
             return Ok(text);
         }
         let message = format!("`{}` can't be {}", self.name(), units::shorten(&text));
-        self.wrong("choice", message, suggestion(&text, known))
+        self.wrong(&CHOICE, message, suggestion(&text, known))
     }
 
     /// One text or a list of texts, each once.
@@ -148,7 +151,7 @@ impl<'a> At<'a> {
             return if matches!(self.node.value, Value::Text(_)) { Ok(vec![read(*self)?]) } else { self.unlike() };
         };
         if items.is_empty() {
-            return self.wrong("empty list", format!("the list `{}` is empty", self.name()), "name something, or leave the key out");
+            return self.wrong(&LIST_LENGTH, format!("the list `{}` is empty", self.name()), "name something, or leave the key out");
         }
         self.each(items, read)
     }
@@ -160,9 +163,9 @@ impl<'a> At<'a> {
                 Ok((value, dimension)) if value.is_finite() => Ok((value, Some(dimension))),
                 Ok((value, _)) => {
                     let (message, help) = out_of_range(self.name(), text, value, Range::Finite);
-                    self.wrong("range", message, help)
+                    self.wrong(&RANGE, message, help)
                 }
-                Err((message, help)) => self.wrong("unit", message, help),
+                Err((message, help)) => self.wrong(&UNIT, message, help),
             },
             _ => Ok((self.number(&[Dimension::NONE], Range::Finite, false)?.0, None)),
         }
@@ -179,7 +182,7 @@ impl<'a> At<'a> {
                 |dimension: Dimension| if dimension == Dimension::NONE { "a pure number".to_string() } else { format!("in {dimension}") };
             let path = format!("{}[{index}]", self.path);
             let message = format!("`{0}[{index}]` is {1}, but `{0}[{first}]` is {2}", self.name(), unit(other), unit(wanted));
-            return self.on(&items[index], &path).wrong("unit", message, "give all values in one dimension");
+            return self.on(&items[index], &path).wrong(&UNIT, message, "give all values in one dimension");
         }
         Ok(Datum::Values(values.iter().map(|(value, _)| *value).collect(), first.map(|(_, dimension)| dimension)))
     }
@@ -199,7 +202,7 @@ impl<'a> At<'a> {
         let Value::List(items) = &self.node.value else { return self.unlike() };
         if items.len() < least {
             let message = format!("`{}` must be {}, but it has {}", self.name(), words(self.kind), items.len());
-            return self.wrong("short list", message, like(self.key));
+            return self.wrong(&LIST_LENGTH, message, like(self.key));
         }
         Ok(items)
     }
@@ -217,7 +220,7 @@ impl<'a> At<'a> {
                     if free {
                         return Ok(Course::Free);
                     }
-                    return self.wrong("choice", format!("`{}` can't be \"free\" here", self.name()), "leave it out: it is free then");
+                    return self.wrong(&CHOICE, format!("`{}` can't be \"free\" here", self.name()), "leave it out: it is free then");
                 }
                 if name_is_plain(text).is_ok() { Ok(Course::Driven(Drive::Curve(text.clone()))) } else { self.unlike() }
             }
@@ -240,7 +243,7 @@ impl<'a> At<'a> {
             let path = format!("{}.{}", self.path, entry.key);
             let Some(axis) = axes.iter().position(|axis| *axis == entry.key) else {
                 let texts = (format!("`{}` has no component {}", self.name(), units::shorten(&entry.key)), help.clone());
-                wrongs.push(Wrong { kind: "unknown key", path, place: entry.place, texts });
+                wrongs.push(Wrong { kind: &UNKNOWN_KEY, path, place: entry.place, texts });
                 continue;
             };
             let dimension = if axis == 2 { Dimension::RATE } else { straight };
@@ -253,7 +256,7 @@ impl<'a> At<'a> {
             return Err(wrongs);
         }
         if entries.is_empty() {
-            return self.wrong("empty list", format!("`{}` has no component", self.name()), help);
+            return self.wrong(&LIST_LENGTH, format!("`{}` has no component", self.name()), help);
         }
         Ok(Datum::Courses(courses))
     }

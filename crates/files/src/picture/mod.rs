@@ -27,6 +27,8 @@ pub use film::{Film, FilmSettings};
 pub use mesh::mesh_png;
 pub use plots::plots;
 
+use crate::results::messages::{PICTURE, REFUSED};
+use embate_solver::message::Message;
 use raster::Canvas;
 use std::fs;
 use std::io::{BufWriter, Write};
@@ -63,6 +65,17 @@ pub enum PictureError {
     /// A film without a frame.
     #[error("the film has no frame; add at least one before it is finished")]
     Empty,
+}
+
+impl PictureError {
+    /// Its kind.
+    #[must_use]
+    pub fn kind(&self) -> &'static Message {
+        match self {
+            Self::Io { .. } => &REFUSED,
+            Self::Encode { .. } | Self::Field { .. } | Self::Empty => &PICTURE,
+        }
+    }
 }
 
 /// Writes `NAME.part` next to `path`, then renames it: a file under its final name is always whole.

@@ -8,6 +8,7 @@ mod atomic;
 mod csv;
 mod figures;
 mod folder;
+pub mod messages;
 mod handover;
 mod queue;
 mod recorder;
@@ -23,6 +24,8 @@ pub use report::{MomentumDrift, Report, RunStatus};
 pub use writer::film_settings;
 
 use crate::vtu::VtuError;
+use embate_solver::message::Message;
+use messages::{BUG, EXISTS, FRAME, NOT_A_FOLDER, REFUSED};
 use std::io::ErrorKind;
 use std::path::PathBuf;
 use thiserror::Error;
@@ -74,6 +77,18 @@ pub enum ResultsError {
 }
 
 impl ResultsError {
+    /// Its kind.
+    #[must_use]
+    pub fn kind(&self) -> &'static Message {
+        match self {
+            Self::Exists { .. } => &EXISTS,
+            Self::NotAFolder { .. } => &NOT_A_FOLDER,
+            Self::File { .. } => &REFUSED,
+            Self::Frame(_) => &FRAME,
+            Self::Panic { .. } | Self::RowLength { .. } => &BUG,
+        }
+    }
+
     pub(crate) fn file(action: &'static str, path: impl Into<PathBuf>) -> impl FnOnce(std::io::Error) -> Self {
         let path = path.into();
         move |source| Self::File { action, path, source }

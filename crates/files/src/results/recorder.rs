@@ -7,9 +7,11 @@ use super::ResultsError;
 use super::atomic::write_whole;
 use super::folder::ResultFolder;
 use super::handover::Handover;
+use super::messages::NO_PICTURES;
 use super::report::{Report, RunStatus};
 use super::writer::{Job, Writer};
 use crate::threads::Threads;
+use embate_solver::error::Notice;
 use embate_solver::model::Model;
 use embate_solver::output::{Cells, Frame, Summary};
 use embate_solver::simulation::{Control, Observer, ObserverError, Progress};
@@ -90,7 +92,7 @@ impl<'a> Recorder<'a> {
         self.handover.give(Job { rows: std::mem::take(&mut self.rows), frame: None });
         let end = self.handover.end();
         if let Some(message) = end.pictures_missing {
-            report.warnings.push(format!("pictures are missing: {message}"));
+            report.warnings.push(Notice::new(&NO_PICTURES, format!("pictures are missing: {message}")));
         }
         let closed = end.result;
 

@@ -2,6 +2,7 @@
 //!
 //! Figures come from [`Summary`]; the recorder adds status, names and times. Goes to the user, to tests and to tools.
 
+use embate_solver::error::Notice;
 use embate_solver::output::{Eroded, Summary};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -125,7 +126,13 @@ pub struct Report {
     /// Hash of positions and velocities at the end.
     pub state_hash: String,
     /// Things the user should know.
-    pub warnings: Vec<String>,
+    #[serde(serialize_with = "texts")]
+    pub warnings: Vec<Notice>,
+}
+
+/// Each as one text: code, colon, what it is.
+fn texts<S: serde::Serializer>(notices: &[Notice], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq(notices.iter().map(ToString::to_string))
 }
 
 fn erosion(erosion: &embate_solver::output::Erosion) -> Erosion {

@@ -3,6 +3,7 @@
 //! The walk: which runs (`plan.rs`, `values.rs`) -> a sound model for each of them (`prepare.rs`) -> what is noted (`outputs.rs`) -> runs, one on each thread
 //! (`run.rs`) -> a journal that outlives the program (`journal.rs`) -> table and plot (`table.rs`). The program's command `sweep` asks and tells.
 
+pub(crate) mod messages;
 mod journal;
 mod outputs;
 mod plan;
@@ -19,6 +20,9 @@ pub use run::{Advance, Ended, Running};
 use crate::model_file::Diagnostics;
 use crate::picture::PictureError;
 use crate::results::ResultsError;
+use crate::results::messages::REFUSED;
+use embate_solver::message::Message;
+use messages::{BUSY, OTHER, TABLE};
 use std::path::PathBuf;
 use thiserror::Error;
 
@@ -79,4 +83,20 @@ pub enum SweepError {
     /// The plot can't be written.
     #[error(transparent)]
     Plot(#[from] PictureError),
+}
+
+impl SweepError {
+    /// Its kind; `None` for a model, whose faults are of many.
+    #[must_use]
+    pub fn kind(&self) -> Option<&'static Message> {
+        match self {
+            Self::Model(_) => None,
+            Self::Table { .. } => Some(&TABLE),
+            Self::Other { .. } => Some(&OTHER),
+            Self::Busy { .. } => Some(&BUSY),
+            Self::Output(_) => Some(&REFUSED),
+            Self::Results(error) => Some(error.kind()),
+            Self::Plot(error) => Some(error.kind()),
+        }
+    }
 }

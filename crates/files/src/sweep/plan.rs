@@ -6,6 +6,7 @@
 use super::values::{self, Item};
 use super::{SweepError, Wrong};
 use crate::model_file::{Change, Faults, Template};
+use crate::sweep::messages::VALUES;
 use std::ops::Range;
 use std::path::Path;
 
@@ -56,7 +57,7 @@ impl Plan {
         for (index, input) in inputs.iter().enumerate() {
             if inputs[..index].iter().any(|other| other.path == input.path) {
                 let wrong = (format!("`{}` varies twice", input.path), "give all its values at once".to_string());
-                Template::fault(&mut faults, input.source, input.key.clone(), wrong);
+                Template::fault(&VALUES, &mut faults, input.source, input.key.clone(), wrong);
             }
         }
         let counts: Vec<usize> = inputs.iter().map(|input| input.items.len()).collect();
@@ -64,12 +65,12 @@ impl Plan {
         for (input, &count) in inputs.iter().zip(&counts).filter(|(_, count)| !is_factorial && **count != first) {
             let message = format!("`{}` has {count} values, but `{}` has {first}", input.path, inputs[0].path);
             let wrong = (message, "lists that go together have the same length".to_string());
-            Template::fault(&mut faults, input.source, input.key.clone(), wrong);
+            Template::fault(&VALUES, &mut faults, input.source, input.key.clone(), wrong);
         }
         let total = if is_factorial { counts.iter().try_fold(1usize, |product, count| product.checked_mul(*count)) } else { Some(first) };
         if let Some(input) = inputs.last().filter(|_| total.is_none_or(|total| total > RUNS_MAX)) {
             let wrong = (format!("these are more than {RUNS_MAX} runs"), "give fewer values".to_string());
-            Template::fault(&mut faults, input.source, input.key.clone(), wrong);
+            Template::fault(&VALUES, &mut faults, input.source, input.key.clone(), wrong);
         }
         if !faults.is_empty() {
             return Err(SweepError::Model(template.told(faults)));
@@ -107,7 +108,7 @@ fn varied(texts: &[String], template: &mut Template) -> Result<Vec<Input>, Sweep
         let source = template.add_source("--vary", text);
         match one_varied(text, source) {
             Ok(input) => inputs.push(input),
-            Err((place, wrong)) => Template::fault(&mut faults, source, place, wrong),
+            Err((place, wrong)) => Template::fault(&VALUES, &mut faults, source, place, wrong),
         }
     }
     if faults.is_empty() { Ok(inputs) } else { Err(SweepError::Model(template.told(faults))) }
@@ -131,7 +132,7 @@ fn tabled(file: &Path, template: &mut Template) -> Result<Vec<Input>, SweepError
     let rows = values::table(template.source(source));
     let Some((header, rows)) = rows.split_first().filter(|(_, rows)| !rows.is_empty()) else {
         let wrong = ("the table has no row".to_string(), "its first line names keys, each further line is a run".to_string());
-        Template::fault(&mut faults, source, 0..0, wrong);
+        Template::fault(&VALUES, &mut faults, source, 0..0, wrong);
         return Err(SweepError::Model(template.told(faults)));
     };
     let mut inputs: Vec<Input> = Vec::new();
@@ -145,13 +146,19 @@ fn tabled(file: &Path, template: &mut Template) -> Result<Vec<Input>, SweepError
         if row.len() != header.len() {
             let place = row.first().map_or(0..0, |first| first.place.start..row.last().map_or(first.place.end, |last| last.place.end));
             let message = format!("this row has {} values for {} keys", row.len(), header.len());
-            Template::fault(&mut faults, source, place, (message, "values with a comma in them stand in double quotes".to_string()));
+            Template::fault(
+                &VALUES,
+                &mut faults,
+                source,
+                place,
+                (message, "values with a comma in them stand in double quotes".to_string()),
+            );
             continue;
         }
         for ((input, unit), field) in inputs.iter_mut().zip(&units).zip(row) {
             if field.text.is_empty() {
                 let wrong = (format!("`{}` has no value here", input.path), "every run needs a value for every key".to_string());
-                Template::fault(&mut faults, source, field.place.clone(), wrong);
+                Template::fault(&VALUES, &mut faults, source, field.place.clone(), wrong);
             }
             input.items.push(values::with_unit(field, unit));
         }

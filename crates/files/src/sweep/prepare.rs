@@ -7,6 +7,7 @@ use super::plan::{Plan, Request};
 use super::{Keep, SweepError};
 use crate::model_file::{Diagnostics, Faults, Template};
 use crate::results::Report;
+use crate::sweep::messages::WANTED;
 use crate::verification::Samples;
 use embate_solver::error::Error;
 use embate_solver::model::Model;
@@ -73,7 +74,7 @@ impl Sweep {
                     None => missing.push(output), // a usual one, which not all runs have
                     Some(source) => {
                         let mut faults = Faults::default();
-                        Template::fault(&mut faults, *source, 0..sweep.template.source(*source).len(), wrong);
+                        Template::fault(&WANTED, &mut faults, *source, 0..sweep.template.source(*source).len(), wrong);
                         found.push((run + 1, sweep.template.told(faults)));
                     }
                 }
@@ -120,7 +121,7 @@ impl Sweep {
                     sources.push(source);
                     self.outputs.push(output);
                 }
-                Err(wrong) => Template::fault(&mut faults, source, 0..text.len(), wrong),
+                Err(wrong) => Template::fault(&WANTED, &mut faults, source, 0..text.len(), wrong),
             }
         }
         (sources, faults)

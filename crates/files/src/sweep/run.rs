@@ -273,10 +273,7 @@ fn report(
 
 /// An error on one line: a cell of the table.
 fn told(error: &Error) -> String {
-    first_line(&match error {
-        Error::Model(faults) if !faults.is_empty() => format!("{}: {}", faults[0].path, faults[0].message),
-        error => error.to_string(),
-    })
+    first_line(&error.with_code())
 }
 
 fn first_line(text: &str) -> String {

@@ -5,6 +5,7 @@
 //! command `verify` prints them.
 
 mod case;
+pub(crate) mod messages;
 mod describe;
 mod judge;
 mod quantity;

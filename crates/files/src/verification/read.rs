@@ -6,6 +6,7 @@
 use super::case::{Accepted, Case, Check, Combination, How, Place, Quantity, Source, TAKES, Take, Tier, With};
 use super::describe::EXPECTED;
 use crate::model_file::{self, Described, Diagnostics, Document, Faults, Record};
+use crate::verification::messages::{CASE, UNJUDGED};
 use embate_solver::model::Model;
 use embate_solver::model::describe::suggestion;
 use std::collections::{BTreeMap, BTreeSet};
@@ -58,7 +59,7 @@ fn variants(document: &Document, files: &[String], faults: &mut Faults) -> BTree
         }
         if files.contains(&record.name) {
             let texts = (format!("there is a model file `{}.toml` too", record.name), "give the variant another name".to_string());
-            faults.beside("variant", &record.path, None, texts);
+            faults.beside(&CASE, &record.path, None, texts);
         }
         variants.insert(record.name.clone(), Variant { model, set: record.texts("set") });
     }
@@ -76,7 +77,7 @@ fn known<'a>(files: &'a [String], variants: &'a BTreeMap<String, Variant>) -> Ve
 fn unknown(record: &Record, key: &str, name: &str, known: &[&str], faults: &mut Faults) {
     let texts = (format!("there is no model `{name}` in this folder"), suggestion(name, known));
     let path = record.key(key);
-    faults.beside("model", if record.written(key).is_some() { &path } else { &record.path }, None, texts);
+    faults.beside(&CASE, if record.written(key).is_some() { &path } else { &record.path }, None, texts);
 }
 
 /// Every name of a model must mean something, and every model file and variant must be named.
@@ -105,7 +106,7 @@ fn names(document: &Document, files: &[String], variants: &BTreeMap<String, Vari
     for unused in all.iter().filter(|name| !used.contains(**name)) {
         let path = if variants.contains_key(*unused) { format!("variant.{unused}") } else { String::new() };
         let texts = (format!("no check names the model `{unused}`"), "check something of it, or take it away".to_string());
-        faults.beside("unused", &path, None, texts);
+        faults.beside(&CASE, &path, None, texts);
     }
 }
 
@@ -139,11 +140,11 @@ fn accepted(record: &Record, faults: &mut Faults) -> Accepted {
     match given.as_slice() {
         ["tolerance_relative"] if expected == 0.0 => {
             let texts = ("a fraction of an expected 0 is 0".to_string(), "give `tolerance`, in SI units".to_string());
-            faults.beside("rule", &record.key("tolerance_relative"), None, texts);
+            faults.beside(&UNJUDGED, &record.key("tolerance_relative"), None, texts);
         }
         [_] => {}
-        [] => faults.beside("rule", &record.path, None, ("`expect` has no tolerance".to_string(), help)),
-        [_, second, ..] => faults.beside("rule", &record.key(second), None, ("`expect` has more than one tolerance".to_string(), help)),
+        [] => faults.beside(&UNJUDGED, &record.path, None, ("`expect` has no tolerance".to_string(), help)),
+        [_, second, ..] => faults.beside(&UNJUDGED, &record.key(second), None, ("`expect` has more than one tolerance".to_string(), help)),
     }
     match (given.first(), record.table("converges")) {
         (Some(&"converges"), Some(table)) => {
@@ -167,7 +168,7 @@ fn quantity(record: &Record, faults: &mut Faults) -> Quantity {
     };
     for key in ["take", "at", "from", "to", "level", "part", "box", "nearest"].iter().filter(|key| has(key) && !allowed.contains(key)) {
         let texts = (format!("`{key}` means nothing with `{source}`"), "leave it out".to_string());
-        faults.beside("rule", &record.key(key), None, texts);
+        faults.beside(&UNJUDGED, &record.key(key), None, texts);
     }
     let name = record.text(source);
     let source = match *source {
@@ -175,7 +176,7 @@ fn quantity(record: &Record, faults: &mut Faults) -> Quantity {
             for key in ["take", "level"].iter().filter(|key| has(key)) {
                 let texts =
                     (format!("`{key}` means nothing with `at`: a column has one value at a time"), "leave one of them out".to_string());
-                faults.beside("rule", &record.key(key), None, texts);
+                faults.beside(&UNJUDGED, &record.key(key), None, texts);
             }
             Source::HistoryAt(name, record.number("at").unwrap_or(f64::NAN))
         }
@@ -194,14 +195,14 @@ fn history(record: &Record, column: String, faults: &mut Faults) -> Source {
             true => (format!("`{}` needs no level", take.name), "leave `level` out".to_string()),
             false => (format!("`{}` needs `level`", take.name), "add the level, in SI units".to_string()),
         };
-        faults.beside("rule", &record.path, None, texts);
+        faults.beside(&UNJUDGED, &record.path, None, texts);
     }
     let during = ["from", "to"].map(|key| record.written(key).and(record.number(key)));
     if let [Some(begin), Some(end)] = during
         && begin >= end
     {
         let texts = (format!("`to` is {end} s, not later than `from`, {begin} s"), "give begin and end".to_string());
-        faults.beside("rule", &record.key("to"), None, texts);
+        faults.beside(&UNJUDGED, &record.key("to"), None, texts);
     }
     Source::History { column, take, during, level: record.number("level").unwrap_or(f64::NAN) }
 }
@@ -229,9 +230,9 @@ fn taken(record: &Record, source: &str, missing: &str, fits: impl Fn(&Take) -> b
     let fitting: Vec<String> = TAKES.iter().filter(|take| fits(take)).map(|take| format!("`{}`", take.name)).collect();
     let help = format!("a {source} has {}", fitting.join(", "));
     if record.written("take").is_none() {
-        faults.beside("rule", &record.path, None, (format!("a {source} has many values: give {missing}"), help));
+        faults.beside(&UNJUDGED, &record.path, None, (format!("a {source} has many values: give {missing}"), help));
     } else if !name.is_empty() && !fits(take) {
-        faults.beside("rule", &record.key("take"), None, (format!("`{name}` can't be taken of a {source}"), help));
+        faults.beside(&UNJUDGED, &record.key("take"), None, (format!("`{name}` can't be taken of a {source}"), help));
     }
     take
 }

@@ -7,6 +7,7 @@ use super::case::{Case, Quantity, Source};
 use super::quantity::Samples;
 use crate::model_file::{Diagnostics, Faults};
 use crate::results::{Recorder, Report, ResultFolder, ResultsError};
+use crate::verification::messages::QUANTITY;
 use embate_solver::error::Error;
 use embate_solver::model::Model;
 use embate_solver::output::Frame;
@@ -63,7 +64,7 @@ impl Case {
                 if let Err((key, message, help)) = samples.examine(&quantity.source, model.run.end) {
                     let path = format!("{}.{key}", quantity.path);
                     if !faults.covers(&path) {
-                        faults.beside("quantity", &path, None, (format!("{message} (model `{name}`)"), help));
+                        faults.beside(&QUANTITY, &path, None, (format!("{message} (model `{name}`)"), help));
                         faults.cover(&path);
                     }
                 }
@@ -106,7 +107,7 @@ impl Case {
             }
         };
         let mut gathering = Gathering { samples, recorder, on_progress, is_stopped: false };
-        let error = simulation.run(&mut gathering).err().map(|error| error.to_string());
+        let error = simulation.run(&mut gathering).err().map(|error| error.with_code());
         let Gathering { mut samples, recorder, is_stopped, .. } = gathering;
         let summary = simulation.summary();
         samples.summary = Report::of(&summary, &model.name, &[]).value();

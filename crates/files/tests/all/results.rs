@@ -91,7 +91,8 @@ fn record(folder: &Path, on_progress: OnProgress<'_>, error: Option<&str>) -> Ou
         recorder.frame(frame(step)).unwrap();
         recorder.row(&[step as f64 * 1e-4, 5.0]).unwrap();
         done = step;
-        let progress = Progress { step, time: step as f64 * 1e-4, end: 1e-3, time_step: 1e-4, governor: "x", energy_drift: 0.0 };
+        let progress =
+            Progress { step, time: step as f64 * 1e-4, end: 1e-3, time_step: 1e-4, governor: "x", energy_drift: 0.0, notices: &[] };
         if recorder.progress(&progress) == Control::Stop {
             break;
         }

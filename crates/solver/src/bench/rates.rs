@@ -4,6 +4,7 @@ use super::bodies::{Patch, material, spinning_block};
 use crate::block::{BlockInput, Motion, make};
 use crate::error::{Error, Fault};
 use crate::model::Model;
+use crate::model::messages::UNKNOWN_NAME;
 use crate::simulation::{Options, Simulation};
 use embate_lanes::{Level, Team};
 use std::hint::black_box;
@@ -37,7 +38,7 @@ pub fn best_rate(seconds: f64, mut work: impl FnMut() -> f64) -> f64 {
 pub fn kernel(element: &str, law: &str, patch: &Patch, level: Level, seconds: f64) -> Result<f64, Error> {
     let material = material(law);
     let input = BlockInput::new(element, &material, &patch.connectivity, &patch.positions);
-    let unknown = || Error::Model(vec![Fault::new("", format!("there is no block of `{element}` with `{law}`"), "")]);
+    let unknown = || Error::Model(vec![Fault::new(&UNKNOWN_NAME, "", format!("there is no block of `{element}` with `{law}`"), "")]);
     let mut block = make(&input).ok_or_else(unknown)?;
     let (mut slots, mut team) = (vec![[0.0; 2]; block.slots().len()], Team::alone());
     let motion = Motion { positions: &patch.positions, velocities: &patch.velocities, time_step: 1e-7 };

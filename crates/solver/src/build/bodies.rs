@@ -3,6 +3,7 @@
 use super::Builder;
 use crate::error::Fault;
 use crate::load::curve::Speed;
+use crate::load::messages::RIGID;
 use crate::mesh::PartMesh;
 use crate::model::{Motion, Part};
 use crate::rigid::{Body, Member};
@@ -75,7 +76,7 @@ impl Builder<'_> {
             if let Some((node, other)) = taken {
                 let other = self.body_parts.iter().find(|(_, body)| *body == other).map_or("", |&(part, _)| &model.parts[part].name);
                 let message = format!("rigid parts \"{other}\" and \"{}\" share the node at {}", part.name, self.place(node));
-                self.faults.push(Fault::new(format!("part[{i}].rigid"), message, "make them one part, or mesh them apart"));
+                self.faults.push(Fault::new(&RIGID, format!("part[{i}].rigid"), message, "make them one part, or mesh them apart"));
                 continue;
             }
             // It can't leave the axis: nothing moves it along x.
@@ -86,13 +87,13 @@ impl Builder<'_> {
                 let message =
                     format!("part \"{}\" is rigid, but a symmetry line or a constraint holds its node at {}", part.name, self.place(node));
                 let help = "let `rigid` of the part say how it moves, and take it out of the symmetry (`parts`) or the constraint";
-                self.faults.push(Fault::new(format!("part[{i}].rigid"), message, help));
+                self.faults.push(Fault::new(&RIGID, format!("part[{i}].rigid"), message, help));
                 continue;
             }
             if let Some(&node) = nodes.iter().find(|&&node| self.joins.of_node(node).is_some()) {
                 let message = format!("part \"{}\" is rigid, but a join binds its node at {}", part.name, self.place(node));
                 let help = "leave it out of the join; a tied contact binds others to rigid parts";
-                self.faults.push(Fault::new(format!("part[{i}].rigid"), message, help));
+                self.faults.push(Fault::new(&RIGID, format!("part[{i}].rigid"), message, help));
                 continue;
             }
             let body = self.rigid_part(&self.mesh.parts[i], part, motion, &part_mass[i]);

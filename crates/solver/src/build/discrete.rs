@@ -3,7 +3,9 @@
 use super::Builder;
 use crate::block::spring::SpringBlock;
 use crate::error::Fault;
+use crate::load::messages::TO_ITSELF;
 use crate::model::Spring;
+use crate::model::messages::UNKNOWN_NAME;
 
 impl Builder<'_> {
     /// Adds point masses to the parts of their nodes: of a node of several parts to the first.
@@ -31,7 +33,7 @@ impl Builder<'_> {
                 Err(node) => {
                     let [x, y] = self.mesh.positions[node as usize];
                     let message = format!("the node at ({x:.6e}, {y:.6e}) m is in both sets, so its spring would bind it to itself");
-                    self.faults.push(Fault::new(format!("spring[{index}].between"), message, "name sets without common nodes"));
+                    self.faults.push(Fault::new(&TO_ITSELF, format!("spring[{index}].between"), message, "name sets without common nodes"));
                 }
             }
         }
@@ -47,7 +49,7 @@ impl Builder<'_> {
         let nodes = self.mesh.nodes(name).filter(|nodes| !nodes.is_empty());
         if nodes.is_none() {
             let message = format!("there is nothing called \"{name}\"");
-            self.faults.push(Fault::new(path, message, "name a part, a side as part.side, or a group of a mesh file"));
+            self.faults.push(Fault::new(&UNKNOWN_NAME, path, message, "name a part, a side as part.side, or a group of a mesh file"));
         }
         nodes
     }

@@ -4,6 +4,7 @@ use super::Builder;
 use crate::block::Block;
 use crate::error::Fault;
 use crate::failure::{self, Criterion};
+use crate::material::messages::CRITERION;
 
 impl Builder<'_> {
     /// The criteria of each group of elements; none where the part is rigid. Notes faults where a law does not remember what a criterion needs.
@@ -22,6 +23,7 @@ impl Builder<'_> {
                 if kind.needs.is_some_and(|variable| !block.has(variable)) {
                     let message = format!("law `{}` has no {}", material.law, name.replace('_', " "));
                     let fault = Fault::new(
+                        &CRITERION,
                         format!("material.{}.failure.{name}", part.material),
                         message,
                         "take another criterion, or a law that has it",

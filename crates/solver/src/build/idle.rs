@@ -3,6 +3,7 @@
 //! From the model and its mesh: what is joined by elements is one body, and a body is idle if none of its nodes is named by anything that could bring a force or a motion
 //! to it, and nothing in it moves or is strained at the start.
 
+use crate::contact::messages::IDLE;
 use crate::error::Warning;
 use crate::mesh::Mesh;
 use crate::model::{Constraint, Drive, Load, Model, Part, Partners};
@@ -21,6 +22,7 @@ pub(super) fn warnings(model: &Model, mesh: &Mesh<2>, body_of_node: &[u32]) -> V
     }
     let idle = |nodes: &[u32]| nodes.iter().all(|&node| !acted[body_of_node[node as usize] as usize]);
     let warning = |(index, part): (usize, &Part)| Warning {
+        kind: &IDLE,
         path: format!("part[{index}]"),
         message: format!("nothing acts on part `{}`: no contact, obstacle, join, spring, load or motion has to do with it", part.name),
         consequence: "it stays as it is, and other parts go through it".into(),

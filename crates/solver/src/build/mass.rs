@@ -3,6 +3,7 @@
 use super::Builder;
 use crate::block::{Block, Motion};
 use crate::error::Fault;
+use crate::error::MASS_SCALING;
 use crate::mesh::Mesh;
 use embate_lanes::{Level, Team};
 
@@ -49,6 +50,7 @@ impl Builder<'_> {
                 100.0 * scaling.limit
             );
             self.faults.push(Fault::new(
+                &MASS_SCALING,
                 "run.mass_scaling.time_step",
                 message,
                 "take a smaller step, mend the smallest elements, or raise `limit`",

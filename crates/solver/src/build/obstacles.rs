@@ -2,6 +2,7 @@
 
 use super::{Builder, Outlined, search_by_name, stiffness_of, terms_of};
 use crate::contact::formulation::Side;
+use crate::contact::messages::OBSTACLE;
 use crate::contact::node_segment::{NodeSegment, Slave};
 use crate::contact::obstacle::circle::{Circle, RoundSegments};
 use crate::contact::obstacle::plane::Plane;
@@ -13,6 +14,7 @@ use crate::error::Fault;
 use crate::load::constraint::unit;
 use crate::load::tributary::Depth;
 use crate::mesh::surface::{NONE, Surface};
+use crate::model::messages::NO_DIRECTION;
 use crate::model::{Obstacle, ObstacleShape};
 use crate::rigid::{Body, Member};
 use std::f64::consts::TAU;
@@ -241,7 +243,8 @@ fn seen(point: Vector, from: Vector) -> Vector {
 
 /// A plane around `middle` or, without a length, through it; `spacing` of the nodes that meet it, m.
 pub(super) fn plane(middle: Vector, normal: Vector, length: Option<f64>, thickness: f64, spacing: f64) -> Result<Plane, Fault> {
-    let normal = unit(normal).ok_or_else(|| Fault::new(".plane.normal", "it has no direction", "give a vector such as [1, 0]"))?;
+    let normal =
+        unit(normal).ok_or_else(|| Fault::new(&NO_DIRECTION, ".plane.normal", "it has no direction", "give a vector such as [1, 0]"))?;
     Ok(Plane { middle, normal, half: length.map_or(f64::INFINITY, |length| 0.5 * length), thickness, shallow: SKIN * spacing })
 }
 
@@ -250,7 +253,7 @@ pub(super) fn circle(middle: Vector, radius: f64, hollow: bool, thickness: f64) 
     let pushed = if hollow { radius - thickness } else { radius + thickness };
     if !(pushed > 0.0) {
         let message = format!("the thickness of {thickness} m leaves nothing of the hollow circle with a radius of {radius} m");
-        return Err(Fault::new(".circle.radius", message, "take a smaller thickness or a larger circle"));
+        return Err(Fault::new(&OBSTACLE, ".circle.radius", message, "take a smaller thickness or a larger circle"));
     }
     Ok(Circle { middle, radius: pushed, hollow })
 }

@@ -5,6 +5,7 @@
 
 use super::tracker::{Touch, Tracker};
 use super::{Sweep, Vector};
+use crate::contact::messages::PENETRATION;
 use crate::error::Fault;
 use crate::load::constraint::Constraints;
 use crate::model::{InitialPenetration, Interface};
@@ -41,10 +42,10 @@ impl Penetration {
 #[must_use]
 pub fn faults(path: &str, name: &str, found: &[Penetration]) -> Vec<Fault> {
     let help = "move the bodies apart, or set `initial_penetration` to \"push_out\" or \"ignore\"";
-    let one = |penetration: &Penetration| Fault::new(path, format!("\"{name}\": {}", penetration.line()), help);
+    let one = |penetration: &Penetration| Fault::new(&PENETRATION, path, format!("\"{name}\": {}", penetration.line()), help);
     let mut faults: Vec<Fault> = found.iter().take(TOLD).map(one).collect();
     if found.len() > TOLD {
-        faults.push(Fault::new(path, format!("\"{name}\": and {} more nodes are inside", found.len() - TOLD), help));
+        faults.push(Fault::new(&PENETRATION, path, format!("\"{name}\": and {} more nodes are inside", found.len() - TOLD), help));
     }
     faults
 }

@@ -5,6 +5,7 @@
 //! of all contacts and obstacles together, [`Contact::collect`] what they sum up to.
 
 pub mod search;
+pub(crate) mod messages;
 pub mod projection;
 pub mod tracker;
 pub mod initial;

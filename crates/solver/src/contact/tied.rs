@@ -14,6 +14,7 @@ use super::search::{Query, Search};
 use super::springs::{Answers, Spring, Springs};
 use super::tracker::{Certificate, SearchReport};
 use super::{Formulation, Scene, Vector, length};
+use crate::contact::messages::TIE;
 use crate::error::Fault;
 use std::any::Any;
 
@@ -92,7 +93,7 @@ impl Tied {
                 let (first, second) = [("first", "second"), ("second", "first")][slave];
                 let message =
                     format!("it binds nothing: no node of the {first} surface is within 5 % of a segment's length of the {second}");
-                return Err(Fault::new("tied", message, "let the surfaces touch, raise `thickness`, or leave `tied` out"));
+                return Err(Fault::new(&TIE, "tied", message, "let the surfaces touch, raise `thickness`, or leave `tied` out"));
             }
         }
         Ok(tied)

@@ -5,7 +5,9 @@ use super::curve::{Curves, Meaning, Speed};
 use super::join::{Joins, back};
 use super::non_reflecting::{Matrix, times};
 use crate::error::Fault;
+use crate::load::messages::{HELD_TWICE, OFF_SYMMETRY};
 use crate::mesh::Mesh;
+use crate::model::messages::UNKNOWN_NAME;
 use crate::model::{Constraint, Model, Symmetry};
 use crate::rigid::chord;
 
@@ -192,6 +194,7 @@ impl Constraints<2> {
         let nodes = on_line(symmetry, normal, place.mesh);
         if nodes.is_empty() {
             faults.push(Fault::new(
+                &OFF_SYMMETRY,
                 &found.path,
                 "no node lies on this symmetry line",
                 "move the line or the bodies; nodes must lie on it within 1e-9 of the model's size",
@@ -210,6 +213,7 @@ impl Constraints<2> {
         self.conditions.push(format!("constraint[{i}] on \"{}\"", constraint.on));
         let Some(nodes) = place.mesh.nodes(&constraint.on) else {
             faults.push(Fault::new(
+                &UNKNOWN_NAME,
                 format!("{}.on", found.path),
                 format!("there is nothing called \"{}\"", constraint.on),
                 "name a part, a side as part.side, or a group",
@@ -386,14 +390,14 @@ impl Telling {
         self.count += 1;
         if self.count <= TOLD {
             let message = format!("the node at ({x:.6e}, {y:.6e}) m {shall}, but {others} {does}");
-            self.faults.push(Fault::new(&self.path, message, "take the node out of one of the two"));
+            self.faults.push(Fault::new(&HELD_TWICE, &self.path, message, "take the node out of one of the two"));
         }
     }
 
     fn tell(self, faults: &mut Vec<Fault>) {
         faults.extend(self.faults);
         if self.count > TOLD {
-            faults.push(Fault::new(self.path, format!("and so on at {} more nodes", self.count - TOLD), ""));
+            faults.push(Fault::new(&HELD_TWICE, self.path, format!("and so on at {} more nodes", self.count - TOLD), ""));
         }
     }
 }

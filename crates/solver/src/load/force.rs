@@ -9,6 +9,7 @@ use super::curve::Curves;
 use super::tributary::Depth;
 use crate::error::Fault;
 use crate::mesh::Mesh;
+use crate::model::messages::UNKNOWN_NAME;
 use crate::model::{Load, Model};
 
 type Vector = [f64; 2];
@@ -118,7 +119,12 @@ impl Forces {
 fn given(mesh: &Mesh<2>, on: &str, force: Vector, depth: Depth, is_mirror: &impl Fn([u32; 2]) -> bool) -> Result<What, Fault> {
     let nodes = mesh.nodes(on).filter(|nodes| !nodes.is_empty());
     let Some(nodes) = nodes else {
-        return Err(Fault::new("", format!("there is nothing called \"{on}\""), "name a side as part.side, or a group of a mesh file"));
+        return Err(Fault::new(
+            &UNKNOWN_NAME,
+            "",
+            format!("there is nothing called \"{on}\""),
+            "name a side as part.side, or a group of a mesh file",
+        ));
     };
     let mut shares: Vec<(u32, f64)> = nodes.into_iter().map(|node| (node, 0.0)).collect();
     // A group of lines inside a body is no surface: its nodes are equal.

@@ -7,7 +7,9 @@
 //! so a join does no work. A node that is its own image by a rotation (the tip of a sector) can't move; it is held.
 
 use crate::error::Fault;
+use crate::load::messages::NO_PARTNER;
 use crate::mesh::Mesh;
+use crate::model::messages::UNKNOWN_NAME;
 use crate::model::{Image, Join, Model};
 use crate::rigid::cos_sin;
 
@@ -194,6 +196,7 @@ fn link(path: &str, join: &Join, mesh: &Mesh<2>, links: &mut Vec<Link>, faults: 
         match mesh.nodes(name).filter(|nodes| !nodes.is_empty()) {
             Some(nodes) => sets.push(nodes),
             None => faults.push(Fault::new(
+                &UNKNOWN_NAME,
                 format!("{path}.between[{side}]"),
                 format!("there is nothing called \"{name}\""),
                 "name a part, a side as part.side, or a group",
@@ -272,12 +275,18 @@ fn tell(path: &str, join: &Join, lonely: &[Lonely], mesh: &Mesh<2>, faults: &mut
             pair.distance
         );
         faults.push(Fault::new(
+            &NO_PARTNER,
             format!("{path}.between"),
             message,
             "mesh the two alike, or give a larger `tolerance`; a tied contact joins meshes that differ",
         ));
     }
     if lonely.len() > TOLD {
-        faults.push(Fault::new(format!("{path}.between"), format!("and {} more nodes without a partner", lonely.len() - TOLD), ""));
+        faults.push(Fault::new(
+            &NO_PARTNER,
+            format!("{path}.between"),
+            format!("and {} more nodes without a partner", lonely.len() - TOLD),
+            "",
+        ));
     }
 }

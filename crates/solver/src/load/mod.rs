@@ -9,5 +9,6 @@ pub mod curve;
 pub mod damping;
 pub mod force;
 pub mod join;
+pub(crate) mod messages;
 pub mod non_reflecting;
 pub mod tributary;

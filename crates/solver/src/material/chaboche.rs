@@ -14,6 +14,8 @@ use super::{
     DENSITY, Family, Kinematics, Law, LawKind, POISSON, ParameterFault, Parameters, Response, Softening, State, Tensors, Variable, YOUNG,
     bulk_and_shear,
 };
+use crate::material::messages::PARAMETERS;
+use crate::model::messages::LIST_LENGTH;
 use crate::quantity::{Dimension, Parameter, Range};
 use crate::tensor::SymmetricTensor;
 use embate_lanes::Lane;
@@ -112,6 +114,7 @@ impl Law for Chaboche {
         let (moduli, recalls) = (parameters.list("backstress_modulus"), parameters.list("backstress_recall"));
         if !recalls.is_empty() && recalls.len() != moduli.len() {
             return vec![ParameterFault {
+                kind: &LIST_LENGTH,
                 name: "backstress_recall",
                 message: format!("there are {} recalls for {} backstress moduli", recalls.len(), moduli.len()),
                 help: "give one for each backstress, 0 for one that doesn't fade".into(),
@@ -120,6 +123,7 @@ impl Law for Chaboche {
         let (gain, yield_stress) = (parameters.value("isotropic_stress"), parameters.value("yield"));
         if gain <= -yield_stress {
             return vec![ParameterFault {
+                kind: &PARAMETERS,
                 name: "isotropic_stress",
                 message: format!("softening by {:.4e} Pa leaves nothing of the yield stress of {yield_stress:.4e} Pa", -gain),
                 help: "take more than `-yield`".into(),

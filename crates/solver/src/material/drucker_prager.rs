@@ -10,6 +10,7 @@
 
 use super::trial::Trial;
 use super::{DENSITY, Family, Kinematics, Law, LawKind, POISSON, ParameterFault, Parameters, Response, Variable, YOUNG, bulk_and_shear};
+use crate::material::messages::PARAMETERS;
 use crate::quantity::{Dimension, Parameter, Range};
 use crate::tensor::SymmetricTensor;
 use embate_lanes::Lane;
@@ -72,15 +73,17 @@ impl Law for DruckerPrager {
         let (friction, dilation) = (parameters.value("friction_angle"), parameters.value("dilation_angle"));
         if friction >= std::f64::consts::FRAC_PI_2 {
             return vec![ParameterFault {
+                kind: &PARAMETERS,
                 name: "friction_angle",
                 message: format!("the angle of friction is {:.1} deg", friction.to_degrees()),
-                help: "it lies below 90 deg; a plain number is in radians, write \"30 deg\"".into(),
+                help: "it lies below 90 deg; the number is in radians, 30 deg are 0.5236".into(),
             }];
         }
         if dilation <= friction {
             return Vec::new();
         }
         vec![ParameterFault {
+            kind: &PARAMETERS,
             name: "dilation_angle",
             message: "the angle of dilation is larger than that of friction, so that flow would make energy".into(),
             help: "take at most `friction_angle`; often a quarter of it, or 0".into(),

@@ -54,6 +54,10 @@ impl<H: Hardening> Law for J2With<H> {
         faults
     }
 
+    fn table_end(parameters: &Parameters<'_>) -> Option<f64> {
+        H::end(parameters)
+    }
+
     fn softening(parameters: &Parameters<'_>) -> Option<Softening> {
         let (name, slope, gone_at) = H::falling(parameters)?;
         Some(Softening::von_mises(name, slope, gone_at, bulk_and_shear(parameters)))

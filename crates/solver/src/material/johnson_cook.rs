@@ -11,6 +11,8 @@
 use super::hardening::{Flow, Power, YIELD};
 use super::trial::{LIMIT, Newton, Trial};
 use super::{DENSITY, Family, Kinematics, Law, LawKind, POISSON, ParameterFault, Parameters, Response, Variable, YOUNG, bulk_and_shear};
+use crate::material::messages::PARAMETERS;
+use crate::model::messages::LIST_LENGTH;
 use crate::quantity::{Dimension, Parameter, Range};
 use crate::tensor::SymmetricTensor;
 use embate_lanes::{Lane, math};
@@ -131,6 +133,7 @@ impl Law for JohnsonCook {
         let mut faults = Vec::new();
         if parameters.value("temperature_melt") <= parameters.value("temperature_reference") {
             faults.push(ParameterFault {
+                kind: &PARAMETERS,
                 name: "temperature_melt",
                 message: "the melting point is not above the reference temperature".into(),
                 help: "temperatures are absolute, in kelvin".into(),
@@ -139,6 +142,7 @@ impl Law for JohnsonCook {
         let constants = parameters.list("damage").len();
         if constants != 0 && constants != CONSTANTS {
             faults.push(ParameterFault {
+                kind: &LIST_LENGTH,
                 name: "damage",
                 message: format!("the damage has five constants, here are {constants}"),
                 help: "give D1 to D5, zeros for those that are not known; or leave `damage` out".into(),

@@ -7,6 +7,7 @@
 pub mod eos;
 pub mod hardening;
 mod parameters;
+pub(crate) mod messages;
 pub mod points;
 mod rubber;
 mod softening;
@@ -19,6 +20,7 @@ pub use parameters::{BULK, DENSITY, POISSON, ParameterFault, Parameters, YOUNG, 
 pub use softening::Softening;
 pub use state::{Orientation, State, Tensors, Variable};
 
+use crate::message::Message;
 use crate::quantity::Parameter;
 use crate::tensor::{Solid, SymmetricTensor};
 use embate_lanes::Lane;
@@ -112,6 +114,9 @@ pub trait Law: Copy + Send + Sync + 'static {
     /// Whether it has no pressure of its own.
     const NEEDS_EQUATION_OF_STATE: bool = false;
 
+    /// Kinds of messages that it alone tells.
+    const MESSAGES: &'static [&'static Message] = &[];
+
     /// Reads its parameters, which have been checked against [`Law::KIND`].
     fn new(parameters: &Parameters<'_>) -> Self;
 
@@ -122,6 +127,11 @@ pub trait Law: Copy + Send + Sync + 'static {
 
     /// How its flow stress falls with plastic strain; `None` where it does not.
     fn softening(_parameters: &Parameters<'_>) -> Option<Softening> {
+        None
+    }
+
+    /// Plastic strain at which the table of its flow stress ends; `None` where it has none.
+    fn table_end(_parameters: &Parameters<'_>) -> Option<f64> {
         None
     }
 
@@ -165,6 +175,8 @@ macro_rules! laws {
         /// Every law, in the order in which it is listed.
         pub const LAWS: &[LawKind] = &[$($(<$law as Law>::KIND),+),*];
 
+        const OF_LAWS: &[&[&Message]] = &[$($(<$law as Law>::MESSAGES),+),*];
+
         /// Calls `visitor` with the law called `name`; `None` when there is none.
         pub fn with_law<V: LawVisitor>(name: &str, visitor: V) -> Option<V::Output> {
             match name {
@@ -192,6 +204,11 @@ laws! {
     null: Null;
 }
 
+/// Kinds of messages that laws alone tell.
+pub(crate) fn messages() -> impl Iterator<Item = &'static Message> {
+    OF_LAWS.iter().flat_map(|of_law| of_law.iter().copied())
+}
+
 /// What the law called `name` finds wrong with parameters whose ranges are right.
 #[must_use]
 pub fn faults(name: &str, parameters: &Parameters<'_>) -> Vec<ParameterFault> {
@@ -213,6 +230,19 @@ pub fn softening(name: &str, parameters: &Parameters<'_>) -> Option<Softening> {
         type Output = Option<Softening>;
         fn visit<M: Law>(self) -> Self::Output {
             M::softening(self.0)
+        }
+    }
+    with_law(name, Ask(parameters)).flatten()
+}
+
+/// Plastic strain at which the table of the law called `name` ends; `None` where it has none. Parameters are sound.
+#[must_use]
+pub fn table_end(name: &str, parameters: &Parameters<'_>) -> Option<f64> {
+    struct Ask<'a>(&'a Parameters<'a>);
+    impl LawVisitor for Ask<'_> {
+        type Output = Option<f64>;
+        fn visit<M: Law>(self) -> Self::Output {
+            M::table_end(self.0)
         }
     }
     with_law(name, Ask(parameters)).flatten()

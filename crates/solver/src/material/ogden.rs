@@ -14,6 +14,8 @@
 
 use super::rubber::Volume;
 use super::{BULK, DENSITY, Family, Kinematics, Law, LawKind, ParameterFault, Parameters, Response};
+use crate::material::messages::UNSTABLE_RUBBER;
+use crate::model::messages::LIST_LENGTH;
 use crate::quantity::{Dimension, Parameter, Range};
 use crate::tensor::SymmetricTensor;
 use embate_lanes::{Lane, math};
@@ -55,11 +57,12 @@ impl Law for Ogden {
         let (moduli, exponents) = (parameters.list("mu"), parameters.list("alpha"));
         if moduli.len() != exponents.len() {
             let message = format!("{} exponents for {} moduli", exponents.len(), moduli.len());
-            return vec![ParameterFault { name: "alpha", message, help: "give one exponent to each modulus".into() }];
+            return vec![ParameterFault { kind: &LIST_LENGTH, name: "alpha", message, help: "give one exponent to each modulus".into() }];
         }
         let pairs = moduli.iter().zip(exponents).enumerate();
         let wrong = pairs.filter(|(_, (mu, alpha))| *mu * *alpha <= 0.0 || alpha.abs() > 60.0);
         let fault = |(k, (mu, alpha)): (usize, (&f64, &f64))| ParameterFault {
+            kind: &UNSTABLE_RUBBER,
             name: "mu",
             message: format!(
                 "term {} has mu = {mu} Pa and alpha = {alpha}: their product must be above 0, else the rubber is unstable, and |alpha| at most 60",

@@ -14,9 +14,21 @@
 //! modulus that completes the bound; both are those of the isotropic law where the material is isotropic.
 
 use super::{DENSITY, Family, Kinematics, Law, LawKind, Orientation, ParameterFault, Parameters, Response};
+use crate::message::{Example, Message};
 use crate::quantity::{Dimension, Parameter, Range};
 use crate::tensor::{Solid, SymmetricTensor, Turn};
 use embate_lanes::Lane;
+
+static NOT_POSITIVE: Message = Message {
+    code: "E0310",
+    title: "orthotropic stiffnesses that are not positive",
+    example: Example::Model(
+        "[material.ply]\nlaw = \"orthotropic_elastic\"\ndensity = 1600\nyoung_1 = \"10 GPa\"\nyoung_2 = \"140 GPa\"\nyoung_3 = \"10 GPa\"\n\
+         poisson_12 = 0.3\npoisson_23 = 0.02\npoisson_31 = 0.3\nshear_12 = \"5 GPa\"\nshear_23 = \"5 GPa\"\nshear_31 = \"3 GPa\"\n",
+    ),
+    cause: "With these ratios some strain would release energy. Often one ratio is meant the other way round: nu_ij / E_i = nu_ji / E_j.",
+    cure: "Convert the ratio (nu_ij = nu_ji E_i / E_j), or lower it.",
+};
 
 /// The law with its stiffness.
 #[derive(Clone, Copy, Debug)]
@@ -75,6 +87,7 @@ impl Law for OrthotropicElastic {
             Parameter::new("angle", "θ", Dimension::NONE, Range::Finite, "angle from x to axis 1, counter-clockwise").or(0.0),
         ],
     };
+    const MESSAGES: &'static [&'static Message] = &[&NOT_POSITIVE];
     const FAMILY: Family = Family::Rate;
     type State<L: Lane, T: SymmetricTensor<L>> = Orientation<L, T>;
     const NEEDS_ROTATION: bool = true;
@@ -112,6 +125,7 @@ impl Law for OrthotropicElastic {
                     names[k], poisson[k]
                 );
                 faults.push(ParameterFault {
+                    kind: &NOT_POSITIVE,
                     name: names[k],
                     message,
                     help: format!(
@@ -126,6 +140,7 @@ impl Law for OrthotropicElastic {
                 "the three ratios together make a stiffness that is not positive definite (1 - Σ nu_ij nu_ji - 2 nu_12 nu_23 nu_31 = {definite}, must be above 0)"
             );
             faults.push(ParameterFault {
+                kind: &NOT_POSITIVE,
                 name: names[0],
                 message,
                 help: "lower the ratios, or check which way each is meant: nu_ij / E_i = nu_ji / E_j".into(),

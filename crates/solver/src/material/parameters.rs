@@ -1,5 +1,6 @@
 //! Parameters of laws as they are read: numbers and lists by name, defaults filled in, and the descriptions that many laws share.
 
+use crate::message::Message;
 use crate::quantity::{Dimension, Parameter, Range};
 use std::collections::BTreeMap;
 
@@ -48,6 +49,8 @@ impl<'a> Parameters<'a> {
 /// What is wrong with a parameter.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ParameterFault {
+    /// Its kind.
+    pub kind: &'static Message,
     /// The parameter.
     pub name: &'static str,
     /// What is wrong.

@@ -11,6 +11,7 @@
 //! Source: Hill, Journal of the Mechanics and Physics of Solids 6 (1958) 236-249; de Borst et al., Non-linear Finite Element Analysis of Solids and Structures (2012).
 
 use super::ParameterFault;
+use crate::material::messages::SOFTENS_TOO_STEEPLY;
 
 /// Largest fall over that at which stress has no answer to strain any more.
 const STEEPEST: f64 = 0.9;
@@ -70,7 +71,7 @@ impl Softening {
     pub(super) fn faults(it: Option<Self>) -> Vec<ParameterFault> {
         let fault = |it: Self| {
             let (message, help) = it.too_steep(it.solid);
-            ParameterFault { name: it.name, message, help }
+            ParameterFault { kind: &SOFTENS_TOO_STEEPLY, name: it.name, message, help }
         };
         it.filter(|it| it.is_too_steep(it.solid)).map(fault).into_iter().collect()
     }

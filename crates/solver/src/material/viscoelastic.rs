@@ -14,6 +14,8 @@
 //! Source: Simo and Hughes, Computational Inelasticity (1998), 10.3; Taylor, Pister and Goudreau, Int. J. Numer. Meth. Engng 2 (1970) 45-59.
 
 use super::{DENSITY, Family, Kinematics, Law, LawKind, POISSON, ParameterFault, Parameters, Response, Tensors, YOUNG, bulk_and_shear};
+use crate::material::messages::PARAMETERS;
+use crate::model::messages::LIST_LENGTH;
 use crate::quantity::{Dimension, Parameter, Range};
 use crate::tensor::SymmetricTensor;
 use embate_lanes::{Lane, math};
@@ -76,11 +78,16 @@ impl Law for Viscoelastic {
         let sum: f64 = ratios.iter().sum();
         if ratios.len() != times.len() {
             let message = format!("{} relaxation times for {} shear ratios", times.len(), ratios.len());
-            return vec![ParameterFault { name: "relaxation_time", message, help: "give one time to each ratio".into() }];
+            return vec![ParameterFault {
+                kind: &LIST_LENGTH,
+                name: "relaxation_time",
+                message,
+                help: "give one time to each ratio".into(),
+            }];
         }
         if sum >= 1.0 {
             let message = format!("shear ratios add up to {sum}: nothing of the shear modulus would be left after a long time");
-            return vec![ParameterFault { name: "shear_ratio", message, help: "keep their sum below 1".into() }];
+            return vec![ParameterFault { kind: &PARAMETERS, name: "shear_ratio", message, help: "keep their sum below 1".into() }];
         }
         Vec::new()
     }

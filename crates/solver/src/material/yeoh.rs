@@ -8,6 +8,7 @@
 
 use super::rubber::{FirstInvariant, Unimodular, Volume, isochoric};
 use super::{BULK, DENSITY, Family, Kinematics, Law, LawKind, ParameterFault, Parameters, Response};
+use crate::material::messages::UNSTABLE_RUBBER;
 use crate::quantity::{Dimension, Parameter, Range};
 use crate::tensor::SymmetricTensor;
 use embate_lanes::Lane;
@@ -48,7 +49,7 @@ impl Law for Yeoh {
             "c20 = {c2} Pa is not above -sqrt(3 c10 c30) = {} Pa: beyond some stretch the rubber would soften to nothing",
             -(3.0 * c1 * c3).sqrt()
         );
-        vec![ParameterFault { name: "c20", message, help: "raise c20 or c30".into() }]
+        vec![ParameterFault { kind: &UNSTABLE_RUBBER, name: "c20", message, help: "raise c20 or c30".into() }]
     }
 
     #[inline(always)]

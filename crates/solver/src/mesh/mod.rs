@@ -5,10 +5,13 @@
 
 pub mod placement;
 pub mod shapes;
+pub(crate) mod messages;
 pub mod surface;
 mod order;
 
 use crate::error::Fault;
+use crate::mesh::messages::{BAD_ELEMENT, GROUP, TOO_MANY, UNMESHABLE};
+use crate::model::messages::{NOTHING, UNKNOWN_NAME};
 use crate::model::{ImportedMesh, Model, Part, Shape};
 use shapes::Wrong;
 use std::collections::BTreeMap;
@@ -117,7 +120,7 @@ impl Mesh<2> {
             match &part.shape {
                 Shape::Group { mesh: file, group } => match model.meshes.get(*file) {
                     Some(source) => mesh.add_group(source, group, part, &mut imported[*file], &mut faults),
-                    None => faults.push(Fault::new(format!("part[{index}]"), "its mesh was not read", "")),
+                    None => faults.push(Fault::new(&UNKNOWN_NAME, format!("part[{index}]"), "its mesh was not read", "")),
                 },
                 shape => mesh.add_shape(shape, part, &mut faults),
             }
@@ -139,7 +142,7 @@ impl Mesh<2> {
             Ok(body) => part.placement.applied(body),
             Err(Wrong { key: at, message, help }) => {
                 let dot = if at.is_empty() { "" } else { "." };
-                faults.push(Fault::new(format!("part[{}].{key}{dot}{at}", self.parts.len()), message, help));
+                faults.push(Fault::new(&UNMESHABLE, format!("part[{}].{key}{dot}{at}", self.parts.len()), message, help));
                 self.parts.push(PartMesh { name: part.name.clone(), ..PartMesh::default() });
                 return;
             }
@@ -181,6 +184,7 @@ impl Mesh<2> {
         let Some(group) = source.groups.iter().find(|g| g.name == group && g.dimension == dimension) else {
             let kind = if dimension == 1 { "one" } else { "two" };
             faults.push(Fault::new(
+                &GROUP,
                 path,
                 format!("{} has no {kind}-dimensional group \"{group}\"", source.source),
                 "name a group of the mesh file",
@@ -237,7 +241,7 @@ impl Mesh<2> {
             }
         }
         if self.positions.len() > u32::MAX as usize - 1 {
-            faults.push(Fault::new("", "the model has more than 4 billion nodes", "make it smaller"));
+            faults.push(Fault::new(&TOO_MANY, "", "the model has more than 4 billion nodes", "make it smaller"));
         }
     }
 
@@ -252,13 +256,18 @@ impl Mesh<2> {
             let [x, y] = self.positions[cell[0] as usize];
             let help = if wrong == CLOCKWISE { "number its nodes counter-clockwise" } else { "mend the mesh there" };
             let message = format!("element {user} of part \"{name}\" at ({x:.6e}, {y:.6e}) {wrong}");
-            faults.push(Fault::new(format!("part[{part}]"), message, help));
+            faults.push(Fault::new(&BAD_ELEMENT, format!("part[{part}]"), message, help));
         }
         if bad.len() > TOLD {
-            faults.push(Fault::new(format!("part[{part}]"), format!("and {} more elements like these", bad.len() - TOLD), ""));
+            faults.push(Fault::new(
+                &BAD_ELEMENT,
+                format!("part[{part}]"),
+                format!("and {} more elements like these", bad.len() - TOLD),
+                "",
+            ));
         }
         if self.elements_of(part) == 0 && faults.is_empty() {
-            faults.push(Fault::new(format!("part[{part}]"), format!("part \"{name}\" has no elements"), "give it some"));
+            faults.push(Fault::new(&NOTHING, format!("part[{part}]"), format!("part \"{name}\" has no elements"), "give it some"));
         }
     }
 
@@ -372,7 +381,7 @@ impl Mesh<2> {
             (lines, of)
         } else {
             let help = "name a part, a side as part.side, or a one-dimensional group of a mesh file";
-            return Err(Fault::new("", format!("there is no surface \"{name}\""), help));
+            return Err(Fault::new(&UNKNOWN_NAME, "", format!("there is no surface \"{name}\""), help));
         };
         let kept: Vec<[u32; 2]> = segments.into_iter().filter(|&segment| !leave_out(segment)).collect();
         Surface::new(kept, self.cells(&of))

@@ -4,6 +4,7 @@
 //! node, each chain stays with its own fan of elements, so that normals never mix across the touching point.
 
 use crate::error::Fault;
+use crate::mesh::messages::{BAD_ELEMENT, NOT_A_SURFACE, OVERLAP};
 use crate::rows::Rows;
 
 /// No neighbour.
@@ -60,7 +61,12 @@ impl Surface {
         by_nodes.sort_unstable();
         if let Some(twice) = by_nodes.windows(2).find(|w| (w[0].0, w[0].1) == (w[1].0, w[1].1)) {
             let (a, b, _) = twice[0];
-            return Err(Fault::new("", format!("segment {a}-{b} occurs twice in a surface"), "name each side or group once"));
+            return Err(Fault::new(
+                &NOT_A_SURFACE,
+                "",
+                format!("segment {a}-{b} occurs twice in a surface"),
+                "name each side or group once",
+            ));
         }
         let find = |[a, b]: [u32; 2]| by_nodes.binary_search_by_key(&(a, b), |&(a, b, _)| (a, b)).ok().map(|i| by_nodes[i].2);
         let mut previous = vec![NONE; segments.len()];
@@ -68,6 +74,7 @@ impl Surface {
         for (&[a, b], s) in segments.iter().zip(0_u32..) {
             let Some(follower) = edges.following([a, b]) else {
                 return Err(Fault::new(
+                    &NOT_A_SURFACE,
                     "",
                     format!("segment {a}-{b} is not on the outside of its body, or has the body on its left"),
                     "take lines that bound the elements of one part; contact acts on the outside only",
@@ -109,6 +116,7 @@ pub fn oriented(lines: &[[u32; 2]], exterior: &[[u32; 2]]) -> Result<Vec<[u32; 2
         // Where a slit of no width has both directions outside, the line as given wins.
         let Some(i) = [[a, b], [b, a]].iter().find_map(|s| sorted.binary_search(s).ok()) else {
             return Err(Fault::new(
+                &NOT_A_SURFACE,
                 "",
                 format!("line {a}-{b} is not on the outside of a body"),
                 "take lines that bound the elements of one part; contact acts on the outside only",
@@ -133,7 +141,7 @@ impl Edges {
             let n = cell.len();
             if !(3..=4).contains(&n) || (0..n).any(|i| cell[..i].contains(&cell[i])) {
                 let help = "elements have three or four different corners; remove collapsed ones from the mesh";
-                return Err(Fault::new("", format!("an element has the nodes {cell:?}"), help));
+                return Err(Fault::new(&BAD_ELEMENT, "", format!("an element has the nodes {cell:?}"), help));
             }
             count = cell.iter().fold(count, |count, &node| count.max(node as usize + 1));
         }
@@ -165,12 +173,14 @@ impl Edges {
             let count = self.all().filter(|&e| e == (a, b) || e == (b, a)).count();
             return Err(if count > 2 {
                 Fault::new(
+                    &OVERLAP,
                     "",
                     format!("the edge between nodes {a} and {b} belongs to {count} elements"),
                     "in the plane an edge has at most two; remove elements that overlap or occur twice",
                 )
             } else {
                 Fault::new(
+                    &OVERLAP,
                     "",
                     format!("two elements run through the edge from node {a} to node {b} in the same direction"),
                     "elements must be counter-clockwise and must not overlap; reverse or remove one of them",

@@ -4,6 +4,7 @@
 
 pub mod check;
 pub mod describe;
+pub mod messages;
 mod contact;
 mod discrete;
 mod initial;

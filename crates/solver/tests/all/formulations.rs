@@ -269,7 +269,7 @@ fn ties_hold_up_to_their_strength_and_break_beyond_it() {
             assert!((speed - 5.0).abs() < 0.4 && warnings.is_empty(), "{speed} {warnings:?}");
             let (speed, warnings) = held(0.5 * traction);
             assert!(speed > 9.0, "{speed}");
-            assert!(warnings.iter().any(|warning| warning.contains("\"glue\": 5 of 5 ties broke")), "{warnings:?}");
+            assert!(warnings.iter().any(|warning| warning.text.contains("\"glue\": 5 of 5 ties broke")), "{warnings:?}");
         }
     }
 }
@@ -283,7 +283,7 @@ fn a_broken_tie_is_ordinary_contact() {
     touch(&mut model, "right", "hammer");
     let (simulation, history) = run(&model);
     let summary = simulation.summary();
-    assert!(summary.warnings.iter().any(|warning| warning.contains("5 of 5 ties broke")), "{:?}", summary.warnings);
+    assert!(summary.warnings.iter().any(|warning| warning.text.contains("5 of 5 ties broke")), "{:?}", summary.warnings);
     assert!(history.last("left.vx") < -20.0, "{}", history.last("left.vx"));
     assert!(summary.penetration_max < 1e-3 && summary.energy_drift < 0.01, "{summary:?}");
 }

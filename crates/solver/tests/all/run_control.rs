@@ -24,7 +24,7 @@ fn a_wanted_step_is_reached_and_the_added_mass_is_told_and_limited() {
     assert!((masses[1] - masses[0] - added).abs() < 1e-12 * masses[0] && added > 0.0, "{masses:?} {added}");
     // Only the small elements, which have an eleventh of the mass, four times as heavy.
     assert!((added / masses[0] - 3.0 / 11.0).abs() < 1e-9, "{}", added / masses[0]);
-    assert!(scaled.summary().warnings.iter().any(|line| line.contains("mass scaling added")));
+    assert!(scaled.summary().warnings.iter().any(|line| line.text.contains("mass scaling added")));
     model.run.mass_scaling = Some(MassScaling { time_step: 2.0 * step, limit: 0.2 });
     let told = faults(&model);
     assert!(told.len() == 1 && told[0].contains("the limit is"), "{told:?}");
@@ -61,7 +61,7 @@ fn a_hanging_bar_relaxes_to_its_closed_form_and_the_run_ends() {
     println!("{found} {expected} after {} periods {summary:?}", simulation.time() / period);
     assert!((found / expected - 1.0).abs() < 2e-3, "{found} {expected}");
     assert!(simulation.time() < 10.0 * period, "{} {period}", simulation.time());
-    assert!(summary.warnings.iter().any(|line| line.contains("at rest at")), "{summary:?}");
+    assert!(summary.warnings.iter().any(|line| line.text.contains("at rest at")), "{summary:?}");
     assert_eq!(summary.rest, Some(simulation.time()));
     assert!(summary.ledger_residual < 1e-12 && summary.energy_drift < 1e-2, "{summary:?}");
 }

@@ -263,7 +263,7 @@ fn a_bar_softens_in_one_element_and_the_energy_is_that_of_its_size() {
         let (simulation, history) = run(&bar(count, &[("hardening", -2e8)]));
         let summary = simulation.summary();
         assert!(summary.ledger_residual < 1e-12 && summary.energy_drift < 1e-3, "{summary:?}");
-        assert!(summary.warnings.iter().filter(|line| line.contains("lose ellipticity")).count() == 2, "{:?}", summary.warnings);
+        assert!(summary.warnings.iter().filter(|line| line.text.contains("lose ellipticity")).count() == 2, "{:?}", summary.warnings);
         // The others flow as far as its contraction bends their ends, no more.
         let [left, middle, right] = ["left", "middle", "right"].map(|part| history.last(&format!("energy.plastic[{part}]")));
         println!("{left} {middle} {right}");

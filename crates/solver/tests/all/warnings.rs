@@ -2,7 +2,7 @@
 
 use crate::bodies::*;
 use crate::patches::material;
-use embate_solver::error::Warning;
+use embate_solver::error::{Notice, Warning};
 use embate_solver::model::{Constraint, Contact, Material, Model, Obstacle, Placement, Polygon, Rectangle, Shape};
 
 /// Path and first words of all warnings of a model that is made ready.
@@ -12,7 +12,7 @@ fn told(model: &Model) -> Vec<(String, String)> {
     for Warning { message, consequence, help, .. } in warnings {
         assert!(!message.is_empty() && !consequence.is_empty() && !help.is_empty(), "{warnings:?}");
     }
-    let texts: Vec<String> = warnings.iter().map(ToString::to_string).collect();
+    let texts: Vec<Notice> = warnings.iter().map(Notice::from).collect();
     assert_eq!(simulation.summary().warnings[..texts.len()], texts, "the summary has them");
     warnings.iter().map(|warning| (warning.path.clone(), warning.message.clone())).collect()
 }

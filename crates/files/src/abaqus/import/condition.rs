@@ -2,6 +2,7 @@
 
 use super::Importer;
 use super::report::Outcome::{Approximated, Ignored};
+use crate::abaqus::messages::SYNTAX;
 use crate::abaqus::text::{Line, folded, shown};
 use embate_solver::error::Fault;
 use std::collections::BTreeSet;
@@ -66,7 +67,7 @@ pub(super) fn amplitude(importer: &mut Importer<'_>, at: usize) -> Result<(), Fa
     let (times, values): (Vec<f64>, Vec<f64>) = numbers.chunks_exact(2).map(|pair| (pair[0], pair[1])).unzip();
     if times.is_empty() || !numbers.len().is_multiple_of(2) || times.windows(2).any(|pair| pair[1] <= pair[0]) {
         let message = format!("amplitude {} is not a list of pairs with ascending times", shown(&name));
-        return Err(importer.text.fault(block.line, message, "write time, value, time, value, ..."));
+        return Err(importer.text.fault(&SYNTAX, block.line, message, "write time, value, time, value, ..."));
     }
     importer.amplitudes.insert(folded(&name), Amplitude { name, times, values, smooth });
     Ok(())
@@ -214,7 +215,7 @@ fn gravity(importer: &mut Importer<'_>, at: usize, line: Line, instance: usize) 
     }
     let length = direction[0].hypot(direction[1]);
     if length == 0.0 {
-        return Err(importer.text.fault(line, "gravity has no direction", "write set, GRAV, size, x, y, z"));
+        return Err(importer.text.fault(&SYNTAX, line, "gravity has no direction", "write set, GRAV, size, x, y, z"));
     }
     let elements = match field(0) {
         "" => BTreeSet::new(),

@@ -3,6 +3,7 @@
 use super::Importer;
 use super::report::Outcome::Ignored;
 use crate::abaqus::deck::Surface;
+use crate::abaqus::messages::{SYNTAX, UNKNOWN};
 use crate::abaqus::text::{Line, folded, shown};
 use embate_solver::error::Fault;
 use std::collections::BTreeSet;
@@ -191,12 +192,12 @@ pub(super) fn property(importer: &mut Importer<'_>, at: usize) -> Result<(), Fau
 pub(super) fn rigid_body(importer: &mut Importer<'_>, at: usize) -> Result<(), Fault> {
     let block = importer.block(at);
     let Some(node) = block.parameter("REF NODE").filter(|node| !node.is_empty()) else {
-        return Err(importer.text.fault(block.line, "*RIGID BODY has no reference node", "add REF NODE=..."));
+        return Err(importer.text.fault(&SYNTAX, block.line, "*RIGID BODY has no reference node", "add REF NODE=..."));
     };
     for instance in importer.deck.instances_of(at) {
         let nodes = importer.deck.nodes_named(importer.text, block.line, instance, node)?;
         let &[reference] = nodes.as_slice() else {
-            return Err(importer.text.fault(block.line, format!("{} is not one node", shown(node)), "name a set of one node"));
+            return Err(importer.text.fault(&UNKNOWN, block.line, format!("{} is not one node", shown(node)), "name a set of one node"));
         };
         let elements = match block.parameter("ELSET") {
             Some(set) => importer.deck.elements_named(importer.text, block.line, instance, set)?.into_iter().collect(),

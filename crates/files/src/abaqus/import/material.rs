@@ -2,6 +2,7 @@
 
 use super::Importer;
 use super::report::Outcome::{Approximated, Ignored};
+use crate::abaqus::messages::{NO_COUNTERPART, SYNTAX, UNKNOWN};
 use crate::abaqus::text::{Line, folded, shown};
 use embate_solver::error::Fault;
 
@@ -33,10 +34,10 @@ pub(super) struct Section {
 pub(super) fn material(importer: &mut Importer<'_>, at: usize) -> Result<(), Fault> {
     let block = importer.block(at);
     let Some(name) = block.parameter("NAME").filter(|name| !name.is_empty()) else {
-        return Err(importer.text.fault(block.line, "*MATERIAL has no name", "add NAME=..."));
+        return Err(importer.text.fault(&SYNTAX, block.line, "*MATERIAL has no name", "add NAME=..."));
     };
     if importer.materials.iter().any(|it| folded(&it.name) == folded(name)) {
-        return Err(importer.text.fault(block.line, format!("a second material {}", shown(name)), "give it another name"));
+        return Err(importer.text.fault(&UNKNOWN, block.line, format!("a second material {}", shown(name)), "give it another name"));
     }
     importer.materials.push(Material { name: name.to_string(), ..Material::default() });
     Ok(())
@@ -45,7 +46,8 @@ pub(super) fn material(importer: &mut Importer<'_>, at: usize) -> Result<(), Fau
 /// The material that a block belongs to.
 fn current<'b>(importer: &'b mut Importer<'_>, at: usize) -> Result<&'b mut Material, Fault> {
     let block = importer.block(at);
-    let fault = importer.text.fault(block.line, format!("*{} belongs to no material", block.keyword), "it stands below a *MATERIAL");
+    let fault =
+        importer.text.fault(&SYNTAX, block.line, format!("*{} belongs to no material", block.keyword), "it stands below a *MATERIAL");
     importer.materials.last_mut().ok_or(fault)
 }
 
@@ -68,7 +70,12 @@ pub(super) fn elastic(importer: &mut Importer<'_>, at: usize) -> Result<(), Faul
     if block.has("TYPE") && !block.is("TYPE", "ISOTROPIC") && !block.is("TYPE", "ISO") {
         let message =
             format!("elasticity of the type {} has no counterpart in the import", shown(block.parameter("TYPE").unwrap_or_default()));
-        return Err(importer.text.fault(block.line, message, "give an isotropic material, or write the model file by hand"));
+        return Err(importer.text.fault(
+            &NO_COUNTERPART,
+            block.line,
+            message,
+            "give an isotropic material, or write the model file by hand",
+        ));
     }
     let numbers = importer.first_numbers(at, "an elastic constant")?;
     let young = importer.needed(at, &numbers, 0, "Young's modulus")?;
@@ -82,7 +89,12 @@ pub(super) fn plastic(importer: &mut Importer<'_>, at: usize) -> Result<(), Faul
     let block = importer.block(at);
     if block.has("HARDENING") && !block.is("HARDENING", "ISOTROPIC") {
         let message = format!("hardening {} has no counterpart in the import", shown(block.parameter("HARDENING").unwrap_or_default()));
-        return Err(importer.text.fault(block.line, message, "give a table of isotropic hardening, or write the model file by hand"));
+        return Err(importer.text.fault(
+            &NO_COUNTERPART,
+            block.line,
+            message,
+            "give a table of isotropic hardening, or write the model file by hand",
+        ));
     }
     let mut rows: Vec<[f64; 2]> = Vec::new();
     let mut temperature = None;
@@ -98,7 +110,7 @@ pub(super) fn plastic(importer: &mut Importer<'_>, at: usize) -> Result<(), Faul
     }
     if rows.first().is_none_or(|row| row[1] != 0.0) || rows.windows(2).any(|pair| pair[1][1] <= pair[0][1]) {
         let message = "the yield curve does not begin at plastic strain 0, or its strains do not rise";
-        return Err(importer.text.fault(block.line, message, "each data line is yield stress, plastic strain"));
+        return Err(importer.text.fault(&SYNTAX, block.line, message, "each data line is yield stress, plastic strain"));
     }
     current(importer, at)?.plastic = rows;
     Ok(())
@@ -109,7 +121,7 @@ pub(super) fn hyperelastic(importer: &mut Importer<'_>, at: usize) -> Result<(),
     let mooney = block.has("MOONEY-RIVLIN");
     if !mooney && !block.has("NEO HOOKE") || block.has("TEST DATA INPUT") {
         let help = "NEO HOOKE and MOONEY-RIVLIN with coefficients are read; for others write the model file by hand";
-        return Err(importer.text.fault(block.line, "a strain energy that has no counterpart in the import", help));
+        return Err(importer.text.fault(&NO_COUNTERPART, block.line, "a strain energy that has no counterpart in the import", help));
     }
     let numbers = importer.first_numbers(at, "a coefficient of the strain energy")?;
     let c10 = importer.needed(at, &numbers, 0, "C10")?;
@@ -131,13 +143,13 @@ pub(super) fn section(importer: &mut Importer<'_>, at: usize) -> Result<(), Faul
         block
             .parameter(name)
             .filter(|value| !value.is_empty())
-            .ok_or_else(|| importer.text.fault(block.line, format!("*{} has no {name}", block.keyword), format!("add {name}=...")))
+            .ok_or_else(|| importer.text.fault(&SYNTAX, block.line, format!("*{} has no {name}", block.keyword), format!("add {name}=...")))
     };
     let (set, material) = (needed("ELSET")?, folded(needed("MATERIAL")?));
     let numbers = importer.first_numbers(at, "a thickness")?;
     let thickness = numbers.first().copied().flatten().unwrap_or(1.0);
     if thickness <= 0.0 {
-        return Err(importer.text.fault(block.line, format!("the thickness is {thickness}"), "it is greater than 0"));
+        return Err(importer.text.fault(&SYNTAX, block.line, format!("the thickness is {thickness}"), "it is greater than 0"));
     }
     for instance in importer.deck.instances_of(at) {
         let full = importer.deck.full(instance, set);
@@ -148,7 +160,7 @@ pub(super) fn section(importer: &mut Importer<'_>, at: usize) -> Result<(), Faul
             }
             _ => {
                 let message = format!("there is no element set {}", shown(set));
-                return Err(importer.text.fault(block.line, message, "name a set with elements"));
+                return Err(importer.text.fault(&UNKNOWN, block.line, message, "name a set with elements"));
             }
         }
     }

@@ -21,6 +21,7 @@ pub use units::Units;
 use super::deck::Deck;
 use super::plane::{self, Names};
 use super::text::{Block, Line, Text, folded, shown};
+use crate::abaqus::messages::{SYNTAX, UNKNOWN};
 use embate_solver::error::Fault;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -199,7 +200,7 @@ impl<'a> Importer<'a> {
     fn needed(&self, at: usize, numbers: &[Option<f64>], place: usize, what: &str) -> Result<f64, Fault> {
         numbers.get(place).copied().flatten().ok_or_else(|| {
             let block = self.block(at);
-            self.text.fault(block.line, format!("*{} lacks {what}", block.keyword), "give it in the first data line")
+            self.text.fault(&SYNTAX, block.line, format!("*{} lacks {what}", block.keyword), "give it in the first data line")
         })
     }
 
@@ -235,6 +236,6 @@ impl<'a> Importer<'a> {
             return Ok(key);
         }
         let help = "name a *SURFACE; outside of a part it is INSTANCE.SURFACE";
-        Err(self.text.fault(line, format!("there is no surface {}", shown(name)), help))
+        Err(self.text.fault(&UNKNOWN, line, format!("there is no surface {}", shown(name)), help))
     }
 }

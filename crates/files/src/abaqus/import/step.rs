@@ -2,6 +2,7 @@
 
 use super::Importer;
 use super::report::Outcome::{Approximated, Ignored, Used};
+use crate::abaqus::messages::NO_COUNTERPART;
 use embate_solver::error::Fault;
 
 pub(super) fn heading(importer: &mut Importer<'_>, at: usize) -> Result<(), Fault> {
@@ -65,5 +66,5 @@ pub(super) fn refused(importer: &mut Importer<'_>, at: usize) -> Result<(), Faul
             "tie surfaces with *TIE, or join coinciding nodes in the mesh; remove it and add [[join]] to the model",
         ),
     };
-    Err(importer.text.fault(block.line, format!("*{} has no counterpart: {why}", block.keyword), help))
+    Err(importer.text.fault(&NO_COUNTERPART, block.line, format!("*{} has no counterpart: {why}", block.keyword), help))
 }

@@ -2,6 +2,7 @@
 //!
 //! A quantity keeps the digits of the deck: `"210000 t/mm/s^2"`; the model file's reader rounds it once.
 
+use crate::abaqus::messages::UNITS;
 use crate::model_file::quantity_in_si;
 use embate_solver::error::Fault;
 use embate_solver::quantity::Dimension;
@@ -26,7 +27,8 @@ impl Units {
     /// # Errors
     /// What is not a unit of length, mass or time, missing or there twice.
     pub fn parse(text: &str) -> Result<Self, Fault> {
-        let wrong = |message: String| Fault::new("units", message, "name a unit of length, one of mass and one of time, such as mm,t,s");
+        let wrong =
+            |message: String| Fault::new(&UNITS, "units", message, "name a unit of length, one of mass and one of time, such as mm,t,s");
         let mut found: [Option<&str>; 3] = [None; 3];
         for word in text.split([',', ' ']).map(str::trim).filter(|word| !word.is_empty()) {
             let (_, dimension) = quantity_in_si(&format!("1 {word}")).ok_or_else(|| wrong(format!("{word:?} is not a unit")))?;

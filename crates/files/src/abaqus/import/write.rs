@@ -5,6 +5,7 @@ use super::report::Outcome::{Ignored, Used};
 use super::units::number;
 use super::{Importer, MESH_NAME};
 use crate::abaqus::element_kind::ElementKind;
+use crate::abaqus::messages::{INCOMPLETE, NO_COUNTERPART, UNKNOWN};
 use crate::abaqus::text::{folded, shown};
 use embate_solver::error::Fault;
 use embate_solver::quantity::Dimension;
@@ -95,7 +96,7 @@ impl Importer<'_> {
     fn write_run(&mut self, w: &mut Writing) -> Result<(), Fault> {
         let Some(end) = self.end else {
             let help = "add *STEP, *DYNAMIC, EXPLICIT with a time, *END STEP; static steps have no counterpart";
-            return Err(Fault::new(self.text.shown_name(), "the deck has no *DYNAMIC step, so no end of the run", help));
+            return Err(Fault::new(&INCOMPLETE, self.text.shown_name(), "the deck has no *DYNAMIC step, so no end of the run", help));
         };
         let _ = writeln!(w.out, "[run]\nend = {}", self.units.write(end, Dimension::TIME));
         let step = self.text.blocks.iter().position(|block| block.keyword == "DYNAMIC" && block.has("EXPLICIT"));
@@ -115,7 +116,7 @@ impl Importer<'_> {
     fn make_parts(&mut self, w: &mut Writing) -> Result<(), Fault> {
         if self.sections.is_empty() {
             let help = "add *SOLID SECTION, ELSET=..., MATERIAL=... for each body";
-            return Err(Fault::new(self.text.shown_name(), "no element has a section, so the model has no parts", help));
+            return Err(Fault::new(&INCOMPLETE, self.text.shown_name(), "no element has a section, so the model has no parts", help));
         }
         let mut owned = vec![false; self.deck.elements.len()];
         for section in self.sections.clone() {
@@ -124,7 +125,7 @@ impl Importer<'_> {
                 if std::mem::replace(&mut owned[element as usize], true) {
                     let message = format!("element {} has two sections", self.deck.elements[element as usize].tag);
                     let help = "an element belongs to one section";
-                    return Err(self.text.fault(self.block(section.at).line, message, help));
+                    return Err(self.text.fault(&NO_COUNTERPART, self.block(section.at).line, message, help));
                 }
             }
             w.parts.push(part);
@@ -144,11 +145,16 @@ impl Importer<'_> {
     fn part(&mut self, section: &Section, w: &mut Writing) -> Result<Part, Fault> {
         let line = self.block(section.at).line;
         let Some(set) = self.deck.element_sets.get(&section.set) else {
-            return Err(self.text.fault(line, format!("there is no element set {}", shown(&section.set)), "name a set with elements"));
+            return Err(self.text.fault(
+                &UNKNOWN,
+                line,
+                format!("there is no element set {}", shown(&section.set)),
+                "name a set with elements",
+            ));
         };
         let Some(material) = self.materials.iter().find(|it| folded(&it.name) == section.material) else {
             let message = format!("there is no material {}", shown(&section.material));
-            return Err(self.text.fault(line, message, "name a *MATERIAL of the deck"));
+            return Err(self.text.fault(&UNKNOWN, line, message, "name a *MATERIAL of the deck"));
         };
         let group = self.names.elements.get(&section.set).cloned().unwrap_or_default();
         let others: BTreeSet<String> = w.taken.iter().filter(|name| **name != group).cloned().collect();
@@ -161,7 +167,7 @@ impl Importer<'_> {
         if states.len() > 1 {
             let message =
                 format!("set {} mixes elements of {}", shown(&set.name), states.iter().copied().collect::<Vec<_>>().join(" and "));
-            return Err(self.text.fault(line, message, "give each stress state a section of its own"));
+            return Err(self.text.fault(&NO_COUNTERPART, line, message, "give each stress state a section of its own"));
         }
         let nodes = elements.iter().flat_map(|at| self.deck.elements[*at as usize].nodes()).copied().collect();
         let part = Part {
@@ -223,7 +229,12 @@ impl Importer<'_> {
             }
             let Some(density) = material.density else {
                 let message = format!("material {} has no density", shown(&material.name));
-                return Err(self.text.fault(self.block(at).line, message, "add *DENSITY: an explicit computation needs masses"));
+                return Err(self.text.fault(
+                    &INCOMPLETE,
+                    self.block(at).line,
+                    message,
+                    "add *DENSITY: an explicit computation needs masses",
+                ));
             };
             let law = self.law(at, &material)?;
             let density = self.units.write(density, Dimension::DENSITY);
@@ -247,7 +258,7 @@ impl Importer<'_> {
         }
         let Some([young, poisson]) = material.elastic else {
             let message = format!("material {} has neither *ELASTIC nor *HYPERELASTIC", shown(&material.name));
-            return Err(self.text.fault(self.block(at).line, message, "give it one of them"));
+            return Err(self.text.fault(&INCOMPLETE, self.block(at).line, message, "give it one of them"));
         };
         let elastic = format!("young = {}\npoisson = {}\n", pressure(young), number(poisson));
         Ok(match material.plastic.as_slice() {

@@ -5,6 +5,7 @@ use crate::model_file::diagnostics::Faults;
 use crate::model_file::reader::Record;
 use crate::model_file::units::shorten;
 use crate::model_file::value::Datum;
+use embate_solver::model::messages::{CLASH, UNKNOWN_NAME};
 use embate_solver::model::{
     Contact, ContactLaw, Formulation, Friction, InitialPenetration, Interface, Obstacle, ObstacleShape, Partners, Penalty, PenaltySource,
 };
@@ -44,7 +45,7 @@ fn formulation(record: &Record, between: Option<&[String; 2]>, faults: &mut Faul
         // Bodies have no slave; the check says so of single pass.
         if let Some(place) = record.written("slave") {
             let help = "leave it out: all nodes of all bodies are checked".to_string();
-            faults.value("rule", &record.key("slave"), place, ("`slave` is given, but bodies have none".to_string(), help));
+            faults.value(&CLASH, &record.key("slave"), place, ("`slave` is given, but bodies have none".to_string(), help));
         }
         return if single { Formulation::SinglePass { slave: 0 } } else { other };
     };
@@ -59,13 +60,13 @@ fn formulation(record: &Record, between: Option<&[String; 2]>, faults: &mut Faul
                     Formulation::DoublePass => "`slave` is given, but in a double pass contact both surfaces are slaves",
                     _ => "`slave` is given, but in this formulation both surfaces are alike",
                 };
-                faults.value("rule", &record.key("slave"), place, (message.to_string(), help.to_string()));
+                faults.value(&CLASH, &record.key("slave"), place, (message.to_string(), help.to_string()));
             }
             other
         }
         (true, None) => {
             let help = format!("add `slave = {}`: usually the surface with the finer mesh or the softer body", shorten(&between[0]));
-            faults.beside("rule", &record.path, record.written("formulation"), ("a single pass contact needs `slave`".to_string(), help));
+            faults.beside(&CLASH, &record.path, record.written("formulation"), ("a single pass contact needs `slave`".to_string(), help));
             Formulation::SinglePass { slave: 0 }
         }
         (true, Some(place)) => {
@@ -74,7 +75,7 @@ fn formulation(record: &Record, between: Option<&[String; 2]>, faults: &mut Faul
             if index.is_none() && known && record.datum("slave").is_some() {
                 let message = format!("the slave {} is not one of the two surfaces", shorten(&slave));
                 let help = format!("take {} or {}", shorten(&between[0]), shorten(&between[1]));
-                faults.value("rule", &record.key("slave"), place, (message, help));
+                faults.value(&UNKNOWN_NAME, &record.key("slave"), place, (message, help));
             }
             Formulation::SinglePass { slave: index.unwrap_or(0) }
         }

@@ -12,6 +12,7 @@ use super::diagnostics::Faults;
 use super::reader::{Document, Record};
 use super::units::shorten;
 use super::value::Datum;
+use crate::gmsh::messages::MESH_FILE;
 use crate::{abaqus, gmsh};
 use embate_solver::mesh::shapes::Values;
 use embate_solver::model::{
@@ -157,7 +158,7 @@ impl Meshes<'_> {
                     for fault in wrong {
                         let within = if fault.path.is_empty() { String::new() } else { format!(", {}", fault.path) };
                         let message = format!("{}{within}: {}", shorten(&file), fault.message);
-                        faults.value("mesh file", &record.key("file"), place, (message, fault.help));
+                        faults.value(fault.kind, &record.key("file"), place, (message, fault.help));
                     }
                     None
                 }
@@ -165,7 +166,7 @@ impl Meshes<'_> {
         } else {
             let message = format!("there is no file {}", shorten(&file));
             let help = format!("paths begin at the model's folder, {}", self.folder.display());
-            faults.value("mesh file", &record.key("file"), place, (message, help));
+            faults.value(&MESH_FILE, &record.key("file"), place, (message, help));
             None
         };
         self.read.push((path, scale.to_bits(), index));

@@ -1,9 +1,11 @@
 //! What moves bodies from outside, from the records of a file: rigid parts and obstacles, constraints, curves.
 
 use crate::model_file::diagnostics::Faults;
+use crate::model_file::messages::UNIT;
 use crate::model_file::reader::Record;
 use crate::model_file::value::{Course, Datum};
 use embate_solver::load::curve::sine::Sine;
+use embate_solver::model::messages::CLASH;
 use embate_solver::model::{Constraint, Curve, CurveShape, Drive, Motion, Rotation};
 use embate_solver::quantity::Dimension;
 
@@ -55,7 +57,7 @@ fn sine(record: &Record, faults: &mut Faults) -> Curve {
         && let Some(place) = record.written("offset")
     {
         let message = format!("`offset` is in {mean}, but `amplitude` is in {wave}");
-        faults.value("unit", &record.key("offset"), place, (message, "give both in one dimension".to_string()));
+        faults.value(&UNIT, &record.key("offset"), place, (message, "give both in one dimension".to_string()));
     }
     let first = |values: Vec<f64>| values.first().copied().unwrap_or(f64::NAN);
     let number = |name| record.number(name).unwrap_or(f64::NAN);
@@ -82,7 +84,7 @@ pub(super) fn constraint(record: &Record, faults: &mut Faults) -> Constraint {
         if let (Some(other), Some(place)) = (other, record.written("fixed")) {
             let article = if other == "acceleration" { "an" } else { "a" };
             let message = format!("component `{axis}` is both fixed and given {article} {other}");
-            faults.value("rule", &record.key("fixed"), place, (message, "leave it out of one of the two".to_string()));
+            faults.value(&CLASH, &record.key("fixed"), place, (message, "leave it out of one of the two".to_string()));
         } else {
             velocity[index] = Some(Drive::Constant(0.0));
         }

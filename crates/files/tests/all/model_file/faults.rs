@@ -224,7 +224,7 @@ fn columns_count_characters_and_lines_may_end_as_on_windows() {
 #[test]
 fn a_fault_is_shown_with_file_line_and_excerpt() {
     let diagnostics = read(&changed("\"1 ms\"", "\"1 kg\"")).unwrap_err();
-    let expected = "error: `end` needs a unit of time, but \"1 kg\" is in kg
+    let expected = "error[E0109]: `end` needs a unit of time, but \"1 kg\" is in kg
  --> model.toml:3:7
   |
 3 | end = \"1 kg\"

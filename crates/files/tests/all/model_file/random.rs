@@ -83,8 +83,8 @@ fn of_many_faults_of_one_kind_twenty_are_shown() {
     let lines: String = (0..5000).map(|index| format!("unknown_{index} = {index}\n")).collect();
     let diagnostics = read(&super::changed("[material.steel]\n", &format!("{lines}[material.steel]\n"))).unwrap_err();
     assert_eq!(diagnostics.count, 5000);
-    assert_eq!(diagnostics.rendered.matches("error: ").count(), 20);
-    assert!(diagnostics.rendered.ends_with("and 4980 more of the same kinds\n5000 faults: nothing was run\n"));
+    assert_eq!(diagnostics.rendered.matches("error[E0106]: ").count(), 20);
+    assert!(diagnostics.rendered.ends_with("and 4980 more of E0106\n5000 faults: nothing was run\n"));
 }
 
 #[test]

@@ -24,7 +24,7 @@ fn a_warning_has_its_line_column_excerpt_consequence_and_cure() {
     let lines: Vec<&str> = text.lines().collect();
     assert!(
         lines[0].starts_with(
-            "warning: the flow stress falls by up to 1.0000e9 Pa per plastic strain; nothing is left of it at a plastic strain of 0.1"
+            "warning[W0301]: the flow stress falls by up to 1.0000e9 Pa per plastic strain; nothing is left of it at a plastic strain of 0.1"
         ),
         "{text}"
     );

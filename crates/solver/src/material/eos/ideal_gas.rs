@@ -1,6 +1,7 @@
 //! Ideal gas: p = (γ − 1) ρ e = (γ − 1) E / v, with the specific energy e = E/ρ₀. Its state at the start is given by a pressure or an energy.
 
 use super::{Equation, EquationKind, Terms};
+use crate::material::messages::PARAMETERS;
 use crate::material::{ParameterFault, Parameters};
 use crate::quantity::{Dimension, Parameter, Range};
 use embate_lanes::Lane;
@@ -39,8 +40,9 @@ impl Equation for IdealGas {
 
     fn faults(parameters: &Parameters<'_>) -> Vec<ParameterFault> {
         let given = ["pressure_initial", "energy_initial"].map(|name| parameters.value(name) > 0.0);
-        let fault =
-            |message: &str, help: &str| vec![ParameterFault { name: "pressure_initial", message: message.into(), help: help.into() }];
+        let fault = |message: &str, help: &str| {
+            vec![ParameterFault { kind: &PARAMETERS, name: "pressure_initial", message: message.into(), help: help.into() }]
+        };
         match given {
             [true, true] => fault("`pressure_initial` and `energy_initial` both say what the gas is like at the start", "leave one out"),
             [false, false] => fault(

@@ -20,6 +20,7 @@ pub use mie_gruneisen::MieGruneisen;
 pub use polynomial::Polynomial;
 
 use super::{ParameterFault, Parameters, points::PointLaw};
+use crate::material::messages::PARAMETERS;
 use crate::model::Material;
 use crate::quantity::{Dimension, Parameter, Range};
 use embate_lanes::Lane;
@@ -141,6 +142,7 @@ pub fn faults(name: &str, parameters: &Parameters<'_>) -> Vec<ParameterFault> {
             let (pressure, limit) = (equation.terms(1.0).pressure(equation.energy()), limit(self.0));
             if faults.is_empty() && pressure < -limit {
                 faults.push(ParameterFault {
+                    kind: &PARAMETERS,
                     name: TENSION.name,
                     message: format!("at the start the pressure is {pressure:.3e} Pa, a tension beyond the limit of {limit:.3e} Pa"),
                     help: "raise the limit, or begin with less tension".to_string(),
@@ -148,6 +150,7 @@ pub fn faults(name: &str, parameters: &Parameters<'_>) -> Vec<ParameterFault> {
             }
             if faults.is_empty() && !(bulk > 0.0 && bulk.is_finite()) {
                 faults.push(ParameterFault {
+                    kind: &PARAMETERS,
                     name: "eos",
                     message: format!("with these parameters the bulk stiffness at rest is {bulk:.3e} Pa, so no wave could run"),
                     help: "check signs and units of its parameters; it must be greater than 0".to_string(),

@@ -48,6 +48,11 @@ pub trait Hardening: Copy + Send + Sync + 'static {
         None
     }
 
+    /// Plastic strain up to which it was measured; `None` for a formula.
+    fn end(_parameters: &Parameters<'_>) -> Option<f64> {
+        None
+    }
+
     /// The flow stress at the equivalent plastic strain. `#[inline(always)]`.
     fn flow<L: Lane>(&self, plastic: L) -> Flow<L>;
 

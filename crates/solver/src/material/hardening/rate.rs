@@ -3,6 +3,7 @@
 //! Source: Cowper and Symonds, Brown University, Division of Applied Mathematics, report 28 (1957). Mild steel: C = 40 1/s, P = 5.
 
 use super::super::{ParameterFault, Parameters};
+use crate::material::messages::PARAMETERS;
 use crate::quantity::{Dimension, Parameter, Range};
 use embate_lanes::{Lane, math};
 
@@ -40,6 +41,7 @@ impl Rate {
             return Vec::new();
         }
         vec![ParameterFault {
+            kind: &PARAMETERS,
             name: "rate_exponent",
             message: format!("the exponent of the rate must be at least 1, but it is {exponent}"),
             help: "the rate enters as (rate / C)^(1/P): give P, 5 for mild steel, not 1/P".into(),

@@ -4,6 +4,7 @@
 
 use super::super::{DENSITY, LawKind, POISSON, ParameterFault, Parameters, YOUNG};
 use super::{Flow, Hardening, RATE_EXPONENT, RATE_REFERENCE};
+use crate::model::messages::{LIST_LENGTH, LIST_ORDER};
 use crate::quantity::{Dimension, Parameter, Range};
 use embate_lanes::Lane;
 
@@ -58,13 +59,14 @@ impl Hardening for Table {
 
     fn faults(parameters: &Parameters<'_>) -> Vec<ParameterFault> {
         let (strains, stresses) = (parameters.list("plastic_strain"), parameters.list("stress"));
-        let fault = |name, message: String, help: &str| vec![ParameterFault { name, message, help: help.into() }];
+        let fault = |kind, name, message: String, help: &str| vec![ParameterFault { kind, name, message, help: help.into() }];
         if strains.len() != stresses.len() {
             let message = format!("there are {} stresses for {} plastic strains", stresses.len(), strains.len());
-            return fault("stress", message, "give one stress for every plastic strain");
+            return fault(&LIST_LENGTH, "stress", message, "give one stress for every plastic strain");
         }
         if strains.first().is_some_and(|&first| first != 0.0) {
             return fault(
+                &LIST_ORDER,
                 "plastic_strain",
                 format!("the curve starts at {}", strains[0]),
                 "give the initial yield stress at a plastic strain of 0",
@@ -72,9 +74,13 @@ impl Hardening for Table {
         }
         if let Some(at) = (1..strains.len()).find(|&i| strains[i] <= strains[i - 1]) {
             let message = format!("{} comes after {}", strains[at], strains[at - 1]);
-            return fault("plastic_strain", message, "sort the points by their plastic strain, each once");
+            return fault(&LIST_ORDER, "plastic_strain", message, "sort the points by their plastic strain, each once");
         }
         Vec::new()
+    }
+
+    fn end(parameters: &Parameters<'_>) -> Option<f64> {
+        parameters.list("plastic_strain").last().copied()
     }
 
     fn falling(parameters: &Parameters<'_>) -> Option<(&'static str, f64, Option<f64>)> {

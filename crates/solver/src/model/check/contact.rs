@@ -1,7 +1,9 @@
 //! Faults of contacts, and of what contacts and obstacles share: law, friction, times.
 
 use super::{Check, motion};
+use crate::contact::messages::{COMBINATION, FRICTION, JOINED_TWICE, NOTHING_GIVES_WAY, PRESSURES, SHARED_SURFACE};
 use crate::contact::search;
+use crate::model::messages::{LIST_LENGTH, OF_REVOLUTION, UNKNOWN_NAME};
 use crate::model::reference::{Reference, excerpt};
 use crate::model::{Contact, ContactLaw, Formulation, Friction, Interface, Partners, Penalty};
 use crate::quantity::{Dimension, Range};
@@ -51,6 +53,7 @@ impl Check<'_> {
         if a == b || whole(a, b) || whole(b, a) {
             let body = part_of(a).map_or("...", |part| self.model.parts[part].name.as_str());
             self.fault(
+                &SHARED_SURFACE,
                 format!("{path}.between"),
                 format!("`{}` and `{}` share a surface", excerpt(&between[0]), excerpt(&between[1])),
                 format!("name two different surfaces; for the contact of a body with itself use `bodies = [\"{}\"]`", excerpt(body)),
@@ -80,6 +83,7 @@ impl Check<'_> {
 
     pub(super) fn nothing_gives_way(&mut self, path: String) {
         self.fault(
+            &NOTHING_GIVES_WAY,
             path,
             "nothing can give way: all bodies here are rigid and move as they are told",
             "let one of them deform, or be free in x, y or rotation",
@@ -91,14 +95,14 @@ impl Check<'_> {
         if let Formulation::SinglePass { slave } = contact.formulation
             && slave > 1
         {
-            self.fault(format!("{path}.slave"), format!("the slave is surface {slave}, but there are only 0 and 1"), "");
+            self.fault(&UNKNOWN_NAME, format!("{path}.slave"), format!("the slave is surface {slave}, but there are only 0 and 1"), "");
         }
         if contact.formulation == Formulation::Pinball && self.model.is_axisymmetric() {
             let message = "pinballs are cylinders of the plane, which a body of revolution has none of";
-            self.fault(format!("{path}.formulation"), message, "take `double_pass`, `single_pass` or `segment`");
+            self.fault(&OF_REVOLUTION, format!("{path}.formulation"), message, "take `double_pass`, `single_pass` or `segment`");
         }
         for (_, key, message, help) in contradictions(contact).into_iter().filter(|(holds, ..)| *holds) {
-            self.fault(format!("{path}.{key}"), message, help);
+            self.fault(&COMBINATION, format!("{path}.{key}"), message, help);
         }
     }
 
@@ -112,7 +116,7 @@ impl Check<'_> {
             let before = pairs.entry(pair).or_default();
             if let Some(first) = before.iter().find(|other| overlap(&contacts[**other], contact)) {
                 let message = format!("`{}` and `{}` are already joined by contact[{first}]", excerpt(pair[0]), excerpt(pair[1]));
-                self.fault(format!("contact[{index}].between"), message, ONE_TOO_MANY);
+                self.fault(&JOINED_TWICE, format!("contact[{index}].between"), message, ONE_TOO_MANY);
             }
             before.push(index);
         }
@@ -129,10 +133,10 @@ impl Check<'_> {
             let shared = bodies.iter().find_map(|part| Some((part, earlier(of_part.get(part.as_str())?)?)));
             let path = format!("contact[{index}].bodies");
             if let Some(first) = earlier(if bodies.is_empty() { &of_any } else { &of_all }) {
-                self.fault(path, format!("contact[{first}] already joins the same bodies"), ONE_TOO_MANY);
+                self.fault(&JOINED_TWICE, path, format!("contact[{first}] already joins the same bodies"), ONE_TOO_MANY);
             } else if let Some((part, first)) = shared {
                 let message = format!("part `{}` already meets itself and others in contact[{first}]", excerpt(part));
-                self.fault(path, message, ONE_TOO_MANY);
+                self.fault(&JOINED_TWICE, path, message, ONE_TOO_MANY);
             }
             of_any.push(index);
             of_all.extend(bodies.is_empty().then_some(index));
@@ -151,7 +155,7 @@ impl Check<'_> {
             if let Some(other) = among.find(|other| overlap(&contacts[**other], contact)) {
                 let message =
                     format!("`{}` and `{}` already meet as bodies of contact[{other}]", excerpt(&between[0]), excerpt(&between[1]));
-                self.fault(format!("contact[{index}].between"), message, ONE_TOO_MANY);
+                self.fault(&JOINED_TWICE, format!("contact[{index}].between"), message, ONE_TOO_MANY);
             }
         }
     }
@@ -168,6 +172,7 @@ impl Check<'_> {
             ContactLaw::Penalty(penalty) => self.penalty(path, *penalty),
             ContactLaw::PressureGap { gaps, pressures } => self.pressure_gap(path, gaps, pressures),
             ContactLaw::Multiplier if interface.damping > 0.0 => self.fault(
+                &COMBINATION,
                 format!("{path}.damping"),
                 "a multiplier contact has no spring whose motion could be damped",
                 "leave `damping` out, or take the law `penalty`",
@@ -197,21 +202,31 @@ impl Check<'_> {
         self.each(&at_gaps, gaps);
         self.each(&at_pressures, pressures);
         if gaps.len() < 2 {
-            self.fault(at_gaps.as_str(), format!("a table of pressures needs at least 2 gaps, but there are {}", gaps.len()), "");
+            self.fault(
+                &LIST_LENGTH,
+                at_gaps.as_str(),
+                format!("a table of pressures needs at least 2 gaps, but there are {}", gaps.len()),
+                "",
+            );
         }
         if gaps.len() != pressures.len() {
             let message = format!("there are {} gaps, but {} pressures", gaps.len(), pressures.len());
-            self.fault(at_pressures.as_str(), message, "give one pressure for each gap");
+            self.fault(&LIST_LENGTH, at_pressures.as_str(), message, "give one pressure for each gap");
         }
         self.ascending(&at_gaps, "gaps", gaps, "m");
         if let Some(at) = pressures.windows(2).position(|pair| pair[1] > pair[0]) {
             let message = format!("the pressure rises with the gap, from {} Pa to {} Pa", pressures[at], pressures[at + 1]);
-            self.fault(format!("{at_pressures}[{}]", at + 1), message, "give them from the deepest penetration to the widest gap");
+            self.fault(
+                &PRESSURES,
+                format!("{at_pressures}[{}]", at + 1),
+                message,
+                "give them from the deepest penetration to the widest gap",
+            );
         } else if let Some(last) = pressures.last().filter(|last| **last > 0.0) {
             let message = format!("the pressure at the last gap is {last} Pa: surfaces would push each other over any distance");
-            self.fault(format!("{at_pressures}[{}]", pressures.len() - 1), message, "let it end with 0");
+            self.fault(&PRESSURES, format!("{at_pressures}[{}]", pressures.len() - 1), message, "let it end with 0");
         } else if !pressures.is_empty() && pressures.iter().all(|pressure| *pressure == 0.0) {
-            self.fault(at_pressures, "all pressures are zero, so nothing keeps the surfaces apart", "give a pressure above 0");
+            self.fault(&PRESSURES, at_pressures, "all pressures are zero, so nothing keeps the surfaces apart", "give a pressure above 0");
         }
     }
 
@@ -225,7 +240,7 @@ impl Check<'_> {
         let Some(dynamic) = friction.dynamic else {
             if friction.decay > 0.0 {
                 let help = "give `friction_dynamic`, or leave `friction_decay` out";
-                self.fault(format!("{path}.friction_decay"), "there is no dynamic friction that it could decay to", help);
+                self.fault(&FRICTION, format!("{path}.friction_decay"), "there is no dynamic friction that it could decay to", help);
             }
             return;
         };
@@ -233,9 +248,14 @@ impl Check<'_> {
         self.number(&path, dynamic);
         if dynamic > friction.coefficient {
             let message = format!("dynamic friction {dynamic} is more than the static one, {}", friction.coefficient);
-            self.fault(path, message, "a body that slides is held less than one that sticks: give at most the value of `friction`");
+            self.fault(
+                &FRICTION,
+                path,
+                message,
+                "a body that slides is held less than one that sticks: give at most the value of `friction`",
+            );
         } else if friction.decay == 0.0 {
-            self.fault(path, "dynamic friction is never reached without a decay", "give `friction_decay`, such as \"0.1 s/m\"");
+            self.fault(&FRICTION, path, "dynamic friction is never reached without a decay", "give `friction_decay`, such as \"0.1 s/m\"");
         }
     }
 }

@@ -1,6 +1,8 @@
 //! Faults of springs and point masses.
 
 use super::Check;
+use crate::load::messages::TO_ITSELF;
+use crate::model::messages::LIST_LENGTH;
 use crate::model::reference::excerpt;
 
 impl Check<'_> {
@@ -13,7 +15,7 @@ impl Check<'_> {
             }
             if spring.between[0] == spring.between[1] {
                 let message = format!("`{}` would be bound to itself", excerpt(&spring.between[0]));
-                self.fault(format!("{path}.between"), message, "name two sets");
+                self.fault(&TO_ITSELF, format!("{path}.between"), message, "name two sets");
             }
             if spring.stiffness != 0.0 {
                 self.number(&format!("{path}.stiffness"), spring.stiffness);
@@ -29,7 +31,7 @@ impl Check<'_> {
             self.ascending(&elongations, "elongations", &spring.elongation, "m");
             if spring.elongation.len() != spring.force.len() {
                 let message = format!("there are {} elongations, but {} forces", spring.elongation.len(), spring.force.len());
-                self.fault(forces, message, "give one force for each elongation");
+                self.fault(&LIST_LENGTH, forces, message, "give one force for each elongation");
             }
         }
     }

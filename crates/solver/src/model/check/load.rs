@@ -1,7 +1,10 @@
 //! Faults of loads, boundaries that reflect nothing, and joins.
 
 use super::Check;
+use crate::load::messages::{FORCE_ON_PART, NO_EFFECT, RIGID, TO_ITSELF};
 use crate::material;
+use crate::material::messages::NO_STIFFNESS;
+use crate::model::messages::{OF_REVOLUTION, TWICE};
 use crate::model::reference::{Reference, excerpt};
 use crate::model::{Drive, Image, Load};
 use crate::quantity::{Dimension, Range};
@@ -17,7 +20,12 @@ impl Check<'_> {
                     self.vector(&format!("{path}.gravity"), *acceleration);
                     if model.is_axisymmetric() && acceleration[0] != 0.0 {
                         let message = "gravity across the axis of an axisymmetric model would pull it to one side";
-                        self.fault(format!("{path}.gravity[0]"), message, "let it act along the axis y, such as [0, \"-9.81 m/s^2\"]");
+                        self.fault(
+                            &OF_REVOLUTION,
+                            format!("{path}.gravity[0]"),
+                            message,
+                            "let it act along the axis y, such as [0, \"-9.81 m/s^2\"]",
+                        );
                     }
                     self.factor(&path, curve);
                 }
@@ -27,14 +35,19 @@ impl Check<'_> {
                     self.number(&format!("{path}.centrifugal"), *speed);
                     if model.is_axisymmetric() && *centre != [0.0; 2] {
                         let message = "an axisymmetric model turns about its axis, x = 0";
-                        self.fault(format!("{path}.centre"), message, "leave `centre` out");
+                        self.fault(&OF_REVOLUTION, format!("{path}.centre"), message, "leave `centre` out");
                     }
                     self.factor(&path, curve);
                 }
                 Load::Force { on, force, curve } => {
                     if let Some(Reference::Part(_)) = self.reference(&format!("{path}.on"), on, None) {
                         let message = format!("`{}` is a part, but a force acts on a set of its nodes", excerpt(on));
-                        self.fault(format!("{path}.on"), message, "name a side as part.side or a group; `gravity` acts on whole parts");
+                        self.fault(
+                            &FORCE_ON_PART,
+                            format!("{path}.on"),
+                            message,
+                            "name a side as part.side or a group; `gravity` acts on whole parts",
+                        );
                     }
                     self.vector(&format!("{path}.force"), *force);
                     self.factor(&path, curve);
@@ -67,7 +80,7 @@ impl Check<'_> {
             if material::has_elastic_stiffness(&material.law) == Some(false) {
                 let message = format!("part `{}` is of law `{}`", excerpt(&part.name), material.law);
                 let help = "this damping takes isotropic solids in rate form such as `elastic` and `j2`: name those in `parts`; rubber is damped by `damping`, or as `viscoelastic`";
-                self.fault(path, message, help);
+                self.fault(&NO_STIFFNESS, path, message, help);
             }
         }
     }
@@ -87,11 +100,11 @@ impl Check<'_> {
                 && model.parts[part].rigid.is_some()
             {
                 let message = format!("part `{}` is rigid, so no waves meet this boundary", excerpt(&model.parts[part].name));
-                self.fault(path.as_str(), message, "name a surface of a part that deforms");
+                self.fault(&RIGID, path.as_str(), message, "name a surface of a part that deforms");
             }
             if let Some(first) = model.non_reflecting[..index].iter().position(|it| it.on == boundary.on) {
                 let message = format!("`{}` reflects nothing by non_reflecting[{first}] already", excerpt(&boundary.on));
-                self.fault(path, message, "name it once");
+                self.fault(&TWICE, path, message, "name it once");
             }
         }
     }
@@ -106,7 +119,7 @@ impl Check<'_> {
                     && model.parts[part].rigid.is_some()
                 {
                     let message = format!("part `{}` is rigid, so its nodes can't be joined one by one", excerpt(&model.parts[part].name));
-                    self.fault(format!("{path}.between[{side}]"), message, "a tied contact binds others to rigid parts");
+                    self.fault(&RIGID, format!("{path}.between[{side}]"), message, "a tied contact binds others to rigid parts");
                 }
             }
             match join.image {
@@ -115,10 +128,20 @@ impl Check<'_> {
                     self.vector(&format!("{path}.translation"), by);
                     if model.is_axisymmetric() && by[0] != 0.0 {
                         let message = "nodes of an axisymmetric model at different radii can't move as one";
-                        self.fault(format!("{path}.translation[0]"), message, "join sets that lie one above the other along y");
+                        self.fault(
+                            &OF_REVOLUTION,
+                            format!("{path}.translation[0]"),
+                            message,
+                            "join sets that lie one above the other along y",
+                        );
                     }
                     if by == [0.0; 2] {
-                        self.fault(format!("{path}.translation"), "the translation is zero", "leave it out where the sets coincide");
+                        self.fault(
+                            &NO_EFFECT,
+                            format!("{path}.translation"),
+                            "the translation is zero",
+                            "leave it out where the sets coincide",
+                        );
                     }
                 }
                 Image::Turned { centre, angle } => {
@@ -126,10 +149,10 @@ impl Check<'_> {
                     self.number(&format!("{path}.rotation"), angle);
                     if model.is_axisymmetric() {
                         let message = "an axisymmetric model has no sectors: it is the same all around already";
-                        self.fault(format!("{path}.rotation"), message, "leave it out, or join by a translation along y");
+                        self.fault(&OF_REVOLUTION, format!("{path}.rotation"), message, "leave it out, or join by a translation along y");
                     }
                     if angle == 0.0 {
-                        self.fault(format!("{path}.rotation"), "the rotation is zero", "leave it out where the sets coincide");
+                        self.fault(&NO_EFFECT, format!("{path}.rotation"), "the rotation is zero", "leave it out where the sets coincide");
                     }
                 }
             }
@@ -138,7 +161,7 @@ impl Check<'_> {
             }
             if join.between[0] == join.between[1] {
                 let message = format!("`{}` is joined to itself", excerpt(&join.between[0]));
-                self.fault(format!("{path}.between"), message, "name two sets");
+                self.fault(&TO_ITSELF, format!("{path}.between"), message, "name two sets");
             }
         }
     }

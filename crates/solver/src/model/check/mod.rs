@@ -18,7 +18,11 @@ use super::reference::{Reference, excerpt};
 use super::{Cadence, Material, Model, Part, Probe, ProbeAt, Shape};
 use crate::error::Fault;
 use crate::failure;
+use crate::material::messages::{EQUATION_OF_STATE, PARAMETER_MISSING, PARAMETER_UNKNOWN};
 use crate::material::{self, Parameters};
+use crate::mesh::messages::BARS;
+use crate::message::Message;
+use crate::model::messages::{LIST_LENGTH, NAME, NO_DIRECTION, OUTPUT_TOO_MUCH, PERIOD, RANGE, TWICE, UNKNOWN_NAME};
 use crate::output;
 use crate::quantity::{Dimension, Parameter, Range};
 use std::collections::{BTreeMap, BTreeSet};
@@ -62,8 +66,8 @@ struct Check<'a> {
 }
 
 impl Check<'_> {
-    fn fault(&mut self, path: impl Into<String>, message: impl Into<String>, help: impl Into<String>) {
-        self.faults.push(Fault::new(path, message, help));
+    fn fault(&mut self, kind: &'static Message, path: impl Into<String>, message: impl Into<String>, help: impl Into<String>) {
+        self.faults.push(Fault::new(kind, path, message, help));
     }
 
     /// A number against the range of its key.
@@ -77,7 +81,7 @@ impl Check<'_> {
             let name = path.rsplit('.').next().unwrap_or(path);
             let shown = format!("{value} {}", dimension.unit());
             let (message, help) = out_of_range(name, shown.trim_end(), value, range);
-            self.fault(path, message, help);
+            self.fault(&RANGE, path, message, help);
         }
     }
 
@@ -91,13 +95,13 @@ impl Check<'_> {
     fn direction(&mut self, path: &str, value: [f64; 2]) {
         self.vector(path, value);
         if value == [0.0, 0.0] {
-            self.fault(path, "the normal is zero, so it has no direction", "give a vector such as [1, 0]");
+            self.fault(&NO_DIRECTION, path, "the normal is zero, so it has no direction", "give a vector such as [1, 0]");
         }
     }
 
     fn known(&mut self, path: &str, what: &str, name: &str, known: &[&str]) {
         if !known.contains(&name) {
-            self.fault(path, format!("there is no {what} `{}`", excerpt(name)), suggestion(name, known));
+            self.fault(&UNKNOWN_NAME, path, format!("there is no {what} `{}`", excerpt(name)), suggestion(name, known));
         }
     }
 
@@ -109,14 +113,14 @@ impl Check<'_> {
             self.name(&path, name);
             if let Some(first) = seen.insert(name, index) {
                 seen.insert(name, first);
-                self.fault(path, format!("the name `{}` is taken by {section}[{first}]", excerpt(name)), "give each its own name");
+                self.fault(&TWICE, path, format!("the name `{}` is taken by {section}[{first}]", excerpt(name)), "give each its own name");
             }
         }
     }
 
     fn name(&mut self, path: &str, name: &str) {
         if let Err((message, help)) = name_is_plain(name) {
-            self.fault(path, message, help);
+            self.fault(&NAME, path, message, help);
         }
     }
 
@@ -128,7 +132,7 @@ impl Check<'_> {
         if let Some(limit) = run.step_limit {
             self.number("run.step_limit", limit);
             if limit >= run.end && run.end > 0.0 {
-                self.fault("run.step_limit", "the step limit is not smaller than the end time, so no step could be taken", "");
+                self.fault(&PERIOD, "run.step_limit", "the step limit is not smaller than the end time, so no step could be taken", "");
             }
         }
         if let Some(largest) = run.time_step {
@@ -143,7 +147,7 @@ impl Check<'_> {
             self.number("run.mass_scaling.limit", scaling.limit);
         }
         if run.max_steps == Some(0) {
-            self.fault("run.max_steps", "`max_steps` must be at least 1, but it is 0", "leave it out for no limit");
+            self.fault(&RANGE, "run.max_steps", "`max_steps` must be at least 1, but it is 0", "leave it out for no limit");
         }
     }
 
@@ -185,13 +189,14 @@ impl Check<'_> {
                 match it.parameters.get(parameter.name) {
                     Some(value) => self.within(&path, *value, parameter.dimension, parameter.range),
                     None if parameter.default.is_some() => {}
-                    None => self.fault(path, needs(parameter), parameter.doc),
+                    None => self.fault(&PARAMETER_MISSING, path, needs(parameter), parameter.doc),
                 }
             }
             for (key, &value) in &it.failure {
                 match failure::by_name(key) {
                     Some(kind) => self.within(&format!("{path}.failure.{key}"), value, kind.limit.dimension, kind.limit.range),
                     None => self.fault(
+                        &UNKNOWN_NAME,
                         format!("{path}.failure"),
                         format!("there is no criterion `{}`", excerpt(key)),
                         "see `embate list failure`",
@@ -210,13 +215,18 @@ impl Check<'_> {
                     _ => suggestion(key, &known),
                 };
                 let with = own.map_or(String::new(), |own| format!(" with `eos = \"{}\"`", own.name));
-                self.fault(format!("{path}.{key}"), format!("law `{}`{with} has no parameter `{}`", it.law, excerpt(key)), help);
+                self.fault(
+                    &PARAMETER_UNKNOWN,
+                    format!("{path}.{key}"),
+                    format!("law `{}`{with} has no parameter `{}`", it.law, excerpt(key)),
+                    help,
+                );
             }
             if self.faults.len() == before {
                 let faults = material::faults(&it.law, &Parameters::new(kind.parameters, &it.parameters, &it.lists));
                 let own = own.map(|own| material::eos::faults(own.name, &Parameters::new(own.parameters, &it.parameters, &it.lists)));
                 let faults = faults.into_iter().chain(own.into_iter().flatten());
-                faults.for_each(|fault| self.fault(format!("{path}.{}", fault.name), fault.message, fault.help));
+                faults.for_each(|fault| self.fault(fault.kind, format!("{path}.{}", fault.name), fault.message, fault.help));
             }
         }
     }
@@ -229,7 +239,7 @@ impl Check<'_> {
         if it.eos.is_empty() {
             if needs {
                 let help = format!("give an equation of state, `eos`: {}", names.join(", "));
-                self.fault(path, format!("law `{}` has no pressure of its own", it.law), help);
+                self.fault(&EQUATION_OF_STATE, path, format!("law `{}` has no pressure of its own", it.law), help);
             }
             return !needs;
         }
@@ -238,7 +248,7 @@ impl Check<'_> {
                 "law `{}` has a pressure of its own, from its energy or its flow: an equation of state would contradict it",
                 it.law
             );
-            self.fault(path, message, "leave `eos` out, or take a law in rate form such as `elastic` or `j2`");
+            self.fault(&EQUATION_OF_STATE, path, message, "leave `eos` out, or take a law in rate form such as `elastic` or `j2`");
             return false;
         }
         if material::eos::kind(&it.eos).is_none() {
@@ -253,10 +263,10 @@ impl Check<'_> {
         match it.lists.get(parameter.name) {
             Some(values) if values.len() > parameter.list => {
                 let message = format!("`{}` takes at most {} values, here are {}", parameter.name, parameter.list, values.len());
-                self.fault(path, message, "leave the others out");
+                self.fault(&LIST_LENGTH, path, message, "leave the others out");
             }
             Some(values) if values.is_empty() && parameter.default.is_none() => {
-                self.fault(path, format!("`{}` is empty", parameter.name), parameter.doc);
+                self.fault(&LIST_LENGTH, path, format!("`{}` is empty", parameter.name), parameter.doc);
             }
             Some(values) => {
                 for (index, value) in values.iter().enumerate() {
@@ -264,7 +274,7 @@ impl Check<'_> {
                 }
             }
             None if parameter.default.is_some() => {}
-            None => self.fault(path, needs, parameter.doc),
+            None => self.fault(&PARAMETER_MISSING, path, needs, parameter.doc),
         }
     }
 
@@ -273,13 +283,13 @@ impl Check<'_> {
         match self.model.reference(name, dimension) {
             Ok(Reference::Part(part) | Reference::Side { part, .. }) if dimension == Some(1) && self.model.parts[part].is_of_bars() => {
                 let message = format!("part `{}` is made of bars, which have no surface", excerpt(&self.model.parts[part].name));
-                self.fault(path, message, NO_SURFACE);
+                self.fault(&BARS, path, message, NO_SURFACE);
                 None
             }
             Ok(found) => Some(found),
             Err((message, help)) => {
                 if !self.may_be_missing(name) {
-                    self.fault(path, message, help);
+                    self.fault(&UNKNOWN_NAME, path, message, help);
                 }
                 None
             }
@@ -305,7 +315,7 @@ impl Check<'_> {
             let path = format!("{path}[{index}]");
             self.known(&path, "part", name, &known);
             if !seen.insert(name) {
-                self.fault(path, format!("part `{}` is named twice", excerpt(name)), "name it once");
+                self.fault(&TWICE, path, format!("part `{}` is named twice", excerpt(name)), "name it once");
             }
         }
     }
@@ -316,11 +326,11 @@ impl Check<'_> {
         for (index, name) in parts.iter().enumerate() {
             if model.parts.iter().any(|part| part.name == *name && part.is_of_bars()) {
                 let message = format!("part `{}` is made of bars, which have no surface", excerpt(name));
-                self.fault(format!("{path}[{index}]"), message, NO_SURFACE);
+                self.fault(&BARS, format!("{path}[{index}]"), message, NO_SURFACE);
             }
         }
         if parts.is_empty() && !model.parts.is_empty() && model.parts.iter().all(Part::is_of_bars) {
-            self.fault(path, "all parts are made of bars, which have no surface", NO_SURFACE);
+            self.fault(&BARS, path, "all parts are made of bars, which have no surface", NO_SURFACE);
         }
     }
 
@@ -357,6 +367,7 @@ impl Check<'_> {
                 {
                     let help = format!("nodes are numbered from 0 to {}", count.saturating_sub(1));
                     self.fault(
+                        &UNKNOWN_NAME,
                         format!("{path}.node"),
                         format!("part `{}` has {count} nodes, so there is no node {node}", excerpt(part)),
                         help,
@@ -378,6 +389,7 @@ impl Check<'_> {
             };
             if count.is_finite() && count > most {
                 self.fault(
+                    &OUTPUT_TOO_MUCH,
                     path,
                     format!("this would be written {count} times, more than {most}"),
                     "give a smaller count or a longer interval",
@@ -385,7 +397,7 @@ impl Check<'_> {
             }
             match cadence {
                 Cadence::Count(0) => {
-                    self.fault(path, "there must be at least 1 interval, but it is 0", "give a count of 1 or more, or an interval")
+                    self.fault(&RANGE, path, "there must be at least 1 interval, but it is 0", "give a count of 1 or more, or an interval")
                 }
                 Cadence::Count(_) => {}
                 Cadence::Interval(time) => self.number(path, time),

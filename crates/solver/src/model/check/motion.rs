@@ -1,10 +1,13 @@
 //! Faults of what moves or is held: obstacles, rigid parts, constraints, and the curves that they follow. Loads are in `load.rs`.
 
 use super::Check;
+use crate::contact::messages::OBSTACLE;
 use crate::load::curve::Curve;
 use crate::load::curve::expression::Expression;
 use crate::load::curve::sine::Sine;
+use crate::load::messages::{BEGINNING, CURVE, CURVE_DIMENSION, EXPRESSION, INERTIA, JUMP, NO_EFFECT, PRESCRIBED_TWICE, RIGID};
 use crate::model::describe::suggestion;
+use crate::model::messages::{LIST_LENGTH, LIST_ORDER, OF_REVOLUTION, PERIOD, UNKNOWN_NAME};
 use crate::model::reference::{Reference, excerpt};
 use crate::model::{Constraint, CurveShape, Drive, Motion, Obstacle, ObstacleShape, Part};
 use crate::quantity::{Dimension, Range};
@@ -22,7 +25,7 @@ impl Check<'_> {
             self.name(&path, name);
             if name == "free" || !name.starts_with(char::is_alphabetic) {
                 let message = format!("a curve can't be called `{}`", excerpt(name));
-                self.fault(path.as_str(), message, "its name must begin with a letter, and `free` means something else");
+                self.fault(&CURVE, path.as_str(), message, "its name must begin with a letter, and `free` means something else");
             }
             match &curve.shape {
                 CurveShape::Table { times, values, .. } => self.table(&path, times, values),
@@ -37,11 +40,11 @@ impl Check<'_> {
         self.each(&times_path, times);
         self.each(&values_path, values);
         if times.is_empty() {
-            self.fault(times_path.as_str(), "the curve has no point", "give at least one time and its value");
+            self.fault(&CURVE, times_path.as_str(), "the curve has no point", "give at least one time and its value");
         }
         if times.len() != values.len() {
             let message = format!("there are {} times, but {} values", times.len(), values.len());
-            self.fault(values_path, message, "give one value for each time");
+            self.fault(&LIST_LENGTH, values_path, message, "give one value for each time");
         }
         self.ascending(&times_path, "times", times, "s");
     }
@@ -59,7 +62,7 @@ impl Check<'_> {
             Ok(formula) => formula,
             Err(wrong) => {
                 let message = format!("at character {} of `{}`: {}", wrong.at, excerpt(text), wrong.message);
-                return self.fault(path, message, "write it like \"2*sin(3*t) + exp(-t)\", with the time t in s");
+                return self.fault(&EXPRESSION, path, message, "write it like \"2*sin(3*t) + exp(-t)\", with the time t in s");
             }
         };
         let end = if self.model.run.end.is_finite() { self.model.run.end.max(0.0) } else { 0.0 };
@@ -67,6 +70,7 @@ impl Check<'_> {
         if let Some((time, value)) = times.map(|time| (time, formula.value(time))).find(|(_, value)| !value.is_finite()) {
             let what = if value.is_nan() { "not a number".to_string() } else { value.to_string() };
             self.fault(
+                &EXPRESSION,
                 path,
                 format!("`{}` is {what} at {time} s", excerpt(text)),
                 "give a formula with a finite value from the start to `run.end`",
@@ -85,7 +89,7 @@ impl Check<'_> {
     pub(super) fn ascending(&mut self, path: &str, what: &str, values: &[f64], unit: &str) {
         if let Some(at) = values.windows(2).position(|pair| pair[1] <= pair[0]) {
             let message = format!("{} {unit} does not follow {} {unit}: the {what} must ascend", values[at + 1], values[at]);
-            self.fault(format!("{path}[{}]", at + 1), message, "give each of them once, in ascending order");
+            self.fault(&LIST_ORDER, format!("{path}[{}]", at + 1), message, "give each of them once, in ascending order");
         }
     }
 
@@ -99,7 +103,7 @@ impl Check<'_> {
         self.within(&path, active[1], Dimension::TIME, Range::Positive);
         if active[1] > 0.0 && active[1] <= active[0] {
             let message = format!("it ends at {} s, not after its beginning at {} s", active[1], active[0]);
-            self.fault(path, message, format!("give a later `{until}` or an earlier `{from}`"));
+            self.fault(&PERIOD, path, message, format!("give a later `{until}` or an earlier `{from}`"));
         }
     }
 
@@ -117,14 +121,14 @@ impl Check<'_> {
             } else {
                 suggestion(name, &known)
             };
-            return self.fault(path, format!("there is no curve `{}`", excerpt(name)), help);
+            return self.fault(&UNKNOWN_NAME, path, format!("there is no curve `{}`", excerpt(name)), help);
         };
         if let Some(other) = curve.dimension.filter(|other| *other != dimension) {
             let key = path.rsplit('.').next().unwrap_or(path);
             let unit = if other == Dimension::NONE { "pure numbers".to_string() } else { format!("in {other}") };
             let wanted = if dimension == Dimension::RATE { "rad/s".to_string() } else { dimension.unit() };
             let message = format!("the values of curve `{}` are {unit}, but `{key}` is in {wanted}", excerpt(name));
-            self.fault(path, message, "take a curve of the right dimension, or give its values as numbers without units");
+            self.fault(&CURVE_DIMENSION, path, message, "take a curve of the right dimension, or give its values as numbers without units");
         }
     }
 
@@ -144,17 +148,22 @@ impl Check<'_> {
                 let asked = drives[k].is_some_and(|drive| *drive != Drive::Constant(0.0));
                 if asked || (key == "motion" && drives[k].is_none()) {
                     let message = format!("`{axis}` of a rigid body of revolution can't be prescribed or free");
-                    self.fault(format!("{body}.{key}.{axis}"), message, help);
+                    self.fault(&OF_REVOLUTION, format!("{body}.{key}.{axis}"), message, help);
                 } else if drives[k].is_none() && value != 0.0 {
                     let message = format!("a rigid body of revolution can't begin with a motion in `{axis}`");
-                    self.fault(format!("{body}.{begin}"), message, help);
+                    self.fault(&OF_REVOLUTION, format!("{body}.{begin}"), message, help);
                 }
             }
         }
         for ((axis, drive), (begin, value)) in AXES.iter().zip(drives).zip(begins) {
             if drive.is_some() && value != 0.0 && value.is_finite() {
                 let message = format!("`{axis}` is not free, so it can't begin with {value}");
-                self.fault(format!("{body}.{begin}"), message, format!("leave it out, or write `{axis} = \"free\"` in `{key}`"));
+                self.fault(
+                    &BEGINNING,
+                    format!("{body}.{begin}"),
+                    message,
+                    format!("leave it out, or write `{axis} = \"free\"` in `{key}`"),
+                );
             }
         }
     }
@@ -165,7 +174,12 @@ impl Check<'_> {
         self.number(&format!("{path}.spin"), part.spin);
         if part.is_axisymmetric() && part.spin != 0.0 && part.rigid.is_none() {
             let message = "`spin` turns a part in its plane, which a body of revolution can't";
-            self.fault(format!("{path}.spin"), message, "leave it out; for a rotation about the axis take the load `centrifugal`");
+            self.fault(
+                &OF_REVOLUTION,
+                format!("{path}.spin"),
+                message,
+                "leave it out; for a rotation about the axis take the load `centrifugal`",
+            );
         }
         if let Some(motion) = &part.rigid {
             self.motion(path, "rigid", motion, part.velocity, part.spin);
@@ -210,15 +224,16 @@ impl Check<'_> {
             self.vector(&format!("{path}[{index}]"), *point);
         }
         if points.len() < 2 {
-            self.fault(path, format!("a polyline needs at least 2 points, but there are {}", points.len()), "");
+            self.fault(&OBSTACLE, path, format!("a polyline needs at least 2 points, but there are {}", points.len()), "");
         }
         let equal: Vec<usize> = points.windows(2).enumerate().filter(|(_, pair)| pair[0] == pair[1]).map(|(at, _)| at + 1).collect();
         for at in &equal {
             let message = format!("point {at} is the same as the one before it, so there is no line between them");
-            self.fault(format!("{path}[{at}]"), message, "leave one of the two out");
+            self.fault(&OBSTACLE, format!("{path}[{at}]"), message, "leave one of the two out");
         }
         if points.len() == 3 && points[0] == points[2] && equal.is_empty() {
             self.fault(
+                &OBSTACLE,
                 path,
                 "the polyline goes back on its own line, so it has no free side",
                 "a closed one needs at least 3 different points",
@@ -245,11 +260,11 @@ impl Check<'_> {
                 Some(value) if free => self.number(&path, value),
                 Some(_) => {
                     let message = format!("`{key}` has no effect, because the obstacle is not free to {verb}");
-                    self.fault(path, message, format!("leave it out, or let {axes} be \"free\" in `motion`"));
+                    self.fault(&INERTIA, path, message, format!("leave it out, or let {axes} be \"free\" in `motion`"));
                 }
                 None if free => {
                     let message = format!("the obstacle is free to {verb}, so it needs `{key}`");
-                    self.fault(path, message, format!("add `{key} = \"{example}\"`, or prescribe {axes} in `motion`"));
+                    self.fault(&INERTIA, path, message, format!("add `{key} = \"{example}\"`, or prescribe {axes} in `motion`"));
                 }
                 None => {}
             }
@@ -266,7 +281,12 @@ impl Check<'_> {
             {
                 let message =
                     format!("part `{}` is rigid, so its nodes can't be held or moved one by one", excerpt(&model.parts[part].name));
-                self.fault(format!("{path}.on"), message, "prescribe its motion: `rigid = { x = 0, y = 0, rotation = 0 }` holds it");
+                self.fault(
+                    &RIGID,
+                    format!("{path}.on"),
+                    message,
+                    "prescribe its motion: `rigid = { x = 0, y = 0, rotation = 0 }` holds it",
+                );
             }
             self.prescribed(&path, constraint);
         }
@@ -295,7 +315,7 @@ impl Check<'_> {
             let several: Vec<&str> = kinds.iter().filter(|(_, drives, _)| drives[axis].is_some()).map(|(key, ..)| *key).collect();
             if let [first, second, ..] = several[..] {
                 let message = format!("`{}` is prescribed by both `{first}` and `{second}`", AXES[axis]);
-                self.fault(format!("{path}.{second}.{}", AXES[axis]), message, "leave it out of one of the two");
+                self.fault(&PRESCRIBED_TWICE, format!("{path}.{second}.{}", AXES[axis]), message, "leave it out of one of the two");
             }
         }
         let straight = kinds.iter().any(|(_, drives, _)| drives.iter().any(Option::is_some));
@@ -304,10 +324,11 @@ impl Check<'_> {
             self.drive(&format!("{path}.rotation.speed"), &rotation.speed, Dimension::RATE);
             if straight {
                 let message = "nodes that are led around a point can't be moved along x or y as well";
-                self.fault(format!("{path}.rotation"), message, "leave one of the two out");
+                self.fault(&PRESCRIBED_TWICE, format!("{path}.rotation"), message, "leave one of the two out");
             }
         } else if !straight {
             self.fault(
+                &NO_EFFECT,
                 path,
                 "the constraint leaves both components free, so it does nothing",
                 "add `fixed = \"x\"` or `velocity = { x = \"1 m/s\" }`",
@@ -320,7 +341,7 @@ impl Check<'_> {
         match drive {
             Drive::Constant(value) if *value != 0.0 && value.is_finite() => {
                 let message = "a displacement that is the same at all times would move the nodes at once";
-                self.fault(path, message, "name a curve that begins with 0, or use `fixed`");
+                self.fault(&JUMP, path, message, "name a curve that begins with 0, or use `fixed`");
             }
             Drive::Constant(_) => {}
             Drive::Curve(name) => {
@@ -329,7 +350,7 @@ impl Check<'_> {
                 let (begin, later) = (curve.value(0.0), curve.value(self.model.run.end));
                 if begin.is_finite() && begin.abs() > 1e-12 * later.abs() {
                     let message = format!("curve `{}` begins with {begin} m, so it would move the nodes at once", excerpt(name));
-                    self.fault(path, message, "let it be 0 at time 0");
+                    self.fault(&JUMP, path, message, "let it be 0 at time 0");
                 }
             }
         }

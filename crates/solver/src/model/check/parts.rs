@@ -5,7 +5,10 @@ use super::warnings::parameters;
 use crate::block::stress_state::{PlaneStress, STRESS_STATES, StressState};
 use crate::element;
 use crate::material;
+use crate::material::messages::{INITIAL_STATE, SOFTENS_TOO_STEEPLY};
+use crate::mesh::messages::{BARS, GROUP, NO_ELEMENT, SAME_PLACE, SHAPE, TOO_MANY};
 use crate::model::describe::{ELEMENTS_MAX, suggestion};
+use crate::model::messages::{CLASH, NOTHING, OF_REVOLUTION, UNKNOWN_NAME};
 use crate::model::reference::{dimension_word, excerpt};
 use crate::model::{Model, Part, Placement, Shape};
 use std::collections::BTreeSet;
@@ -14,7 +17,7 @@ impl Check<'_> {
     pub(super) fn parts(&mut self) {
         let model = self.model;
         if model.parts.is_empty() {
-            self.fault("part", "the model has no part", "add a [[part]] section with a name, a material and a shape");
+            self.fault(&NOTHING, "part", "the model has no part", "add a [[part]] section with a name, a material and a shape");
         }
         self.names("part", model.parts.iter().map(|part| part.name.as_str()));
         let materials: Vec<&str> = model.materials.keys().map(String::as_str).collect();
@@ -35,6 +38,7 @@ impl Check<'_> {
             let count = element_count(model, part);
             if total <= ELEMENTS_MAX && total.saturating_add(count) > ELEMENTS_MAX {
                 self.fault(
+                    &TOO_MANY,
                     format!("{path}.{}", size_key(&part.shape)),
                     format!("the model has more than {} million elements", ELEMENTS_MAX / 1_000_000),
                     "take fewer elements",
@@ -56,6 +60,7 @@ impl Check<'_> {
             let [state, other] = [part, first].map(|part| if part.is_axisymmetric() { "axisymmetric" } else { "plane" });
             let message = format!("the part is {state}, but part `{}` is {other}", excerpt(&first.name));
             self.fault(
+                &OF_REVOLUTION,
                 path,
                 message,
                 "make all parts axisymmetric, or none: forces of the whole circumference and per metre of depth can't be added",
@@ -75,17 +80,17 @@ impl Check<'_> {
             }
             self.vector(&format!("{path}.point"), stress.point);
             if part.stress_state == PlaneStress::KIND.name && !stress.lacks(2) {
-                self.fault(format!("{path}.zz"), "in plane stress there is no stress across the plane", "leave it out");
+                self.fault(&INITIAL_STATE, format!("{path}.zz"), "in plane stress there is no stress across the plane", "leave it out");
             }
             if part.rigid.is_some() {
-                self.fault(path, rigid, "leave it out, or let the part deform");
+                self.fault(&INITIAL_STATE, path, rigid, "leave it out, or let the part deform");
             }
         }
         if let Some(temperature) = part.temperature_initial {
             let path = format!("{path}.temperature_initial");
             self.number(&path, temperature);
             if part.rigid.is_some() {
-                self.fault(path, rigid, "leave it out, or let the part deform");
+                self.fault(&INITIAL_STATE, path, rigid, "leave it out, or let the part deform");
             }
         }
     }
@@ -101,7 +106,7 @@ impl Check<'_> {
         };
         if softening.is_too_steep(stiffness) && !softening.is_too_steep(softening.solid) {
             let (message, help) = softening.too_steep(stiffness);
-            self.fault(format!("{path}.material"), format!("`{}` in {of}: {message}", excerpt(&part.material)), help);
+            self.fault(&SOFTENS_TOO_STEEPLY, format!("{path}.material"), format!("`{}` in {of}: {message}", excerpt(&part.material)), help);
         }
     }
 
@@ -114,6 +119,7 @@ impl Check<'_> {
         if !part.is_of_bars() {
             if part.area.is_some() {
                 self.fault(
+                    &BARS,
                     area,
                     "`area` is the cross-section of bars, but the part has none",
                     "leave it out, or take `element = \"bar2\"`",
@@ -122,26 +128,31 @@ impl Check<'_> {
             return;
         }
         if part.shape.built_in().is_some_and(|(shape, _)| shape.nodes_per_element() == 3) {
-            self.fault(format!("{path}.element"), "the part is made of triangles, so `bar2` can't be its element", "leave `element` out");
+            self.fault(
+                &NO_ELEMENT,
+                format!("{path}.element"),
+                "the part is made of triangles, so `bar2` can't be its element",
+                "leave `element` out",
+            );
             return;
         }
         if part.area.is_none() {
-            self.fault(area, "bars need their cross-section", "add `area = \"1e-4 m\"`: cross-section per metre of depth");
+            self.fault(&BARS, area, "bars need their cross-section", "add `area = \"1e-4 m\"`: cross-section per metre of depth");
         }
         if !part.stress_state.is_empty() && part.stress_state != STRESS_STATES[0].name {
             let help = "leave `stress_state` out; in a body of revolution a line is a shell, for which there is no element";
-            self.fault(format!("{path}.stress_state"), "bars have a stress along their line and no other", help);
+            self.fault(&BARS, format!("{path}.stress_state"), "bars have a stress along their line and no other", help);
         }
         if let Some(material) = self.model.materials.get(&part.material)
             && material::bears_uniaxial_stress(&material.law) == Some(false)
         {
             let message = format!("bars can't be of law `{}`: it answers differently in different directions, or is a fluid", material.law);
-            self.fault(format!("{path}.material"), message, "take an isotropic solid such as `elastic` or `j2`");
+            self.fault(&BARS, format!("{path}.material"), message, "take an isotropic solid such as `elastic` or `j2`");
         }
         if let Some(stress) = part.stress_initial.as_ref().filter(|stress| !(1..4).all(|component| stress.lacks(component))) {
             let component = (1..4).find(|&component| !stress.lacks(component)).unwrap_or(1);
             let path = format!("{path}.stress_initial.{}", ["xx", "yy", "zz", "xy"][component]);
-            self.fault(path, "bars have a stress along their line and no other", "give it as `xx`, whatever their direction");
+            self.fault(&BARS, path, "bars have a stress along their line and no other", "give it as `xx`, whatever their direction");
         }
     }
 
@@ -152,7 +163,7 @@ impl Check<'_> {
             }
             if part.placement != Placement::default() {
                 let help = "place it in the mesh generator";
-                self.fault(format!("{path}.mesh"), "a group of a mesh file can't be mirrored, turned, moved or copied", help);
+                self.fault(&CLASH, format!("{path}.mesh"), "a group of a mesh file can't be mirrored, turned, moved or copied", help);
             }
             return;
         };
@@ -188,13 +199,18 @@ impl Check<'_> {
             && let Some(k) = (1..copies.count.min(10_000)).find(full)
         {
             let message = format!("bodies 1 and {} of the copies lie on each other", k + 1);
-            self.fault(format!("{path}.count"), message, "take fewer copies, another angle, or a translation");
+            self.fault(&SAME_PLACE, format!("{path}.count"), message, "take fewer copies, another angle, or a translation");
         }
     }
 
     fn group(&mut self, part_path: &str, part: &Part, mesh: usize, group: &str) {
         let Some(imported) = self.model.meshes.get(mesh) else {
-            self.fault(format!("{part_path}.mesh"), format!("there is no mesh number {mesh}"), "add it to the model's meshes");
+            self.fault(
+                &UNKNOWN_NAME,
+                format!("{part_path}.mesh"),
+                format!("there is no mesh number {mesh}"),
+                "add it to the model's meshes",
+            );
             return;
         };
         let path = format!("{part_path}.mesh.group");
@@ -206,24 +222,31 @@ impl Check<'_> {
                 Some(other) => {
                     let wanted = if dimension == 1 { "not of lines" } else { "not of surfaces" };
                     let message = format!("`{name}` in {} is {}, {wanted}", imported.source, dimension_word(other.dimension));
-                    self.fault(path, message, suggestion("", &known));
+                    self.fault(&GROUP, path, message, suggestion("", &known));
                 }
-                None => self.fault(path, format!("{} has no group `{name}`", imported.source), suggestion(group, &known)),
+                None => self.fault(&UNKNOWN_NAME, path, format!("{} has no group `{name}`", imported.source), suggestion(group, &known)),
             }
             return;
         };
         if found.cells.is_empty() {
-            self.fault(path.as_str(), format!("group `{}` has no cells", excerpt(group)), "mesh its surfaces before the file is written");
+            self.fault(
+                &GROUP,
+                path.as_str(),
+                format!("group `{}` has no cells", excerpt(group)),
+                "mesh its surfaces before the file is written",
+            );
         }
         let nodes = imported.positions.len();
         if found.cells.iter().flatten().any(|node| *node as usize >= nodes) {
             self.fault(
+                &GROUP,
                 path.as_str(),
                 format!("group `{}` names a node that the mesh doesn't have", excerpt(group)),
                 "the mesh has to be made again",
             );
         } else if found.cells.iter().flatten().any(|node| !imported.positions[*node as usize].iter().all(|x| x.is_finite())) {
             self.fault(
+                &GROUP,
                 path.as_str(),
                 format!("group `{}` has a node whose position is not finite", excerpt(group)),
                 "the mesh has to be made again",
@@ -250,12 +273,12 @@ impl Check<'_> {
         if known.is_empty() {
             let help =
                 if path.ends_with(".group") { "let the mesh generator make quadrilaterals only (Gmsh: Recombine Surface)" } else { "" };
-            self.fault(path, format!("{has}, but no element has {nodes} nodes"), help);
+            self.fault(&NO_ELEMENT, path, format!("{has}, but no element has {nodes} nodes"), help);
         } else if nodes == 3 {
             let message = format!("{has}, but `{}` is no element of three nodes", excerpt(&part.element_triangles));
-            self.fault(format!("{part_path}.element_triangles"), message, suggestion(&part.element_triangles, &known));
+            self.fault(&NO_ELEMENT, format!("{part_path}.element_triangles"), message, suggestion(&part.element_triangles, &known));
         } else {
-            self.fault(path, format!("{has}, but element `{}` has not", part.element), suggestion(&part.element, &known));
+            self.fault(&NO_ELEMENT, path, format!("{has}, but element `{}` has not", part.element), suggestion(&part.element, &known));
         }
     }
 
@@ -264,7 +287,7 @@ impl Check<'_> {
         for (index, value) in values.iter().enumerate() {
             if *value == 0 {
                 let path = if values.len() > 1 { format!("{path}[{index}]") } else { path.to_string() };
-                self.fault(path, "there must be at least 1 element", "");
+                self.fault(&NOTHING, path, "there must be at least 1 element", "");
             }
         }
     }
@@ -301,9 +324,9 @@ impl CheckOf<'_, '_> {
         if key.is_empty() { self.path.to_string() } else { format!("{}.{key}", self.path) }
     }
 
-    /// A fault at a key.
+    /// A fault of the shape at a key.
     pub(crate) fn fault(&mut self, key: &str, message: impl Into<String>, help: impl Into<String>) {
-        self.check.fault(self.at(key), message, help);
+        self.check.fault(&SHAPE, self.at(key), message, help);
     }
 
     /// A number against the range of its key.

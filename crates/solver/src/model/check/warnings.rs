@@ -5,6 +5,7 @@
 use crate::block::stress_state::{PlaneStress, StressState};
 use crate::element::{Element, Quad4, Quad4Full, Tri3};
 use crate::error::Warning;
+use crate::material::messages::{FLUID, LOCKING, SOFTENING};
 use crate::material::{self, Law, Null, Parameters};
 use crate::model::{Material, Model, Part, Shape};
 
@@ -32,7 +33,7 @@ impl Model {
         let softening = material::softening(&it.law, &parameters(it)?)?;
         self.parts.iter().find(|part| part.material == name && part.rigid.is_none())?;
         let gone = softening.gone_at.map_or(String::new(), |at| format!("; nothing is left of it at a plastic strain of {at:.4}"));
-        Some(Warning {
+        Some(Warning { kind: &SOFTENING,
             path: format!("material.{name}.{}", softening.name),
             message: format!("the flow stress falls by up to {:.4e} Pa per plastic strain{gone}", -softening.slope),
             consequence: "the equations lose ellipticity where it falls: strain gathers in one row of elements, so that forces and energies after the peak depend on \
@@ -60,6 +61,7 @@ impl Model {
         let [bulk, shear] = material::stiffness(&it.law, &parameters(it)?)?;
         let poisson = (3.0 * bulk - 2.0 * shear) / (2.0 * (3.0 * bulk + shear));
         (poisson > LOCKS).then(|| Warning {
+            kind: &LOCKING,
             path: format!("part[{index}].material"),
             message: format!("Poisson's ratio of `{}` is {poisson:.4}, in elements `{element}`", part.material),
             consequence: "they lock: bending and shear of the part are several times too stiff, also with many elements".into(),
@@ -72,7 +74,7 @@ impl Model {
         let element = [Quad4::KIND.name, Quad4Full::KIND.name].into_iter().find(|name| self.has_elements(part, name))?;
         let is_row = matches!(&part.shape, Shape::Rectangle(rectangle) if rectangle.elements.contains(&1));
         let is_thin = it.law == Null::KIND.name && parameters(it)?.value("viscosity") == 0.0;
-        (is_thin && !is_row).then(|| Warning {
+        (is_thin && !is_row).then(|| Warning { kind: &FLUID,
             path: format!("part[{index}].material"),
             message: format!("`{}` is a fluid without viscosity, in elements `{element}`", part.material),
             consequence: "its pressure is one for the whole element and holds none of the shapes that keep the volume: where it does not flow along the lines of the \

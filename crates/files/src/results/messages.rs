@@ -1,0 +1,65 @@
+//! Messages of writing results and pictures.
+
+use embate_solver::message::{Example, Message};
+
+pub(crate) static MESSAGES: &[&Message] = &[&EXISTS, &NOT_A_FOLDER, &REFUSED, &FRAME, &PICTURE, &BUG, &NO_PICTURES];
+
+/// Something is in the way.
+pub static EXISTS: Message = Message {
+    code: "E0702",
+    title: "something is in the way",
+    example: Example::Words("A model is run a second time into the folder of its results."),
+    cause: "The folder or file holds something that would be lost.",
+    cure: "Choose another place with --out, or replace what is there with --force.",
+};
+
+pub(super) static NOT_A_FOLDER: Message = Message {
+    code: "E0703",
+    title: "a file where a folder must be",
+    example: Example::Command("run model.toml --out model.toml"),
+    cause: "Results are a folder, and the path leads to a file.",
+    cure: "Choose another place with --out.",
+};
+
+/// The system refused.
+pub static REFUSED: Message = Message {
+    code: "E0704",
+    title: "the system refused to write or read a file",
+    example: Example::Command("run model.toml --out model.toml/results"),
+    cause: "The disk is full, the folder may not be written to, or a part of the path is a file; the system's own words are in the message.",
+    cure: "Free some space, or choose another folder with --out.",
+};
+
+pub(super) static FRAME: Message = Message {
+    code: "E0705",
+    title: "a frame that can't be written",
+    example: Example::Words("A program that writes VTU files itself gives a field with another number of values than the mesh has."),
+    cause: "Values, cells and nodes of a frame do not fit each other.",
+    cure: "If embate itself wrote the frame, report it with the model file.",
+};
+
+pub(crate) static PICTURE: Message = Message {
+    code: "E0706",
+    title: "a picture that can't be made",
+    example: Example::Words("A program that draws frames itself asks for a field that they don't have."),
+    cause: "The field is not in the frames, a value is not finite, or the encoder refused.",
+    cure: "Take a field that is recorded (`output.include`), or leave pictures out (`pictures = false`).",
+};
+
+/// A bug.
+pub static BUG: Message = Message {
+    code: "E0799",
+    title: "a bug in embate",
+    example: Example::Words("It should never come."),
+    cause: "The program came into a state that its authors held to be impossible.",
+    cure: "Please report it with the message, the command and the model file.",
+};
+
+/// Pictures are missing.
+pub static NO_PICTURES: Message = Message {
+    code: "W0701",
+    title: "pictures are missing",
+    example: Example::Words("The picture shows a field of which a value is not finite in the last frame of a run that failed."),
+    cause: "A picture could not be made; all other results are there.",
+    cure: "Draw the fields with ParaView, or choose another `picture_field`.",
+};

@@ -1,0 +1,45 @@
+//! Messages of sweeps.
+
+use embate_solver::message::{Example, Message};
+
+pub(crate) static MESSAGES: &[&Message] = &[&VALUES, &WANTED, &TABLE, &OTHER, &BUSY];
+
+pub(super) static VALUES: Message = Message {
+    code: "E0901",
+    title: "values of a sweep that can't be",
+    example: Example::Command("sweep model.toml --vary material.steel.young=1GPa:2GPa --output last(block.vx)"),
+    cause: "A key has no values, a range is not FROM:TO:COUNT, a column of the table is no key, or there are too many runs.",
+    cure: "Write them as the message shows: --vary key=1,2,3 or key=1:3:5.",
+};
+
+pub(super) static WANTED: Message = Message {
+    code: "E0902",
+    title: "an output of a sweep that is not there",
+    example: Example::Command("sweep model.toml --vary material.steel.young=1GPa,2GPa --output last(nothing)"),
+    cause: "The history has no such column, the summary no such figure, or the text is no output.",
+    cure: "Take a column of history.csv, such as last(energy.kinetic), or a key of summary.json.",
+};
+
+pub(super) static TABLE: Message = Message {
+    code: "E0903",
+    title: "a table of runs that can't be read",
+    example: Example::Command("sweep model.toml --table nowhere.csv --output last(block.vx)"),
+    cause: "There is no such file, or it may not be read.",
+    cure: "Check the path.",
+};
+
+pub(super) static OTHER: Message = Message {
+    code: "E0904",
+    title: "a folder with another sweep",
+    example: Example::Words("A sweep with other values is started in the folder of one that is done."),
+    cause: "A sweep goes on where it was stopped, but this one has other runs.",
+    cure: "Choose another folder with --out, or start anew with --force.",
+};
+
+pub(super) static BUSY: Message = Message {
+    code: "E0905",
+    title: "two sweeps in one folder",
+    example: Example::Words("The same sweep is started twice at the same time."),
+    cause: "Another program writes into the folder.",
+    cure: "Wait for its end, or choose another folder with --out.",
+};

@@ -1,0 +1,189 @@
+//! Messages of contacts and obstacles.
+
+use crate::message::{Example, Message};
+
+pub(crate) static MESSAGES: &[&Message] = &[
+    &SHARED_SURFACE,
+    &NOTHING_GIVES_WAY,
+    &COMBINATION,
+    &JOINED_TWICE,
+    &PRESSURES,
+    &FRICTION,
+    &PENETRATION,
+    &TIE,
+    &TIED_TWICE,
+    &ON_SYMMETRY,
+    &OBSTACLE,
+    &NO_STEP,
+    &IDLE,
+    &NO_FORCE,
+    &INSIDE_AT_START,
+    &TIES_BROKE,
+    &UNSOLVED,
+    &MISSED,
+];
+
+pub(crate) static SHARED_SURFACE: Message = Message {
+    code: "E0401",
+    title: "a surface in contact with itself",
+    example: Example::Model("[[contact]]\nname = \"hit\"\nbetween = [\"block\", \"block.right\"]\n"),
+    cause: "The two surfaces of `between` are the same or have lines in common.",
+    cure: "Name two different surfaces; for a body that touches itself, name it in `bodies`.",
+};
+
+pub(crate) static NOTHING_GIVES_WAY: Message = Message {
+    code: "E0402",
+    title: "a contact of bodies that all move as they are told",
+    example: Example::Model(
+        "[[part]]\nname = \"block\"\nmaterial = \"steel\"\nrigid = { x = 0, y = 0, rotation = 0 }\nrectangle = { corner = [0, 0], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }\n\n\
+         [[contact]]\nname = \"self\"\nbodies = \"all\"\n",
+    ),
+    cause: "All bodies here are rigid and prescribed, so no force changes anything.",
+    cure: "Let one of them deform, or be free in x, y or rotation; or leave the contact out.",
+};
+
+pub(crate) static COMBINATION: Message = Message {
+    code: "E0403",
+    title: "a formulation, law or tie that don't go together",
+    example: Example::Model(
+        "[[contact]]\nname = \"hit\"\nbetween = [\"block.right\", \"wall.left\"]\nformulation = \"pinball\"\ntied = true\n",
+    ),
+    cause: "Pinballs only push, segments have no slave nodes, pressures hold nothing together, and bodies have no slave.",
+    cure: "Take what the message suggests; docs/model-file.md says what goes with what.",
+};
+
+pub(crate) static JOINED_TWICE: Message = Message {
+    code: "E0404",
+    title: "two contacts of the same surfaces",
+    example: Example::Model(
+        "[[contact]]\nname = \"hit\"\nbetween = [\"block.right\", \"wall.left\"]\n\n[[contact]]\nname = \"again\"\nbodies = \"all\"\n",
+    ),
+    cause: "Both would push, so the surfaces would be twice as stiff, and friction would be counted twice.",
+    cure: "Leave one of them out, or let one end (`death`) before the other begins (`birth`).",
+};
+
+pub(crate) static PRESSURES: Message = Message {
+    code: "E0405",
+    title: "a table of pressures that is no contact law",
+    example: Example::Model(
+        "[[contact]]\nname = \"hit\"\nbetween = [\"block.right\", \"wall.left\"]\nlaw = \"pressure_gap\"\ngaps = [\"-1 mm\", 0]\npressures = [0, \"1 MPa\"]\n",
+    ),
+    cause: "The pressure must fall with the gap and end with zero, else surfaces pull or push each other from far away.",
+    cure: "Give pressures from the deepest penetration to the widest gap, the last one 0.",
+};
+
+pub(crate) static FRICTION: Message = Message {
+    code: "E0406",
+    title: "static and dynamic friction that don't fit",
+    example: Example::Model(
+        "[[contact]]\nname = \"hit\"\nbetween = [\"block.right\", \"wall.left\"]\nfriction = 0.1\nfriction_dynamic = 0.3\nfriction_decay = \"0.1 s/m\"\n",
+    ),
+    cause: "Dynamic friction is at most the static one, and is reached only with a decay.",
+    cure: "Give `friction`, a smaller `friction_dynamic`, and `friction_decay`.",
+};
+
+pub(crate) static PENETRATION: Message = Message {
+    code: "E0407",
+    title: "bodies that are inside of each other at the start",
+    example: Example::Model("[[obstacle]]\nname = \"ground\"\nplane = { point = [0, \"1 mm\"], normal = [0, 1] }\n"),
+    cause: "Nodes lie behind the surface that they touch (with the thickness of the contact): its springs would shoot them out.",
+    cure: "Move the bodies apart, or set `initial_penetration` to \"push_out\" or \"ignore\".",
+};
+
+pub(crate) static TIE: Message = Message {
+    code: "E0408",
+    title: "a tie that binds nothing",
+    example: Example::Model("[[contact]]\nname = \"hit\"\nbetween = [\"block.left\", \"wall.right\"]\ntied = true\n"),
+    cause: "No node of one surface lies near the other one.",
+    cure: "Let the surfaces touch, raise `thickness`, or leave `tied` out.",
+};
+
+pub(crate) static TIED_TWICE: Message = Message {
+    code: "E0409",
+    title: "a node in two ties",
+    example: Example::Words("A node at the corner of three bodies is bound by the ties of two contacts."),
+    cause: "Two ties would hold one node against each other.",
+    cure: "Leave one of the two out, name smaller surfaces, or let the other surface be the slave.",
+};
+
+pub(crate) static ON_SYMMETRY: Message = Message {
+    code: "E0410",
+    title: "a surface that is all on a symmetry line",
+    example: Example::Model(
+        "[[symmetry]]\npoint = [0, 0]\nnormal = [1, 0]\nparts = [\"block\"]\n\n[[contact]]\nname = \"hit\"\nbetween = [\"block.left\", \"wall.left\"]\n",
+    ),
+    cause: "On a symmetry line a body goes on: there is no surface.",
+    cure: "Name another surface.",
+};
+
+pub(crate) static OBSTACLE: Message = Message {
+    code: "E0411",
+    title: "an obstacle that has no shape",
+    example: Example::Model("[[obstacle]]\nname = \"ground\"\npolyline = { points = [[0, \"-5 mm\"], [0, \"-5 mm\"]] }\n"),
+    cause: "A polyline needs two different points, and goes nowhere back on itself; a hollow circle must be larger than the thickness.",
+    cure: "Correct the points or the radius.",
+};
+
+pub(crate) static NO_STEP: Message = Message {
+    code: "E0412",
+    title: "a penalty from a time step that nothing gives",
+    example: Example::Words("All parts are rigid, a contact's `penalty_from` is \"time_step\", and `[run]` has no `time_step`."),
+    cause: "The step comes from elements, and rigid parts have none that deform.",
+    cure: "Give `time_step` in `[run]`, or take another `penalty_from`.",
+};
+
+pub(crate) static IDLE: Message = Message {
+    code: "W0401",
+    title: "nothing acts on a part",
+    example: Example::Model(
+        "[[part]]\nname = \"block\"\nmaterial = \"steel\"\nvelocity = [1, 0]\nrectangle = { corner = [0, 0], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }\n\n\
+         [[part]]\nname = \"other\"\nmaterial = \"steel\"\nrectangle = { corner = [\"5 mm\", 0], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }\n\n\
+         [[contact]]\nname = \"self\"\nbodies = [\"block\"]\n",
+    ),
+    cause: "No contact, obstacle, joint, load or motion has to do with the part: it stays as it is, and others go through it.",
+    cure: "Name it in a contact, move it or load it, or leave it out.",
+};
+
+pub(crate) static NO_FORCE: Message = Message {
+    code: "W0402",
+    title: "a contact that transmitted nothing",
+    example: Example::Model("[run]\nend = \"0.1 us\"\n"),
+    cause: "In the whole run no two surfaces of it touched.",
+    cure: "Look whether the run is long enough, the bodies move towards each other, and the contact names the surfaces that meet.",
+};
+
+pub(crate) static INSIDE_AT_START: Message = Message {
+    code: "W0403",
+    title: "nodes that were inside other bodies at the start",
+    example: Example::Model(
+        "[[part]]\nname = \"wall\"\nmaterial = \"steel\"\nrectangle = { corner = [\"9.9 mm\", \"-5 mm\"], size = [\"10 mm\", \"20 mm\"], elements = [2, 4] }\n\n\
+         [[part]]\nname = \"block\"\nmaterial = \"steel\"\nvelocity = [\"10 m/s\", 0]\nrectangle = { corner = [0, 0], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }\n\n\
+         [[contact]]\nname = \"hit\"\nbetween = [\"block.right\", \"wall.left\"]\ninitial_penetration = \"ignore\"\n",
+    ),
+    cause: "`initial_penetration` lets the model be accepted: the nodes were pushed out, or the contact forgives what they began with.",
+    cure: "`embate check` lists the nodes; move the bodies apart where results near the contact matter.",
+};
+
+pub(crate) static TIES_BROKE: Message = Message {
+    code: "W0404",
+    title: "ties that broke, or that bound nothing",
+    example: Example::Words("A tie with a `tie_strength` is loaded beyond it."),
+    cause: "The force in a tie went over its strength, or the parts that it held were eroded.",
+    cure: "Nothing, where that is what is computed; else raise `tie_strength`.",
+};
+
+pub(crate) static UNSOLVED: Message = Message {
+    code: "W0405",
+    title: "contact forces that were not solved to the last digit",
+    example: Example::Words("Many very stiff springs press on each other in one step."),
+    cause: "The sweeps over the springs of a step ended before their forces agreed: penalties are far stiffer than the bodies.",
+    cure: "Lower the contact penalties (`penalty_scale`), and look at the energy drift.",
+};
+
+pub(crate) static MISSED: Message = Message {
+    code: "W0406",
+    title: "a node inside a body without contact",
+    example: Example::Words("Two parts that no contact names go through each other next to a contact."),
+    cause: "A node came in where no contact watches, or a body went through itself.",
+    cure: "Let one contact of `bodies = \"all\"` watch all surfaces, and look at the place in the last state.",
+};

@@ -1,0 +1,145 @@
+//! Messages of loads, curves, prescribed motion, joined nodes, springs and rigid bodies.
+
+use crate::message::{Example, Message};
+
+pub(crate) static MESSAGES: &[&Message] = &[
+    &CURVE,
+    &EXPRESSION,
+    &CURVE_DIMENSION,
+    &BEGINNING,
+    &INERTIA,
+    &RIGID,
+    &PRESCRIBED_TWICE,
+    &NO_EFFECT,
+    &JUMP,
+    &FORCE_ON_PART,
+    &TO_ITSELF,
+    &NO_PARTNER,
+    &HELD_TWICE,
+    &OFF_SYMMETRY,
+];
+
+pub(crate) static CURVE: Message = Message {
+    code: "E0501",
+    title: "a curve that can't be one",
+    example: Example::Model("[curve.free]\ntime = [0]\nvalue = [\"1 m/s\"]\n"),
+    cause: "It has no point, or a name that means something else: `free`, or one that begins like a number.",
+    cure: "Give at least one time with its value, and a name that begins with a letter.",
+};
+
+pub(crate) static EXPRESSION: Message = Message {
+    code: "E0502",
+    title: "a formula that can't be computed",
+    example: Example::Model("[curve.push]\nexpression = \"2*sin(3*t\"\n"),
+    cause: "The text is no formula of the time t, or its value is not finite at some time of the run.",
+    cure: "Write it like \"2*sin(3*t) + exp(-t)\", with the time t in s; the message counts characters from 1.",
+};
+
+pub(crate) static CURVE_DIMENSION: Message = Message {
+    code: "E0503",
+    title: "a curve of another quantity",
+    example: Example::Model(
+        "[curve.push]\ntime = [0, \"1 ms\"]\nvalue = [0, \"1 mm\"]\n\n[[constraint]]\non = \"wall.right\"\nvelocity = { x = \"push\" }\n",
+    ),
+    cause: "The values of the curve have units of another quantity than the key that it drives.",
+    cure: "Take a curve of the right quantity, or give its values as numbers without units.",
+};
+
+pub(crate) static BEGINNING: Message = Message {
+    code: "E0504",
+    title: "an initial velocity of what does not move freely",
+    example: Example::Model(
+        "[[part]]\nname = \"block\"\nmaterial = \"steel\"\nrigid = { x = 0, y = 0, rotation = 0 }\nvelocity = [1, 0]\nrectangle = { corner = [0, 0], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }\n\n\
+         [[part]]\nname = \"wall\"\nmaterial = \"steel\"\nrectangle = { corner = [\"10.01 mm\", \"-5 mm\"], size = [\"10 mm\", \"20 mm\"], elements = [2, 4] }\n",
+    ),
+    cause: "The motion is prescribed from the first step on, so there is nothing to begin with.",
+    cure: "Leave the initial velocity out, or let the axis be free.",
+};
+
+pub(crate) static INERTIA: Message = Message {
+    code: "E0505",
+    title: "a mass or inertia that is missing or has no effect",
+    example: Example::Model(
+        "[[obstacle]]\nname = \"ram\"\nplane = { point = [0, \"11 mm\"], normal = [0, -1] }\nmotion = { y = \"free\" }\n",
+    ),
+    cause: "An obstacle that is free to move needs a mass, one that is free to turn an inertia; where its motion is prescribed they change nothing.",
+    cure: "Add the key, or leave it out, as the message says.",
+};
+
+pub(crate) static RIGID: Message = Message {
+    code: "E0506",
+    title: "a rigid part whose nodes are held, joined or shared",
+    example: Example::Model(
+        "[[part]]\nname = \"block\"\nmaterial = \"steel\"\nrigid = true\nrectangle = { corner = [0, 0], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }\n\n\
+         [[part]]\nname = \"wall\"\nmaterial = \"steel\"\nrectangle = { corner = [\"10.01 mm\", \"-5 mm\"], size = [\"10 mm\", \"20 mm\"], elements = [2, 4] }\n\n\
+         [[constraint]]\non = \"block.left\"\nfixed = \"x\"\n",
+    ),
+    cause: "The nodes of a rigid part move with it as one, so nothing else can say how one of them moves.",
+    cure: "Prescribe the motion of the part by `rigid`; bind other parts to it by a tied contact.",
+};
+
+pub(crate) static PRESCRIBED_TWICE: Message = Message {
+    code: "E0507",
+    title: "one motion prescribed twice",
+    example: Example::Model("[[constraint]]\non = \"wall.right\"\nvelocity = { x = \"1 m/s\" }\nacceleration = { x = \"1 m/s^2\" }\n"),
+    cause: "Two keys say how the same nodes move along the same axis, or nodes that are led around a point shall move along x or y as well.",
+    cure: "Leave one of the two out.",
+};
+
+pub(crate) static NO_EFFECT: Message = Message {
+    code: "E0508",
+    title: "a condition that does nothing",
+    example: Example::Model("[[join]]\nbetween = [\"block.right\", \"wall.left\"]\ntranslation = [0, 0]\n"),
+    cause: "A constraint that holds nothing, or an image that moves its set by nothing.",
+    cure: "Say what it holds, such as `fixed = \"x\"`, or leave it out.",
+};
+
+pub(crate) static JUMP: Message = Message {
+    code: "E0509",
+    title: "a displacement that jumps at the start",
+    example: Example::Model("[[constraint]]\non = \"wall.right\"\ndisplacement = { x = \"1 mm\" }\n"),
+    cause: "Nodes begin where they are; a displacement that is not zero at time 0 would move them at once, with an infinite velocity.",
+    cure: "Name a curve that begins with 0.",
+};
+
+pub(crate) static FORCE_ON_PART: Message = Message {
+    code: "E0510",
+    title: "a force on a whole part",
+    example: Example::Model("[[load]]\non = \"block\"\nforce = [\"1 kN/m\", 0]\n"),
+    cause: "A force acts on the nodes of a side or group; over a whole part it could be shared in many ways.",
+    cure: "Name a side as part.side or a group; `gravity` acts on whole parts.",
+};
+
+pub(crate) static TO_ITSELF: Message = Message {
+    code: "E0511",
+    title: "a set that is bound to itself",
+    example: Example::Model("[[spring]]\nname = \"s\"\nbetween = [\"block.left\", \"block.left\"]\nstiffness = \"1 MN/m/m\"\n"),
+    cause: "A spring or a join names the same nodes on both sides.",
+    cure: "Name two sets without common nodes.",
+};
+
+pub(crate) static NO_PARTNER: Message = Message {
+    code: "E0512",
+    title: "a node without a partner to be joined to",
+    example: Example::Model("[[join]]\nbetween = [\"block.right\", \"wall.left\"]\n"),
+    cause: "Joined sets must have their nodes in the same places, or where their image is, within the tolerance.",
+    cure: "Mesh the two alike, or give a larger `tolerance`; a tied contact joins meshes that differ.",
+};
+
+pub(crate) static HELD_TWICE: Message = Message {
+    code: "E0513",
+    title: "a node that two conditions move differently",
+    example: Example::Model(
+        "[[constraint]]\non = \"wall.right\"\nvelocity = { x = \"1 m/s\" }\n\n[[constraint]]\non = \"wall.bottom\"\nfixed = [\"x\", \"y\"]\n",
+    ),
+    cause: "Constraints, symmetry lines and joins meet at a node and say different things about it.",
+    cure: "Take the node out of one of the two.",
+};
+
+pub(crate) static OFF_SYMMETRY: Message = Message {
+    code: "E0514",
+    title: "a symmetry line that no node lies on",
+    example: Example::Model("[[symmetry]]\npoint = [\"-1 mm\", 0]\nnormal = [1, 0]\n"),
+    cause: "Nodes must lie on the line within 1e-9 of the model's size; so nothing would be held.",
+    cure: "Move the line or the bodies.",
+};

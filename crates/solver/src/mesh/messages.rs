@@ -1,0 +1,117 @@
+//! Messages of bodies: their shapes, elements and surfaces.
+
+use crate::message::{Example, Message};
+
+pub(crate) static MESSAGES: &[&Message] =
+    &[&SHAPE, &UNMESHABLE, &TOO_MANY, &NO_ELEMENT, &SAME_PLACE, &GROUP, &BAD_ELEMENT, &NOT_A_SURFACE, &OVERLAP, &BARS, &NEGATIVE_RADIUS];
+
+pub(crate) static SHAPE: Message = Message {
+    code: "E0201",
+    title: "the dimensions of a shape contradict each other",
+    example: Example::Model(
+        "[[part]]\nname = \"ring\"\nmaterial = \"steel\"\nring = { centre = [0, 0], inner = \"50 mm\", outer = \"44 mm\", elements = [2, 16] }\n\n\
+         [[contact]]\nname = \"self\"\nbodies = \"all\"\n",
+    ),
+    cause: "There is no body with these dimensions: an inner radius larger than the outer one, an outline that crosses itself, two points in one place.",
+    cure: "Correct the key that the message names.",
+};
+
+pub(crate) static UNMESHABLE: Message = Message {
+    code: "E0202",
+    title: "a shape can't be meshed",
+    example: Example::Model(
+        "[[part]]\nname = \"hook\"\nmaterial = \"steel\"\n\
+         path = { points = [[0, 0], [\"10 mm\", 0], [\"10 mm\", \"10 mm\"]], width = \"2 mm\", radius = \"30 mm\", elements = [2, 10] }\n\n\
+         [[contact]]\nname = \"self\"\nbodies = \"all\"\n",
+    ),
+    cause: "The outline is sound, but elements fold over or become too many or too small in it.",
+    cure: "Move the points apart, take smaller radii, or mesh the body with Gmsh.",
+};
+
+pub(crate) static TOO_MANY: Message = Message {
+    code: "E0203",
+    title: "too many elements or nodes",
+    example: Example::Model(
+        "[[part]]\nname = \"block\"\nmaterial = \"steel\"\nrectangle = { corner = [0, 0], size = [\"1 mm\", \"1 mm\"], elements = [20000, 20000] }\n",
+    ),
+    cause: "The model has more elements than the program takes.",
+    cure: "Take larger elements; fine ones only where something happens (`grading`).",
+};
+
+pub(crate) static NO_ELEMENT: Message = Message {
+    code: "E0204",
+    title: "an element that does not fit the mesh",
+    example: Example::Model(
+        "[[part]]\nname = \"block\"\nmaterial = \"steel\"\nelement = \"bar2\"\narea = \"1 mm\"\nrectangle = { corner = [0, 0], size = [\"1 mm\", \"1 mm\"], elements = [2, 2] }\n",
+    ),
+    cause: "The mesh of the part has cells with another number of corners than its element has.",
+    cure: "Take an element with as many corners (`embate list elements`), or leave `element` out.",
+};
+
+pub(crate) static SAME_PLACE: Message = Message {
+    code: "E0205",
+    title: "copies of a body lie on each other",
+    example: Example::Model(
+        "[[part]]\nname = \"block\"\nmaterial = \"steel\"\nrectangle = { corner = [0, 0], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }\n\
+         copies = { count = 3, angle = \"180 deg\" }\n\n[[contact]]\nname = \"self\"\nbodies = \"all\"\n",
+    ),
+    cause: "Without a translation, after a full turn a copy is where the first body is.",
+    cure: "Take fewer copies, another angle, or a translation.",
+};
+
+pub(crate) static GROUP: Message = Message {
+    code: "E0206",
+    title: "a group of a mesh file can't be a body",
+    example: Example::Words("A part names a group of points or lines where surfaces are needed, or a group without elements."),
+    cause: "Parts are made of groups of surfaces, parts of bars of groups of lines.",
+    cure: "Name another group, or correct the physical groups in Gmsh and mesh again.",
+};
+
+pub(crate) static BAD_ELEMENT: Message = Message {
+    code: "E0207",
+    title: "an element that is inside out, without area or with a corner beyond 180 degrees",
+    example: Example::Gmsh(
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 \"block\"\n$EndPhysicalNames\n\
+         $Nodes\n4\n1 0 0 0\n2 10 0 0\n3 2 2 0\n4 0 10 0\n$EndNodes\n$Elements\n1\n1 3 2 1 1 1 2 3 4\n$EndElements\n",
+    ),
+    cause: "Corners of an element do not turn counter-clockwise everywhere, so that its map has no positive volume at some point.",
+    cure: "Mend the mesh at the place that the message names: other corners, more elements, or triangles.",
+};
+
+pub(crate) static NOT_A_SURFACE: Message = Message {
+    code: "E0208",
+    title: "lines that are no surface of a body",
+    example: Example::Words("A contact names a group of lines inside of a body, or a line twice."),
+    cause: "Contact, pressure and boundaries act on the outside of bodies: lines that bound the elements of one part, each once.",
+    cure: "Name a side of a part, or a group of lines on its outside.",
+};
+
+pub(crate) static OVERLAP: Message = Message {
+    code: "E0209",
+    title: "elements that overlap",
+    example: Example::Words("Two elements of a mesh file share the same corner nodes, or three share an edge."),
+    cause: "In the plane an edge belongs to two elements at most, which lie on its two sides.",
+    cure: "Remove elements that are there twice, and turn those that are clockwise.",
+};
+
+pub(crate) static BARS: Message = Message {
+    code: "E0210",
+    title: "what bars can't be",
+    example: Example::Model(
+        "[[part]]\nname = \"rod\"\nmaterial = \"steel\"\nelement = \"bar2\"\ntruss = { points = [[0, 0], [\"10 mm\", 0]], lines = [[0, 1]] }\n\n\
+         [[contact]]\nname = \"self\"\nbodies = \"all\"\n",
+    ),
+    cause: "Bars have a cross-section, a stress along their line and no other, and no surface that something could touch.",
+    cure: "Give `area`, an isotropic solid as the law, and name other parts in contacts, obstacles and pressures.",
+};
+
+pub(crate) static NEGATIVE_RADIUS: Message = Message {
+    code: "E0211",
+    title: "an axisymmetric body left of the axis",
+    example: Example::Model(
+        "[[part]]\nname = \"block\"\nmaterial = \"steel\"\nstress_state = \"axisymmetric\"\nrectangle = { corner = [\"-1 mm\", 0], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }\n\n\
+         [[contact]]\nname = \"self\"\nbodies = \"all\"\n",
+    ),
+    cause: "In an axisymmetric model x is the radius, which is never negative.",
+    cure: "Move the part to the right of the axis x = 0; only one half of the section is modelled.",
+};

@@ -1,0 +1,295 @@
+//! What a run is watched for while it goes on: energies that only control or penalties have, elements that become needles, strains beyond what was measured, and
+//! a step that collapses. Each is told once for each part, with time and place, and counted for the summary.
+//!
+//! [`Simulation::run`](crate::simulation::Simulation::run) looks between its steps, where the history is written: energies are summed there already, and elements are looked at only
+//! every 256 steps or more. Nothing here changes the run.
+
+use crate::error::Notice;
+use crate::material::{self, Parameters, Variable};
+use crate::message::{Example, Message};
+use crate::model::Model;
+use crate::step::{Governor, System};
+use std::collections::BTreeMap;
+
+pub(crate) static MESSAGES: &[&Message] = &[&HOURGLASS, &SPRINGS, &NEEDLES, &BEYOND_TABLE, &SHORT_STEP];
+
+static HOURGLASS: Message = Message {
+    code: "W0611",
+    title: "much hourglass energy",
+    example: Example::Model(
+        "[run]\nend = \"100 us\"\n\n[[part]]\nname = \"strip\"\nmaterial = \"steel\"\nelement = \"quad4_reduced\"\nrectangle = { corner = [0, 0], size = [\"50 mm\", \"5 mm\"], elements = [10, 1] }\n\n\
+         [[constraint]]\non = \"strip.left\"\nfixed = [\"x\", \"y\"]\n\n[[load]]\non = \"strip.right\"\nforce = [0, \"100 kN/m\"]\n\n\
+         [[contact]]\nname = \"self\"\nbodies = \"all\"\n",
+    ),
+    cause: "Elements with one point have shapes that strain nothing. What holds them is no material: where its energy is more than a tenth of the part's internal energy for more than a hundredth of the run, the part is too stiff or too soft by about as much.",
+    cure: "Take `quad4`, more elements, or spread the load over more nodes; look at the part in the last state for a zigzag.",
+};
+
+static SPRINGS: Message = Message {
+    code: "W0612",
+    title: "much energy in contact springs",
+    example: Example::Model(
+        "[run]\nend = \"100 us\"\n\n[[contact]]\nname = \"hit\"\nbetween = [\"block.right\", \"wall.left\"]\npenalty_scale = 1e-4\n",
+    ),
+    cause: "More than a fifth of the largest total energy is stored in the springs of contacts for more than a hundredth of the run: bodies go deep into each other, and the contact is softer than they are.",
+    cure: "Raise `penalty_scale` or `penalty`, or take the law `multiplier`.",
+};
+
+/// Presses a pad flat.
+const SQUEEZED: &str = "[run]\nend = \"100 us\"\n\n[[part]]\nname = \"pad\"\nmaterial = \"steel\"\nrectangle = { corner = [0, 0], size = [\"10 mm\", \"10 mm\"], elements = [1, 1] }\n\n\
+                        [[constraint]]\non = \"pad.right\"\nvelocity = { x = \"-96 m/s\", y = 0 }\n\n[[constraint]]\non = \"pad.left\"\nfixed = [\"x\", \"y\"]\n\n\
+                        [[contact]]\nname = \"self\"\nbodies = \"all\"\n";
+
+static NEEDLES: Message = Message {
+    code: "W0613",
+    title: "elements of poor shape",
+    example: Example::Model(SQUEEZED),
+    cause: "The smallest Jacobian determinant at a corner over the square of the longest side (1 for a square) fell below 0.05, and to less than half of what it was: the element is squeezed, sheared or folded nearly flat, and its stress and stable step are no longer good.",
+    cure: "Refine the mesh there or shape it so that it deforms into squares; let elements fail (`failure`) where material really breaks.",
+};
+
+static BEYOND_TABLE: Message = Message {
+    code: "W0614",
+    title: "plastic strain beyond the end of its table",
+    example: Example::Model(
+        "[run]\nend = \"2 us\"\n\n[material.steel]\nlaw = \"j2_table\"\nplastic_strain = [0, 0.01]\nstress = [\"300 MPa\", \"350 MPa\"]\n\n\
+         [[constraint]]\non = \"wall.right\"\nvelocity = { x = \"-1 km/s\" }\n",
+    ),
+    cause: "Beyond its last point a flow curve goes on with its last stress, which nobody has measured.",
+    cure: "Continue the table, or take a law with a formula such as `j2_voce` that was fitted to it.",
+};
+
+static SHORT_STEP: Message = Message {
+    code: "W0615",
+    title: "a step that fell to a tenth",
+    example: Example::Words(
+        "An element of a body that is torn becomes a needle, and the run takes ten times as long as was expected (examples/taylor-bar with its coarse mesh).",
+    ),
+    cause: "The step goes with the smallest element over the speed of sound in it: one was squeezed, or a material became stiff.",
+    cure: "Look at the element that the message names; let it fail (`failure = { time_step = ... }`), or refine less there.",
+};
+
+/// Hourglass energy over internal energy of a part, and energy of contact springs over the largest total energy, from which on they are told.
+const HOURGLASS_MOST: f64 = 0.1;
+const SPRINGS_MOST: f64 = 0.2;
+/// For how long they must be there, as a fraction of the run: when bodies meet, springs may hold much of the little energy that there is. A sixth is usual for a
+/// moment where the penalty is as stiff as coarse elements.
+const LASTS: f64 = 0.01;
+/// Hourglass energy that is less than this of the largest total energy harms nothing.
+const NOTHING: f64 = 1e-3;
+/// Shape of an element below which it is told, and the fraction of its shape at the start.
+const SHAPE_LEAST: f64 = 0.05;
+const SHAPE_LOST: f64 = 0.5;
+/// Step over the first one.
+const STEP_LEAST: f64 = 0.1;
+/// Steps between two looks at all elements.
+const PAUSE: u64 = 256;
+
+/// The shortest step so far and who governed it.
+pub(crate) struct Shortest {
+    pub(crate) time_step: f64,
+    pub(crate) governor: String,
+}
+
+impl Default for Shortest {
+    fn default() -> Self {
+        Self { time_step: f64::INFINITY, governor: String::new() }
+    }
+}
+
+impl Shortest {
+    /// Takes the step of `system`. Who governs is found by a search: only when the step falls noticeably, and by more than the schedule.
+    pub(crate) fn note(&mut self, system: &System) {
+        let governed = system.governor != Governor::Schedule || self.time_step.is_infinite();
+        if governed && system.time_step < 0.999 * self.time_step {
+            self.time_step = system.time_step;
+            self.governor = system.governor_name(system.governor);
+        }
+    }
+}
+
+/// Something that was seen: what was told, and how it went on.
+#[derive(Clone, Debug)]
+struct Seen {
+    told: String,
+    most: f64,
+}
+
+/// What has been seen of a run.
+pub(crate) struct Watch {
+    /// By kind and part (number; that of none: all).
+    seen: BTreeMap<(&'static str, usize), (&'static Message, Seen)>,
+    /// The shortest step at the first look, s.
+    first_step: Option<f64>,
+    /// Step of the last look at all elements.
+    looked: Option<u64>,
+    /// Plastic strain at which the table of each group ends.
+    ends: Vec<Option<f64>>,
+    /// Whether elements of each group fail: what becomes of those before is no news.
+    fails: Vec<bool>,
+    /// Since when energies have been too large, by kind and part, s.
+    since: BTreeMap<(&'static str, usize), f64>,
+}
+
+impl Watch {
+    pub(crate) fn new(model: &Model, system: &System) -> Self {
+        let end = |part: usize| {
+            let material = model.materials.get(&model.parts[part].material)?;
+            let kind = material::LAWS.iter().find(|kind| kind.name == material.law)?;
+            material::table_end(&material.law, &Parameters::new(kind.parameters, &material.parameters, &material.lists))
+        };
+        let fails = |part: usize| model.materials.get(&model.parts[part].material).is_some_and(|material| !material.failure.is_empty());
+        let groups = || system.mesh.groups.iter().map(|group| group.part);
+        Self {
+            seen: BTreeMap::new(),
+            first_step: None,
+            looked: None,
+            ends: groups().map(end).collect(),
+            fails: groups().map(fails).collect(),
+            since: BTreeMap::new(),
+        }
+    }
+
+    /// Looks at a system, also at its elements if it is the last time; what is new.
+    pub(crate) fn look(&mut self, system: &System, shortest: &Shortest, is_last: bool) -> Vec<Notice> {
+        let mut new = Vec::new();
+        self.energies(system, &mut new);
+        let first = *self.first_step.get_or_insert(shortest.time_step);
+        if shortest.time_step < STEP_LEAST * first {
+            let Shortest { time_step, governor } = shortest;
+            let text =
+                format!("the step fell from {first:.3e} s to {time_step:.3e} s until {:.6e} s; it is governed by {governor}", system.time);
+            self.see(&SHORT_STEP, usize::MAX, first / time_step, text, &mut new);
+        }
+        if is_last || self.looked.is_none_or(|looked| system.step >= looked + PAUSE) {
+            self.looked = Some(system.step);
+            self.elements(system, &mut new);
+        }
+        new
+    }
+
+    /// What was seen, with the most that became of it.
+    pub(crate) fn notices(&self) -> impl Iterator<Item = Notice> {
+        self.seen.values().map(|(kind, Seen { told, most })| {
+            let most = match kind.code {
+                "W0611" | "W0612" => format!("{:.1} % at most", 100.0 * most),
+                "W0615" => format!("it fell to 1/{most:.0}"),
+                _ if *most == 1.0 => "1 element".to_string(),
+                _ => format!("{most} elements at most"),
+            };
+            Notice::new(kind, format!("{told}; {most}"))
+        })
+    }
+
+    fn see(&mut self, kind: &'static Message, part: usize, size: f64, text: String, new: &mut Vec<Notice>) {
+        let seen = self.seen.entry((kind.code, part)).or_insert_with(|| {
+            new.push(Notice::new(kind, &text));
+            (kind, Seen { told: text, most: size })
+        });
+        seen.1.most = seen.1.most.max(size);
+    }
+
+    fn energies(&mut self, system: &System, new: &mut Vec<Notice>) {
+        let largest = system.ledger.largest;
+        let mut of_parts = vec![[0.0; 2]; system.mesh.parts.len()];
+        for (group, report) in system.mesh.groups.iter().zip(&system.reports) {
+            of_parts[group.part][0] += report.hourglass;
+            of_parts[group.part][1] += report.stored + report.dissipated;
+        }
+        for (part, [hourglass, internal]) in of_parts.into_iter().enumerate() {
+            let is_much = hourglass > HOURGLASS_MOST * internal && hourglass > NOTHING * largest;
+            if self.lasts(&HOURGLASS, part, is_much, system) {
+                let (name, share) = (&system.mesh.parts[part].name, hourglass / internal);
+                let share_now = 100.0 * share;
+                let text = format!("part \"{name}\": hourglass energy is {share_now:.1} % of its internal energy at {:.6e} s", system.time);
+                self.see(&HOURGLASS, part, share, text, new);
+            }
+        }
+        let share = system.ledger.stores.contact / largest;
+        if self.lasts(&SPRINGS, usize::MAX, share > SPRINGS_MOST, system) {
+            let energy = |contact: &&crate::contact::Contact| contact.totals.energy;
+            let worst = system.contacts.iter().max_by(|a, b| energy(a).total_cmp(&energy(b)));
+            let name = worst.map_or(String::new(), |contact| format!(", most of it in {} \"{}\"", contact.kind.name(), contact.name));
+            let share_now = 100.0 * share;
+            let text = format!("springs of contacts hold {share_now:.1} % of the largest total energy at {:.6e} s{name}", system.time);
+            self.see(&SPRINGS, usize::MAX, share, text, new);
+        }
+    }
+
+    /// Whether something has been so at every look for long enough.
+    fn lasts(&mut self, kind: &Message, part: usize, is_so: bool, system: &System) -> bool {
+        if !is_so {
+            self.since.remove(&(kind.code, part));
+            return false;
+        }
+        let since = *self.since.entry((kind.code, part)).or_insert(system.time);
+        system.time - since >= LASTS * system.limits.end
+    }
+
+    /// Shapes and plastic strains of all elements that deform.
+    fn elements(&mut self, system: &System, new: &mut Vec<Notice>) {
+        let mut found: BTreeMap<(&'static str, usize), (&'static Message, usize, String)> = BTreeMap::new();
+        for (index, (group, block)) in system.mesh.groups.iter().zip(&system.blocks).enumerate() {
+            if system.rigid[index] {
+                continue;
+            }
+            let part = group.part;
+            let mut note = |kind: &'static Message, element: usize, what: String| {
+                let [x, y] = system.centre(group.cell(element));
+                let (name, user) = (&system.mesh.parts[part].name, group.user_elements[element]);
+                let text = || format!("element {user} of part \"{name}\" at ({x:.6e}, {y:.6e}) m has {what} at {:.6e} s", system.time);
+                found.entry((kind.code, part)).or_insert_with(|| (kind, 0, text())).1 += 1;
+            };
+            let end = self.ends[index];
+            for (element, cell) in group.cells().enumerate().filter(|(element, _)| group.is_alive(*element)) {
+                let now = shape(cell, &system.positions);
+                if !self.fails[index] && now < SHAPE_LEAST && now < SHAPE_LOST * shape(cell, &system.mesh.positions) {
+                    note(&NEEDLES, element, format!("a shape of {now:.3}"));
+                }
+                if let Some(end) = end {
+                    let strain = block.state(element).variables[Variable::PlasticStrain as usize];
+                    if strain > end {
+                        note(&BEYOND_TABLE, element, format!("a plastic strain of {strain:.4}, and its table ends at {end:.4},"));
+                    }
+                }
+            }
+        }
+        for ((_, part), (kind, count, text)) in found {
+            self.see(kind, part, count as f64, text, new);
+        }
+    }
+}
+
+/// Smallest Jacobian determinant at a corner over the square of the longest side: 1 for a square, less for what is long, sheared or folded; lines have the best.
+fn shape(cell: &[u32], positions: &[[f64; 2]]) -> f64 {
+    let n = cell.len();
+    let x = |corner: usize| positions[cell[corner % n] as usize];
+    let side = |corner: usize| {
+        let (a, b) = (x(corner), x(corner + 1));
+        [b[0] - a[0], b[1] - a[1]]
+    };
+    if n < 3 {
+        return 1.0;
+    }
+    let (mut least, mut longest) = (f64::INFINITY, 0.0f64);
+    for corner in 0..n {
+        let (before, after) = (side(corner + n - 1), side(corner));
+        least = least.min(before[0] * after[1] - before[1] * after[0]);
+        longest = longest.max(after[0] * after[0] + after[1] * after[1]);
+    }
+    least / longest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_shape_of_a_square_is_one_and_of_what_is_flat_or_folded_less() {
+        let of = |positions: &[[f64; 2]]| shape(&(0..positions.len() as u32).collect::<Vec<_>>(), positions);
+        assert_eq!(of(&[[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]]), 1.0);
+        assert_eq!(of(&[[0.0, 0.0], [10.0, 0.0], [10.0, 1.0], [0.0, 1.0]]), 0.1);
+        assert!((of(&[[0.0, 0.0], [1.0, 0.0], [0.5, 0.75f64.sqrt()]]) - 0.75f64.sqrt()).abs() < 1e-15);
+        assert!(of(&[[0.0, 0.0], [1.0, 0.0], [0.2, 0.2], [0.0, 1.0]]) < 0.0);
+    }
+}

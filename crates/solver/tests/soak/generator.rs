@@ -1,0 +1,220 @@
+//! Random models: bodies of any shape, element and law that fly at each other, with any contact between them; the same seed gives the same model.
+
+use embate_solver::bench;
+use embate_solver::block::stress_state::STRESS_STATES;
+use embate_solver::contact::search;
+use embate_solver::element::ELEMENTS;
+use embate_solver::failure;
+use embate_solver::material;
+use embate_solver::model::{
+    Contact, ContactLaw, Disk, Formulation, Friction, Interface, Load, Material, Model, Motion, Obstacle, ObstacleShape, Part, Partners,
+    Penalty, PenaltySource, Placement, Rectangle, Ring, Run, Shape, Trapezoid,
+};
+use embate_solver::quantity::Dimension;
+
+/// Random numbers by SplitMix64 (Steele, Lea and Flood, OOPSLA 2014).
+pub(crate) struct Dice(u64);
+
+impl Dice {
+    pub(crate) fn new(seed: u64) -> Self {
+        // Neighbours begin far from each other in the one long row of numbers.
+        let mut one = Self(seed);
+        Self(one.next() ^ seed.rotate_left(32))
+    }
+
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^ (z >> 31)
+    }
+
+    /// Between two numbers.
+    fn number(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * (self.next() >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// Between two positive numbers, each order of magnitude as often.
+    fn order(&mut self, low: f64, high: f64) -> f64 {
+        self.number(low.ln(), high.ln()).exp()
+    }
+
+    fn whole(&mut self, low: usize, high: usize) -> usize {
+        low + (self.next() % (high - low + 1) as u64) as usize
+    }
+
+    fn chance(&mut self, of: f64) -> bool {
+        self.number(0.0, 1.0) < of
+    }
+
+    fn choice<T: Clone>(&mut self, from: &[T]) -> T {
+        from[self.whole(0, from.len() - 1)].clone()
+    }
+}
+
+/// Side of the cell that a body gets, and the largest extent of a body, m.
+const CELL: f64 = 0.01;
+const BODY: f64 = 0.008;
+/// Density of all laws times this is about their stiffness over the square of the speed of sound.
+const SPEED_OF_SOUND: f64 = 5000.0;
+
+/// Model number `seed`.
+pub(crate) fn model(seed: u64) -> Model {
+    let dice = &mut Dice::new(seed);
+    let state = if dice.chance(0.6) { "plane_strain" } else { dice.choice(STRESS_STATES).name };
+    let [columns, rows] = [dice.whole(1, 3), dice.whole(1, 3)];
+    // All stiffnesses of a model are within four orders of magnitude of each other.
+    let softness = dice.order(1e-4, 1.0);
+    let speed = dice.order(1e-3, 0.06) * SPEED_OF_SOUND * softness.sqrt();
+    let middle = [0.5 * CELL * columns as f64, 0.5 * CELL * rows as f64];
+    let is_round = state == "axisymmetric";
+    let mut model = Model { name: format!("soak {seed}"), ..Model::default() };
+    model.output.pictures = false;
+    for cell in 0..columns * rows {
+        if cell > 0 && dice.chance(0.15) {
+            continue;
+        }
+        let corner = [CELL * (cell % columns) as f64, CELL * (cell / columns) as f64];
+        let centre = corner.map(|x| x + 0.5 * CELL);
+        let name = format!("body{cell}");
+        let own_softness = if dice.chance(0.2) { softness * dice.order(0.01, 1.0) } else { softness };
+        model.materials.insert(name.clone(), material_of(dice, own_softness));
+        let towards = [0, 1].map(|d| (middle[d] - centre[d]) / CELL + dice.number(-0.3, 0.3));
+        let mut part = Part {
+            material: name.clone(),
+            name,
+            element: dice.choice(&elements(4)),
+            element_triangles: dice.choice(&elements(3)),
+            stress_state: state.into(),
+            shape: shape(dice, centre),
+            velocity: towards.map(|x| x * speed),
+            ..Part::default()
+        };
+        if is_round {
+            part.velocity[0] = 0.0;
+        } else {
+            part.spin = if dice.chance(0.3) { dice.number(-1.0, 1.0) * speed / CELL } else { 0.0 };
+            part.placement = Placement { rotation: dice.number(0.0, 6.3), rotation_point: centre, ..Placement::default() };
+            part.rigid = dice.chance(0.08).then(Motion::default);
+        }
+        model.parts.push(part);
+    }
+    contacts(dice, &mut model, is_round);
+    obstacles(dice, &mut model, speed, is_round);
+    if dice.chance(0.2) {
+        let acceleration = [0.0, -speed * speed / CELL];
+        model.loads.push(Load::Gravity { parts: Vec::new(), acceleration, curve: None });
+    }
+    let viscosity = if dice.chance(0.3) { [0.06, 1.2] } else { [0.0; 2] };
+    model.run = Run { end: 4.0 * CELL / speed, max_steps: Some(dice.whole(200, 3000) as u64), bulk_viscosity: viscosity, ..Run::default() };
+    model
+}
+
+fn elements(nodes: usize) -> Vec<String> {
+    ELEMENTS.iter().filter(|kind| kind.nodes == nodes).map(|kind| kind.name.to_string()).collect()
+}
+
+fn shape(dice: &mut Dice, centre: [f64; 2]) -> Shape {
+    let n = dice.whole(1, 7);
+    let radius = 0.5 * BODY / std::f64::consts::SQRT_2 * dice.number(0.5, 1.0);
+    let size = [2.0 * radius * dice.number(0.3, 1.0), 2.0 * radius * dice.number(0.3, 1.0)];
+    let corner = [centre[0] - 0.5 * size[0], centre[1] - 0.5 * size[1]];
+    match dice.whole(0, 3) {
+        0 => Rectangle { corner, size, elements: [n, dice.whole(1, 7)], ..Rectangle::default() }.into(),
+        1 => Disk { centre, radius, elements: n }.into(),
+        2 => {
+            let inner = radius * dice.number(0.3, 0.9);
+            Ring { centre, inner, outer: radius, elements: [dice.whole(1, 3), dice.whole(8, 40)], ..Ring::default() }.into()
+        }
+        _ => {
+            let (bottom, top, height) = (size[0], size[0] * dice.number(0.2, 1.0), size[1]);
+            Trapezoid { corner, bottom, top, height, shift: None, elements: [n, dice.whole(1, 7)], grading: [1.0; 2] }.into()
+        }
+    }
+}
+
+/// A material of any law, with all its stresses times `softness`.
+fn material_of(dice: &mut Dice, softness: f64) -> Material {
+    // A fluid needs an equation of state besides.
+    let laws: Vec<_> = material::registry().into_iter().filter(|kind| kind.name != "null").collect();
+    let kind = dice.choice(&laws);
+    let mut material = bench::material(kind.name);
+    let known = |name: &String| kind.parameters.iter().find(|parameter| parameter.name == name);
+    material.parameters.retain(|name, _| known(name).is_some());
+    material.lists.retain(|name, _| known(name).is_some());
+    for (name, value) in &mut material.parameters {
+        if known(name).is_some_and(|parameter| parameter.dimension == Dimension::PRESSURE) {
+            *value *= softness;
+        }
+    }
+    for (name, list) in &mut material.lists {
+        if known(name).is_some_and(|parameter| parameter.dimension == Dimension::PRESSURE) {
+            list.iter_mut().for_each(|value| *value *= softness);
+        }
+    }
+    if dice.chance(0.1) {
+        let limit = dice.choice(failure::CRITERIA);
+        material.failure.insert(limit.limit.name.into(), dice.order(0.01, 1.0));
+    }
+    material
+}
+
+fn interface(dice: &mut Dice) -> Interface {
+    let law = match dice.whole(0, 7) {
+        0 => ContactLaw::Multiplier,
+        1 => ContactLaw::Penalty(Penalty::Automatic { source: PenaltySource::TimeStep, scale: 1.0 }),
+        2 => ContactLaw::Penalty(Penalty::Automatic { source: PenaltySource::BulkModulus, scale: dice.order(0.1, 10.0) }),
+        _ => ContactLaw::Penalty(Penalty::automatic(dice.order(0.03, 100.0))),
+    };
+    let friction = dice.chance(0.4).then(|| Friction {
+        coefficient: dice.number(0.0, 1.0),
+        dynamic: None,
+        decay: 0.0,
+        viscosity: 0.0,
+        limit: f64::INFINITY,
+    });
+    let damping = if law != ContactLaw::Multiplier && dice.chance(0.2) { dice.number(0.0, 1.0) } else { 0.0 };
+    Interface { law, friction, damping, ..Interface::default() }
+}
+
+fn contacts(dice: &mut Dice, model: &mut Model, is_round: bool) {
+    let searches: Vec<&str> = search::registry::<2>().iter().map(|kind| kind.name).collect();
+    let names: Vec<String> = model.parts.iter().map(|part| part.name.clone()).collect();
+    if names.len() < 2 || dice.chance(0.6) {
+        let (partners, interface) = (Partners::Bodies(Vec::new()), interface(dice));
+        let search = if dice.chance(0.7) { String::new() } else { dice.choice(&searches).into() };
+        model.contacts.push(Contact { name: "all".into(), partners, interface, search, ..Contact::default() });
+        return;
+    }
+    for (i, first) in names.iter().enumerate() {
+        for second in &names[i + 1..] {
+            let pass = Formulation::SinglePass { slave: dice.whole(0, 1) };
+            // Pinballs are cylinders of the plane.
+            let last = if is_round { Formulation::DoublePass } else { Formulation::Pinball };
+            let formulation = dice.choice(&[Formulation::DoublePass, Formulation::DoublePass, pass, Formulation::Segment, last]);
+            let contact = Contact::between(&format!("{first}_{second}"), first, second);
+            model.contacts.push(Contact { formulation, interface: interface(dice), ..contact });
+        }
+    }
+}
+
+fn obstacles(dice: &mut Dice, model: &mut Model, speed: f64, is_round: bool) {
+    let extent = 3.0 * CELL;
+    if dice.chance(0.3) {
+        let plane = ObstacleShape::Plane { point: [0.0, -0.1 * CELL], normal: [0.0, 1.0], length: None };
+        model.obstacles.push(Obstacle { interface: interface(dice), ..Obstacle::fixed("floor", plane) });
+    }
+    if !is_round && dice.chance(0.15) {
+        let points =
+            vec![[-0.5 * CELL, extent + CELL], [-0.5 * CELL, -0.5 * CELL], [0.3 * extent, -0.2 * CELL], [extent + CELL, -0.5 * CELL]];
+        model.obstacles.push(Obstacle { interface: interface(dice), ..Obstacle::fixed("trough", ObstacleShape::Polyline { points }) });
+    }
+    if dice.chance(0.15) {
+        let x = if is_round { 0.0 } else { dice.number(0.0, 2.0) * CELL };
+        let circle = ObstacleShape::Circle { centre: [x, -1.1 * CELL], radius: CELL, hollow: false };
+        let mut obstacle = Obstacle { interface: interface(dice), ..Obstacle::fixed("ball", circle) };
+        obstacle.motion.velocity[1] = Some((dice.number(0.0, 0.5) * speed).into());
+        model.obstacles.push(obstacle);
+    }
+}

@@ -1,5 +1,6 @@
 //! What can go wrong: faults of a model (all are reported at once), warnings of one that is accepted, and failures of a run (the first ends it).
 
+use crate::archive::Misfit;
 use std::fmt;
 use thiserror::Error;
 
@@ -125,9 +126,18 @@ pub enum Error {
         #[doc = "Step number."]
         step: u64,
     },
+    /// A kept state is not one of the model.
+    #[error("the kept state does not fit the model: {0}; it was written by another version of embate, or it is damaged")]
+    State(String),
     /// The observer could not take a result.
     #[error("results can't be written: {0}")]
     Output(String),
+}
+
+impl From<Misfit> for Error {
+    fn from(Misfit(what): Misfit) -> Self {
+        Self::State(what.into())
+    }
 }
 
 fn place(at: &[f64]) -> String {

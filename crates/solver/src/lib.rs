@@ -3,6 +3,7 @@
 //! The contents are listed in the order in which the data walks through them.
 
 pub mod error;
+pub mod archive;
 pub mod quantity;
 pub mod tensor;
 pub mod rows;

@@ -23,6 +23,7 @@ mod answers;
 mod book;
 mod ends;
 mod islands;
+mod keep;
 mod link;
 mod newton;
 mod relax;

@@ -1,4 +1,4 @@
-//! Ctrl-C: the first one asks a run to stop after its step, the second one ends the program.
+//! Ctrl-C and SIGTERM: the first one asks a run to stop after its step, the second one ends the program.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};

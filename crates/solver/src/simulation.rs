@@ -97,6 +97,8 @@ pub trait Observer {
     fn state(&mut self, _state: State) -> Result<(), ObserverError> {
         Ok(())
     }
+    /// The run has failed: the row and the frame that follow show the state of the failure.
+    fn failing(&mut self) {}
     /// Called every few hundred steps.
     fn progress(&mut self, progress: &Progress<'_>) -> Control;
 }
@@ -368,6 +370,7 @@ impl Simulation {
                 course.stage = self.system.step;
             }
             if let Err(error) = result {
+                observer.failing();
                 // The state of the failure is what the user needs to see.
                 if self.system.time > course.last_row {
                     observer.row(&self.history_row()).map_err(output)?;

@@ -51,7 +51,9 @@ pub(crate) fn replay(arguments: &Arguments) -> Result<(), Failure> {
     }
     let options = arguments.manner.options();
     let (origin, past) = nearest(&arguments.folder, from, &options)?;
-    let (loaded, _) = arguments.place.load(&origin, &[])?;
+    let (mut loaded, _) = arguments.place.load(&origin, &[])?;
+    // A run that ended by its number of steps may be looked at beyond them.
+    loaded.model.run.max_steps = None;
     let model = &loaded.model;
     let mut simulation = match &past {
         Some(past) => {

@@ -5,6 +5,7 @@ mod bench;
 mod command_line;
 mod estimates;
 mod examples;
+mod restart;
 mod sweep;
 mod verification;
 mod warnings;

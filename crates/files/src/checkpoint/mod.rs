@@ -115,6 +115,12 @@ pub struct Checkpoint {
 }
 
 impl Checkpoint {
+    /// The state of a simulation of a model alone, without results.
+    #[must_use]
+    pub fn of(state: State, model: &Model) -> Self {
+        Self { state, origin: Origin::default(), identity: Identity::of(model), told: Told::default(), film: Vec::new() }
+    }
+
     /// Writes it as the newest generation of a result folder and removes those that are too old; an interrupted or failed write leaves the older ones as they are.
     ///
     /// # Errors

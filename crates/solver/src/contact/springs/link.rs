@@ -3,6 +3,7 @@
 //! Springs and the state of the step come from [`super::Springs`]; links and arms, island by island, go to [`super::relax`]. Velocities are counted from those that there are
 //! without springs: what a force changes is then exact to its own last digits, however fast the bodies move.
 
+use super::couple::{Couplings, Forces};
 use super::ends::Ends;
 use super::islands::NONE;
 use super::{End, Mover, Movers, Spring, Tangential, Update, Vector, tangent};
@@ -71,10 +72,12 @@ impl Movable {
 /// A node or rigid body of an island, as the springs move it.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Slot {
-    /// What the springs have added to the velocity.
+    /// Of a hub, what the springs have added to the velocity.
     pub(super) change: [f64; 3],
     pub(super) mobility: Mobility,
     pub(super) is_body: bool,
+    /// Whether springs there know the slot instead of each other; see [`super::couple`].
+    pub(super) is_hub: bool,
 }
 
 /// A spring's row of the gap on something that moves.
@@ -94,8 +97,9 @@ pub(super) struct Link {
     pub(super) count: u32,
     /// Change of g^{n+½} per normal force.
     pub(super) compliance: f64,
-    /// Change of the slip rate per friction.
-    pub(super) slip_compliance: f64,
+    /// What its own forces do to its rates, arm by arm: the gap's per normal force, either per the other, the slip's per friction.
+    pub(super) own: [f64; 3],
+    pub(super) is_at_hub: bool,
     pub(super) gap_old: f64,
     /// g^{n+½} without any force.
     pub(super) gap_free: f64,
@@ -103,8 +107,6 @@ pub(super) struct Link {
     pub(super) rate_free: f64,
     pub(super) slip_rate_old: f64,
     pub(super) slip_rate_free: f64,
-    pub(super) force: f64,
-    pub(super) friction: f64,
     /// Compliances of normal force and friction beyond the spring's own, and the forces at which they change nothing; see [`super::relax`].
     pub(super) lent: [f64; 2],
     pub(super) centre: [f64; 2],
@@ -141,6 +143,10 @@ pub(super) struct Bench {
     /// Rows of the slip, as `arms`.
     pub(super) slips: Vec<[f64; 3]>,
     pub(super) slots: Vec<Slot>,
+    pub(super) forces: Vec<Forces>,
+    pub(super) couplings: Couplings,
+    /// Whether a spring cares for slip.
+    slides: bool,
     /// What is in each slot.
     movables: Vec<Movable>,
 }
@@ -152,6 +158,14 @@ impl Bench {
         self.slips.clear();
         self.slots.clear();
         self.movables.clear();
+        self.slides = false;
+    }
+
+    /// Once all links are there: what they do to each other; no force acts yet.
+    pub(super) fn close(&mut self) {
+        self.forces.clear();
+        self.forces.resize(self.links.len(), [0.0; 2]);
+        self.couplings.find(&mut self.links, &self.arms, &self.slips, &mut self.slots, self.slides);
     }
 }
 
@@ -162,10 +176,12 @@ impl<M: Movers> Joints<'_, M> {
         let [before, after] = self.update.time_steps;
         let t = tangent(spring.normal);
         let has_slip = !matches!(tangential, Tangential::Free);
+        let mut held = Movable::default();
+        bench.slides |= has_slip;
         let mut link = Link { spring: number, first: bench.arms.len() as u32, ..Link::default() };
         for k in spring.ends() {
             let (end, slot) = (self.ends.get(k), self.slots[self.places[k] as usize]);
-            let movable = self.movable(k, slot, bench);
+            let movable = self.movable(k, slot, &mut held, bench);
             let row = movable.row(end.gap_row(spring.normal), &end);
             let slip_row = if has_slip { movable.row(end.slip_row(t), &end) } else { [0.0; 3] };
             link.rate_old += dot(row, movable.velocity_old);
@@ -175,28 +191,35 @@ impl<M: Movers> Joints<'_, M> {
             if slot == NONE {
                 continue;
             }
-            link.compliance += 0.5 * after * dot(row, movable.mobility.response(row));
+            let response = movable.mobility.response(row);
+            link.own[0] += dot(row, response);
+            if has_slip {
+                link.own[1] += dot(slip_row, response);
+                link.own[2] += dot(slip_row, movable.mobility.response(slip_row));
+            }
             bench.arms.push(Arm { slot, row });
             bench.slips.push(slip_row);
-            link.slip_compliance += dot(slip_row, movable.mobility.response(slip_row));
             link.count += 1;
         }
+        link.compliance = 0.5 * after * link.own[0];
         link.gap_old = spring.gap - 0.5 * before * link.rate_old;
         link.gap_free = spring.gap + 0.5 * after * link.rate_free;
         bench.links.push(link);
     }
 
-    /// What is at an end. Slots are filled in the order in which they are met, which is that of their numbers.
-    fn movable(&self, k: usize, slot: u32, bench: &mut Bench) -> Movable {
-        if let Some(known) = bench.movables.get(slot as usize) {
-            return *known;
+    /// What is at the end `k`. Slots are filled in the order in which they are met, which is that of their numbers.
+    fn movable<'b>(&self, k: usize, slot: u32, held: &'b mut Movable, bench: &'b mut Bench) -> &'b Movable {
+        let make = || Movable::new(self.at[self.places[k] as usize], self.update.nodes.count(), self.update);
+        if slot == NONE {
+            *held = make();
+            return held;
         }
-        let movable = Movable::new(self.at[self.places[k] as usize], self.update.nodes.count(), self.update);
-        if slot != NONE {
-            bench.slots.push(Slot { change: [0.0; 3], mobility: movable.mobility, is_body: movable.centre.is_some() });
+        if slot as usize == bench.movables.len() {
+            let movable = make();
+            bench.slots.push(Slot { change: [0.0; 3], mobility: movable.mobility, is_body: movable.centre.is_some(), is_hub: false });
             bench.movables.push(movable);
         }
-        movable
+        &bench.movables[slot as usize]
     }
 }
 

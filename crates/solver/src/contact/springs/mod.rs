@@ -15,12 +15,13 @@
 //!
 //! g^{n+½} depends on F itself and on the other springs at the same nodes. Springs that share none are in different `islands`; those of one are swept over in their fixed order
 //! (`relax`: Gauss-Seidel, normal force and friction in turn) until no force changes, and where that is slow, Newton's step predicts the forces (`newton`, `skyline`). Pair forces
-//! keep both momenta exactly at any time. `solve` leads through the step, `link` has what springs act on, `book` the energies, `answers` what contacts are told. Laws of the normal force are in [`super::law`],
+//! keep both momenta exactly at any time. `solve` leads through the step, `link` has what springs act on, `couple` what they do to each other, `book` the energies, `answers` what contacts are told. Laws of the normal force are in [`super::law`],
 //! friction is in [`friction`].
 
 pub mod friction;
 mod answers;
 mod book;
+mod couple;
 mod ends;
 mod islands;
 mod keep;

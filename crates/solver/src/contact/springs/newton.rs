@@ -11,7 +11,8 @@
 //! Where springs say the same twice the forces are not unique (the motion is); [`SOFTNESS`] keeps the factors then. Nothing is trusted: sweeps confirm or go on.
 
 use super::Tangential;
-use super::link::{Arm, dot};
+use super::couple::Rates;
+use super::link::{Link, dot};
 use super::relax::Island;
 use super::skyline::Skyline;
 
@@ -28,9 +29,6 @@ const NONE: u32 = u32::MAX;
 #[derive(Default)]
 pub(super) struct Newton {
     state: Vec<State>,
-    /// Where the touches of each slot begin; touches are (link, arm).
-    starts: Vec<u32>,
-    touches: Vec<[u32; 2]>,
     /// Links in the order of the unknowns.
     order: Vec<u32>,
     seen: Vec<bool>,
@@ -48,6 +46,8 @@ struct State {
     unknown: [u32; 2],
     /// d of both; `NAN`: no unknown.
     softness: [f64; 2],
+    /// From forces to the units of the gap.
+    scale: [f64; 2],
     /// What is wanted, in units of the gap.
     wanted: [f64; 2],
     /// Change of a sliding friction per normal force.
@@ -58,7 +58,6 @@ impl Newton {
     /// Moves the forces of an island by a `fraction` of the way to where its springs agree, were they as they are now.
     pub(super) fn predict(&mut self, island: &mut Island<'_>, fraction: f64) {
         self.look(island);
-        self.touch(island);
         self.arrange(island);
         if self.number(island) {
             self.fill(island);
@@ -72,95 +71,88 @@ impl Newton {
     /// Who pushes, and how stiff. Forces that want to vanish do.
     fn look(&mut self, island: &mut Island<'_>) {
         self.state.clear();
+        let mut moved = false;
         for i in 0..island.links.len() {
-            let (mut state, link) = (State { unknown: [NONE; 2], softness: [f64::NAN; 2], wanted: [0.0; 2], follow: 0.0 }, island.links[i]);
-            let terms = island.terms_of(i);
-            let tied = matches!(terms.tangential, Tangential::Tied);
-            if link.force == 0.0 && link.friction == 0.0 && !tied || link.compliance <= 0.0 {
-                self.state.push(state);
-                continue;
+            let mut state = State { unknown: [NONE; 2], softness: [f64::NAN; 2], scale: [0.0; 2], wanted: [0.0; 2], follow: 0.0 };
+            let tied = matches!(island.terms_of(i).tangential, Tangential::Tied);
+            if (island.forces[i] != [0.0; 2] || tied) && island.links[i].compliance > 0.0 {
+                let before = island.forces[i];
+                let rates = island.rates(i);
+                self.look_across(island, i, rates, &mut state);
+                self.look_along(island, i, rates, &mut state);
+                moved |= island.forces[i] != before;
             }
-            let free = island.gap_without(i);
-            let scale = DIFFERENCE * (free.abs() + link.gap_old.abs() + link.compliance * link.force.abs());
-            let force = island.normal_force(i, free);
-            let slope = (island.normal_force(i, free - scale) - force) / scale;
-            if slope > 0.0 {
-                state.softness[0] = (1.0 / slope - link.compliance).max(SOFTNESS * link.compliance);
-                state.wanted[0] = link.compliance + state.softness[0];
-            } else {
-                island.push(i, force - link.force, 0.0);
-                island.links[i].force = force;
-            }
-            self.look_along(island, i, &mut state);
             self.state.push(state);
         }
-        // The residuals once all that is given is given.
-        for (i, state) in self.state.iter_mut().enumerate() {
-            if !state.softness[0].is_nan() {
-                let force = island.normal_force(i, island.gap_without(i));
-                state.wanted[0] *= force - island.links[i].force;
-            }
-            if !state.softness[1].is_nan() {
-                let tied = matches!(island.terms_of(i).tangential, Tangential::Tied);
-                let friction = if tied { island.tie(i) } else { island.slide(i).friction };
-                state.wanted[1] *= friction - island.links[i].friction;
-            }
+        if moved {
+            self.look_again(island);
+        }
+    }
+
+    /// Across the surface, where the other springs add `rates`.
+    fn look_across(&self, island: &mut Island<'_>, i: usize, rates: Rates, state: &mut State) {
+        let free = island.gap_from(i, rates);
+        let Link { compliance, gap_old, .. } = island.links[i];
+        let before = island.forces[i][0];
+        let scale = DIFFERENCE * (free.abs() + gap_old.abs() + compliance * before.abs());
+        let force = island.normal_force(i, free);
+        let slope = (island.normal_force(i, free - scale) - force) / scale;
+        if slope > 0.0 {
+            state.softness[0] = (1.0 / slope - compliance).max(SOFTNESS * compliance);
+            state.scale[0] = compliance + state.softness[0];
+            state.wanted[0] = state.scale[0] * (force - before);
+        } else {
+            island.push(i, [force - before, 0.0]);
+            island.forces[i][0] = force;
         }
     }
 
     /// The same along the surface.
-    fn look_along(&self, island: &mut Island<'_>, i: usize, state: &mut State) {
-        let link = island.links[i];
+    fn look_along(&self, island: &mut Island<'_>, i: usize, rates: Rates, state: &mut State) {
         let half = 0.5 * island.time_steps[1];
-        let stick = island.stick(i);
-        let softness = match island.terms_of(i).tangential {
-            Tangential::Free => return,
+        let tangential = island.terms_of(i).tangential;
+        if matches!(tangential, Tangential::Free) {
+            return;
+        }
+        let ([force, friction], stick) = (island.forces[i], island.stick_from(i, rates));
+        let (softness, found) = match tangential {
             Tangential::Friction(_) => {
-                let found = island.slide(i);
-                if found.slides || link.force == 0.0 || stick.compliance <= 0.0 {
-                    island.push(i, 0.0, found.friction - link.friction);
-                    island.links[i].friction = found.friction;
+                let found = island.slide_from(i, rates);
+                if found.slides || force == 0.0 || stick.compliance <= 0.0 {
+                    island.push(i, [0.0, found.friction - friction]);
+                    island.forces[i][1] = found.friction;
                     let more = 1.0 + DIFFERENCE;
-                    if found.slides && link.force > 0.0 {
-                        let limits = [link.force, more * link.force].map(|force| island.limit(i, force));
-                        state.follow = found.friction.signum() * (limits[1] - limits[0]) / (DIFFERENCE * link.force);
+                    if found.slides && force > 0.0 {
+                        let limits = [force, more * force].map(|force| island.limit(i, force));
+                        state.follow = found.friction.signum() * (limits[1] - limits[0]) / (DIFFERENCE * force);
                     }
                     return;
                 }
-                stick.softness()
+                (stick.softness(), found.friction)
             }
-            Tangential::Tied if stick.compliance > 0.0 => stick.tie_softness(),
-            Tangential::Tied => return,
+            _ if stick.compliance > 0.0 => (stick.tie_softness(), island.tie_from(i, rates)),
+            _ => return,
         };
-        let softness = (softness + link.lent[1]).max(SOFTNESS * stick.compliance);
+        let Link { lent, own, .. } = island.links[i];
+        let softness = (softness + lent[1]).max(SOFTNESS * stick.compliance);
         state.softness[1] = half * softness;
-        state.wanted[1] = half * (softness + link.slip_compliance);
+        state.scale[1] = half * (softness + own[2]);
+        state.wanted[1] = state.scale[1] * (found - friction);
     }
 
-    /// The unknown springs at every slot.
-    fn touch(&mut self, island: &Island<'_>) {
-        let slots = island.slots.len();
-        self.starts.clear();
-        self.starts.resize(slots + 1, 0);
-        let links = || island.links.iter().zip(&self.state).enumerate().filter(|(_, (_, state))| state.is_unknown());
-        for arm in links().flat_map(|(_, (link, _))| &island.arms[link.arms()]) {
-            self.starts[arm.slot as usize + 1] += 1;
-        }
-        for slot in 0..slots {
-            self.starts[slot + 1] += self.starts[slot];
-        }
-        self.touches.clear();
-        self.touches.resize(self.starts[slots] as usize, [0; 2]);
-        for (i, (link, _)) in links() {
-            for k in link.arms() {
-                let at = &mut self.starts[island.arms[k].slot as usize];
-                self.touches[*at as usize] = [i as u32, k as u32];
-                *at += 1;
+    /// What is wanted once all that is given is given.
+    fn look_again(&mut self, island: &Island<'_>) {
+        for (i, state) in self.state.iter_mut().enumerate().filter(|(_, state)| state.is_unknown()) {
+            let (rates, [force, friction]) = (island.rates(i), island.forces[i]);
+            if !state.softness[0].is_nan() {
+                state.wanted[0] = state.scale[0] * (island.normal_force(i, island.gap_from(i, rates)) - force);
+            }
+            if !state.softness[1].is_nan() {
+                let tied = matches!(island.terms_of(i).tangential, Tangential::Tied);
+                let found = if tied { island.tie_from(i, rates) } else { island.slide_from(i, rates).friction };
+                state.wanted[1] = state.scale[1] * (found - friction);
             }
         }
-        // Now each start is the end of its slot, that is the start of the next.
-        self.starts.rotate_right(1);
-        self.starts[0] = 0;
     }
 
     /// The springs from neighbour to neighbour, each part of the island from one of its ends.
@@ -197,18 +189,25 @@ impl Newton {
         self.seen[from] = true;
         while let Some(&link) = self.order.get(next) {
             next += 1;
-            for arm in &island.arms[island.links[link as usize].arms()] {
-                let slot = arm.slot as usize;
-                if std::mem::replace(&mut self.seen[links + slot], true) || island.slots[slot].is_body {
-                    continue;
-                }
-                for k in self.starts[slot]..self.starts[slot + 1] {
-                    let [other, _] = self.touches[k as usize];
-                    if !std::mem::replace(&mut self.seen[other as usize], true) {
-                        self.order.push(other);
-                    }
+            for &other in island.couplings.neighbours(link as usize) {
+                self.see(other);
+            }
+            if !island.links[link as usize].is_at_hub {
+                continue;
+            }
+            for slot in island.arms[island.links[link as usize].arms()].iter().map(|arm| arm.slot as usize) {
+                let is_joint = island.slots[slot].is_hub && !island.slots[slot].is_body;
+                if is_joint && !std::mem::replace(&mut self.seen[links + slot], true) {
+                    island.couplings.touches(slot).iter().for_each(|&[other, _]| self.see(other));
                 }
             }
+        }
+    }
+
+    /// Appends an unknown spring that was not there yet.
+    fn see(&mut self, link: u32) {
+        if self.state[link as usize].is_unknown() && !std::mem::replace(&mut self.seen[link as usize], true) {
+            self.order.push(link);
         }
     }
 
@@ -227,17 +226,26 @@ impl Newton {
         self.bodies.clear();
         self.first.clear();
         self.first.extend(0..count);
-        for (slot, body) in island.slots.iter().enumerate() {
+        for &link in &self.order {
+            let low = |j: &u32| self.state[*j as usize].lowest();
+            let low = island.couplings.neighbours(link as usize).iter().map(low).min().unwrap_or(NONE);
+            begin_at(&mut self.first, self.state[link as usize].unknown, low);
+        }
+        for (slot, hub) in island.slots.iter().enumerate() {
             self.bodies.push([NONE; 3]);
-            let begin = self.starts[slot] as usize..self.starts[slot + 1] as usize;
-            let unknowns =
-                || self.touches[begin.clone()].iter().flat_map(|&[link, _]| self.state[link as usize].unknown).filter(|&u| u != NONE);
-            let Some(low) = unknowns().min() else { continue };
-            if !body.is_body {
-                unknowns().for_each(|u| self.first[u as usize] = self.first[u as usize].min(low));
+            if !hub.is_hub {
                 continue;
             }
-            let [x, _, y, spin] = body.mobility.0;
+            let touches = island.couplings.touches(slot);
+            let low = touches.iter().map(|&[link, _]| self.state[link as usize].lowest()).min().unwrap_or(NONE);
+            if low == NONE {
+                continue;
+            }
+            if !hub.is_body {
+                touches.iter().for_each(|&[link, _]| begin_at(&mut self.first, self.state[link as usize].unknown, low));
+                continue;
+            }
+            let [x, _, y, spin] = hub.mobility.0;
             for (axis, mobility) in [x, y, spin].into_iter().enumerate() {
                 if mobility > 0.0 {
                     self.bodies[slot][axis] = self.first.len() as u32;
@@ -269,35 +277,44 @@ impl Newton {
                 }
             }
         }
-        for slot in 0..island.slots.len() {
-            let (mobility, unknowns) = (island.slots[slot].mobility, self.bodies[slot]);
-            let touches = self.starts[slot] as usize..self.starts[slot + 1] as usize;
-            for &[i, k] in &self.touches[touches.clone()] {
-                let (state, columns) = (&self.state[i as usize], self.state[i as usize].columns(island, k as usize));
-                if island.slots[slot].is_body {
-                    let rows = [island.arms[k as usize].row, island.slips[k as usize]];
-                    for (axis, body) in unknowns.into_iter().enumerate().filter(|(_, body)| *body != NONE) {
-                        for (own, u) in state.unknown.into_iter().enumerate().filter(|(_, u)| *u != NONE) {
-                            self.matrix.add(u as usize, body as usize, half * rows[own][axis]);
-                            self.matrix.add(body as usize, u as usize, half * columns[own][axis]);
-                        }
-                    }
-                    continue;
-                }
-                let responses = columns.map(|column| mobility.response(column).map(|v| half * v));
-                for &[j, l] in &self.touches[touches.clone()] {
-                    let rows = [island.arms[l as usize].row, island.slips[l as usize]];
-                    for (v, row) in self.state[j as usize].unknown.into_iter().zip(rows).filter(|(v, _)| *v != NONE) {
-                        for (u, response) in state.unknown.into_iter().zip(responses).filter(|(u, _)| *u != NONE) {
-                            self.matrix.add(v as usize, u as usize, dot(row, response));
-                        }
-                    }
+        for &link in &self.order {
+            let (i, couplings) = (link as usize, island.couplings);
+            add(&mut self.matrix, [&self.state[i]; 2], half, own(island, i));
+            couplings.pairs(i).for_each(|(j, pair)| add(&mut self.matrix, [&self.state[i], &self.state[j]], half, pair));
+        }
+        for slot in (0..island.slots.len()).filter(|&slot| island.slots[slot].is_hub) {
+            if island.slots[slot].is_body {
+                self.fill_body(island, slot);
+                continue;
+            }
+            let (mobility, touches) = (island.slots[slot].mobility, island.couplings.touches(slot));
+            for &[j, l] in touches.iter().filter(|&&[j, _]| self.state[j as usize].is_unknown()) {
+                let responses = island.rows(l as usize).map(|row| mobility.response(row));
+                for &[i, k] in touches {
+                    let states = [i, j].map(|link| &self.state[link as usize]);
+                    add(&mut self.matrix, states, half, island.rows(k as usize).map(|row| responses.map(|response| dot(row, response))));
                 }
             }
-            let [x, _, y, spin] = mobility.0;
-            for (body, mobility) in unknowns.into_iter().zip([x, y, spin]).filter(|(body, _)| *body != NONE) {
-                self.matrix.add(body as usize, body as usize, -half / mobility);
+        }
+    }
+
+    /// A rigid body as unknowns of its own.
+    fn fill_body(&mut self, island: &Island<'_>, slot: usize) {
+        let half = 0.5 * island.time_steps[1];
+        let unknowns = self.bodies[slot];
+        for &[i, k] in island.couplings.touches(slot) {
+            let (state, [row, slip]) = (self.state[i as usize], island.rows(k as usize));
+            let columns = [[0, 1, 2].map(|d| row[d] + state.follow * slip[d]), slip];
+            for (axis, body) in unknowns.into_iter().enumerate().filter(|(_, body)| *body != NONE) {
+                for (own, u) in state.unknown.into_iter().enumerate().filter(|(_, u)| *u != NONE) {
+                    self.matrix.add(u as usize, body as usize, half * [row, slip][own][axis]);
+                    self.matrix.add(body as usize, u as usize, half * columns[own][axis]);
+                }
             }
+        }
+        let [x, _, y, spin] = island.slots[slot].mobility.0;
+        for (body, mobility) in unknowns.into_iter().zip([x, y, spin]).filter(|(body, _)| *body != NONE) {
+            self.matrix.add(body as usize, body as usize, -half / mobility);
         }
     }
 
@@ -308,13 +325,13 @@ impl Newton {
             if step == [0.0; 2] || !(step[0] + step[1]).is_finite() {
                 continue;
             }
-            let link = &island.links[i];
+            let [force, friction] = island.forces[i];
             if !matches!(island.terms_of(i).tangential, Tangential::Tied) {
-                step[0] = step[0].max(-link.force);
-                let limit = island.limit(i, link.force + step[0]);
-                step[1] = (link.friction + step[1] + state.follow * step[0]).clamp(-limit, limit) - link.friction;
+                step[0] = step[0].max(-force);
+                let limit = island.limit(i, force + step[0]);
+                step[1] = (friction + step[1] + state.follow * step[0]).clamp(-limit, limit) - friction;
             }
-            island.push(i, step[0], step[1]);
+            island.push(i, step);
         }
     }
 }
@@ -324,9 +341,52 @@ impl State {
         self.softness.iter().any(|softness| !softness.is_nan())
     }
 
-    /// Columns of the arm `k` for a unit of the normal force, with the friction that follows it, and of friction.
-    fn columns(&self, island: &Island<'_>, k: usize) -> [[f64; 3]; 2] {
-        let (Arm { row, .. }, slip) = (island.arms[k], island.slips[k]);
-        [[0, 1, 2].map(|d| row[d] + self.follow * slip[d]), slip]
+    /// The first of its unknowns; [`NONE`]: it has none.
+    fn lowest(&self) -> u32 {
+        self.unknown[0].min(self.unknown[1])
     }
+}
+
+/// Rows of unknowns begin not after the column `low`.
+fn begin_at(first: &mut [u32], unknowns: [u32; 2], low: u32) {
+    for u in unknowns.into_iter().filter(|&u| u != NONE) {
+        let first = &mut first[u as usize];
+        *first = low.min(*first);
+    }
+}
+
+/// Adds what the forces of the second of two springs do to the rates of gap and slip of the first, times `half` a step.
+#[inline]
+fn add(matrix: &mut Skyline, [on, by]: [&State; 2], half: f64, pair: [[f64; 2]; 2]) {
+    for axis in [0, 1] {
+        let (row, [by_normal, by_along]) = (on.unknown[axis], pair[axis]);
+        if row == NONE {
+            continue;
+        }
+        if by.unknown[0] != NONE {
+            matrix.add(row as usize, by.unknown[0] as usize, half * (by_normal + by.follow * by_along));
+        }
+        if by.unknown[1] != NONE {
+            matrix.add(row as usize, by.unknown[1] as usize, half * by_along);
+        }
+    }
+}
+
+/// What the forces of a spring do to its own rates by way of what is no hub.
+fn own(island: &Island<'_>, i: usize) -> [[f64; 2]; 2] {
+    let link = &island.links[i];
+    let [mut gap, mut cross, mut slip] = link.own;
+    if link.is_at_hub {
+        [gap, cross, slip] = [0.0; 3];
+        for k in link.arms() {
+            let (slot, [row, along]) = (&island.slots[island.arms[k].slot as usize], island.rows(k));
+            if !slot.is_hub {
+                let response = slot.mobility.response(row);
+                gap += dot(row, response);
+                cross += dot(along, response);
+                slip += dot(along, slot.mobility.response(along));
+            }
+        }
+    }
+    [[gap, cross], [cross, slip]]
 }

@@ -3,6 +3,7 @@
 //! Links and arms come from [`super::link`], predictions from [`super::newton`] where sweeps are slow; only a sweep that changes nothing ends the solution. For linear springs the
 //! matrix (2/k on the diagonal plus compliances) is symmetric and positive definite, so sweeps converge; how fast depends on how much stiffer the springs are than the nodes between them.
 
+use super::couple::{Couplings, Forces, Rates};
 use super::friction::{self, Stick};
 use super::link::{Arm, Link, Slot, dot};
 use super::newton::Newton;
@@ -27,6 +28,9 @@ pub(super) struct Island<'a> {
     /// Rows of the slip, as `arms`; zero of springs that do not care.
     pub(super) slips: &'a [[f64; 3]],
     pub(super) slots: &'a mut [Slot],
+    pub(super) couplings: &'a Couplings,
+    /// Of each link, as found so far.
+    pub(super) forces: &'a mut [Forces],
     pub(super) list: &'a [Spring],
     /// Terms of each spring of the list.
     pub(super) terms_of: &'a [u32],
@@ -146,9 +150,7 @@ impl Island<'_> {
     /// Sweeps over the springs that push, until nothing changes or a prediction has been made; `before` is the change of the sweep before.
     fn relax_live(&mut self, live: &mut Vec<u32>, before: f64, newton: &mut Newton, pace: &mut Pace) {
         live.clear();
-        live.extend(
-            (0..self.links.len() as u32).filter(|&i| self.links[i as usize].force != 0.0 || self.links[i as usize].friction != 0.0),
-        );
+        live.extend((0..self.links.len() as u32).filter(|&i| self.forces[i as usize] != [0.0; 2]));
         pace.judge(before);
         let mut last = before;
         for sweep in 1.. {
@@ -174,8 +176,8 @@ impl Island<'_> {
         for i in 0..self.links.len() {
             if !self.terms_of(i).law.is_elastic() {
                 let link = &mut self.links[i];
-                link.lent = [LENT * link.compliance, LENT * link.slip_compliance];
-                link.centre = [link.force, link.friction];
+                link.lent = [LENT * link.compliance, LENT * link.own[2]];
+                link.centre = self.forces[i];
             }
         }
     }
@@ -183,9 +185,9 @@ impl Island<'_> {
     /// Makes the forces that there are those about which constraints give way; `false`: there are no constraints.
     fn centre(&mut self) -> bool {
         let mut any = false;
-        for link in self.links.iter_mut().filter(|link| link.lent != [0.0; 2]) {
+        for (link, &forces) in self.links.iter_mut().zip(&*self.forces).filter(|(link, _)| link.lent != [0.0; 2]) {
             any = true;
-            link.centre = [link.force, link.friction];
+            link.centre = forces;
         }
         any
     }
@@ -211,45 +213,83 @@ impl Island<'_> {
     /// Gives a spring the forces that its law and friction want as the others are.
     #[inline]
     fn relax(&mut self, i: usize, sum: &mut Change) {
-        let free = self.gap_without(i);
-        let force = self.normal_force(i, free);
-        let step = force - self.links[i].force;
-        if step != 0.0 {
-            self.push(i, step, 0.0);
-            // The very force that was found, not the sum of its changes.
-            self.links[i].force = force;
+        let rates = self.rates(i);
+        let old = self.forces[i];
+        let force = self.normal_force(i, self.gap_from(i, rates));
+        self.forces[i][0] = force;
+        sum.see(force - old[0], force);
+        let friction = self.friction_from(i, rates);
+        self.forces[i][1] = friction;
+        sum.see(friction - old[1], friction);
+        if self.links[i].is_at_hub {
+            self.tell_hubs(i, [force - old[0], friction - old[1]]);
         }
-        sum.see(step, force);
-        let friction_old = self.links[i].friction;
-        let friction = match self.terms_of(i).tangential {
-            Tangential::Free => return,
-            Tangential::Friction(_) if force == 0.0 && friction_old == 0.0 => return,
+    }
+
+    /// Friction that a spring wants where the others add `rates` to its own.
+    #[inline]
+    fn friction_from(&mut self, i: usize, rates: Rates) -> f64 {
+        let tangential = self.terms_of(i).tangential;
+        match tangential {
+            Tangential::Free => 0.0,
+            Tangential::Friction(_) if self.forces[i] == [0.0; 2] => 0.0,
             Tangential::Friction(_) => {
-                let found = self.slide(i);
+                let found = self.slide_from(i, rates);
                 (self.links[i].slip_new, self.links[i].slides) = (found.slip, found.slides);
                 found.friction
             }
-            Tangential::Tied => self.tie(i),
-        };
-        let step = friction - friction_old;
-        if step != 0.0 {
-            self.push(i, 0.0, step);
-            self.links[i].friction = friction;
+            Tangential::Tied => self.tie_from(i, rates),
         }
-        sum.see(step, friction);
     }
 
-    /// g^{n+½} of a spring without its own force.
+    /// What the forces of the others add to the rates of a spring.
     #[inline]
-    pub(super) fn gap_without(&self, i: usize) -> f64 {
+    pub(super) fn rates(&self, i: usize) -> Rates {
+        let mut rates = self.couplings.rates(i, self.forces);
         let link = &self.links[i];
-        link.gap_free + 0.5 * self.time_steps[1] * self.gap_rate(i) - link.compliance * link.force
+        if link.is_at_hub {
+            for k in link.arms() {
+                let slot = &self.slots[self.arms[k].slot as usize];
+                if slot.is_hub {
+                    let own = slot.mobility.response(self.pull(k, self.forces[i]));
+                    let others = [0, 1, 2].map(|d| slot.change[d] - own[d]);
+                    rates[0] += dot(self.arms[k].row, others);
+                    rates[1] += dot(self.slips[k], others);
+                }
+            }
+        }
+        rates
     }
 
-    /// What the springs add to the rate of a gap.
+    /// Rows of the gap and of the slip at the arm `k`.
     #[inline]
-    fn gap_rate(&self, i: usize) -> f64 {
-        self.arms[self.links[i].arms()].iter().map(|arm| dot(arm.row, self.slots[arm.slot as usize].change)).sum()
+    pub(super) fn rows(&self, k: usize) -> [[f64; 3]; 2] {
+        [self.arms[k].row, self.slips[k]]
+    }
+
+    /// Force of a spring on what is at its arm `k`.
+    fn pull(&self, k: usize, [force, friction]: Forces) -> [f64; 3] {
+        let [row, slip] = self.rows(k);
+        [0, 1, 2].map(|d| row[d] * force + slip[d] * friction)
+    }
+
+    /// Velocities of hubs follow the changes of a spring's forces.
+    fn tell_hubs(&mut self, i: usize, step: Forces) {
+        for k in self.links[i].arms() {
+            let pull = self.pull(k, step);
+            let slot = &mut self.slots[self.arms[k].slot as usize];
+            if slot.is_hub {
+                let response = slot.mobility.response(pull);
+                slot.change.iter_mut().zip(response).for_each(|(change, response)| *change += response);
+            }
+        }
+    }
+
+    /// g^{n+½} of a spring without its own normal force, where the others add `rates` to its own.
+    #[inline]
+    pub(super) fn gap_from(&self, i: usize, rates: Rates) -> f64 {
+        let link = &self.links[i];
+        link.gap_free + 0.5 * self.time_steps[1] * (rates[0] + link.own[1] * self.forces[i][1])
     }
 
     /// Normal force by the law where the gap without it is `free`.
@@ -266,19 +306,14 @@ impl Island<'_> {
         }
     }
 
-    /// What the springs add to the slip rate.
-    fn slip_rate(&self, i: usize) -> f64 {
-        let arms = self.links[i].arms();
-        self.arms[arms.clone()].iter().zip(&self.slips[arms]).map(|(arm, row)| dot(*row, self.slots[arm.slot as usize].change)).sum()
-    }
-
-    /// What friction can do at a spring.
-    pub(super) fn stick(&self, i: usize) -> Stick {
+    /// What friction can do at a spring where the others add `rates` to its own.
+    #[inline]
+    pub(super) fn stick_from(&self, i: usize, rates: Rates) -> Stick {
         let link = &self.links[i];
         Stick {
             old: link.slip_rate_old,
-            free: link.slip_rate_free + self.slip_rate(i) - link.slip_compliance * link.friction - link.lent[1] * link.centre[1],
-            compliance: link.slip_compliance + link.lent[1],
+            free: link.slip_rate_free + rates[1] + link.own[1] * self.forces[i][0] - link.lent[1] * link.centre[1],
+            compliance: link.own[2] + link.lent[1],
             stiffness: self.terms_of(i).law.slip_stiffness(&self.list[link.spring as usize]),
             time_steps: self.time_steps,
         }
@@ -293,45 +328,33 @@ impl Island<'_> {
         }
     }
 
-    pub(super) fn slide(&self, i: usize) -> friction::Slid {
-        let link = &self.links[i];
-        friction::slide(&self.stick(i), self.list[link.spring as usize].slip, self.limit(i, link.force))
-    }
-
-    pub(super) fn tie(&self, i: usize) -> f64 {
-        friction::tie(&self.stick(i), self.list[self.links[i].spring as usize].slip)
-    }
-
-    /// Adds to the forces of a spring: the velocities at its ends follow.
+    /// Friction by its law where the others add `rates` to its own.
     #[inline]
-    pub(super) fn push(&mut self, i: usize, force: f64, friction: f64) {
-        let link = &mut self.links[i];
-        link.force += force;
-        link.friction += friction;
-        for k in link.arms() {
-            let arm = &self.arms[k];
-            let slot = &mut self.slots[arm.slot as usize];
-            let mut row = arm.row.map(|row| row * force);
-            if friction != 0.0 {
-                for (row, slip) in row.iter_mut().zip(self.slips[k]) {
-                    *row += slip * friction;
-                }
-            }
-            let response = slot.mobility.response(row);
-            for (change, response) in slot.change.iter_mut().zip(response) {
-                *change += response;
-            }
-        }
+    pub(super) fn slide_from(&self, i: usize, rates: Rates) -> friction::Slid {
+        friction::slide(&self.stick_from(i, rates), self.list[self.links[i].spring as usize].slip, self.limit(i, self.forces[i][0]))
+    }
+
+    /// The same of a tie.
+    #[inline]
+    pub(super) fn tie_from(&self, i: usize, rates: Rates) -> f64 {
+        friction::tie(&self.stick_from(i, rates), self.list[self.links[i].spring as usize].slip)
+    }
+
+    /// Adds to the forces of a spring.
+    pub(super) fn push(&mut self, i: usize, step: Forces) {
+        self.forces[i].iter_mut().zip(step).for_each(|(force, step)| *force += step);
+        self.tell_hubs(i, step);
     }
 
     /// Tells what was found, with the rates that the forces lead to.
     pub(super) fn settle(&self, solved: &mut [Solved]) {
         for (i, (link, solved)) in self.links.iter().zip(solved).enumerate() {
             let is_free = matches!(self.terms_of(i).tangential, Tangential::Free);
-            let Link { force, friction, slip_new, rate_old, slip_rate_old, .. } = *link;
-            let rate = link.rate_free + self.gap_rate(i);
-            let slip_rate = if is_free { 0.0 } else { link.slip_rate_free + self.slip_rate(i) };
+            let ([others, others_along], [force, friction], [own, cross, along]) = (self.rates(i), self.forces[i], link.own);
+            let rate = link.rate_free + (others + (own * force + cross * friction));
+            let slip_rate = if is_free { 0.0 } else { link.slip_rate_free + (others_along + (cross * force + along * friction)) };
             let slides = if is_free { force != 0.0 } else { link.slides };
+            let Link { slip_new, rate_old, slip_rate_old, .. } = *link;
             *solved = Solved { force, friction, slip_new, slides, rates: [rate_old, rate], slip_rates: [slip_rate_old, slip_rate] };
         }
     }

@@ -202,9 +202,11 @@ impl<M: Movers + Sync> Plan<'_, M> {
             for &spring in &self.islands.order[range.clone()] {
                 self.joints.link(spring, self.terms[self.terms_of[spring as usize] as usize].tangential, bench);
             }
-            let Bench { links, arms, slips, slots, .. } = bench;
+            bench.close();
+            let Bench { links, arms, slips, slots, couplings, forces, .. } = bench;
             let (list, time_steps) = (self.joints.list, self.joints.update.time_steps);
-            let mut island = Island { links, arms, slips, slots, list, terms_of: self.terms_of, terms: self.terms, time_steps };
+            let mut island =
+                Island { links, arms, slips, slots, couplings, forces, list, terms_of: self.terms_of, terms: self.terms, time_steps };
             effort.join(island.solve(newton, live));
             island.settle(&mut solved[range.start - base..range.end - base]);
         }

@@ -85,6 +85,7 @@ impl Failure {
 }
 
 fn main() -> ExitCode {
+    interrupt::respect_nohup();
     terminal::announce_bugs();
     let command = CommandLine::parse().command;
     // The hook has told the user about a panic; here it only becomes an exit code.

@@ -55,7 +55,7 @@ impl Place {
 pub(crate) fn resume(arguments: &Arguments) -> Result<(), Failure> {
     let path = &arguments.folder;
     let options = arguments.manner.options();
-    let past = newest(path, &options)?;
+    let mut past = newest(path, &options)?;
     let mut set = arguments.set.clone();
     if let Some(until) = &arguments.until {
         let until = model_file::time(until).map_err(|wrong| Failure::Input(format!("error: --until: {wrong}")))?;
@@ -72,6 +72,7 @@ pub(crate) fn resume(arguments: &Arguments) -> Result<(), Failure> {
     let model = &loaded.model;
     refuse_changes(&Identity::of(model).differences(&past.identity), "the end, limits, checkpoints and output may change")?;
     let mut simulation = ready(model, &options, &past)?;
+    past.release_state();
     input::warn(&loaded, &simulation);
     if !arguments.manner.quiet {
         terminal::complain(&format!("going on from step {} at {:.6e} s", past.state.step, past.state.time));

@@ -90,6 +90,10 @@ pub trait Observer {
     /// # Errors
     /// As [`Observer::frame`].
     fn row(&mut self, row: &[f64]) -> Result<(), ObserverError>;
+    /// Whether it takes states that are due by `run.checkpoint_steps`.
+    fn keeps_states(&self) -> bool {
+        false
+    }
     /// The state of the run: asked for by [`Control::Keep`], or due by `run.checkpoint_steps`. Rows and frames of the steps until then have been told, and no others.
     ///
     /// # Errors
@@ -328,6 +332,7 @@ impl Simulation {
     pub fn run(&mut self, observer: &mut dyn Observer) -> Result<(), Error> {
         let end = self.system.limits.end;
         let (mut rows, mut frames) = (Clock::new(self.history, end), Clock::new(self.fields, end));
+        let state_steps = self.state_steps.filter(|_| observer.keeps_states());
         let mut course = self.course.take().unwrap_or_else(|| Course::new(self.system.step));
         if course.is_resumed {
             // What was due until now has been told.
@@ -350,7 +355,7 @@ impl Simulation {
                 return Ok(());
             }
             let control = observer.progress(&self.progress(end, &self.system.governor_name(self.system.governor)));
-            if matches!(control, Control::Keep | Control::KeepAndStop) || course.is_state_due(self.system.step, self.state_steps) {
+            if matches!(control, Control::Keep | Control::KeepAndStop) || course.is_state_due(self.system.step, state_steps) {
                 course.last_state = Some(self.system.step);
                 self.course = Some(course);
                 let state = self.state()?;
@@ -363,7 +368,7 @@ impl Simulation {
                 return Ok(());
             }
             let until = rows.next().min(frames.next());
-            let result = self.go_on(until, course.steps(self.system.step, self.state_steps));
+            let result = self.go_on(until, course.steps(self.system.step, state_steps));
             // A stop for the state alone leaves no trace.
             if result.is_err() || self.system.time >= until || self.is_over() || course.is_stage(self.system.step) {
                 self.note_momentum();

@@ -324,6 +324,22 @@ fn a_signal_stops_a_run_with_its_state_kept() {
     }
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn a_hangup_stops_a_run_unless_it_was_started_to_live_through_it() {
+    let folder = fresh("hangup");
+    model(&folder);
+    for (trap, codes) in [("", [130, 0]), ("trap '' HUP;", [0, 0])] {
+        let script = format!("{trap} exec {} run model.toml --out out --force --quiet --set run.end=1e-3", env!("CARGO_BIN_EXE_embate"));
+        let _ = fs::remove_dir_all(folder.join("out"));
+        let mut running = Running(Command::new("sh").args(["-c", &script]).current_dir(&folder).spawn().unwrap());
+        has_begun(&folder.join("out"));
+        running.tell("-HUP");
+        let code = running.0.wait().unwrap().code().unwrap();
+        assert!(codes.contains(&code), "{trap}: {code}");
+    }
+}
+
 /// Everything under its final name is whole.
 fn nothing_is_torn(out: &Path) {
     for (path, bytes) in files(out) {

@@ -22,6 +22,7 @@ use serde::{Deserialize, Serialize};
 use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use thiserror::Error;
 
 /// Folder of the checkpoints in that of the results.
@@ -103,7 +104,7 @@ struct Header {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Checkpoint {
     /// State of the simulation.
-    pub state: State,
+    pub state: Arc<State>,
     /// Where the model came from.
     pub origin: Origin,
     /// What the model was.
@@ -118,7 +119,13 @@ impl Checkpoint {
     /// The state of a simulation of a model alone, without results.
     #[must_use]
     pub fn of(state: State, model: &Model) -> Self {
-        Self { state, origin: Origin::default(), identity: Identity::of(model), told: Told::default(), film: Vec::new() }
+        let told = Told::default();
+        Self { state: Arc::new(state), origin: Origin::default(), identity: Identity::of(model), told, film: Vec::new() }
+    }
+
+    /// Lets go of the state, which is large, once a simulation has taken it over; what else is known of it stays.
+    pub fn release_state(&mut self) {
+        self.state = Arc::new(State { sections: Vec::new(), ..*self.state });
     }
 
     /// Writes it as the newest generation of a result folder and removes those that are too old; an interrupted or failed write leaves the older ones as they are.
@@ -189,7 +196,7 @@ impl Checkpoint {
             return Err(damaged("the model is not that of its digest".into()));
         }
         let (film, sections) = sections.partition(|section| section.name == FILM);
-        let state = State { step: header.step, time: header.time, sections };
+        let state = Arc::new(State { step: header.step, time: header.time, sections });
         Ok(Self { state, origin: header.origin, identity, told: header.told, film })
     }
 }
@@ -232,6 +239,9 @@ impl<F: FnMut() -> bool> Observer for Waiting<F> {
     }
     fn row(&mut self, _: &[f64]) -> Result<(), ObserverError> {
         Ok(())
+    }
+    fn keeps_states(&self) -> bool {
+        true
     }
     fn state(&mut self, state: State) -> Result<(), ObserverError> {
         self.state = Some(state);

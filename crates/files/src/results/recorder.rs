@@ -15,6 +15,7 @@ use embate_solver::model::Model;
 use embate_solver::output::{Cells, Frame, Summary};
 use embate_solver::simulation::{Control, Observer, ObserverError, Progress, State};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// Numbers of rows that are collected before they are handed over.
@@ -201,10 +202,14 @@ impl Observer for Recorder<'_> {
         Ok(())
     }
 
+    fn keeps_states(&self) -> bool {
+        self.checkpoints.is_some()
+    }
+
     fn state(&mut self, state: State) -> Result<(), ObserverError> {
         if self.checkpoints.is_some() {
             let rows = std::mem::take(&mut self.rows);
-            self.handover.give(Job { rows, state: Some(state), ..Job::default() });
+            self.handover.give(Job { rows, state: Some(Arc::new(state)), ..Job::default() });
             self.last_checkpoint = Instant::now();
         }
         Ok(self.handover.fault()?)

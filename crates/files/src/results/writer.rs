@@ -15,6 +15,7 @@ use embate_solver::model::Model;
 use embate_solver::output::{Cells, Frame};
 use embate_solver::simulation::State;
 use std::path::Path;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// Rows that are kept for the plots; a longer history is thinned evenly.
@@ -28,7 +29,7 @@ pub(super) struct Job {
     pub(super) rows: Vec<f64>,
     pub(super) frame: Option<Frame<2>>,
     /// To be kept once all before it is written.
-    pub(super) state: Option<State>,
+    pub(super) state: Option<Arc<State>>,
     /// What follows shows a failure: a state that is kept later is of a step before it.
     pub(super) is_failing: bool,
 }
@@ -154,7 +155,7 @@ impl Writer {
     }
 
     /// Writes a checkpoint of what is told so far and the state there.
-    fn keep(&mut self, state: &State) -> Result<(), ResultsError> {
+    fn keep(&mut self, state: &Arc<State>) -> Result<(), ResultsError> {
         let (told, film) = match self.before_failure.take() {
             Some(before) => before,
             None => self.told_so_far()?,

@@ -52,6 +52,9 @@ impl Observer for Told {
         self.rows.push(bits(row));
         Ok(())
     }
+    fn keeps_states(&self) -> bool {
+        true
+    }
     fn state(&mut self, state: State) -> Result<(), ObserverError> {
         self.states.push(state);
         self.counts.push([self.rows.len(), self.frames.len()]);

@@ -2,6 +2,7 @@
 
 mod clock;
 mod course;
+mod shortest;
 mod state;
 
 pub use state::State;
@@ -15,10 +16,11 @@ use crate::mesh::PartMesh;
 use crate::model::{self, Cadence, Model};
 use crate::output::{Cells, Eroded, Erosion, Frame, Summary};
 use crate::record::{Momentum, Recorded};
-use crate::step::{Governor, System};
+use crate::step::System;
 use clock::Clock;
 use course::Course;
 use embate_lanes::Level;
+use shortest::Shortest;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// How a simulation is run; changes no result.
@@ -592,27 +594,4 @@ fn output(error: ObserverError) -> Error {
 
 fn search_name(contact: &model::Contact) -> String {
     if contact.search.is_empty() { search::registry::<2>()[0].name.into() } else { contact.search.clone() }
-}
-
-/// The shortest step so far and who governed it.
-struct Shortest {
-    time_step: f64,
-    governor: String,
-}
-
-impl Default for Shortest {
-    fn default() -> Self {
-        Self { time_step: f64::INFINITY, governor: String::new() }
-    }
-}
-
-impl Shortest {
-    /// Takes the step of `system`. Who governs is found by a search: only when the step falls noticeably, and by more than the schedule.
-    fn note(&mut self, system: &System) {
-        let governed = system.governor != Governor::Schedule || self.time_step.is_infinite();
-        if governed && system.time_step < 0.999 * self.time_step {
-            self.time_step = system.time_step;
-            self.governor = system.governor_name(system.governor);
-        }
-    }
 }

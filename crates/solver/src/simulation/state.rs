@@ -1,8 +1,8 @@
 //! The state of a run: handed out as bytes, and taken over by a simulation that is made anew of the same model.
 
 use super::course::Course;
-use super::{Options, Shortest, Simulation};
-use crate::archive::{Archive, Keep, Kept, Section, keep_all, keep_each};
+use super::{Options, Simulation};
+use crate::archive::{Archive, Keep, Kept, Section, keep_each};
 use crate::error::Error;
 use crate::model::Model;
 
@@ -16,8 +16,6 @@ pub struct State {
     /// What is to be kept, byte by byte.
     pub sections: Vec<Section>,
 }
-
-keep_all!(Shortest { time_step, governor });
 
 impl Keep for Simulation {
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {

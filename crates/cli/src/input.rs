@@ -3,6 +3,7 @@
 use crate::complaint::Complaint;
 use crate::{Failure, terminal};
 use clap::Args;
+use embate_files::checkpoint::Origin;
 use embate_files::model_file::{self, Loaded};
 use embate_solver::model::Model;
 use embate_solver::simulation::{Options, Simulation};
@@ -19,7 +20,7 @@ pub(crate) struct ModelArguments {
     pub(crate) set: Vec<String>,
 }
 
-fn key_and_value(text: &str) -> Result<String, String> {
+pub(crate) fn key_and_value(text: &str) -> Result<String, String> {
     match text.split_once('=') {
         Some((key, _)) if !key.trim().is_empty() => Ok(text.to_string()),
         _ => Err("write it as path.to.key=value".to_string()),
@@ -29,6 +30,12 @@ fn key_and_value(text: &str) -> Result<String, String> {
 /// Reads a model; all faults of the file become one message.
 pub(crate) fn load(arguments: &ModelArguments) -> Result<Loaded, Failure> {
     model_file::load_with_places(&arguments.model, &arguments.set).map_err(|diagnostics| Failure::Input(Complaint::from(&diagnostics)))
+}
+
+/// Where a model came from, to find it again.
+pub(crate) fn origin(arguments: &ModelArguments) -> Origin {
+    let path = std::path::absolute(&arguments.model).unwrap_or_else(|_| arguments.model.clone());
+    Origin { path, set: arguments.set.clone() }
 }
 
 /// Makes a model ready to step.

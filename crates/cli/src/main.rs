@@ -1,7 +1,7 @@
 //! The program `embate`: reads the command line, calls the libraries, turns their errors into messages and exit codes.
 //!
 //! One file per command. Exit codes: 0 done, 1 a run failed (or a bug), 2 bad input or command line,
-//! 3 imported but not all of it acts, 130 stopped by Ctrl-C.
+//! 3 imported but not all of it acts, 130 stopped by Ctrl-C or SIGTERM.
 
 mod bench;
 mod check;
@@ -17,6 +17,9 @@ mod messages;
 mod new;
 mod numbers;
 mod progress;
+mod recording;
+mod replay;
+mod resume;
 mod run;
 mod schema;
 mod sweep;
@@ -40,6 +43,10 @@ struct CommandLine {
 enum Command {
     /// Run a model and write its results
     Run(run::Arguments),
+    /// Go on with a run that was stopped, from its newest checkpoint
+    Resume(resume::Arguments),
+    /// Go through a stretch of a run once more, with denser output
+    Replay(replay::Arguments),
     /// Run a model with many values, one run on each core, and write one table
     Sweep(sweep::Arguments),
     /// Look at a model without running it: parts, masses, stable step, probes, penetrations, a picture
@@ -85,6 +92,7 @@ impl Failure {
 }
 
 fn main() -> ExitCode {
+    interrupt::respect_nohup();
     terminal::announce_bugs();
     let command = match CommandLine::try_parse() {
         Ok(line) => line.command,
@@ -118,6 +126,8 @@ fn not_understood(error: &clap::Error) -> ExitCode {
 fn obey(command: &Command) -> Result<(), Failure> {
     match command {
         Command::Run(arguments) => run::run(arguments),
+        Command::Resume(arguments) => resume::resume(arguments),
+        Command::Replay(arguments) => replay::replay(arguments),
         Command::Sweep(arguments) => sweep::sweep(arguments),
         Command::Check(arguments) => check::check(arguments),
         Command::List(arguments) => list::list(arguments),

@@ -16,8 +16,8 @@ const PAUSE: Duration = Duration::from_millis(100);
 pub(crate) enum Display {
     /// Nothing.
     Quiet,
-    /// A line for each tenth of the run; `next` is the next tenth.
-    Lines { next: u64, begin: Instant },
+    /// A line for each tenth of the run; `next` is the next tenth, `from` what was done when it began: more than nothing of a run that goes on.
+    Lines { next: u64, begin: Instant, from: Option<f64> },
     /// A bar.
     Bar { bar: ProgressBar, updated: Instant },
 }
@@ -28,7 +28,7 @@ impl Display {
             return Self::Quiet;
         }
         if !std::io::stderr().is_terminal() {
-            return Self::Lines { next: 1, begin: Instant::now() };
+            return Self::Lines { next: 1, begin: Instant::now(), from: None };
         }
         let bar = ProgressBar::with_draw_target(Some(TICKS), ProgressDrawTarget::stderr());
         if let Ok(style) = ProgressStyle::with_template("{bar:24} {percent:>3} %  ETA {eta}  {wide_msg}") {
@@ -51,10 +51,14 @@ impl Display {
     pub(crate) fn show(&mut self, done: f64, state: impl FnOnce() -> String) {
         match self {
             Self::Quiet => {}
-            Self::Lines { next, begin } => {
+            Self::Lines { next, begin, from } => {
                 let tenth = (10.0 * done).floor() as u64;
+                let from = *from.get_or_insert_with(|| {
+                    *next = tenth + 1;
+                    done
+                });
                 if tenth >= *next {
-                    let left = begin.elapsed().as_secs_f64() * (1.0 - done) / done;
+                    let left = begin.elapsed().as_secs_f64() * (1.0 - done) / (done - from);
                     terminal::complain(&format!("{:>3} %  {}  ETA {}", 10 * tenth, state(), with_unit(left, "s")));
                     *next = tenth + 1;
                 }

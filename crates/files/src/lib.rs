@@ -1,6 +1,7 @@
 //! Formats that embate reads and writes, one a file.
 
 pub mod abaqus;
+pub mod checkpoint;
 pub mod gmsh;
 pub mod messages;
 pub mod model_file;

@@ -2,7 +2,7 @@
 //!
 //! Entries stand beside the code that raises them ([`embate_solver::message`]); the program adds its own and prints them (`embate explain`).
 
-use crate::{abaqus, gmsh, model_file, results, sweep, verification};
+use crate::{abaqus, checkpoint, gmsh, model_file, results, sweep, verification};
 use embate_solver::message::{self, AREAS, BASE, Example, Message, SHOWN};
 use std::fmt::Write;
 
@@ -14,6 +14,7 @@ pub fn all() -> Vec<&'static Message> {
         gmsh::messages::MESSAGES,
         abaqus::messages::MESSAGES,
         results::messages::MESSAGES,
+        checkpoint::messages::MESSAGES,
         sweep::messages::MESSAGES,
         verification::messages::MESSAGES,
     ];

@@ -82,7 +82,8 @@ fn twice_area(points: &[[f64; 2]]) -> f64 {
 /// Turns the outlines of the frames of one run into lines; learns from the first frame what is far.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct LineReader {
-    far: Option<f64>,
+    /// From where on a line counts as endless, m.
+    pub(crate) far: Option<f64>,
 }
 
 impl LineReader {

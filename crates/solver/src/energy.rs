@@ -6,7 +6,12 @@
 //! loads and a constant step this is exactly constant, from time zero on; there the velocity v^{-1/2} is the mirror image 2v⁰ − v^{1/2}. What friction,
 //! damping and multipliers take is their work with its sign turned, by the same rule: the drift can't judge it, its sign can.
 
+use crate::archive::keep_all;
 use crate::contact::springs::Lost;
+
+keep_all!(Works { internal, contact, gravity, load, damping, constraint, drive });
+keep_all!(Stores { kinetic, elastic, plastic, hourglass, bulk_viscosity, contact, friction, contact_damping, damping, eroded });
+keep_all!(Ledger { kinetic_start, total_start, works, external, halves, stores, largest, residual, drift });
 
 /// Works of one step by kind of force, J/m; each is force times mean velocity times ½(dt + dt_old).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

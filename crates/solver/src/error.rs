@@ -1,12 +1,13 @@
 //! What can go wrong: faults of a model (all are reported at once), warnings of one that is accepted, failures of a run (the first ends it), and what should be
 //! known of one that goes on. Each is of a kind that is in the catalogue of messages (`message.rs`); those of runs are here.
 
+use crate::archive::Misfit;
 use crate::message::{Example, Message};
 use std::fmt;
 use thiserror::Error;
 
 pub(crate) static MESSAGES: &[&Message] =
-    &[&INVERTED, &COLLAPSED, &ENERGY_DRIFT, &NOT_FINITE, &OUTPUT, &MASS_SCALING, &INSTRUCTIONS, &MASS_ADDED, &ERODED, &RELAXED];
+    &[&INVERTED, &COLLAPSED, &ENERGY_DRIFT, &NOT_FINITE, &STATE, &OUTPUT, &MASS_SCALING, &INSTRUCTIONS, &MASS_ADDED, &ERODED, &RELAXED];
 
 static INVERTED: Message = Message {
     code: "E0601",
@@ -44,6 +45,14 @@ static NOT_FINITE: Message = Message {
     ),
     cause: "Parameters, loads or units are wrong by powers of ten, so that a value overflowed or zero was divided by zero.",
     cure: "Check material parameters, loads and units of what the message names.",
+};
+
+static STATE: Message = Message {
+    code: "E0710",
+    title: "a kept state that does not fit its model",
+    example: Example::Words("A checkpoint that another version of embate wrote, with check sums that are right."),
+    cause: "The state of a run has other parts than the model that goes on with it.",
+    cure: "Go on with the version that began the run, or begin it anew with `embate run --force`.",
 };
 
 static OUTPUT: Message = Message {
@@ -248,6 +257,9 @@ pub enum Error {
         #[doc = "Step number."]
         step: u64,
     },
+    /// A kept state is not one of the model.
+    #[error("the kept state does not fit the model: {0}; it was written by another version of embate, or it is damaged")]
+    State(String),
     /// The observer could not take a result.
     #[error("results can't be written: {0}")]
     Output(String),
@@ -263,6 +275,7 @@ impl Error {
             Self::Collapsed { .. } => Some(&COLLAPSED),
             Self::EnergyDrift { .. } => Some(&ENERGY_DRIFT),
             Self::NotFinite { .. } => Some(&NOT_FINITE),
+            Self::State(_) => Some(&STATE),
             Self::Output(_) => Some(&OUTPUT),
         }
     }
@@ -278,6 +291,12 @@ impl Error {
             }
             _ => self.to_string(),
         }
+    }
+}
+
+impl From<Misfit> for Error {
+    fn from(Misfit(what): Misfit) -> Self {
+        Self::State(what.into())
     }
 }
 

@@ -4,6 +4,7 @@
 
 pub mod message;
 pub mod error;
+pub mod archive;
 pub mod quantity;
 pub mod tensor;
 pub mod rows;

@@ -1,5 +1,6 @@
 //! What is recorded of a system: frames, history rows, momentum, the state hash. Values only; formats are elsewhere.
 
+use crate::archive::{Archive, Keep, Kept};
 use crate::block::ElementState;
 use crate::contact::ContactKind;
 use crate::contact::springs::Tangential;
@@ -380,6 +381,14 @@ struct Moments {
     angular: f64,
     /// Σ m|v| and Σ m|x||v|: what the drifts are measured against.
     scale: [f64; 2],
+}
+
+impl Keep for Momentum {
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        // The start is that of the model.
+        let Self { start: _, drift, of_revolution: _ } = self;
+        drift.keep(archive)
+    }
 }
 
 impl Momentum {

@@ -8,6 +8,7 @@
 //! and a node is at x = X + R(θ) r. Where a degree of freedom is driven its velocity is prescribed, it has no mass in the books, and what drives it does
 //! the work that the forces do not.
 
+use crate::archive::{Archive, Keep, Kept, keep_each};
 use crate::contact::forces::ContactForces;
 use crate::energy::Sums;
 use crate::load::body_force::BodyForces;
@@ -87,6 +88,26 @@ impl Weight {
     fn at(&self, angle: f64) -> [f64; 3] {
         let moment = if self.moments == [0.0; 2] { 0.0 } else { turn(self.moments, angle)[0] };
         [self.force[0], self.force[1], moment]
+    }
+}
+
+impl Keep for Body {
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        // Weight and damping follow from loads and time, in the step.
+        #[rustfmt::skip]
+        let Self {
+            mass: _, drives: _, weight: _, damping: _, of_elements: _, members: _, shared: _,
+            angle, centre, old, velocity_old, velocity_free, velocity, inverse_mass, force, load, internal, slowing,
+        } = self;
+        keep_each!(archive; angle, centre, old, velocity_old, velocity_free, velocity, inverse_mass, force, load, internal, slowing);
+        Ok(())
+    }
+}
+
+impl Keep for Bodies {
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        let Self { of_node: _, list } = self;
+        list[..].keep(archive)
     }
 }
 

@@ -1,5 +1,12 @@
 //! The loop: steps, events, the end. Made from a model; speaks to an [`Observer`].
 
+mod clock;
+mod course;
+mod shortest;
+mod state;
+
+pub use state::State;
+
 use crate::build;
 use crate::contact::initial::{self, Penetration};
 use crate::contact::messages::{INSIDE_AT_START, MISSED, NO_FORCE, TIES_BROKE, UNSOLVED};
@@ -11,8 +18,11 @@ use crate::model::{self, Cadence, Model};
 use crate::output::{Cells, Eroded, Erosion, Frame, Summary};
 use crate::record::{Momentum, Recorded};
 use crate::step::System;
-use crate::watch::{Shortest, Watch};
+use crate::watch::Watch;
+use clock::Clock;
+use course::Course;
 use embate_lanes::Level;
+pub(crate) use shortest::Shortest;
 use std::collections::BTreeMap;
 
 /// How a simulation is run; changes no result.
@@ -59,6 +69,10 @@ pub struct Progress<'a> {
 pub enum Control {
     /// Go on.
     Continue,
+    /// Go on, with the state handed out.
+    Keep,
+    /// Stop here, cleanly, with the state handed out.
+    KeepAndStop,
     /// Stop here, cleanly.
     Stop,
 }
@@ -82,6 +96,19 @@ pub trait Observer {
     /// # Errors
     /// As [`Observer::frame`].
     fn row(&mut self, row: &[f64]) -> Result<(), ObserverError>;
+    /// Whether it takes states that are due by `run.checkpoint_steps`.
+    fn keeps_states(&self) -> bool {
+        false
+    }
+    /// The state of the run: asked for by [`Control::Keep`], or due by `run.checkpoint_steps`. Rows and frames of the steps until then have been told, and no others.
+    ///
+    /// # Errors
+    /// As [`Observer::frame`].
+    fn state(&mut self, _state: State) -> Result<(), ObserverError> {
+        Ok(())
+    }
+    /// The run has failed: the row and the frame that follow show the state of the failure.
+    fn failing(&mut self) {}
     /// Called every few hundred steps.
     fn progress(&mut self, progress: &Progress<'_>) -> Control;
 }
@@ -146,6 +173,9 @@ pub struct Simulation {
     history: Cadence,
     fields: Cadence,
     max_steps: u64,
+    /// Steps between two states that are handed out; `None`: only when asked for.
+    state_steps: Option<u64>,
+    course: Option<Course>,
     /// Search of each contact by name.
     search_names: BTreeMap<String, String>,
     pool: Option<rayon::ThreadPool>,
@@ -187,6 +217,8 @@ impl Simulation {
             history: model.output.history,
             fields: model.output.fields,
             max_steps: model.run.max_steps.unwrap_or(u64::MAX),
+            state_steps: model.run.checkpoint_steps,
+            course: None,
             search_names: model.contacts.iter().map(|contact| (contact.name.clone(), search_name(contact))).collect(),
             pool,
             system,
@@ -278,6 +310,12 @@ impl Simulation {
     /// # Errors
     /// Those of a step.
     pub fn advance(&mut self, time: f64, steps: u64) -> Result<(), Error> {
+        let result = self.go_on(time, steps);
+        self.note_momentum();
+        result
+    }
+
+    fn go_on(&mut self, time: f64, steps: u64) -> Result<(), Error> {
         let last = self.system.step.saturating_add(steps).min(self.max_steps);
         let mut shortest = std::mem::take(&mut self.shortest);
         let result = self.within_pool(|system| {
@@ -288,60 +326,117 @@ impl Simulation {
             Ok(())
         });
         self.shortest = shortest;
-        self.note_momentum();
         result
     }
 
-    /// Runs to the end, telling `observer` of rows, frames and progress.
+    /// Whether the run has come to its end.
+    #[must_use]
+    pub fn is_over(&self) -> bool {
+        self.system.time >= self.system.limits.end || self.system.step >= self.max_steps
+    }
+
+    /// Runs to the end, telling `observer` of rows, frames and progress. A simulation of a kept state ([`Simulation::resumed`]) goes on as if it had never been stopped.
     ///
     /// # Errors
     /// Any [`Error`]; the last state has been given to the observer before.
     pub fn run(&mut self, observer: &mut dyn Observer) -> Result<(), Error> {
         let end = self.system.limits.end;
         let (mut rows, mut frames) = (Clock::new(self.history, end), Clock::new(self.fields, end));
-        let mut last_row = f64::NEG_INFINITY;
-        let mut last_frame = None;
+        let state_steps = self.state_steps.filter(|_| observer.keeps_states());
+        let mut course = self.course.take().unwrap_or_else(|| Course::new(self.system.step));
+        if course.is_resumed {
+            // What was due until now has been told.
+            rows.pass(self.system.time);
+            frames.pass(self.system.time);
+        }
         loop {
             let time = self.system.time;
-            let over = time >= self.system.limits.end || self.system.step >= self.max_steps;
-            if (rows.due(time) || over) && time > last_row {
+            let over = self.is_over();
+            if (rows.due(time) || over) && time > course.last_row {
                 self.note_momentum();
                 observer.row(&self.history_row()).map_err(output)?;
-                last_row = time;
+                course.last_row = time;
             }
-            if (frames.due(time) || over) && last_frame != Some(self.system.step) {
+            if (frames.due(time) || over) && course.last_frame != Some(self.system.step) {
                 self.show(observer)?;
-                last_frame = Some(self.system.step);
+                course.last_frame = Some(self.system.step);
             }
-            let notices = self.watch.look(&self.system, &self.shortest, over);
+            // A stop for the state alone sees nothing.
+            let notices =
+                if over || course.stage == self.system.step { self.watch.look(&self.system, &self.shortest, over) } else { Vec::new() };
             if over {
                 return Ok(());
             }
-            let governor = self.system.governor_name(self.system.governor);
-            let progress = Progress {
-                step: self.system.step,
-                time,
-                end,
-                time_step: self.system.time_step,
-                governor: &governor,
-                energy_drift: self.system.ledger.drift(),
-                notices: &notices,
-            };
-            if observer.progress(&progress) == Control::Stop {
-                if last_frame != Some(self.system.step) {
+            let control = observer.progress(&self.progress(end, &self.system.governor_name(self.system.governor), &notices));
+            if matches!(control, Control::Keep | Control::KeepAndStop) || course.is_state_due(self.system.step, state_steps) {
+                course.last_state = Some(self.system.step);
+                self.course = Some(course);
+                let state = self.state()?;
+                observer.state(state).map_err(output)?;
+            }
+            if matches!(control, Control::Stop | Control::KeepAndStop) {
+                if course.last_frame != Some(self.system.step) {
                     self.show(observer)?;
                 }
                 return Ok(());
             }
-            if let Err(error) = self.advance(rows.next().min(frames.next()), PROGRESS) {
+            let until = rows.next().min(frames.next());
+            let result = self.go_on(until, course.steps(self.system.step, state_steps));
+            // A stop for the state alone leaves no trace.
+            if result.is_err() || self.system.time >= until || self.is_over() || course.is_stage(self.system.step) {
+                self.note_momentum();
+                course.stage = self.system.step;
+            }
+            if let Err(error) = result {
+                observer.failing();
                 // The state of the failure is what the user needs to see, and what was to be seen of it before.
                 self.watch.look(&self.system, &self.shortest, true);
-                if self.system.time > last_row {
+                if self.system.time > course.last_row {
                     observer.row(&self.history_row()).map_err(output)?;
                 }
                 self.show(observer)?;
                 return Err(error);
             }
+        }
+    }
+
+    /// Runs on, and tells `observer` of a row and a frame at the first step at or after `from`, from there every `every`, and at the first step at or after `to`, all in s. The steps are those
+    /// of any run of the model.
+    ///
+    /// # Errors
+    /// As [`Simulation::run`].
+    pub fn run_window(&mut self, [from, to]: [f64; 2], every: f64, observer: &mut dyn Observer) -> Result<(), Error> {
+        let mut outputs = Clock::new(Cadence::Interval(every), to);
+        loop {
+            let time = self.system.time;
+            let over = self.is_over() || time >= to * (1.0 - 1e-12);
+            if (time >= from * (1.0 - 1e-12) && outputs.due(time - from)) || over {
+                observer.row(&self.history_row()).map_err(output)?;
+                self.show(observer)?;
+            }
+            let governor = self.system.governor_name(self.system.governor);
+            if over || matches!(observer.progress(&self.progress(to, &governor, &[])), Control::Stop | Control::KeepAndStop) {
+                return Ok(());
+            }
+            let until = (from + outputs.next()).min(to);
+            if let Err(error) = self.advance(until * (1.0 - 1e-12), PROGRESS) {
+                observer.row(&self.history_row()).map_err(output)?;
+                self.show(observer)?;
+                return Err(error);
+            }
+        }
+    }
+
+    fn progress<'a>(&self, end: f64, governor: &'a str, notices: &'a [Notice]) -> Progress<'a> {
+        let Self { system, .. } = self;
+        Progress {
+            step: system.step,
+            time: system.time,
+            end,
+            time_step: system.time_step,
+            governor,
+            energy_drift: system.ledger.drift(),
+            notices,
         }
     }
 
@@ -532,34 +627,4 @@ fn output(error: ObserverError) -> Error {
 
 fn search_name(contact: &model::Contact) -> String {
     if contact.search.is_empty() { search::registry::<2>()[0].name.into() } else { contact.search.clone() }
-}
-
-/// Output times k × interval.
-struct Clock {
-    interval: f64,
-    next: u64,
-}
-
-impl Clock {
-    fn new(cadence: Cadence, end: f64) -> Self {
-        let interval = match cadence {
-            Cadence::Count(count) => end / count.max(1) as f64,
-            Cadence::Interval(interval) => interval,
-        };
-        Self { interval, next: 0 }
-    }
-
-    fn next(&self) -> f64 {
-        self.next as f64 * self.interval
-    }
-
-    /// Whether an output time has been reached; moves on to the one after `time`.
-    fn due(&mut self, time: f64) -> bool {
-        // A time that is met but for round-off counts.
-        let due = time >= self.next() * (1.0 - 1e-12);
-        if due {
-            self.next = ((time * (1.0 + 1e-12)) / self.interval).floor() as u64 + 1;
-        }
-        due
-    }
 }

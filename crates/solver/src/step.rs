@@ -5,6 +5,7 @@
 
 pub(crate) mod erosion;
 pub(crate) mod free;
+mod keep;
 mod nodes;
 pub(crate) mod relaxation;
 

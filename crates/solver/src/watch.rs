@@ -4,11 +4,13 @@
 //! [`Simulation::run`](crate::simulation::Simulation::run) looks between its steps, where the history is written: energies are summed there already, and elements are looked at only
 //! every 256 steps or more. Nothing here changes the run.
 
+use crate::archive::{Archive, Keep, Kept, keep_all, keep_each};
 use crate::error::Notice;
 use crate::material::{self, Parameters, Variable};
 use crate::message::{Example, Message};
 use crate::model::Model;
-use crate::step::{Governor, System};
+use crate::simulation::Shortest;
+use crate::step::System;
 use std::collections::BTreeMap;
 
 pub(crate) static MESSAGES: &[&Message] = &[&HOURGLASS, &SPRINGS, &NEEDLES, &BEYOND_TABLE, &SHORT_STEP];
@@ -85,40 +87,21 @@ const STEP_LEAST: f64 = 0.1;
 /// Steps between two looks at all elements.
 const PAUSE: u64 = 256;
 
-/// The shortest step so far and who governed it.
-pub(crate) struct Shortest {
-    pub(crate) time_step: f64,
-    pub(crate) governor: String,
-}
-
-impl Default for Shortest {
-    fn default() -> Self {
-        Self { time_step: f64::INFINITY, governor: String::new() }
-    }
-}
-
-impl Shortest {
-    /// Takes the step of `system`. Who governs is found by a search: only when the step falls noticeably, and by more than the schedule.
-    pub(crate) fn note(&mut self, system: &System) {
-        let governed = system.governor != Governor::Schedule || self.time_step.is_infinite();
-        if governed && system.time_step < 0.999 * self.time_step {
-            self.time_step = system.time_step;
-            self.governor = system.governor_name(system.governor);
-        }
-    }
-}
-
 /// Something that was seen: what was told, and how it went on.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 struct Seen {
     told: String,
     most: f64,
 }
 
+keep_all!(Seen { told, most });
+
+/// Number of a kind among [`MESSAGES`], and of a part (that of none: all).
+type Matter = (usize, usize);
+
 /// What has been seen of a run.
 pub(crate) struct Watch {
-    /// By kind and part (number; that of none: all).
-    seen: BTreeMap<(&'static str, usize), (&'static Message, Seen)>,
+    seen: BTreeMap<Matter, Seen>,
     /// The shortest step at the first look, s.
     first_step: Option<f64>,
     /// Step of the last look at all elements.
@@ -127,8 +110,20 @@ pub(crate) struct Watch {
     ends: Vec<Option<f64>>,
     /// Whether elements of each group fail: what becomes of those before is no news.
     fails: Vec<bool>,
-    /// Since when energies have been too large, by kind and part, s.
-    since: BTreeMap<(&'static str, usize), f64>,
+    /// Since when energies have been too large, s.
+    since: BTreeMap<Matter, f64>,
+}
+
+impl Keep for Watch {
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        let Self { seen, first_step, looked, since, ends: _, fails: _ } = self;
+        keep_each!(archive; seen, first_step, looked, since);
+        archive.check(seen.keys().chain(since.keys()).all(|&(kind, _)| kind < MESSAGES.len()), "a warning of no known kind")
+    }
+}
+
+fn matter(kind: &Message, part: usize) -> Matter {
+    (MESSAGES.iter().position(|other| other.code == kind.code).unwrap_or(MESSAGES.len()), part)
 }
 
 impl Watch {
@@ -170,7 +165,8 @@ impl Watch {
 
     /// What was seen, with the most that became of it.
     pub(crate) fn notices(&self) -> impl Iterator<Item = Notice> {
-        self.seen.values().map(|(kind, Seen { told, most })| {
+        self.seen.iter().map(|(&(number, _), Seen { told, most })| {
+            let kind = MESSAGES[number];
             let most = match kind.code {
                 "W0611" | "W0612" => format!("{:.1} % at most", 100.0 * most),
                 "W0615" => format!("it fell to 1/{most:.0}"),
@@ -182,11 +178,11 @@ impl Watch {
     }
 
     fn see(&mut self, kind: &'static Message, part: usize, size: f64, text: String, new: &mut Vec<Notice>) {
-        let seen = self.seen.entry((kind.code, part)).or_insert_with(|| {
+        let seen = self.seen.entry(matter(kind, part)).or_insert_with(|| {
             new.push(Notice::new(kind, &text));
-            (kind, Seen { told: text, most: size })
+            Seen { told: text, most: size }
         });
-        seen.1.most = seen.1.most.max(size);
+        seen.most = seen.most.max(size);
     }
 
     fn energies(&mut self, system: &System, new: &mut Vec<Notice>) {
@@ -219,10 +215,10 @@ impl Watch {
     /// Whether something has been so at every look for long enough.
     fn lasts(&mut self, kind: &Message, part: usize, is_so: bool, system: &System) -> bool {
         if !is_so {
-            self.since.remove(&(kind.code, part));
+            self.since.remove(&matter(kind, part));
             return false;
         }
-        let since = *self.since.entry((kind.code, part)).or_insert(system.time);
+        let since = *self.since.entry(matter(kind, part)).or_insert(system.time);
         system.time - since >= LASTS * system.limits.end
     }
 

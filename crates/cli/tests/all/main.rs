@@ -6,6 +6,7 @@ mod command_line;
 mod estimates;
 mod examples;
 mod messages;
+mod restart;
 mod sweep;
 mod verification;
 mod warnings;

@@ -58,6 +58,21 @@ pub fn load_with_places(path: &Path, set: &[String]) -> Result<Loaded, Diagnosti
     Template::load(path, set)?.loaded(&[])
 }
 
+/// A time with its unit as in a model file, `3.1 ms` for example, or a number in s.
+///
+/// # Errors
+/// What is wrong with it, and how it is written.
+pub fn time(text: &str) -> Result<f64, String> {
+    let seconds = match text.trim().parse::<f64>() {
+        Ok(seconds) => seconds,
+        Err(_) => {
+            let wanted = units::Wanted { name: "time", dimensions: &[Dimension::TIME], angle: false };
+            units::read(text, wanted).map_err(|(message, help)| format!("{message}; {help}"))?.0
+        }
+    };
+    if seconds.is_finite() && seconds >= 0.0 { Ok(seconds) } else { Err(format!("{text} is no time from the start on")) }
+}
+
 /// A model as it was read, with the texts that it came from.
 #[derive(Clone, Debug)]
 pub struct Loaded {

@@ -12,6 +12,7 @@ use super::view::{self, NOTHING, extent, joined, mirrored, size};
 use super::{PictureError, write_png, write_whole};
 use crate::outline::{Extent, Line, LineReader};
 use crate::threads::{Rooms, Threads};
+use embate_solver::archive::{Archive, Keep, Kept, Section};
 use embate_solver::output::{Cells, Frame};
 use std::path::Path;
 
@@ -86,7 +87,7 @@ pub struct Film {
     bytes_max: usize,
 }
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 struct Stored {
     number: usize,
     time: f64,
@@ -103,6 +104,41 @@ impl Stored {
         8 * self.positions.len()
             + 16 * self.obstacles.iter().map(|line| line.points.len()).sum::<usize>()
             + 4 * self.values.iter().map(Vec::len).sum::<usize>()
+    }
+}
+
+/// Its section in a checkpoint.
+const SECTION: &str = "film";
+
+impl Keep for Stored {
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        let Self { number, time, positions, gone, obstacles, values } = self;
+        number.keep(archive)?;
+        time.keep(archive)?;
+        positions.keep(archive)?;
+        gone.keep(archive)?;
+        let mut lines: Vec<(Vec<[f64; 2]>, bool)> =
+            std::mem::take(obstacles).into_iter().map(|line| (line.points, line.is_endless)).collect();
+        lines.keep(archive)?;
+        *obstacles = lines.into_iter().map(|(points, is_endless)| Line { points, is_endless }).collect();
+        values.keep(archive)
+    }
+}
+
+impl Keep for Film {
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        let Self { cells: _, settings: _, bytes_max: _, scalars, missing, origin, line_reader, stored, stride, added } = self;
+        // Another choice of colours makes another film.
+        let own: Vec<String> = scalars.iter().map(Scalar::label).collect();
+        let mut labels = own.clone();
+        labels.keep(archive)?;
+        archive.check(labels == own, "the film shows other fields")?;
+        missing.keep(archive)?;
+        origin.keep(archive)?;
+        line_reader.far.keep(archive)?;
+        stored.keep(archive)?;
+        stride.keep(archive)?;
+        added.keep(archive)
     }
 }
 
@@ -132,6 +168,37 @@ impl Film {
             added: 0,
             bytes_max: BYTES_MAX,
         }
+    }
+
+    /// What was kept of a film, with this `frame` as the present one; an empty film where that was another one.
+    pub(crate) fn recalled(cells: Cells, settings: FilmSettings, kept: &[Section], frame: &Frame<2>) -> Self {
+        let mut film = Self::new(cells, settings);
+        film.choose_scalars(frame);
+        let mut archive = Archive::of(kept);
+        let sizes = [frame.positions.len(), film.cells.len()];
+        if archive.section(SECTION).and_then(|()| film.keep(&mut archive)).is_ok() && archive.finish().is_ok() && film.is_sound(sizes) {
+            return film;
+        }
+        Self::new(film.cells, film.settings)
+    }
+
+    /// All that it has so far.
+    pub(crate) fn kept(&mut self) -> Vec<Section> {
+        let mut archive = Archive::new();
+        let written = archive.section(SECTION).and_then(|()| self.keep(&mut archive));
+        written.and_then(|()| archive.finish()).unwrap_or_default()
+    }
+
+    /// Whether all frames are of so many nodes and cells.
+    fn is_sound(&self, [nodes, cells]: [usize; 2]) -> bool {
+        let is_sound = |frame: &Stored| {
+            let sizes = self.scalars.iter().map(|scalar| if scalar.at_nodes() { nodes } else { cells });
+            frame.positions.len() == nodes
+                && frame.gone.iter().all(|&cell| (cell as usize) < cells)
+                && frame.values.iter().map(Vec::len).eq(sizes)
+                && frame.number < self.added
+        };
+        self.stride > 0 && self.stored.iter().all(is_sound)
     }
 
     /// Adds a frame. Keeps positions and the shown scalar in single precision; drops every second kept frame when they get too many.

@@ -4,7 +4,7 @@
 //! growing `history.csv.part` can be followed while a run goes on.
 
 use super::ResultsError;
-use super::atomic::PartFile;
+use super::atomic::{Mark, PartFile};
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -33,6 +33,24 @@ impl CsvStream {
         let mut table = Self { file: PartFile::create(path)?, columns: columns.len(), pending };
         table.flush()?;
         Ok(table)
+    }
+
+    /// Goes on with the table `path` from where it was marked. With it come the rows that are there.
+    pub(super) fn reopen(path: &Path, columns: &[String], mark: Mark) -> Result<(Self, Vec<Vec<f64>>), ResultsError> {
+        let (file, bytes) = PartFile::reopen(path, mark)?;
+        let text = String::from_utf8_lossy(&bytes);
+        let row = |line: &str| -> Option<Vec<f64>> { line.split(',').map(|value| value.parse().ok()).collect() };
+        let rows: Option<Vec<Vec<f64>>> = text.lines().skip(1).map(row).collect();
+        match rows.filter(|rows| rows.iter().all(|row| row.len() == columns.len())) {
+            Some(rows) => Ok((Self { file, columns: columns.len(), pending: String::new() }, rows)),
+            None => Err(ResultsError::Changed { path: path.into(), what: "its rows have other columns".into() }),
+        }
+    }
+
+    /// How far it is, once that is on the disk.
+    pub(super) fn mark(&mut self) -> Result<Mark, ResultsError> {
+        self.flush()?;
+        self.file.mark()
     }
 
     /// Adds a row: one value per column.

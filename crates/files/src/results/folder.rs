@@ -1,6 +1,7 @@
 //! The folder: refuses to mix two runs, and removes only files that embate makes.
 
 use super::{ResultsError, atomic::part_path};
+use crate::checkpoint::{FOLDER, is_checkpoint};
 use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -44,13 +45,37 @@ impl ResultFolder {
             for file in existing(path)? {
                 fs::remove_file(&file).map_err(ResultsError::file("remove", &file))?;
             }
-            // Stays if something foreign lies in it.
-            let _ = fs::remove_dir(path.join(PICTURES));
+            for folder in [path.join(PICTURES), path.join(FOLDER)] {
+                // Stays if something foreign lies in it.
+                let _ = fs::remove_dir(folder);
+            }
         } else {
             Self::refuse_existing(path)?;
         }
         let frames = path.join(FRAMES);
         fs::create_dir_all(&frames).map_err(ResultsError::file("create", &frames))?;
+        Ok(Self { path: path.to_path_buf() })
+    }
+
+    /// The folder of results that go on from a checkpoint of `step`, with so many `frames`: what came later is removed, and what only a run that has ended has.
+    ///
+    /// # Errors
+    /// What the system says.
+    pub(crate) fn reopen(path: &Path, frames: usize, step: u64) -> Result<Self, ResultsError> {
+        let later = |name: &str| frame_number(name).is_some_and(|number| number >= frames) || name.ends_with(".part");
+        let is_history = |file: &Path| file == path.join("history.csv") || file == part_path(&path.join("history.csv"));
+        let is_later = |file: &Path| match file.file_name().and_then(|name| name.to_str()) {
+            Some(name) if file.parent() == Some(&path.join(FRAMES)) => later(name),
+            Some(name) if file.parent() == Some(&path.join(FOLDER)) => is_checkpoint(name).is_none_or(|own| own > step),
+            // Collections are written anew; the history is cut.
+            Some(name) => !is_history(file) && name != "fields.pvd" && name != "obstacles.pvd",
+            None => false,
+        };
+        for file in existing(path)?.into_iter().filter(|file| is_later(file)) {
+            fs::remove_file(&file).map_err(ResultsError::file("remove", &file))?;
+        }
+        let folder = path.join(FRAMES);
+        fs::create_dir_all(&folder).map_err(ResultsError::file("create", &folder))?;
         Ok(Self { path: path.to_path_buf() })
     }
 
@@ -62,7 +87,7 @@ impl ResultFolder {
         for file in existing(path)? {
             fs::remove_file(&file).map_err(ResultsError::file("remove", &file))?;
         }
-        for folder in [path.join(PICTURES), path.join(FRAMES), path.to_path_buf()] {
+        for folder in [path.join(PICTURES), path.join(FRAMES), path.join(FOLDER), path.to_path_buf()] {
             // Stays if something foreign lies in it.
             let _ = fs::remove_dir(folder);
         }
@@ -122,26 +147,35 @@ fn existing(path: &Path) -> Result<Vec<PathBuf>, ResultsError> {
             found.extend([part_path(&file), file].into_iter().rev().filter(|f| fs::symlink_metadata(f).is_ok_and(|data| !data.is_dir())));
         }
     }
-    let frames = path.join(FRAMES);
-    if fs::metadata(&frames).is_ok_and(|data| data.is_dir()) {
-        let mut files = Vec::new();
-        for entry in fs::read_dir(&frames).map_err(ResultsError::file("read", &frames))? {
-            let entry = entry.map_err(ResultsError::file("read", &frames))?;
-            if entry.file_name().to_str().is_some_and(is_frame) {
-                files.push(entry.path());
+    type Is = fn(&str) -> bool;
+    for (folder, is_own) in [(FRAMES, is_frame as Is), (FOLDER, |name| is_checkpoint(name.strip_suffix(".part").unwrap_or(name)).is_some())]
+    {
+        let folder = path.join(folder);
+        if fs::metadata(&folder).is_ok_and(|data| data.is_dir()) {
+            let mut files = Vec::new();
+            for entry in fs::read_dir(&folder).map_err(ResultsError::file("read", &folder))? {
+                let entry = entry.map_err(ResultsError::file("read", &folder))?;
+                if entry.file_name().to_str().is_some_and(is_own) {
+                    files.push(entry.path());
+                }
             }
+            files.sort();
+            found.extend(files);
         }
-        files.sort();
-        found.extend(files);
     }
     Ok(found)
 }
 
 /// `frame-00000.vtu` or `obstacles-00000.vtu`, with five digits or more, `.part` or not.
 fn is_frame(name: &str) -> bool {
+    frame_number(name).is_some()
+}
+
+/// The number of a frame in such a name.
+fn frame_number(name: &str) -> Option<usize> {
     let name = name.strip_suffix(".part").unwrap_or(name);
     let number = ["frame-", "obstacles-"].iter().find_map(|prefix| name.strip_prefix(prefix)).and_then(|rest| rest.strip_suffix(".vtu"));
-    number.is_some_and(|digits| digits.len() >= 5 && digits.bytes().all(|b| b.is_ascii_digit()))
+    number.filter(|digits| digits.len() >= 5 && digits.bytes().all(|b| b.is_ascii_digit()))?.parse().ok()
 }
 
 #[cfg(test)]

@@ -13,16 +13,21 @@ mod handover;
 mod queue;
 mod recorder;
 mod report;
+mod told;
 mod writer;
 
+pub(crate) use atomic::part_path;
 pub use atomic::write_whole;
 pub(crate) use csv::{append_number, append_text};
 pub(crate) use figures::{read_figures, write_figures};
 pub use folder::ResultFolder;
-pub use recorder::{OnProgress, Outcome, Recorder};
+pub use recorder::{Checkpoints, OnProgress, Outcome, Recorder};
 pub use report::{MomentumDrift, Report, RunStatus};
+pub use told::Told;
 pub use writer::film_settings;
 
+use crate::checkpoint::CheckpointError;
+use crate::checkpoint::messages::{IN_USE, RESULTS_CHANGED};
 use crate::vtu::VtuError;
 use embate_solver::message::Message;
 use messages::{BUG, EXISTS, FRAME, NOT_A_FOLDER, REFUSED};
@@ -57,6 +62,23 @@ pub enum ResultsError {
         /// What the system said.
         source: std::io::Error,
     },
+    /// A file is not what a checkpoint knows of it.
+    #[error("{} is not as the checkpoint knows it: {what}; put it back as it was, or run the model again", .path.display())]
+    Changed {
+        /// The file.
+        path: PathBuf,
+        /// What is not.
+        what: String,
+    },
+    /// Another run writes to a file.
+    #[error("another run writes to {}; wait for it, or stop it first", .path.display())]
+    InUse {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A checkpoint that can't be written.
+    #[error(transparent)]
+    Checkpoint(#[from] CheckpointError),
     /// A frame that can't be written.
     #[error(transparent)]
     Frame(#[from] VtuError),
@@ -84,6 +106,9 @@ impl ResultsError {
             Self::Exists { .. } => &EXISTS,
             Self::NotAFolder { .. } => &NOT_A_FOLDER,
             Self::File { .. } => &REFUSED,
+            Self::Changed { .. } => &RESULTS_CHANGED,
+            Self::InUse { .. } => &IN_USE,
+            Self::Checkpoint(error) => error.kind(),
             Self::Frame(_) => &FRAME,
             Self::Panic { .. } | Self::RowLength { .. } => &BUG,
         }
@@ -96,7 +121,7 @@ impl ResultsError {
 }
 
 /// What a person can do about an error of the system; empty where its own text says it all.
-fn cure(kind: ErrorKind) -> &'static str {
+pub(crate) fn cure(kind: ErrorKind) -> &'static str {
     match kind {
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded => "; free some space, or choose a folder on another disk with --out",
         ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => "; choose a folder that you may write to with --out",

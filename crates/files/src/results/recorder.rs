@@ -10,13 +10,15 @@ use super::handover::Handover;
 use super::messages::NO_PICTURES;
 use super::report::{Report, RunStatus};
 use super::writer::{Job, Writer};
+use crate::checkpoint::{Checkpoint, Origin};
 use crate::threads::Threads;
 use embate_solver::error::Notice;
 use embate_solver::model::Model;
 use embate_solver::output::{Cells, Frame, Summary};
-use embate_solver::simulation::{Control, Observer, ObserverError, Progress};
-use std::path::PathBuf;
-use std::time::Instant;
+use embate_solver::simulation::{Control, Observer, ObserverError, Progress, State};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 /// Numbers of rows that are collected before they are handed over.
 const ROWS: usize = 1 << 13;
@@ -37,6 +39,19 @@ pub struct Recorder<'a> {
     handover: Handover,
     is_stopped: bool,
     begin: Instant,
+    /// Steps before it began.
+    steps_before: u64,
+    checkpoints: Option<Checkpoints>,
+    last_checkpoint: Instant,
+}
+
+/// When states are kept.
+#[derive(Clone, Debug, Default)]
+pub struct Checkpoints {
+    /// Wall time between two; `None`: only those that are due by their number of steps, and one when the run is stopped.
+    pub pause: Option<Duration>,
+    /// Where the model came from.
+    pub origin: Origin,
 }
 
 /// How recording ended.
@@ -64,20 +79,73 @@ impl<'a> Recorder<'a> {
         threads: usize,
         on_progress: OnProgress<'a>,
     ) -> Result<Self, ResultsError> {
-        let (path, part_names, width) = (folder.path().to_path_buf(), cells.part_names.clone(), columns.len());
-        let writer = Writer::new(folder, model, columns, cells, Threads::new(threads))?;
-        Ok(Self {
+        Self::keeping(folder, model, (columns, cells), threads, None, on_progress)
+    }
+
+    /// [`Recorder::new`] with checkpoints.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn keeping(
+        folder: ResultFolder,
+        model: &Model,
+        (columns, cells): (Vec<String>, Cells),
+        threads: usize,
+        checkpoints: Option<Checkpoints>,
+        on_progress: OnProgress<'a>,
+    ) -> Result<Self, ResultsError> {
+        let (path, part_names) = (folder.path().to_path_buf(), cells.part_names.clone());
+        let mut writer = Writer::new(folder, model, columns, cells, Threads::new(threads))?;
+        if let Some(checkpoints) = &checkpoints {
+            writer.set_origin(checkpoints.origin.clone());
+        }
+        Ok(Self::of(writer, path, (model, part_names), threads, checkpoints, on_progress))
+    }
+
+    /// One that goes on with the results in `path` where the checkpoint `past` was written; `frame` is the state there.
+    ///
+    /// # Errors
+    /// [`ResultsError`] when the results are not those of the checkpoint; then nothing has changed.
+    pub fn reopen(
+        path: &Path,
+        (model, past): (&Model, &Checkpoint),
+        columns: Vec<String>,
+        (cells, frame): (Cells, &Frame<2>),
+        threads: usize,
+        checkpoints: Checkpoints,
+        on_progress: OnProgress<'a>,
+    ) -> Result<Self, ResultsError> {
+        let part_names = cells.part_names.clone();
+        let mut writer = Writer::reopen(path, (model, past), columns, (cells, frame), Threads::new(threads))?;
+        writer.set_origin(checkpoints.origin.clone());
+        let recorder = Self::of(writer, path.to_path_buf(), (model, part_names), threads, Some(checkpoints), on_progress);
+        Ok(Self { steps_before: past.state.step, ..recorder })
+    }
+
+    fn of(
+        writer: Writer,
+        path: PathBuf,
+        (model, part_names): (&Model, Vec<String>),
+        threads: usize,
+        checkpoints: Option<Checkpoints>,
+        on_progress: OnProgress<'a>,
+    ) -> Self {
+        let now = Instant::now();
+        Self {
             path,
             model: model.name.clone(),
             end: model.run.end,
             part_names,
             on_progress,
-            width,
+            width: writer.width(),
             rows: Vec::new(),
             handover: Handover::new(writer, threads > 1),
             is_stopped: false,
-            begin: Instant::now(),
-        })
+            begin: now,
+            steps_before: 0,
+            checkpoints,
+            last_checkpoint: now,
+        }
     }
 
     /// Completes all files. `error` is the message of a failed run, `user_cpu_seconds` tells the process's user CPU time.
@@ -86,10 +154,10 @@ impl<'a> Recorder<'a> {
     pub fn finish(mut self, error: Option<String>, summary: &Summary, user_cpu_seconds: impl FnOnce() -> Option<f64>) -> Outcome {
         let steps_time = self.begin.elapsed().saturating_sub(self.handover.waited()).as_secs_f64();
         let mut report = Report::of(summary, &self.model, &self.part_names);
-        let element_steps = summary.elements as f64 * summary.steps as f64;
+        let element_steps = summary.elements as f64 * summary.steps.saturating_sub(self.steps_before) as f64;
         report.element_steps_per_second = (element_steps > 0.0 && steps_time > 0.0).then(|| element_steps / steps_time);
 
-        self.handover.give(Job { rows: std::mem::take(&mut self.rows), frame: None });
+        self.handover.give(Job { rows: std::mem::take(&mut self.rows), ..Job::default() });
         let end = self.handover.end();
         if let Some(message) = end.pictures_missing {
             report.warnings.push(Notice::new(&NO_PICTURES, format!("pictures are missing: {message}")));
@@ -119,7 +187,7 @@ impl Observer for Recorder<'_> {
 
     fn frame(&mut self, frame: Frame<2>) -> Result<(), ObserverError> {
         let rows = std::mem::take(&mut self.rows);
-        self.handover.give(Job { rows, frame: Some(frame) });
+        self.handover.give(Job { rows, frame: Some(frame), ..Job::default() });
         Ok(self.handover.fault()?)
     }
 
@@ -130,15 +198,40 @@ impl Observer for Recorder<'_> {
         self.rows.extend_from_slice(row);
         if self.rows.len() >= ROWS {
             let rows = std::mem::take(&mut self.rows);
-            self.handover.give(Job { rows, frame: None });
+            self.handover.give(Job { rows, ..Job::default() });
             self.handover.fault()?;
         }
         Ok(())
     }
 
+    fn keeps_states(&self) -> bool {
+        self.checkpoints.is_some()
+    }
+
+    fn state(&mut self, state: State) -> Result<(), ObserverError> {
+        if self.checkpoints.is_some() {
+            let rows = std::mem::take(&mut self.rows);
+            self.handover.give(Job { rows, state: Some(Arc::new(state)), ..Job::default() });
+            self.last_checkpoint = Instant::now();
+        }
+        Ok(self.handover.fault()?)
+    }
+
+    fn failing(&mut self) {
+        if self.checkpoints.is_some() {
+            let rows = std::mem::take(&mut self.rows);
+            self.handover.give(Job { rows, is_failing: true, ..Job::default() });
+        }
+    }
+
     fn progress(&mut self, progress: &Progress<'_>) -> Control {
         let control = (self.on_progress)(progress);
-        self.is_stopped |= control == Control::Stop;
-        control
+        self.is_stopped |= matches!(control, Control::Stop | Control::KeepAndStop);
+        let Some(checkpoints) = &self.checkpoints else { return control };
+        match control {
+            Control::Stop => Control::KeepAndStop,
+            Control::Continue if checkpoints.pause.is_some_and(|pause| self.last_checkpoint.elapsed() >= pause) => Control::Keep,
+            control => control,
+        }
     }
 }

@@ -4,12 +4,18 @@ use super::ResultsError;
 use super::atomic::{write_whole, write_whole_in_pieces};
 use super::csv::CsvStream;
 use super::folder::ResultFolder;
+use super::told::Told;
+use crate::checkpoint::{Checkpoint, Identity, Origin};
 use crate::outline::{Extent, LineReader};
 use crate::picture::{self, Film, FilmSettings};
 use crate::threads::Threads;
 use crate::vtu::{self, VtuWriter};
+use embate_solver::archive::Section;
 use embate_solver::model::Model;
 use embate_solver::output::{Cells, Frame};
+use embate_solver::simulation::State;
+use std::path::Path;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// Rows that are kept for the plots; a longer history is thinned evenly.
@@ -22,12 +28,17 @@ const COLLECTION_PAUSE: Duration = Duration::from_millis(500);
 pub(super) struct Job {
     pub(super) rows: Vec<f64>,
     pub(super) frame: Option<Frame<2>>,
+    /// To be kept once all before it is written.
+    pub(super) state: Option<Arc<State>>,
+    /// What follows shows a failure: a state that is kept later is of a step before it.
+    pub(super) is_failing: bool,
 }
 
 impl Job {
     /// Memory that it needs until it is done.
     pub(super) fn bytes(&self) -> usize {
-        8 * self.rows.len() + self.frame.as_ref().map_or(0, bytes)
+        let state: usize = self.state.iter().flat_map(|state| &state.sections).map(|section| section.bytes.len()).sum();
+        8 * self.rows.len() + self.frame.as_ref().map_or(0, bytes) + state
     }
 }
 
@@ -49,6 +60,10 @@ pub(super) struct Writer {
     frames: Frames,
     film: Option<Film>,
     threads: Threads,
+    identity: Identity,
+    origin: Origin,
+    /// What was told before the run failed.
+    before_failure: Option<(Told, Vec<Section>)>,
 }
 
 /// How the files were completed.
@@ -79,11 +94,90 @@ impl Writer {
             frames: Frames::new(&cells, &threads),
             film: model.output.pictures.then(|| Film::new(cells, film_settings(model))),
             threads,
+            identity: Identity::of(model),
+            origin: Origin::default(),
+            before_failure: None,
         })
+    }
+
+    /// Goes on where a checkpoint was written; `frame` is the state there.
+    pub(super) fn reopen(
+        folder: &Path,
+        (model, past): (&Model, &Checkpoint),
+        columns: Vec<String>,
+        (cells, frame): (Cells, &Frame<2>),
+        threads: Threads,
+    ) -> Result<Self, ResultsError> {
+        let told = &past.told;
+        // Who can't have the history changes nothing.
+        let (history, rows) = CsvStream::reopen(&folder.join("history.csv"), &columns, told.history)?;
+        let mut frames = Frames::new(&cells, &threads);
+        frames.recall(told);
+        let folder = ResultFolder::reopen(folder, told.frames.len(), past.state.step)?;
+        frames.write_collection(&folder)?;
+        let mut plot_rows = ThinnedRows::default();
+        let film = model.output.pictures.then(|| {
+            rows.iter().for_each(|row| plot_rows.add(row));
+            Film::recalled(cells, film_settings(model), &past.film, frame)
+        });
+        let (title, of_revolution) = (picture_title(model), model.is_axisymmetric());
+        let (include, identity, origin) = (model.output.include.clone(), Identity::of(model), past.origin.clone());
+        Ok(Self {
+            folder,
+            title,
+            of_revolution,
+            include,
+            columns,
+            history,
+            plot_rows,
+            frames,
+            film,
+            threads,
+            identity,
+            origin,
+            before_failure: None,
+        })
+    }
+
+    /// Numbers of a row.
+    pub(super) fn width(&self) -> usize {
+        self.columns.len()
+    }
+
+    /// Where the model came from, for checkpoints.
+    pub(super) fn set_origin(&mut self, origin: Origin) {
+        self.origin = origin;
+    }
+
+    fn told_so_far(&mut self) -> Result<(Told, Vec<Section>), ResultsError> {
+        let told = Told { history: self.history.mark()?, ..self.frames.told() };
+        Ok((told, self.film.as_mut().map_or_else(Vec::new, Film::kept)))
+    }
+
+    /// Writes a checkpoint of what is told so far and the state there.
+    fn keep(&mut self, state: &Arc<State>) -> Result<(), ResultsError> {
+        let (told, film) = match self.before_failure.take() {
+            Some(before) => before,
+            None => self.told_so_far()?,
+        };
+        let checkpoint = Checkpoint { state: state.clone(), origin: self.origin.clone(), identity: self.identity.clone(), told, film };
+        Ok(checkpoint.write(self.folder.path(), &self.threads)?)
     }
 
     /// Does a job. A frame is written even when rows can't be.
     pub(super) fn write(&mut self, job: &Job) -> Result<(), ResultsError> {
+        let told = self.tell(job);
+        if job.is_failing {
+            self.before_failure = Some(self.told_so_far()?);
+        }
+        // What is not told can't be gone on from.
+        match &job.state {
+            Some(state) if told.is_ok() => self.keep(state),
+            _ => told,
+        }
+    }
+
+    fn tell(&mut self, job: &Job) -> Result<(), ResultsError> {
         let mut rows = Ok(());
         for row in job.rows.chunks_exact(self.columns.len().max(1)) {
             rows = rows.and(self.history.row(row));
@@ -168,6 +262,27 @@ impl Frames {
             self.collected = Instant::now();
         }
         Ok(true)
+    }
+
+    /// How far they are.
+    fn told(&self) -> Told {
+        let Obstacles { lines, extent, written } = &self.obstacles;
+        Told {
+            frames: self.written.iter().map(|(time, _)| *time).collect(),
+            frame_step: self.step_last,
+            has_obstacles: !written.is_empty(),
+            extent: *extent,
+            far: lines.far,
+            ..Told::default()
+        }
+    }
+
+    /// Goes on from there.
+    fn recall(&mut self, told: &Told) {
+        let with = |name: fn(usize) -> String| told.frames.iter().copied().zip((0..).map(name)).collect();
+        (self.written, self.step_last) = (with(ResultFolder::frame_name), told.frame_step);
+        self.obstacles.written = if told.has_obstacles { with(ResultFolder::obstacles_name) } else { Vec::new() };
+        (self.obstacles.extent, self.obstacles.lines.far) = (told.extent, told.far);
     }
 
     fn write_collection(&self, folder: &ResultFolder) -> Result<(), ResultsError> {

@@ -11,6 +11,7 @@ use super::damping;
 use super::initial::{self, Initial, Wrong};
 use super::make::BlockInput;
 use super::{Block, ElementState, Motion, Report};
+use crate::archive::{Archive, Keep, Kept, keep_each};
 use crate::failure::{Criterion, Seen, failing};
 use crate::material::points::{self, PointLaw, Points, RESPONSE, Room};
 use crate::material::{Family, Parameters, Variable};
@@ -40,6 +41,18 @@ struct Bar {
     damping: f64,
     time_step_squared: f64,
     is_gone: bool,
+}
+
+impl Keep for Bar {
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        #[rustfmt::skip]
+        let Self {
+            nodes: _, initial: _, mass: _,
+            length_old, length, direction, stored, dissipated, damped, damping, time_step_squared, is_gone,
+        } = self;
+        keep_each!(archive; length_old, length, direction, stored, dissipated, damped, damping, time_step_squared, is_gone);
+        Ok(())
+    }
 }
 
 impl Bar {
@@ -331,5 +344,26 @@ impl Block<2> for Bars {
 
     fn report(&self, _positions: &[[f64; 2]]) -> Report {
         self.sum()
+    }
+
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        let Self {
+            law: _,
+            area: _,
+            damping: _,
+            bars,
+            slots: _,
+            stress,
+            history,
+            strain: _,
+            ratio: _,
+            heat: _,
+            rotation: _,
+            response: _,
+            room: _,
+        } = self;
+        bars[..].keep(archive)?;
+        stress[..].keep(archive)?;
+        history[..].keep(archive)
     }
 }

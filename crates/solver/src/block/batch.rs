@@ -1,5 +1,6 @@
 //! Storage of a block: batches of eight elements, each quantity of a batch side by side.
 
+use crate::archive::{Archive, Keep, Kept};
 use embate_lanes::{BATCH, Batch};
 
 /// Makes a structure of batches whose lanes can be copied; every field is named once, so that none can be forgotten.
@@ -16,6 +17,14 @@ macro_rules! batches {
             /// Makes a lane a copy of lane `source` of the batch `from`, but for what tells them apart.
             pub(crate) fn copy_lane(&mut self, lane: usize, from: &Self, source: usize) {
                 $(self.$field.0[lane] = from.$field.0[source];)*
+            }
+        }
+
+        impl Keep for $name {
+            fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+                $(self.$field.keep(archive)?;)*
+                $(self.$kept.keep(archive)?;)*
+                Ok(())
             }
         }
     };

@@ -14,6 +14,7 @@ use super::strain::{Measures, Strain, Tensor, circumference, initial_width, radi
 use super::stress_state::StressState;
 use super::strip::{Every, STRIP, Shape, Strip};
 use super::{Block, ElementState, Initial, Motion, Report, Wrong};
+use crate::archive::{Archive, Keep, Kept};
 use crate::element::Element;
 use crate::failure::Criterion;
 use crate::material::Family;
@@ -479,5 +480,22 @@ where
 
     fn report(&self, positions: &[[f64; D]]) -> Report {
         self.of_the_living(positions)
+    }
+
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        // Of the model, or worked out anew in each step.
+        #[rustfmt::skip]
+        let Self {
+            element: _, law: _, viscosity: _, damping: _, count: _, nodes: _, initial: _, kept: _, keeps_forces: _, corner_mass: _, volume_initial: _,
+            reports: _, strips: _, nodal: _, state: _,
+            stress, damped, history, elements, resistance, hourglass, eroded,
+        } = self;
+        for list in [stress, damped, history, hourglass] {
+            list[..].keep(archive)?;
+        }
+        elements[..].keep(archive)?;
+        resistance[..].keep(archive)?;
+        eroded.keep(archive)?;
+        if archive.reads() { self.fill_all_up() } else { Ok(()) }
     }
 }

@@ -7,6 +7,7 @@ use super::batch::ElementBatch;
 use super::elements::{CHUNK, Elements};
 use super::stress_state::StressState;
 use super::{Block, ElementState, Report};
+use crate::archive::{Kept, Misfit, keep_all};
 use crate::element::Element;
 use crate::failure::{Criterion, Seen, failing};
 use crate::material::Variable;
@@ -25,6 +26,8 @@ pub(super) struct Eroded {
     /// as at the start.
     sources: BTreeMap<usize, Option<usize>>,
 }
+
+keep_all!(Eroded { left, last, sources });
 
 impl Default for Eroded {
     fn default() -> Self {
@@ -176,6 +179,25 @@ where
                 }
             }
         }
+    }
+
+    /// Makes all lanes of eroded elements copies again, when the state was filled from outside: of their initial geometry too.
+    pub(super) fn fill_all_up(&mut self) -> Kept {
+        let sources = std::mem::take(&mut self.eroded.sources);
+        for (&chunk, &source) in &sources {
+            let end = chunk.saturating_add(1).saturating_mul(CHUNK).min(self.elements.len()) * BATCH;
+            let lanes = chunk.saturating_mul(CHUNK * BATCH)..end;
+            let gone: Vec<usize> = lanes.clone().filter(|&lane| !self.is_alive(lane)).collect();
+            let is_possible =
+                !lanes.is_empty() && source.map_or(gone.len() == lanes.len(), |source| lanes.contains(&source) && !gone.contains(&source));
+            if !is_possible {
+                return Err(Misfit::new("what stands in for eroded elements is not there"));
+            }
+            let Some(source) = source else { continue };
+            gone.into_iter().for_each(|lane| self.copy(source, lane));
+        }
+        self.eroded.sources = sources;
+        Ok(())
     }
 
     /// Sums the forces of a chunk again, without elements that are gone.

@@ -25,6 +25,7 @@ pub use initial::{Initial, Wrong};
 pub use local::LocalNodes;
 pub use make::{BlockInput, make};
 
+use crate::archive::{Archive, Kept, keep_all};
 use crate::failure::Criterion;
 use crate::material::Variable;
 use crate::material::points::PointLaw;
@@ -63,6 +64,8 @@ pub struct Report {
     pub damping: f64,
 }
 
+keep_all!(Report { time_step_squared, determinant, stored, dissipated, hourglass, viscous, damping });
+
 impl Report {
     /// The neutral element of [`Report::join`].
     pub const NOTHING: Self = Self {
@@ -100,6 +103,8 @@ pub struct ElementState {
     /// Stored elastic energy per initial volume, J/m³.
     pub energy_density: f64,
 }
+
+keep_all!(ElementState { stress, variables, energy_density });
 
 /// Elements of one kind and one material.
 pub trait Block<const D: usize>: Send + Sync {
@@ -156,4 +161,9 @@ pub trait Block<const D: usize>: Send + Sync {
     fn erode(&mut self, elements: &[u32], slots: &mut [[f64; D]]) -> Vec<f64>;
     /// What the last [`Block::advance`] told, without the elements that were eroded since.
     fn report(&self, positions: &[[f64; D]]) -> Report;
+    /// Keeps what changes with time and is not worked out anew in [`Block::advance`].
+    ///
+    /// # Errors
+    /// What is read is of another block.
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept;
 }

@@ -7,6 +7,7 @@
 //! dt² Σ k / (2m) + dt Σ c / m ≤ 1. [`together`] joins it to that of the elements.
 
 use super::{Block, ElementState, Initial, Motion, Report, Wrong};
+use crate::archive::{Archive, Keep, Kept, keep_each};
 use crate::failure::Criterion;
 use crate::load::curve::table::Table;
 use crate::material::points::PointLaw;
@@ -29,6 +30,14 @@ struct Pair {
     dissipated: f64,
     is_whole: bool,
     time_step_squared: f64,
+}
+
+impl Keep for Pair {
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        let Self { nodes: _, law: _, rest: _, time_step_squared: _, length, forces, stored, dissipated, is_whole } = self;
+        keep_each!(archive; length, forces, stored, dissipated, is_whole);
+        Ok(())
+    }
 }
 
 /// What acts between the nodes of a pair.
@@ -222,5 +231,11 @@ impl Block<2> for SpringBlock {
     }
     fn report(&self, _positions: &[[f64; 2]]) -> Report {
         self.report
+    }
+
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        let Self { pairs, slots: _, laws: _, report } = self;
+        pairs[..].keep(archive)?;
+        report.keep(archive)
     }
 }

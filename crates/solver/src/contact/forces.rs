@@ -3,6 +3,7 @@
 //! Solved springs add to them ([`super::Contact::collect`]); the velocity update, rigid bodies and records read them. A step costs as much as there are nodes in contact.
 
 use super::Vector;
+use crate::archive::{Archive, Keep, Kept};
 use embate_lanes::BATCH;
 
 /// Forces of contacts and obstacles on nodes, N/m. Of a model without contacts there are none, not even of zero: [`ContactForces::new`] of no nodes.
@@ -13,6 +14,24 @@ pub struct ContactForces {
     marks: Vec<bool>,
     /// The groups that were.
     marked: Vec<u32>,
+}
+
+impl Keep for ContactForces {
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        if archive.reads() {
+            self.clear();
+        }
+        let Self { values, marks, marked } = self;
+        marked.keep(archive)?;
+        for &mut group in marked {
+            let group = group as usize;
+            archive.check(group < marks.len(), "a contact force is nowhere")?;
+            marks[group] = true;
+            let end = values.len().min((group + 1) * BATCH);
+            values[group * BATCH..end].iter_mut().try_for_each(|force| force.keep(archive))?;
+        }
+        Ok(())
+    }
 }
 
 impl ContactForces {

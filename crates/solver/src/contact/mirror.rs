@@ -7,6 +7,7 @@ use super::springs::{Answers, End, Spring, Springs};
 use super::tied::Ties;
 use super::tracker::{Certificate, SearchReport};
 use super::{Formulation, Scene, Vector};
+use crate::archive::{Archive, Kept};
 use std::any::Any;
 
 /// A node that may reach the line.
@@ -74,6 +75,12 @@ impl Formulation for Mirrored {
     fn remember(&mut self, solved: Answers<'_>) {
         // Nothing is found, and nothing solved, while the contact does not act.
         self.contact.remember(solved.part(self.found, usize::MAX));
+    }
+
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        // How many springs to images there are counts within a step.
+        let Self { contact, lines: _, terms: _, found: _ } = self;
+        contact.keep(archive)
     }
 
     fn inherit(&mut self, old: Box<dyn Any>) {

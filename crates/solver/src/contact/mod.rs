@@ -21,6 +21,7 @@ pub mod obstacle;
 pub mod mirror;
 pub mod traces;
 
+use crate::archive::{Archive, Kept, keep_each};
 use crate::load::tributary::Depth;
 use crate::mesh::surface::Surface;
 use crate::rigid::Bodies;
@@ -43,6 +44,12 @@ pub trait Formulation: Any + Send {
 
     /// Keeps what the next step needs of the solved springs, in the order of [`Formulation::detect`].
     fn remember(&mut self, solved: Answers<'_>);
+
+    /// Keeps what it knows of the past.
+    ///
+    /// # Errors
+    /// What is read is of other surfaces.
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept;
 
     /// Takes over what its predecessor knew, which was of the same kind and made of the same contact before surfaces changed. What belongs to nodes and segments that are no
     /// more is forgotten.
@@ -166,6 +173,21 @@ impl Contact {
         }
     }
 
+    /// Keeps what it knows of the past; `springs` is how many there are in this step.
+    ///
+    /// # Errors
+    /// What is read is of other surfaces.
+    pub(crate) fn keep(&mut self, archive: &mut Archive<'_>, springs: usize) -> Kept {
+        #[rustfmt::skip]
+        let Self {
+            name: _, kind: _, terms: _, active: _,
+            totals, penetration, has_pressed, friction_work, formulation, checked, time, found,
+        } = self;
+        keep_each!(archive; totals, penetration, has_pressed, friction_work, checked, time, &mut found.start, &mut found.end);
+        archive.check(found.start <= found.end && found.end <= springs, "a contact has springs that are not there")?;
+        formulation.keep(archive)
+    }
+
     fn acts_at(&self, time: f64) -> bool {
         (self.active[0]..self.active[1]).contains(&time)
     }
@@ -267,6 +289,9 @@ struct Nothing;
 impl Formulation for Nothing {
     fn detect(&mut self, _: &Scene<'_>, _: &mut Springs) {}
     fn remember(&mut self, _: Answers<'_>) {}
+    fn keep(&mut self, _: &mut Archive<'_>) -> Kept {
+        Ok(())
+    }
     fn inherit(&mut self, _: Box<dyn Any>) {}
 }
 

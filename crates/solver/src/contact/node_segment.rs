@@ -8,6 +8,7 @@ use super::projection::node_segment::{Projection, Target};
 use super::springs::{Answers, End, Spring, Springs, tangent};
 use super::tracker::{Certificate, Memory, SearchReport, Touch, Tracker, is_facing};
 use super::{Formulation, Scene, Sweep, Vector};
+use crate::archive::{Archive, Keep, Kept};
 use crate::mesh::surface::NONE;
 use crate::model;
 use std::any::Any;
@@ -220,6 +221,16 @@ impl Formulation for NodeSegment {
             let memory = self.tracker.kept_mut(&touch);
             (memory.slip, memory.half) = (answer.solved.slip_new, answer.gap_new());
         }
+    }
+
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        #[rustfmt::skip]
+        let Self {
+            passes: _, thickness: _, reach: _, stores: _, ignores_start: _, initial: _, used: _,
+            tracker, has_begun,
+        } = self;
+        tracker.keep(archive)?;
+        has_begun.keep(archive)
     }
 
     fn inherit(&mut self, old: Box<dyn Any>) {

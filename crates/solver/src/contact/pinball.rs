@@ -17,6 +17,7 @@ use super::search::{Pair, Query, Search};
 use super::springs::{Answers, End, Spring, Springs};
 use super::tracker::SKIN;
 use super::{Formulation, Scene, Sweep, Vector, length};
+use crate::archive::{Archive, Kept, keep_all, keep_each};
 use crate::model;
 use std::any::Any;
 
@@ -85,6 +86,8 @@ struct Near {
     /// Whether the pair was there before the surfaces changed.
     known: bool,
 }
+
+keep_all!(Near { pair, slip, offset, known });
 
 impl Disk {
     fn centre(&self, positions: &[Vector]) -> Vector {
@@ -317,6 +320,19 @@ impl Formulation for Pinball {
             springs.push(spring, &ends[..one.count + other.count]);
         }
         self.has_begun = true;
+    }
+
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        #[rustfmt::skip]
+        let Self {
+            disks, first: _, search: _, penalty: _, thickness: _, reach: _, ignores_start: _, skin: _, centres_old: _, centres: _, initial: _,
+            bodies: _, pairs: _, before: _,
+            has_begun, searched, near,
+        } = self;
+        keep_each!(archive; has_begun, searched, near);
+        archive.check(searched.is_empty() || searched.len() == disks.len(), "pinballs were searched at other places")?;
+        let is_there = |near: &Near| near.pair.iter().all(|&disk| (disk as usize) < disks.len());
+        archive.check(near.iter().all(is_there), "a pinball is not there")
     }
 
     fn inherit(&mut self, old: Box<dyn Any>) {

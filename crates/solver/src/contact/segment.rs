@@ -17,6 +17,7 @@ use super::law::{Law, penalty};
 use super::springs::{Answers, End, Spring, Springs};
 use super::tracker::{Certificate, SearchReport, Tracker};
 use super::{Formulation, Scene, Vector};
+use crate::archive::{Archive, Kept, keep_all, keep_each};
 use crate::load::tributary::Depth;
 use crate::mesh::surface::{NONE, Surface};
 use crate::model::{ContactLaw, Penalty};
@@ -113,6 +114,8 @@ struct Facing {
     /// Gaps that count as zero, m; not positive.
     offsets: [f64; 2],
 }
+
+keep_all!(Facing { pair, length, slips, offsets });
 
 impl Chain {
     fn new(surface: &Surface, stiffness: Vec<f64>) -> Self {
@@ -356,6 +359,19 @@ impl Formulation for Segment {
             self.connect(self.commons[index], springs);
         }
         self.start.has_begun = true;
+    }
+
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        #[rustfmt::skip]
+        let Self {
+            chains: _, law: _, penalty: _, rule: _, depth: _, thickness: _, reach: _, pairs: _, commons: _, tree: _, least: _, before: _,
+            tracker, start: Start { ignored: _, positions: _, bodies: _, has_begun }, facing,
+        } = self;
+        tracker.keep(archive)?;
+        keep_each!(archive; has_begun, facing);
+        let segments = self.surfaces().map(|surface| self.tracker.targets()[surface].surface.segments.len());
+        let is_there = |facing: &Facing| (0..2).all(|k| (facing.pair[k] as usize) < segments[k]);
+        archive.check(self.facing.iter().all(is_there), "a segment is not there")
     }
 
     fn inherit(&mut self, old: Box<dyn Any>) {

@@ -14,6 +14,7 @@ use super::search::{Query, Search};
 use super::springs::{Answers, Spring, Springs};
 use super::tracker::{Certificate, SearchReport};
 use super::{Formulation, Scene, Vector, length};
+use crate::archive::{Archive, Kept, keep_all, keep_each};
 use crate::contact::messages::TIE;
 use crate::error::Fault;
 use std::any::Any;
@@ -57,7 +58,7 @@ struct Unborn {
 }
 
 /// A bound node.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Tie {
     node: u32,
     /// Index in the slave surface.
@@ -70,6 +71,8 @@ struct Tie {
     stiffness: f64,
     area: f64,
 }
+
+keep_all!(Tie { node, slave, segment, place, gap, stiffness, area });
 
 impl Tied {
     fn of(setup: Setup<'_>) -> Result<Self, Fault> {
@@ -189,6 +192,22 @@ impl Formulation for Tied {
             }
             holds
         });
+    }
+
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        let Self { target, ties, unborn, strength: _, terms: _, side: _, loose, bound, broken, freed } = self;
+        let mut is_unborn = unborn.is_some();
+        keep_each!(archive; &mut is_unborn, ties, &mut bound[..], broken, freed);
+        archive.check(unborn.is_some() || !is_unborn, "ties of this contact are there from the start")?;
+        if !is_unborn {
+            *unborn = None;
+        }
+        let is_tie = |tie: &Tie| {
+            let Tie { node, slave, segment, .. } = *tie;
+            (node as usize) < archive.nodes && (slave as usize) < bound.len() && (segment as usize) < target.surface.segments.len()
+        };
+        archive.check(ties.iter().all(is_tie), "a tie binds what is not there")?;
+        loose.keep(archive)
     }
 
     fn inherit(&mut self, old: Box<dyn Any>) {

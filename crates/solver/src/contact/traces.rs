@@ -5,6 +5,7 @@
 use super::Vector;
 use super::forces::ContactForces;
 use super::springs::{Answer, Lost, Springs};
+use crate::archive::{Archive, Keep, Kept};
 use crate::load::tributary::Depth;
 use crate::mesh::surface::Surface;
 
@@ -28,6 +29,14 @@ pub struct State {
     pub gap: f64,
     /// 0 open, 1 stick, 2 slip (also without friction).
     pub status: f64,
+}
+
+impl Keep for Traces {
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        let Self { outside: _, depth: _, area: _, slip, heat } = self;
+        slip[..].keep(archive)?;
+        heat[..].keep(archive)
+    }
 }
 
 impl Traces {

@@ -8,6 +8,7 @@ pub mod expression;
 pub mod sine;
 pub mod table;
 
+use crate::archive::{Archive, Keep, Kept};
 use crate::model::{self, CurveShape, Drive, Model};
 use expression::Expression;
 use sine::Sine;
@@ -128,6 +129,13 @@ struct Term {
     factor: f64,
     curve: usize,
     meaning: Meaning,
+}
+
+impl Keep for Curves {
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        let Self { list: _, names: _, integrals, short: _ } = self;
+        integrals[..].keep(archive)
+    }
 }
 
 impl Curves {

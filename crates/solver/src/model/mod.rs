@@ -90,6 +90,10 @@ pub struct Run {
     pub mass_scaling: Option<MassScaling>,
     /// Damping that brings everything to rest.
     pub relaxation: Option<Relaxation>,
+    /// Wall time (s) between two checkpoints; `None`: none by the clock.
+    pub checkpoint: Option<f64>,
+    /// Steps between two checkpoints; `None`: none by number.
+    pub checkpoint_steps: Option<u64>,
 }
 
 /// Dynamic relaxation: damping that adapts itself, and an end when all is at rest.
@@ -142,6 +146,8 @@ impl Default for Run {
             bulk_viscosity: [0.0; 2],
             mass_scaling: None,
             relaxation: None,
+            checkpoint: None,
+            checkpoint_steps: None,
         }
     }
 }

@@ -5,9 +5,10 @@
 //! are gone stored at n − ½, less what springs of the new surfaces store there, is booked with it. So the drift does not see erosion.
 
 use super::System;
+use crate::archive::{Archive, Keep, Kept, Misfit, keep_each};
 use crate::block::Report;
 use crate::build::{Lent, Origin};
-use crate::failure::Criterion;
+use crate::failure::{Criterion, by_name};
 use crate::output::Eroded;
 
 /// What fails and what has failed.
@@ -48,7 +49,44 @@ impl Erosion {
     }
 }
 
+impl Keep for Erosion {
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        let Self { criteria: _, origin: _, energy, gone, springs, by_part, first } = self;
+        energy.keep(archive)?;
+        gone[..].keep(archive)?;
+        keep_each!(archive; springs, by_part);
+        let mut told =
+            first.take().map(|Eroded { part, element, at, time, criterion }| (part, (criterion.to_string(), (element, (at, time)))));
+        told.keep(archive)?;
+        *first = match told {
+            Some((part, (criterion, (element, (at, time))))) => {
+                let criterion =
+                    by_name(&criterion).ok_or_else(|| Misfit::new(format!("there is no criterion \"{criterion}\"")))?.limit.name;
+                Some(Eroded { part, element, at, time, criterion })
+            }
+            None => None,
+        };
+        Ok(())
+    }
+}
+
 impl System {
+    /// Takes the elements that blocks have lost out of mesh, contacts and loads, as if they failed now: what is left of a state that was filled from outside.
+    pub(super) fn take_out_again(&mut self) {
+        let Some(mut erosion) = self.erosion.take() else { return };
+        let mut is_any_gone = false;
+        for (group, block) in self.mesh.groups.iter_mut().zip(&self.blocks) {
+            for element in (0..block.elements()).filter(|&element| !block.is_alive(element)) {
+                group.erode(element);
+                is_any_gone = true;
+            }
+        }
+        if is_any_gone {
+            self.renew_surfaces(&mut erosion);
+        }
+        self.erosion = Some(erosion);
+    }
+
     /// Takes out what fails. Returns what `elements` is without it.
     pub(super) fn erode(&mut self, elements: Report) -> Report {
         let Some(mut erosion) = self.erosion.take() else { return elements };

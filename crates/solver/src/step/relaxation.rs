@@ -5,6 +5,7 @@
 //! (1983) 245-265; Papadrakakis, Comput. Meth. Appl. Mech. Engng 25 (1981) 35-48.
 
 use super::{System, Vector};
+use crate::archive::{Archive, Keep, Kept, keep_each};
 use crate::model;
 
 /// What brings everything to rest.
@@ -26,6 +27,15 @@ pub(crate) struct Relaxation {
 impl Relaxation {
     pub(crate) fn new(model::Relaxation { tolerance, from }: model::Relaxation, nodes: usize) -> Self {
         Self { tolerance, from, forces: vec![[0.0; 2]; nodes], frequency: 0.0, quiet: None, ratio: f64::INFINITY, rest: None }
+    }
+}
+
+impl Keep for Relaxation {
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        let Self { tolerance: _, from: _, forces, frequency, quiet, ratio, rest } = self;
+        forces[..].keep(archive)?;
+        keep_each!(archive; frequency, quiet, ratio, rest);
+        Ok(())
     }
 }
 

@@ -7,7 +7,7 @@ use embate_solver::model::{
     Shape,
 };
 use embate_solver::output::Frame;
-use embate_solver::simulation::{Control, Observer, ObserverError, Options, Progress, Simulation};
+use embate_solver::simulation::{Control, Observer, ObserverError, Options, Progress, Simulation, State};
 use std::sync::Arc;
 
 /// Elastic with Poisson's ratio 0.3.
@@ -146,6 +146,9 @@ pub(crate) fn to_end(model: &Model) -> Simulation {
 pub(crate) struct History {
     columns: Vec<String>,
     rows: Vec<Vec<f64>>,
+    /// Looks at the progress until the run is stopped, and the state then: with `EMBATE_STOPS` (see `restart`).
+    stops: Option<usize>,
+    kept: Option<State>,
 }
 
 impl History {
@@ -172,8 +175,19 @@ impl Observer for History {
         self.rows.push(row.to_vec());
         Ok(())
     }
+    fn state(&mut self, state: State) -> Result<(), ObserverError> {
+        self.kept = Some(state);
+        Ok(())
+    }
     fn progress(&mut self, _: &Progress<'_>) -> Control {
-        Control::Continue
+        match &mut self.stops {
+            Some(0) => Control::KeepAndStop,
+            Some(left) => {
+                *left -= 1;
+                Control::Continue
+            }
+            None => Control::Continue,
+        }
     }
 }
 
@@ -184,9 +198,22 @@ pub(crate) fn simulation(model: &Model) -> Simulation {
 
 pub(crate) fn run(model: &Model) -> (Simulation, History) {
     let mut simulation = simulation(model);
-    let mut history = History { columns: simulation.history_columns(), rows: vec![] };
-    simulation.run(&mut history).unwrap_or_else(|error| panic!("{error}"));
-    (simulation, history)
+    let mut history = History { columns: simulation.history_columns(), rows: vec![], stops: None, kept: None };
+    if std::env::var_os("EMBATE_STOPS").is_none() {
+        simulation.run(&mut history).unwrap_or_else(|error| panic!("{error}"));
+        return (simulation, history);
+    }
+    // Stopped again and again: what the test sees is a run that goes on with what was kept.
+    let mut number = 0;
+    loop {
+        history.stops = Some(2 + number % 5);
+        simulation.run(&mut history).unwrap_or_else(|error| panic!("{error}"));
+        let Some(state) = history.kept.take() else { return (simulation, history) };
+        let levels = embate_lanes::Level::available();
+        let options = Options { threads: 1 + number % 3, simd: Some(levels[number % levels.len()].name().to_string()) };
+        simulation = Simulation::resumed(model, &options, &state.sections).unwrap_or_else(|error| panic!("{error}"));
+        number += 1;
+    }
 }
 
 /// The history of every single step, and the mass of each part.
@@ -197,7 +224,7 @@ pub(crate) struct Steps {
 
 pub(crate) fn every_step(model: &Model) -> Steps {
     let mut simulation = simulation(model);
-    let mut history = History { columns: simulation.history_columns(), rows: vec![simulation.history_row()] };
+    let mut history = History { columns: simulation.history_columns(), rows: vec![simulation.history_row()], stops: None, kept: None };
     while simulation.time() < model.run.end {
         simulation.advance(f64::INFINITY, 1).unwrap_or_else(|error| panic!("{error}"));
         history.rows.push(simulation.history_row());

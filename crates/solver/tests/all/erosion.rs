@@ -17,7 +17,7 @@ fn metal(failure: &[(&str, f64)]) -> Material {
 }
 
 /// A bar of three parts that share nodes: the outer ones fly apart, the middle one fails.
-fn torn_bar(failure: &[(&str, f64)]) -> Model {
+pub(crate) fn torn_bar(failure: &[(&str, f64)]) -> Model {
     let mut model = model(4e-4);
     model.materials.insert("weak".into(), metal(failure));
     model.materials.insert("strong".into(), elastic(70e9, 2700.0));
@@ -90,7 +90,7 @@ fn elastic_energy_of_what_fails_is_booked_to_the_last_digits() {
 }
 
 /// A hard bullet and a plate that it goes through.
-fn bullet(elements: [usize; 2]) -> Model {
+pub(crate) fn bullet(elements: [usize; 2]) -> Model {
     let mut model = model(1.2e-4);
     model.materials.insert("plate".into(), metal(&[("plastic_strain", 0.5), ("time_step", 1e-9)]));
     let mut hard = elastic(200e9, 7800.0);

@@ -37,6 +37,7 @@ mod plasticity;
 mod projectiles;
 mod projection;
 mod rayleigh;
+mod restart;
 mod revolution;
 mod rigid;
 mod rubbers;

@@ -64,6 +64,8 @@ fn run(record: &Record) -> Run {
         step_limit: record.number("step_limit"),
         time_step: record.number("time_step"),
         max_steps: record.integer("max_steps"),
+        checkpoint: record.number("checkpoint"),
+        checkpoint_steps: record.integer("checkpoint_steps"),
         bulk_viscosity: record.vector("bulk_viscosity"),
         relaxation: record
             .table("relaxation")

@@ -8,6 +8,7 @@
 //! Nodes do not see a circle that comes in between them. [`RoundSegments`] does: the same circle against segments, for circles smaller than these.
 
 use super::{Memory, Shape, State, Way};
+use crate::archive::{Archive, Keep, Kept};
 use crate::contact::Vector;
 use crate::contact::initial::kept;
 use crate::contact::node_segment::{Slave, segment_ends};
@@ -168,6 +169,12 @@ impl Formulation for RoundSegments {
             let touch = self.tracker.touches()[index];
             self.tracker.kept_mut(&touch).slip = answer.solved.slip_new;
         }
+    }
+
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        let Self { slave: _, radius: _, reach: _, body: _, ignores_start: _, tracker, has_begun } = self;
+        tracker.keep(archive)?;
+        has_begun.keep(archive)
     }
 
     fn inherit(&mut self, old: Box<dyn Any>) {

@@ -11,6 +11,7 @@ use super::node_segment::Slave;
 use super::springs::{Answers, End, Spring, Springs};
 use super::tracker::{Certificate, SearchReport};
 use super::{Formulation, Scene, Vector};
+use crate::archive::{Archive, Keep, Kept, Misfit, keep_all, keep_each};
 use crate::output::Outline;
 use crate::rigid::Bodies;
 use std::any::Any;
@@ -58,6 +59,9 @@ pub enum State {
     /// Beyond, without having gone through the surface.
     Behind,
 }
+
+/// In the order of their numbers in a kept state.
+const STATES: [State; 5] = [State::Unknown, State::Free, State::Ahead, State::Held, State::Behind];
 
 /// Outline of an obstacle in the frame of its body.
 #[derive(Clone, Debug, PartialEq)]
@@ -134,6 +138,18 @@ impl NodeObstacle {
     }
 }
 
+keep_all!(Near { indices, since, place });
+
+impl Keep for Memory {
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        let Self { state, presses, normal, offset } = self;
+        let mut number = STATES.iter().position(|it| it == state).unwrap_or(0) as u8;
+        keep_each!(archive; &mut number, presses, normal, offset);
+        *state = *STATES.get(usize::from(number)).ok_or_else(|| Misfit::new("a node is neither before nor behind an obstacle"))?;
+        Ok(())
+    }
+}
+
 impl Formulation for NodeObstacle {
     fn detect(&mut self, scene: &Scene<'_>, springs: &mut Springs) {
         self.found.clear();
@@ -186,6 +202,13 @@ impl Formulation for NodeObstacle {
         self.has_begun = true;
     }
 
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        let Self { shape: _, body: _, reach: _, ignores_start: _, found: _, nodes, memories, has_begun, near } = self;
+        nodes.iter_mut().try_for_each(|(_, slave)| slave.slip.keep(archive))?;
+        keep_each!(archive; &mut memories[..], has_begun, near);
+        archive.check(near.indices.iter().all(|&index| (index as usize) < nodes.len()), "an obstacle looks at nodes that are not there")
+    }
+
     fn inherit(&mut self, old: Box<dyn Any>) {
         let Ok(old) = old.downcast::<Self>() else { return };
         self.has_begun = old.has_begun;
@@ -226,6 +249,12 @@ impl Formulation for Both {
         first.detect(scene, springs);
         self.split = springs.list.len() - begin;
         second.detect(scene, springs);
+    }
+
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        // Where the second begins counts within a step.
+        let Self { parts, split: _ } = self;
+        parts.iter_mut().try_for_each(|part| part.keep(archive))
     }
 
     fn inherit(&mut self, old: Box<dyn Any>) {

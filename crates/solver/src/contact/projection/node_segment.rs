@@ -4,6 +4,7 @@
 //! of the paper (figures 4 and 5): the nearest feature of the target decides, the inside of a segment or a node; the pseudo-normal of
 //! a node is the sum of its two segment normals. Theory, sections 4.1 and 4.2.
 
+use crate::archive::keep_all;
 use crate::mesh::surface::{NONE, Surface};
 
 /// A point or vector of the plane.
@@ -19,7 +20,7 @@ pub struct Target {
 }
 
 /// Where a node lies with respect to the nearest feature of a target.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Projection {
     /// Segment that the feature belongs to.
     pub segment: u32,
@@ -30,6 +31,8 @@ pub struct Projection {
     /// Unit vector along which the slave node is pushed out.
     pub normal: Vector,
 }
+
+keep_all!(Projection { segment, weights, gap, normal });
 
 /// Nodes that project beyond a segment's end by this fraction of its length still project on it. Two bars of one height meet corner on corner:
 /// round-off must not decide whether they touch.

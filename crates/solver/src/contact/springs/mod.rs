@@ -24,6 +24,7 @@ mod book;
 mod couple;
 mod ends;
 mod islands;
+mod keep;
 mod link;
 mod newton;
 mod relax;

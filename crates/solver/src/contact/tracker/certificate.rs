@@ -1,6 +1,9 @@
 //! What was checked in a run, for those who have to trust it: pairs, crossings, and what could not be explained.
 
+use crate::archive::keep_all;
 use std::ops::AddAssign;
+
+keep_all!(Certificate { pairs_swept, crossings_found, unverified });
 
 /// Proof that no contact was missed: every pair in reach is swept in every step, and the entries and exits of a node through the segments of a body, counted in
 /// whole numbers that lose nothing, must agree with the contacts that it has.

@@ -7,6 +7,7 @@
 use super::super::Sweep;
 use super::super::length;
 use super::super::projection::node_segment::{BAND, Projection, Seen, Target, Vector, fall_off};
+use crate::archive::{Archive, Keep, Kept};
 use crate::mesh::surface::{NONE, Surface};
 
 /// Two segments face each other if the cosine of the angle between the one and the turned other is at least this.
@@ -38,6 +39,14 @@ fn around(surface: &Surface) -> Vec<[u32; 2]> {
         }
     }
     around
+}
+
+impl Keep for Ends {
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        let Self { around: _, sizes: _, lengths, near } = self;
+        near.keep(archive)?;
+        archive.check(near.is_empty() || near.len() == lengths.len(), "ends of faces are not those of the surface")
+    }
 }
 
 impl Ends {

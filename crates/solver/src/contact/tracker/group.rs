@@ -10,6 +10,7 @@ use super::ends::Ends;
 use super::locate::{Located, View};
 use super::reach::{Reach, SLACK};
 use super::sleep::AWAKE;
+use crate::archive::{Archive, Keep, Kept, keep_all, keep_each};
 use crate::mesh::surface::NONE;
 
 /// A slave node and a body of the target surface. Half a cache line: whoever is awake is read in every step.
@@ -32,6 +33,14 @@ pub(super) struct Group {
     pub(super) open: bool,
     /// Whether it touched in the last step. Else nothing is kept of it.
     pub(super) touches: bool,
+}
+
+keep_all!(Group { slave, node, body, begin, end, memory, level, own, open, touches });
+
+impl Default for Group {
+    fn default() -> Self {
+        Self { slave: 0, node: 0, body: 0, begin: 0, end: 0, memory: NONE, level: 0, own: false, open: false, touches: false }
+    }
 }
 
 impl Group {
@@ -100,6 +109,30 @@ impl Pass {
         self.segment_bodies = targets[self.target].surface.segments.iter().map(|&[node, _]| of(node)).collect();
         self.lids = lids.iter().map(|&lid| (lid, of(lid[0]))).collect();
         self.find_open(&targets[self.target]);
+    }
+
+    /// Keeps groups, what they remember, and what the last search found.
+    pub(super) fn keep(&mut self, targets: &[Target], archive: &mut Archive<'_>) -> Kept {
+        #[rustfmt::skip]
+        let Self {
+            slave: _, target: _, slave_bodies: _, segment_bodies: _, open: _, lids: _, spare: _, found: _,
+            groups, kept, wakes, candidates, ends,
+        } = self;
+        keep_each!(archive; groups, kept, wakes, candidates);
+        ends.keep(archive)?;
+        archive
+            .check(kept.len() == groups.len() && wakes.len() == groups.len(), "a contact remembers more or fewer nodes than it follows")?;
+        let is_known = self.groups.iter().all(|group| self.is_known(group, targets));
+        let are_there = self.candidates.iter().all(|&segment| (segment as usize) < self.segment_bodies.len());
+        archive.check(is_known && are_there, "a contact follows nodes or segments that are not there")
+    }
+
+    /// Whether all that a group names is there.
+    pub(super) fn is_known(&self, group: &Group, targets: &[Target]) -> bool {
+        targets[self.slave].surface.nodes.get(group.slave as usize) == Some(&group.node)
+            && group.begin <= group.end
+            && group.end as usize <= self.candidates.len()
+            && (group.memory == NONE || (group.memory as usize) < self.segment_bodies.len())
     }
 
     pub(super) fn forget(&mut self) {

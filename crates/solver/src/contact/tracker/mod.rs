@@ -22,6 +22,7 @@ pub use reach::SKIN;
 use super::Sweep;
 use super::projection::node_segment::{Projection, Target, Vector};
 use super::search::Search;
+use crate::archive::{Archive, Kept, keep_all, keep_each};
 use crate::mesh::surface::NONE;
 use ends::Ends;
 use group::{Group, Pass};
@@ -30,7 +31,7 @@ use rayon::prelude::*;
 use reach::Reach;
 
 /// A slave node that is inside a body, or within the skin of it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Touch {
     /// Pass that found it.
     pub pass: u32,
@@ -48,6 +49,8 @@ pub struct Touch {
     pub own: bool,
 }
 
+keep_all!(Touch { pass, slave, node, projection, slope, group, own });
+
 /// What a formulation keeps of a slave and a body while they touch.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Memory {
@@ -64,6 +67,8 @@ pub struct Memory {
     /// Which of the segments at the slave node stand for it: 1 that which ends there, 2 that which begins there, 3 both; 0 not known.
     pub faces: u8,
 }
+
+keep_all!(Memory { slip, offset, half, normal, carried, faces });
 
 /// Follows the nodes of surfaces along the bodies of other surfaces, or of their own.
 pub struct Tracker {
@@ -159,6 +164,29 @@ impl Tracker {
     pub fn search_report(&self) -> SearchReport {
         let candidates = self.passes.iter().map(|pass| pass.candidates.len()).sum();
         SearchReport { candidates, ..self.reach.report }
+    }
+
+    /// Keeps what is known of the past, for [`crate::contact::Formulation::keep`].
+    pub(in crate::contact) fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        let Self { targets, passes, reach, found: Found { touches, certificate }, chunks: _, travel, past } = self;
+        passes.iter_mut().try_for_each(|pass| pass.keep(targets, archive))?;
+        keep_each!(archive; reach, touches, certificate, travel, past);
+        let is_touch = |touch: &Touch| {
+            passes.get(touch.pass as usize).is_some_and(|pass| {
+                let group = pass.groups.get(touch.group as usize);
+                group.is_some_and(|group| (group.slave, group.node) == (touch.slave, touch.node))
+                    && (touch.projection.segment as usize) < targets[pass.target].surface.segments.len()
+            })
+        };
+        archive.check(touches.iter().all(is_touch), "a touch is of nothing")?;
+        let recalls = |past: &Vec<Vec<(Group, Memory)>>| {
+            past.len() == passes.len()
+                && passes
+                    .iter()
+                    .zip(past)
+                    .all(|(pass, past)| past.iter().all(|(group, _)| pass.is_known(&Group { begin: 0, end: 0, ..*group }, targets)))
+        };
+        archive.check(past.as_ref().is_none_or(recalls), "a contact recalls nodes or segments that are not there")
     }
 
     /// Forgets what is known of the past.

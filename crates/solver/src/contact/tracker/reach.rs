@@ -4,6 +4,7 @@ use super::super::projection::node_segment::{Target, Vector};
 use super::super::search::{Pair, Search};
 use super::super::{Sweep, length};
 use super::certificate::SearchReport;
+use crate::archive::{Archive, Keep, Kept, keep_each};
 
 /// Skin as a fraction of the mean segment length: how far bodies may move before the next global search.
 pub const SKIN: f64 = 0.25;
@@ -25,6 +26,22 @@ pub(super) struct Reach {
     /// Pairs within this distance were found, m.
     pub(super) skin: f64,
     pub(super) report: SearchReport,
+}
+
+impl Keep for Reach {
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        let Self {
+            search: _,
+            pairs: _,
+            nodes,
+            positions,
+            travel,
+            skin: _,
+            report: SearchReport { steps, searches, skin: _, candidates: _ },
+        } = self;
+        keep_each!(archive; positions, travel, steps, searches);
+        archive.check(positions.is_empty() || positions.len() == nodes.len(), "a contact was searched at other nodes")
+    }
 }
 
 impl Reach {

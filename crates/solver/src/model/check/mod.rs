@@ -149,6 +149,17 @@ impl Check<'_> {
         if run.max_steps == Some(0) {
             self.fault(&RANGE, "run.max_steps", "`max_steps` must be at least 1, but it is 0", "leave it out for no limit");
         }
+        if let Some(pause) = run.checkpoint {
+            self.number("run.checkpoint", pause);
+        }
+        if run.checkpoint_steps == Some(0) {
+            self.fault(
+                &RANGE,
+                "run.checkpoint_steps",
+                "`checkpoint_steps` must be at least 1, but it is 0",
+                "leave it out for none by number",
+            );
+        }
     }
 
     fn materials(&mut self) {

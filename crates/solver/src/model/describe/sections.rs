@@ -77,6 +77,13 @@ static RUN: Section = Section {
         ),
         key("max_steps", Integer(1), Optional("no limit"), "Largest number of steps."),
         key(
+            "checkpoint",
+            Quantity(Dimension::TIME, Positive),
+            Optional("none by the clock"),
+            "Wall time between two checkpoints, from which `embate resume` goes on with a run that was stopped; with it the last good state of a run that fails is kept as well.",
+        ),
+        key("checkpoint_steps", Integer(1), Optional("none by number"), "Steps between two checkpoints, besides those by the clock."),
+        key(
             "bulk_viscosity",
             Vector(Dimension::NONE, NotNegative),
             Default("[0, 0]"),

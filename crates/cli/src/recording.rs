@@ -1,0 +1,200 @@
+//! What `run` and `resume` share: a simulation that is run and recorded, with its checkpoints, what is told on the way, and how it ended.
+
+use crate::complaint::Complaint;
+use crate::interrupt::Interrupt;
+use crate::numbers::{grouped, per_cent, table, with_unit};
+use crate::progress::Display;
+use crate::{Failure, cpu, terminal};
+use clap::Args;
+use embate_files::checkpoint::messages::LAST_GOOD;
+use embate_files::checkpoint::{self, Origin};
+use embate_files::results::{Checkpoints, OnProgress, Recorder, Report, ResultsError, RunStatus};
+use embate_solver::error::Error;
+use embate_solver::model::Model;
+use embate_solver::simulation::{ContactSearch, Control, Observer, Options, Progress, Simulation};
+use std::cell::RefCell;
+use std::path::Path;
+use std::rc::Rc;
+use std::time::Duration;
+
+/// How a model is run, and what is told of it; changes no result.
+#[derive(Args)]
+pub(crate) struct Manner {
+    /// Threads; 0: one per processor (changes no result)
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u16).range(..=1024))]
+    threads: u16,
+    /// Instruction set: scalar, avx2, avx512 [default: the best of this machine] (changes no result)
+    #[arg(long, value_name = "LEVEL")]
+    simd: Option<String>,
+    /// No progress and no summary; warnings of the model are told all the same
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+}
+
+impl Manner {
+    pub(crate) fn options(&self) -> Options {
+        Options { threads: self.threads.into(), simd: self.simd.clone() }
+    }
+}
+
+/// What the files of a result folder are for, in the order in which to look at them.
+const FILES: &[(&str, &str)] = &[
+    ("animation.gif", "the bodies in motion"),
+    ("final.png", "the last state"),
+    ("energy.svg", "energies over time"),
+    ("history.svg", "probes and contacts over time"),
+    ("history.csv", "the same as numbers"),
+    ("fields.pvd", "all fields, for ParaView"),
+    ("obstacles.pvd", "the obstacles, for ParaView"),
+    ("summary.json", "the figures of the run"),
+    ("checkpoint", "states from which `embate resume` goes on"),
+];
+
+/// When a run of a model keeps its state.
+pub(crate) fn checkpoints(model: &Model, origin: Origin) -> Checkpoints {
+    Checkpoints { pause: model.run.checkpoint.and_then(|pause| Duration::try_from_secs_f64(pause).ok()), origin }
+}
+
+/// What an error of results is before anything was run.
+pub(crate) fn in_the_way(error: ResultsError) -> Failure {
+    Failure::Input(Complaint::new(error.kind(), error))
+}
+
+/// Runs a simulation by `go` and records it by what `make` makes, to the last word.
+pub(crate) fn record<'a>(
+    model: &Model,
+    simulation: &mut Simulation,
+    (path, manner, is_verbose): (&Path, &Manner, bool),
+    make: impl FnOnce(&Simulation, OnProgress<'a>) -> Result<Recorder<'a>, ResultsError>,
+    go: impl FnOnce(&mut Simulation, &mut dyn Observer) -> Result<(), Error>,
+) -> Result<(), Failure> {
+    let interrupt = Interrupt::watch();
+    let display = Rc::new(RefCell::new(Display::new(manner.quiet)));
+    let told = Rc::new(RefCell::new(Vec::new()));
+    let (seen, shown, notices) = (interrupt.clone(), display.clone(), told.clone());
+    let mut is_told = false;
+    let on_progress = move |progress: &Progress<'_>| {
+        let mut display = shown.borrow_mut();
+        display.update(progress);
+        for notice in progress.notices {
+            display.say(&Complaint::from(notice).to_string());
+            notices.borrow_mut().push(notice.text.clone());
+        }
+        if !seen.is_pressed() {
+            return Control::Continue;
+        }
+        if !std::mem::replace(&mut is_told, true) {
+            display.say("stopping; results so far are kept (Ctrl-C again ends at once)");
+        }
+        Control::Stop
+    };
+    let mut recorder = make(simulation, Box::new(on_progress)).map_err(in_the_way)?;
+    let ran = go(simulation, &mut recorder);
+    let mut unkept = None;
+    if let Err(error) = &ran
+        && !matches!(error, Error::Output(_))
+        && (model.run.checkpoint.is_some() || model.run.checkpoint_steps.is_some())
+    {
+        display.borrow().say("the run failed; going once more to its last good step, to keep that state (Ctrl-C: not)");
+        unkept = keep_last_good(model, simulation, (path, manner), &interrupt, &mut recorder).err();
+    }
+    let outcome = recorder.finish(ran.as_ref().err().map(Error::with_code), &simulation.summary(), cpu::user_seconds);
+    if let Ok(display) = Rc::try_unwrap(display) {
+        display.into_inner().close();
+    }
+    // What went wrong first is what matters.
+    let unwritten = outcome.unwritten.map_or(Ok(()), |error| Err(Complaint::new(error.kind(), error)));
+    let result = ran.map_err(|error| Complaint::from(&error)).and(unwritten);
+    let report = outcome.report;
+    if let Some(error) = unkept {
+        terminal::complain(&Complaint::new(&LAST_GOOD, error).to_string());
+    }
+    if !manner.quiet {
+        // Those of the model come first, and have been told, as has what was seen on the way: the summary says how it went on.
+        let told = told.borrow();
+        let of_run = report.warnings.iter().skip(simulation.model_warnings().len());
+        let of_run = of_run.filter(|notice| !told.iter().any(|text: &String| notice.text.starts_with(text)));
+        of_run.for_each(|notice| terminal::complain(&Complaint::from(notice).to_string()));
+    }
+    result.map_err(|complaint| Failure::Run(with_results(complaint, path)))?;
+    if !manner.quiet {
+        terminal::print(&closing_text(&report, path))?;
+    }
+    if is_verbose {
+        terminal::print(&search_text(&simulation.searches()))?;
+    }
+    if interrupt.is_pressed() && report.status == RunStatus::Stopped { Err(Failure::Interrupted) } else { Ok(()) }
+}
+
+/// Keeps the state of the step before that which failed.
+fn keep_last_good(
+    model: &Model,
+    simulation: &Simulation,
+    (path, manner): (&Path, &Manner),
+    interrupt: &Interrupt,
+    recorder: &mut Recorder<'_>,
+) -> Result<(), String> {
+    let step = simulation.steps().saturating_sub(1);
+    if step == 0 || interrupt.is_pressed() {
+        return Ok(());
+    }
+    let state = checkpoint::state_at(model, &manner.options(), path, step, || !interrupt.is_pressed());
+    match state.map_err(|error| format!("the state of the last good step could not be kept: {error}"))? {
+        Some(state) => recorder.state(state).map_err(|error| error.to_string()),
+        None => Ok(()),
+    }
+}
+
+fn with_results(complaint: Complaint, path: &Path) -> Complaint {
+    let kept: Vec<&str> = FILES.iter().map(|(name, _)| *name).filter(|name| path.join(name).exists()).collect();
+    if kept.is_empty() { complaint } else { complaint.and(format!("  results until then: {} ({})", path.display(), kept.join(", "))) }
+}
+
+/// A line for each contact between surfaces.
+fn search_text(searches: &[ContactSearch]) -> String {
+    let mut rows = vec![["contact", "search", "skin", "searches", "steps between", "candidates", "pairs swept"].map(String::from).to_vec()];
+    rows.extend(searches.iter().map(|it| {
+        let between = it.report.steps as f64 / it.report.searches.max(1) as f64;
+        vec![
+            it.contact.clone(),
+            it.search.clone(),
+            with_unit(it.report.skin, "m"),
+            grouped(it.report.searches),
+            format!("{between:.1}"),
+            grouped(it.report.candidates as u64),
+            grouped(it.pairs_swept),
+        ]
+    }));
+    table(&rows, "")
+}
+
+fn closing_text(report: &Report, path: &Path) -> String {
+    let ended = match report.status {
+        RunStatus::Done => "done",
+        RunStatus::Failed => "failed",
+        RunStatus::Stopped => "stopped",
+    };
+    let threads = if report.threads == 1 { "1 thread".to_string() } else { format!("{} threads", report.threads) };
+    let speed = report.element_steps_per_second.map_or(String::new(), |speed| format!("{:.1} million element-steps/s, ", speed * 1e-6));
+    let figures = [
+        ["steps".into(), format!("{} to t = {}", grouped(report.steps), with_unit(report.time_end, "s"))],
+        ["smallest step".into(), format!("{} ({})", with_unit(report.stable_time_step_min, "s"), report.stable_time_step_governor)],
+        ["speed".into(), format!("{speed}{threads}, {}", report.simd)],
+        ["energy drift".into(), per_cent(report.energy_drift)],
+        ["penetration".into(), format!("{} at most", with_unit(report.penetration_max, "m"))],
+    ]
+    .map(Vec::from);
+    let files: Vec<Vec<String>> = FILES
+        .iter()
+        .filter(|(name, _)| path.join(name).exists())
+        .map(|(name, doc)| vec![(*name).to_string(), (*doc).to_string()])
+        .collect();
+    format!(
+        "{}: {ended} in {}\n{}results in {}\n{}",
+        report.model,
+        with_unit(report.wall_seconds, "s"),
+        table(&figures, "  "),
+        path.display(),
+        table(&files, "  ")
+    )
+}

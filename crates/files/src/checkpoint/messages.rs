@@ -1,0 +1,76 @@
+//! Messages of checkpoints, and of runs that go on with them.
+
+use embate_solver::message::{Example, Message};
+
+pub(crate) static MESSAGES: &[&Message] =
+    &[&DAMAGED, &VERSION, &RESULTS_CHANGED, &IN_USE, &MODEL_CHANGED, &NO_CHECKPOINT, &OLDER, &LAST_GOOD];
+
+pub(super) static DAMAGED: Message = Message {
+    code: "E0711",
+    title: "a damaged checkpoint",
+    example: Example::Words("A byte of `checkpoint/NUMBER.embate` has flipped, or the file was cut off, and there is no older one."),
+    cause: "A check sum of the file is not that of its bytes: the disk, a copy or another program changed it.",
+    cure: "Put the file back from a copy, or run the model again.",
+};
+
+pub(super) static VERSION: Message = Message {
+    code: "E0712",
+    title: "a checkpoint of another version",
+    example: Example::Words("A run is stopped, embate is updated, and the run shall go on."),
+    cause: "What a state holds changes from version to version, and a run that goes on must give the same bits.",
+    cure: "Go on with the version that the message names, or run the model again.",
+};
+
+/// Results are not as a checkpoint knows them.
+pub(crate) static RESULTS_CHANGED: Message = Message {
+    code: "E0713",
+    title: "results that are not as the checkpoint knows them",
+    example: Example::Words("Rows of `history.csv` were deleted between a run and `embate resume`."),
+    cause: "A run that goes on appends to its files, so that they become those of a run that was never stopped; that can't be where they have changed.",
+    cure: "Put the file back as it was, or run the model again.",
+};
+
+/// Another run writes there.
+pub(crate) static IN_USE: Message = Message {
+    code: "E0714",
+    title: "results that another run writes",
+    example: Example::Words("`embate resume` is started twice in one folder."),
+    cause: "Two programs that append to one file would spoil it.",
+    cure: "Wait for the other run, or stop it first.",
+};
+
+/// The model is not the one that ran.
+pub static MODEL_CHANGED: Message = Message {
+    code: "E0715",
+    title: "a model that is not the one that began the run",
+    example: Example::Words("The density of a material was changed between a run and `embate resume`."),
+    cause: "A state is one of its model. End, limits, checkpoints and output may change; the message lists what else has.",
+    cure: "Undo the changes, or run the changed model from the start.",
+};
+
+/// Nothing to go on from.
+pub static NO_CHECKPOINT: Message = Message {
+    code: "E0716",
+    title: "nothing to go on from",
+    example: Example::Command("resume results"),
+    cause: "The folder holds no checkpoint: its run kept none, or it is not a folder of results.",
+    cure: "Set `run.checkpoint` or `run.checkpoint_steps`, and run the model.",
+};
+
+/// An older checkpoint is used.
+pub static OLDER: Message = Message {
+    code: "W0711",
+    title: "an older checkpoint instead of a damaged one",
+    example: Example::Words("The newest of two checkpoints is damaged."),
+    cause: "A check sum of the newest file is not that of its bytes; two are kept for this.",
+    cure: "Nothing is lost: the run does the steps between the two once more. Look after the disk.",
+};
+
+/// The state of a failed run could not be kept.
+pub static LAST_GOOD: Message = Message {
+    code: "W0712",
+    title: "the last good step of a failed run could not be kept",
+    example: Example::Words("A run fails because the disk is full, and its last good state does not fit on it either."),
+    cause: "The run fails again before its last good step, or the state can't be written.",
+    cure: "Go on from the checkpoint before, or look at the last written state.",
+};

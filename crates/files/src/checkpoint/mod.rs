@@ -1,0 +1,315 @@
+//! Checkpoints: what a run needs to go on, in files `checkpoint/<step>.embate` of its result folder.
+//!
+//! States come from the simulation through the writer of results, which knows how far history, fields and film are (`Told`); [`Checkpoint::write`] puts them into a file (`container`, its blocks
+//! packed by `pack`), under its final name only when it is on the disk as a whole. Two generations are kept. [`generations`] finds them, [`Checkpoint::read`] tells a damaged one from a sound
+//! one, and [`Identity`] whether a model is still the one that ran.
+
+mod container;
+mod difference;
+pub mod messages;
+mod pack;
+
+pub use difference::Identity;
+
+use crate::results::messages::REFUSED;
+use crate::results::{Told, part_path};
+use crate::threads::Threads;
+use container::Block;
+use embate_solver::archive::Section;
+use embate_solver::error::Error;
+use embate_solver::message::Message;
+use embate_solver::model::Model;
+use embate_solver::output::Frame;
+use embate_solver::simulation::{Control, Observer, ObserverError, Options, Progress, Simulation, State};
+use serde::{Deserialize, Serialize};
+use std::fs::{self, File};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use thiserror::Error;
+
+/// Folder of the checkpoints in that of the results.
+pub const FOLDER: &str = "checkpoint";
+/// Ending of their names.
+const ENDING: &str = "embate";
+/// How many are kept.
+const GENERATIONS: usize = 2;
+/// Block of the model as it was.
+const MODEL: &str = "model";
+/// Block of the frames of the film so far.
+const FILM: &str = "film";
+
+/// Why there is no checkpoint to go on from, or none could be written.
+#[derive(Debug, Error)]
+pub enum CheckpointError {
+    /// The system refused.
+    #[error("can't {action} {}: {source}{}", .path.display(), crate::results::cure(.source.kind()))]
+    File {
+        /// What was tried.
+        action: &'static str,
+        /// On which path.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// The file is torn, or bytes of it have changed.
+    #[error("{} is damaged: {what}", .path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// What gave it away.
+        what: String,
+    },
+    /// The file is sound, but not for this program.
+    #[error("{} was written by embate {found}, and this is embate {own}; a run goes on only with the program that began it", .path.display())]
+    Version {
+        /// The file.
+        path: PathBuf,
+        /// Its version.
+        found: String,
+        /// That of the program.
+        own: String,
+    },
+}
+
+impl CheckpointError {
+    /// Its kind.
+    #[must_use]
+    pub fn kind(&self) -> &'static Message {
+        match self {
+            Self::File { .. } => &REFUSED,
+            Self::Damaged { .. } => &messages::DAMAGED,
+            Self::Version { .. } => &messages::VERSION,
+        }
+    }
+
+    fn file(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Self {
+        let path = path.to_path_buf();
+        move |source| Self::File { action, path, source }
+    }
+}
+
+/// Where a model came from.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Origin {
+    /// Its file or folder; absolute, so that it is found from anywhere.
+    pub path: PathBuf,
+    /// Keys that were overridden.
+    pub set: Vec<String>,
+}
+
+/// What stands at the head of the file, besides its blocks.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+struct Header {
+    /// Version of the program.
+    version: String,
+    /// Digest of what a model must share with the one that ran.
+    digest: String,
+    step: u64,
+    time: f64,
+    origin: Origin,
+    told: Told,
+    /// Number of blocks.
+    blocks: usize,
+}
+
+/// A run at the end of a step.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Checkpoint {
+    /// State of the simulation.
+    pub state: Arc<State>,
+    /// Where the model came from.
+    pub origin: Origin,
+    /// What the model was.
+    pub identity: Identity,
+    /// How far history, fields and film were.
+    pub told: Told,
+    /// Frames of the film so far; empty without pictures.
+    pub(crate) film: Vec<Section>,
+}
+
+impl Checkpoint {
+    /// The state of a simulation of a model alone, without results.
+    #[must_use]
+    pub fn of(state: State, model: &Model) -> Self {
+        let told = Told::default();
+        Self { state: Arc::new(state), origin: Origin::default(), identity: Identity::of(model), told, film: Vec::new() }
+    }
+
+    /// Lets go of the state, which is large, once a simulation has taken it over; what else is known of it stays.
+    pub fn release_state(&mut self) {
+        self.state = Arc::new(State { sections: Vec::new(), ..*self.state });
+    }
+
+    /// Writes it as the newest generation of a result folder and removes those that are too old; an interrupted or failed write leaves the older ones as they are.
+    ///
+    /// # Errors
+    /// [`CheckpointError::File`].
+    pub fn write(&self, results: &Path, threads: &Threads) -> Result<(), CheckpointError> {
+        let folder = results.join(FOLDER);
+        fs::create_dir_all(&folder).map_err(CheckpointError::file("create", &folder))?;
+        let path = folder.join(format!("{:012}.{ENDING}", self.state.step));
+        let part = part_path(&path);
+        let written = self.write_to(&part, threads).and_then(|()| fs::rename(&part, &path)).map_err(CheckpointError::file("write", &path));
+        if written.is_err() {
+            // Room for what is more urgent; the first error is the one that matters.
+            let _ = fs::remove_file(&part);
+            return written;
+        }
+        // The name, too, must outlive a power failure; where folders can't be synchronised there is nothing to do.
+        let _ = File::open(&folder).and_then(|folder| folder.sync_all());
+        for old in generations(results).into_iter().filter(|generation| generation.step < self.state.step).skip(GENERATIONS - 1) {
+            fs::remove_file(&old.path).map_err(CheckpointError::file("remove", &old.path))?;
+        }
+        Ok(())
+    }
+
+    fn write_to(&self, path: &Path, threads: &Threads) -> io::Result<()> {
+        let model = Section { name: MODEL.into(), bytes: self.identity.text().into_bytes() };
+        let film = self.film.iter().map(|section| Block { name: FILM, section });
+        let state = self.state.sections.iter().map(|section| Block { name: &section.name, section });
+        let blocks: Vec<Block<'_>> = [Block { name: MODEL, section: &model }].into_iter().chain(film).chain(state).collect();
+        let header = Header {
+            version: env!("CARGO_PKG_VERSION").into(),
+            digest: self.identity.digest(),
+            step: self.state.step,
+            time: self.state.time,
+            origin: self.origin.clone(),
+            told: self.told.clone(),
+            blocks: blocks.len(),
+        };
+        let header = serde_json::to_vec(&header).expect("plain numbers, texts and lists always have a JSON form");
+        let file = container::write(File::create(path)?, &header, &blocks, threads)?;
+        file.sync_all()
+    }
+
+    /// Reads a file back.
+    ///
+    /// # Errors
+    /// [`CheckpointError::Damaged`] where not every byte is as it was written, [`CheckpointError::Version`] where another program wrote it.
+    pub fn read(path: &Path, threads: &Threads) -> Result<Self, CheckpointError> {
+        let damaged = |what: String| CheckpointError::Damaged { path: path.into(), what };
+        let bytes = fs::read(path).map_err(CheckpointError::file("read", path))?;
+        let (head, rest) = container::head(&bytes).map_err(damaged)?;
+        // Before all else: only what this version wrote has its shape.
+        #[derive(Deserialize)]
+        struct Version {
+            version: String,
+        }
+        let Version { version } = serde_json::from_slice(head).map_err(|error| damaged(error.to_string()))?;
+        let own = env!("CARGO_PKG_VERSION").to_string();
+        if version != own {
+            return Err(CheckpointError::Version { path: path.into(), found: version, own });
+        }
+        let header: Header = serde_json::from_slice(head).map_err(|error| damaged(error.to_string()))?;
+        let mut sections = container::blocks(rest, header.blocks, threads).map_err(damaged)?.into_iter();
+        let model = sections.next().filter(|section| section.name == MODEL).ok_or_else(|| damaged("it has no model".into()))?;
+        let identity = Identity::of_text(&String::from_utf8_lossy(&model.bytes));
+        if identity.digest() != header.digest {
+            return Err(damaged("the model is not that of its digest".into()));
+        }
+        let (film, sections) = sections.partition(|section| section.name == FILM);
+        let state = Arc::new(State { step: header.step, time: header.time, sections });
+        Ok(Self { state, origin: header.origin, identity, told: header.told, film })
+    }
+}
+
+/// The state of a run at a step before it failed: found by going there again from the newest checkpoint before it, or from the start. `None`: `goes_on` said no on the way.
+///
+/// # Errors
+/// Those of a simulation.
+pub fn state_at(
+    model: &Model,
+    options: &Options,
+    results: &Path,
+    step: u64,
+    goes_on: impl FnMut() -> bool,
+) -> Result<Option<State>, Error> {
+    let threads = Threads::new(options.thread_count());
+    // The state is due at this step alone, so the run's own stages stay what they were.
+    let mut model = model.clone();
+    (model.run.checkpoint_steps, model.run.max_steps) = (Some(step), None);
+    let mut simulation = match newest(results, &threads, |generation| generation.step < step) {
+        Ok((checkpoint, _)) => Simulation::resumed(&model, options, &checkpoint.state.sections)?,
+        Err(_) => Simulation::new(&model, options)?,
+    };
+    let mut waiting = Waiting { state: None, goes_on };
+    match simulation.run(&mut waiting) {
+        Err(error) if waiting.state.is_none() => Err(error),
+        _ => Ok(waiting.state),
+    }
+}
+
+/// Waits for a state; all else is known.
+struct Waiting<F> {
+    state: Option<State>,
+    goes_on: F,
+}
+
+impl<F: FnMut() -> bool> Observer for Waiting<F> {
+    fn frame(&mut self, _: Frame<2>) -> Result<(), ObserverError> {
+        Ok(())
+    }
+    fn row(&mut self, _: &[f64]) -> Result<(), ObserverError> {
+        Ok(())
+    }
+    fn keeps_states(&self) -> bool {
+        true
+    }
+    fn state(&mut self, state: State) -> Result<(), ObserverError> {
+        self.state = Some(state);
+        // It has what it came for.
+        Err("the step is reached".into())
+    }
+    fn progress(&mut self, _: &Progress<'_>) -> Control {
+        if (self.goes_on)() { Control::Continue } else { Control::Stop }
+    }
+}
+
+/// A checkpoint file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Generation {
+    /// Its path.
+    pub path: PathBuf,
+    /// Its step.
+    pub step: u64,
+}
+
+/// The checkpoints of a result folder, the newest first; those that are not complete don't count.
+#[must_use]
+pub fn generations(results: &Path) -> Vec<Generation> {
+    let entries = fs::read_dir(results.join(FOLDER)).into_iter().flatten().flatten();
+    let generation = |entry: fs::DirEntry| {
+        let path = entry.path();
+        let step = is_checkpoint(entry.file_name().to_str()?)?;
+        Some(Generation { path, step })
+    };
+    let mut found: Vec<Generation> = entries.filter_map(generation).collect();
+    found.sort_by_key(|generation| std::cmp::Reverse(generation.step));
+    found
+}
+
+/// The step of a file called so; `None`: it is no checkpoint.
+pub(crate) fn is_checkpoint(name: &str) -> Option<u64> {
+    let digits = name.strip_suffix(ENDING)?.strip_suffix('.')?;
+    (digits.len() >= 12 && digits.bytes().all(|digit| digit.is_ascii_digit())).then(|| digits.parse().ok())?
+}
+
+/// The newest sound checkpoint that `fits`, and what is wrong with those that are newer.
+///
+/// # Errors
+/// What is wrong with each; empty where there is none at all.
+pub fn newest(
+    results: &Path,
+    threads: &Threads,
+    fits: impl Fn(&Generation) -> bool,
+) -> Result<(Checkpoint, Vec<CheckpointError>), Vec<CheckpointError>> {
+    let mut faults = Vec::new();
+    for generation in generations(results).iter().filter(|generation| fits(generation)) {
+        match Checkpoint::read(&generation.path, threads) {
+            Ok(checkpoint) => return Ok((checkpoint, faults)),
+            Err(fault) => faults.push(fault),
+        }
+    }
+    Err(faults)
+}

@@ -1,0 +1,31 @@
+//! How far the results of a run are: what a checkpoint has of them, so that a run that goes on leaves the same files as one that was never stopped.
+//!
+//! Made by the writer when a state is kept; read when a run goes on. The film's frames are beside it, as sections of the checkpoint.
+
+use super::atomic::Mark;
+use crate::outline::Extent;
+use serde::{Deserialize, Serialize};
+
+/// What a run has told until a step.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Told {
+    /// How far `history.csv` is.
+    pub(super) history: Mark,
+    /// Times of the frames, s.
+    pub(super) frames: Vec<f64>,
+    /// Step of the last one.
+    pub(super) frame_step: Option<u64>,
+    /// Whether each frame has a file of obstacles.
+    pub(super) has_obstacles: bool,
+    /// Box of all nodes of all frames so far, and from where on a line counts as endless, m.
+    pub(super) extent: Option<Extent>,
+    pub(super) far: Option<f64>,
+}
+
+impl Told {
+    /// Number of frames.
+    #[must_use]
+    pub fn frames(&self) -> usize {
+        self.frames.len()
+    }
+}

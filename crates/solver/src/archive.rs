@@ -1,0 +1,347 @@
+//! The state of a run as bytes, and back: one walk through the state for both directions, so that writing and reading cannot part.
+//!
+//! Whatever changes while a run goes on and can't be made again of the model, bit for bit, is [`Keep`]: its one function hands every value to an [`Archive`], which either writes it down or
+//! fills it. Values are little-endian; lists have their length before them, and what is read of a length is held against the bytes that are left before room is made. What is read is
+//! checked where it would be used as an index. The state comes from [`crate::simulation`]; who stores the sections is not known here.
+
+use embate_lanes::Batch;
+use std::collections::BTreeMap;
+
+/// A piece of the state: what belongs together, mostly numbers of eight bytes.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Section {
+    /// What it holds.
+    pub name: String,
+    /// Its values, little-endian.
+    pub bytes: Vec<u8>,
+}
+
+/// Why bytes are not the state of a model.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Misfit(pub(crate) Box<str>);
+
+impl Misfit {
+    pub(crate) fn new(what: impl Into<String>) -> Self {
+        Self(what.into().into())
+    }
+}
+
+/// How keeping ended.
+pub type Kept = Result<(), Misfit>;
+
+/// What is written to, or read from.
+pub struct Archive<'a> {
+    /// Those that were written.
+    written: Vec<Section>,
+    /// Those that are left to read, and the rest of the one in work; `None`: it writes.
+    left: Option<(&'a [Section], &'a [u8])>,
+    /// What indices of nodes, and of nodes and rigid bodies, must be below.
+    pub(crate) nodes: usize,
+    pub(crate) places: usize,
+}
+
+impl<'a> Archive<'a> {
+    /// One to write to.
+    #[must_use]
+    pub fn new() -> Self {
+        Self { written: Vec::new(), left: None, nodes: 0, places: 0 }
+    }
+
+    /// One to read from.
+    #[must_use]
+    pub fn of(sections: &'a [Section]) -> Self {
+        Self { left: Some((sections, &[])), ..Self::new() }
+    }
+
+    /// Whether values are filled.
+    #[must_use]
+    pub fn reads(&self) -> bool {
+        self.left.is_some()
+    }
+
+    /// Begins a section.
+    ///
+    /// # Errors
+    /// Another one comes next, or bytes of the last one are left.
+    pub fn section(&mut self, name: &str) -> Kept {
+        self.end_section()?;
+        match &mut self.left {
+            None => self.written.push(Section { name: name.into(), bytes: Vec::new() }),
+            Some((sections, rest)) => match sections.split_first() {
+                Some((first, others)) if first.name == name => (*sections, *rest) = (others, &first.bytes),
+                Some((first, _)) => return Err(Misfit::new(format!("there is \"{}\" where \"{name}\" should be", first.name))),
+                None => return Err(Misfit::new(format!("\"{name}\" is missing"))),
+            },
+        }
+        Ok(())
+    }
+
+    fn end_section(&self) -> Kept {
+        match self.left {
+            Some((_, rest)) if !rest.is_empty() => Err(Misfit::new(format!("{} bytes are left over", rest.len()))),
+            _ => Ok(()),
+        }
+    }
+
+    /// What was written; nothing must be left to read.
+    ///
+    /// # Errors
+    /// Something is left.
+    pub fn finish(self) -> Result<Vec<Section>, Misfit> {
+        self.end_section()?;
+        match self.left {
+            Some(([first, ..], _)) => Err(Misfit::new(format!("nothing is known of \"{}\"", first.name))),
+            _ => Ok(self.written),
+        }
+    }
+
+    /// Bytes that are left of the section.
+    fn rest(&self) -> usize {
+        self.left.map_or(usize::MAX, |(_, rest)| rest.len())
+    }
+
+    /// Writes or fills the bytes of a value.
+    #[inline(always)]
+    fn pass<const N: usize>(&mut self, bytes: &mut [u8; N]) -> Kept {
+        match &mut self.left {
+            None => match self.written.last_mut() {
+                Some(section) => section.bytes.extend_from_slice(bytes),
+                None => return Err(Misfit::new("no section has begun")),
+            },
+            Some((_, rest)) => match rest.split_first_chunk() {
+                Some((first, others)) => (*bytes, *rest) = (*first, others),
+                None => return Err(Misfit::new("it ends too early")),
+            },
+        }
+        Ok(())
+    }
+
+    /// Makes room for so many bytes.
+    fn expect(&mut self, bytes: usize) {
+        if let (None, Some(section)) = (self.left, self.written.last_mut()) {
+            section.bytes.reserve(bytes);
+        }
+    }
+
+    /// Nothing where what was read is possible.
+    ///
+    /// # Errors
+    /// What is wrong, where it is not.
+    pub fn check(&self, is_possible: bool, what: &str) -> Kept {
+        if is_possible { Ok(()) } else { Err(Misfit::new(what)) }
+    }
+}
+
+impl Default for Archive<'_> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// What is part of the state.
+pub trait Keep {
+    /// Writes this to an archive, or fills it from there.
+    ///
+    /// # Errors
+    /// What is read can't be.
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept;
+}
+
+macro_rules! numbers {
+    ($($number:ty),*) => {$(
+        impl Keep for $number {
+            #[inline(always)]
+            fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+                let mut bytes = self.to_le_bytes();
+                archive.pass(&mut bytes)?;
+                *self = Self::from_le_bytes(bytes);
+                Ok(())
+            }
+        }
+    )*};
+}
+
+numbers!(u8, u32, u64, i32, f32, f64);
+
+impl Keep for usize {
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        let mut number = *self as u64;
+        number.keep(archive)?;
+        *self = Self::try_from(number).map_err(|_| Misfit::new(format!("{number} is too large a number")))?;
+        Ok(())
+    }
+}
+
+impl Keep for bool {
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        let mut byte = u8::from(*self);
+        byte.keep(archive)?;
+        *self = byte == 1;
+        archive.check(byte < 2, "a yes or no is neither")
+    }
+}
+
+impl<T: Keep, const N: usize> Keep for [T; N] {
+    #[inline(always)]
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        self.iter_mut().try_for_each(|item| item.keep(archive))
+    }
+}
+
+impl Keep for Batch {
+    #[inline(always)]
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        self.0.keep(archive)
+    }
+}
+
+impl<A: Keep, B: Keep> Keep for (A, B) {
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        self.0.keep(archive)?;
+        self.1.keep(archive)
+    }
+}
+
+impl<T: Keep + Default> Keep for Option<T> {
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        let mut is_there = self.is_some();
+        is_there.keep(archive)?;
+        if !is_there {
+            *self = None;
+            return Ok(());
+        }
+        self.get_or_insert_default().keep(archive)
+    }
+}
+
+/// A list whose length the model gives.
+impl<T: Keep> Keep for [T] {
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        let mut count = self.len();
+        count.keep(archive)?;
+        if count != self.len() {
+            return Err(Misfit::new(format!("a list has {count} items, the model's {}", self.len())));
+        }
+        archive.expect(size_of_val(self));
+        self.iter_mut().try_for_each(|item| item.keep(archive))
+    }
+}
+
+/// A list of any length.
+impl<T: Keep + Default> Keep for Vec<T> {
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        let mut count = self.len();
+        count.keep(archive)?;
+        if !archive.reads() {
+            archive.expect(size_of_val(&self[..]));
+            return self.iter_mut().try_for_each(|item| item.keep(archive));
+        }
+        // Every item has a byte at least.
+        if count > archive.rest() {
+            return Err(Misfit::new(format!("a list of {count} items has {} bytes", archive.rest())));
+        }
+        self.clear();
+        self.reserve(count.min(archive.rest() / size_of::<T>().max(1) + 1));
+        for _ in 0..count {
+            let mut item = T::default();
+            item.keep(archive)?;
+            self.push(item);
+        }
+        Ok(())
+    }
+}
+
+impl Keep for String {
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        let mut bytes = std::mem::take(self).into_bytes();
+        bytes.keep(archive)?;
+        *self = Self::from_utf8(bytes).map_err(|_| Misfit::new("a text is no text"))?;
+        Ok(())
+    }
+}
+
+impl<K: Keep + Default + Ord + Clone, V: Keep + Default> Keep for BTreeMap<K, V> {
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        let mut items: Vec<(K, V)> = std::mem::take(self).into_iter().collect();
+        items.keep(archive)?;
+        *self = items.into_iter().collect();
+        Ok(())
+    }
+}
+
+/// Makes a structure [`Keep`] all of its fields: each is named, so that none can be forgotten.
+macro_rules! keep_all {
+    ($name:ty { $($field:ident),* $(,)? }) => {
+        impl $crate::archive::Keep for $name {
+            fn keep(&mut self, archive: &mut $crate::archive::Archive<'_>) -> $crate::archive::Kept {
+                let Self { $($field),* } = self;
+                $($crate::archive::Keep::keep($field, archive)?;)*
+                Ok(())
+            }
+        }
+    };
+}
+
+/// Keeps several values in this order.
+macro_rules! keep_each {
+    ($archive:expr; $($value:expr),* $(,)?) => {{
+        $($crate::archive::Keep::keep($value, $archive)?;)*
+    }};
+}
+
+pub(crate) use {keep_all, keep_each};
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    type All = (Vec<[f64; 2]>, (Option<u64>, (String, (BTreeMap<usize, bool>, [i32; 2]))));
+
+    fn some() -> All {
+        let map = [(3, true), (70_000, false)].into_iter().collect();
+        (vec![[1.0, -0.0], [f64::NAN, f64::INFINITY]], (Some(7), ("place ½".into(), (map, [-1, i32::MIN]))))
+    }
+
+    fn written() -> Vec<Section> {
+        let mut archive = Archive::new();
+        archive.section("all").unwrap();
+        some().keep(&mut archive).unwrap();
+        archive.finish().unwrap()
+    }
+
+    fn read(sections: &[Section]) -> Result<All, Misfit> {
+        let mut archive = Archive::of(sections);
+        let mut all = All::default();
+        archive.section("all")?;
+        all.keep(&mut archive)?;
+        archive.finish()?;
+        Ok(all)
+    }
+
+    #[test]
+    fn what_was_written_is_read_bit_by_bit() {
+        assert_eq!(format!("{:?}", read(&written()).unwrap()), format!("{:?}", some()));
+    }
+
+    #[test]
+    fn no_byte_can_be_missing_or_left_and_no_damage_panics_or_asks_for_much_memory() {
+        let sections = written();
+        for length in 0..sections[0].bytes.len() {
+            let short = Section { bytes: sections[0].bytes[..length].to_vec(), ..sections[0].clone() };
+            assert!(read(&[short]).is_err(), "{length}");
+        }
+        let mut long = sections[0].clone();
+        long.bytes.push(0);
+        assert!(read(&[long]).is_err());
+        for at in 0..sections[0].bytes.len() {
+            for flip in [1, 0x80, 0xff] {
+                let mut damaged = sections[0].clone();
+                damaged.bytes[at] ^= flip;
+                // Whether a number is another one is for check sums to tell.
+                let _ = read(&[damaged]);
+            }
+        }
+        assert!(read(&[]).is_err() && read(&[sections[0].clone(), sections[0].clone()]).is_err());
+        assert!(read(&[Section { name: "none".into(), ..sections[0].clone() }]).is_err());
+    }
+}

@@ -1,0 +1,56 @@
+//! The springs of the last step in a kept state: fields, histories and erosion ask for them after the step.
+//!
+//! They are kept as contacts found them, with what was found of each: how the solution has them in memory is its own affair.
+
+use super::{End, Lost, Solved, Spring, Springs, Totals};
+use crate::archive::{Archive, Keep, Kept, keep_all, keep_each};
+
+keep_all!(Lost { friction, damping, old, freed });
+keep_all!(Totals { resultant, pressing, energy, slip_energy, work, lost });
+keep_all!(Solved { force, friction, slip_new, slides, rates, slip_rates });
+keep_all!(End { at, share, lean, turn, point, image });
+
+/// A spring with its terms and ends, and what was found of it.
+#[derive(Default)]
+struct Whole {
+    spring: Spring,
+    terms: u32,
+    ends: Vec<End>,
+    solved: Solved,
+}
+
+impl Keep for Whole {
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        let Self { spring: Spring { normal, gap, stiffness, area, side, slip, first: _, count: _ }, terms, ends, solved } = self;
+        keep_each!(archive; normal, gap, stiffness, area, side, slip, terms, ends, solved);
+        Ok(())
+    }
+}
+
+impl Keep for Springs {
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        keep_each!(archive; &mut self.time_steps, &mut self.sweeps_max, &mut self.unsolved);
+        let whole = |(answer, &terms): (super::Answer<'_>, &u32)| {
+            let ends = self.ends(answer.spring).collect();
+            Whole { spring: *answer.spring, terms, ends, solved: *answer.solved }
+        };
+        // What is read replaces those of the start.
+        let mut all: Vec<Whole> = self.answers(0..self.list.len()).zip(&self.terms_of).map(whole).collect();
+        all.keep(archive)?;
+        if !archive.reads() {
+            return Ok(());
+        }
+        self.clear();
+        self.work.solved.clear();
+        for Whole { spring, terms, ends, solved } in all {
+            archive.check((terms as usize) < self.terms.len(), "a spring follows no law")?;
+            archive.check(ends.iter().all(|end| (end.at as usize) < archive.places), "a spring ends nowhere")?;
+            self.push(spring, &ends);
+            self.close_group(terms as usize);
+            self.work.solved.push(solved);
+        }
+        self.work.rank.clear();
+        self.work.rank.extend(0..self.list.len() as u32);
+        Ok(())
+    }
+}

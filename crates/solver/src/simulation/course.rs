@@ -1,0 +1,49 @@
+//! Where a run stands beside its state: what was told, and where its stages begin, so that one that goes on later tells the same and takes the same samples.
+
+use super::PROGRESS;
+use crate::archive::{Archive, Keep, Kept, keep_each};
+
+/// Where a run stands.
+#[derive(Clone, Copy)]
+pub(super) struct Course {
+    /// Time of the last row, s, and step of the last frame.
+    pub(super) last_row: f64,
+    pub(super) last_frame: Option<u64>,
+    /// Step at which the last stage ended: by an output time, or after so many steps.
+    pub(super) stage: u64,
+    /// Step of the last state that was handed out, or taken over.
+    pub(super) last_state: Option<u64>,
+    /// Whether the run goes on from a state that was kept.
+    pub(super) is_resumed: bool,
+}
+
+impl Course {
+    pub(super) fn new(step: u64) -> Self {
+        Self { last_row: f64::NEG_INFINITY, last_frame: None, stage: step, last_state: Some(step), is_resumed: false }
+    }
+
+    /// Whether a stage ends here by its number of steps.
+    pub(super) fn is_stage(&self, step: u64) -> bool {
+        step >= self.stage.saturating_add(PROGRESS)
+    }
+
+    /// Steps until the stage ends or a state is due.
+    pub(super) fn steps(&self, step: u64, state_steps: Option<u64>) -> u64 {
+        let stage = self.stage.saturating_add(PROGRESS).saturating_sub(step);
+        state_steps.map_or(stage, |every| stage.min(every - step % every))
+    }
+
+    /// Whether the state of this step is due.
+    pub(super) fn is_state_due(&self, step: u64, state_steps: Option<u64>) -> bool {
+        self.last_state != Some(step) && state_steps.is_some_and(|every| step.is_multiple_of(every))
+    }
+}
+
+impl Keep for Course {
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        let Self { last_row, last_frame, stage, last_state, is_resumed } = self;
+        keep_each!(archive; last_row, last_frame, stage, last_state);
+        *is_resumed |= archive.reads();
+        Ok(())
+    }
+}

@@ -1,0 +1,68 @@
+//! The state of a run: handed out as bytes, and taken over by a simulation that is made anew of the same model.
+
+use super::course::Course;
+use super::{Options, Simulation};
+use crate::archive::{Archive, Keep, Kept, Section, keep_each};
+use crate::error::Error;
+use crate::model::Model;
+
+/// All that a simulation of the same model needs to go on as if nothing had happened.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct State {
+    /// Steps done.
+    pub step: u64,
+    /// Time reached, s.
+    pub time: f64,
+    /// What is to be kept, byte by byte.
+    pub sections: Vec<Section>,
+}
+
+impl Keep for Simulation {
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        #[rustfmt::skip]
+        let Self {
+            recorded: _, threads: _, model_warnings: _, warnings: _, history: _, fields: _, max_steps: _, state_steps: _, search_names: _, pool: _,
+            system, momentum, shortest, watch, course,
+        } = self;
+        archive.section("run")?;
+        shortest.keep(archive)?;
+        watch.keep(archive)?;
+        let mut so_far = course.unwrap_or_else(|| Course::new(system.step));
+        so_far.keep(archive)?;
+        if archive.reads() {
+            *course = Some(so_far);
+        }
+        let mut has_momentum = momentum.is_some();
+        keep_each!(archive; &mut has_momentum);
+        archive.check(has_momentum == momentum.is_some(), "momentum is kept in one and not in the other")?;
+        if let Some(momentum) = momentum {
+            momentum.keep(archive)?;
+        }
+        system.keep(archive)
+    }
+}
+
+impl Simulation {
+    /// The state now, between two steps.
+    ///
+    /// # Errors
+    /// None that a state which is there can have; what is written is checked as what is read.
+    pub fn state(&mut self) -> Result<State, Error> {
+        let mut archive = Archive::new();
+        self.keep(&mut archive)?;
+        Ok(State { step: self.steps(), time: self.time(), sections: archive.finish()? })
+    }
+
+    /// A simulation of a model that stands where another one of the same model stood: what it does from there on is the same to the last bit, whatever the options of both. The model may differ
+    /// in when it ends, in its limits, and in what it tells.
+    ///
+    /// # Errors
+    /// Those of [`Simulation::new`]; [`Error::State`] where the state is of another model.
+    pub fn resumed(model: &Model, options: &Options, sections: &[Section]) -> Result<Self, Error> {
+        let mut simulation = Self::new(model, options)?;
+        let mut archive = Archive::of(sections);
+        simulation.keep(&mut archive)?;
+        archive.finish()?;
+        Ok(simulation)
+    }
+}

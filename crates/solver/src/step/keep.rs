@@ -1,0 +1,109 @@
+//! The system in a kept state: what it knows at the end of a step. It is made of its model first, as for time zero; then the state is filled in.
+
+use super::{Governor, Limits, System};
+use crate::archive::{Archive, Keep, Kept, Misfit, keep_each};
+
+impl Keep for Governor {
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        let (mut number, mut square) = match *self {
+            Self::Element(square) => (0_u8, square),
+            Self::Given => (1, 0.0),
+            Self::Schedule => (2, 0.0),
+        };
+        keep_each!(archive; &mut number, &mut square);
+        *self = match number {
+            0 => Self::Element(square),
+            1 => Self::Given,
+            2 => Self::Schedule,
+            _ => return Err(Misfit::new("nobody set the time step")),
+        };
+        Ok(())
+    }
+}
+
+impl Keep for System {
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        (archive.nodes, archive.places) = (self.positions.len(), self.positions.len() + self.bodies.len());
+        archive.section("system")?;
+        self.keep_system(archive)?;
+        archive.section("nodes")?;
+        self.keep_nodes(archive)?;
+        for (number, block) in self.blocks.iter_mut().enumerate() {
+            archive.section(&format!("elements {number}"))?;
+            block.keep(archive)?;
+        }
+        if archive.reads() {
+            // Contacts are made anew of the surfaces that are left, before what they know is filled in.
+            self.take_out_again();
+        }
+        archive.section("contact")?;
+        self.keep_contact(archive)
+    }
+}
+
+impl System {
+    fn keep_system(&mut self, archive: &mut Archive<'_>) -> Kept {
+        // Nothing of these is state, or it is kept elsewhere below; loads, dampings and constraints are worked out from the time.
+        #[rustfmt::skip]
+        let Self {
+            mesh: _, assembly: _, mass: _, body_parts: _, rigid: _, has_springs: _, shares: _, outlines: _, constraints: _, damping: _, body_forces: _,
+            forces: _, boundary: _, joins: _, level: _, team: _, of_revolution: _, slots: _, sums: _, groups: _, of_bodies: _, initial_penetrations: _,
+            mass_added: _, blocks: _, contacts: _, traces: _, positions: _, positions_old: _, velocities: _, velocities_old: _, contact_forces: _,
+            springs: _, erosion: _,
+            limits: Limits { end, safety: _, energy: _, step: _, largest: _ },
+            bodies, curves, step, time, time_step_old, time_step, governor, reports, ledger, penetration_max, speed, travel, relaxation,
+        } = self;
+        keep_each!(archive; step, time, time_step_old, time_step, governor, penetration_max, speed, travel);
+        keep_each!(archive; ledger, bodies, curves, &mut reports[..]);
+        let mut has_relaxation = relaxation.is_some();
+        has_relaxation.keep(archive)?;
+        archive.check(has_relaxation == relaxation.is_some(), "there is no relaxation")?;
+        if let Some(relaxation) = relaxation {
+            relaxation.keep(archive)?;
+            *end = relaxation.rest.unwrap_or(*end);
+        }
+        Ok(())
+    }
+
+    fn keep_nodes(&mut self, archive: &mut Archive<'_>) -> Kept {
+        let Self { positions, velocities, velocities_old, positions_old, time_step, .. } = self;
+        for list in [&mut *positions, velocities, velocities_old] {
+            list[..].keep(archive)?;
+        }
+        if archive.reads() {
+            // As the velocity update leaves it where nothing holds a node; elsewhere it is written before it is read.
+            for (next, (x, v)) in positions_old.iter_mut().zip(positions.iter().zip(velocities.iter())) {
+                *next = [x[0] + *time_step * v[0], x[1] + *time_step * v[1]];
+            }
+        }
+        Ok(())
+    }
+
+    fn keep_contact(&mut self, archive: &mut Archive<'_>) -> Kept {
+        let mut has_erosion = self.erosion.is_some();
+        has_erosion.keep(archive)?;
+        archive.check(has_erosion == self.erosion.is_some(), "nothing can fail")?;
+        if let Some(erosion) = &mut self.erosion {
+            erosion.keep(archive)?;
+        }
+        keep_each!(archive; &mut self.springs, &mut self.contact_forces, &mut self.traces);
+        let springs = self.springs.list.len();
+        self.contacts.iter_mut().try_for_each(|contact| contact.keep(archive, springs))?;
+        if archive.reads() {
+            self.still_what_is_gone();
+        }
+        Ok(())
+    }
+
+    /// Blocks without elements are not strained: they leave their slots as they are.
+    fn still_what_is_gone(&mut self) {
+        let mut first = 0;
+        for (index, block) in self.blocks.iter().enumerate() {
+            let count = block.slots().len();
+            if self.erosion.as_ref().is_some_and(|erosion| erosion.is_gone(index)) {
+                self.slots[first..first + count].fill([0.0; 2]);
+            }
+            first += count;
+        }
+    }
+}

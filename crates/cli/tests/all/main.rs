@@ -3,6 +3,7 @@
 
 mod bench;
 mod command_line;
+mod determinism;
 mod estimates;
 mod examples;
 mod messages;

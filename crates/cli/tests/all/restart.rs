@@ -2,6 +2,7 @@
 //!
 //! The long form of the test that kills: `cargo test --release -p embate --test all -- --ignored two_hundred`.
 
+use crate::determinism::{STEPS, examples, instruction_sets};
 use crate::{Answer, embate, fresh};
 use embate_solver::output::Summary;
 use embate_solver::simulation::{Options, Simulation};
@@ -240,10 +241,9 @@ fn a_run_that_fails_keeps_its_last_good_state_and_may_go_on_with_another_limit()
 #[test]
 fn every_example_goes_on_from_its_state() {
     // `tests/all/restart.rs` of the solver has contacts of all kinds in action.
-    let steps = if cfg!(debug_assertions) { 60 } else { 1500 };
-    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
+    let steps = STEPS;
     let levels = instruction_sets();
-    for (number, folder) in fs::read_dir(examples).unwrap().map(|entry| entry.unwrap().path()).enumerate() {
+    for (number, folder) in examples().into_iter().enumerate() {
         let model = embate_files::model_file::load(&folder, &[]).unwrap_or_else(|told| panic!("{}", told.rendered));
         let options = |number: usize| Options { threads: 1 + number % 3, simd: Some(levels[number % levels.len()].clone()) };
         let mut whole = Simulation::new(&model, &options(number)).unwrap();
@@ -262,17 +262,6 @@ fn every_example_goes_on_from_its_state() {
             resumed.advance(f64::INFINITY, steps - steps / 2).unwrap();
         }
     }
-}
-
-/// Instruction sets of this machine.
-fn instruction_sets() -> Vec<String> {
-    let there = |name: &&str| {
-        let model = embate_solver::model::Model::default();
-        let options = Options { threads: 1, simd: Some((*name).into()) };
-        // An empty model has other faults.
-        Simulation::new(&model, &options).err().is_none_or(|error| !error.to_string().contains("instruction set"))
-    };
-    ["scalar", "avx2", "avx512"].into_iter().filter(there).map(String::from).collect()
 }
 
 /// A program in the background; ends with the test.

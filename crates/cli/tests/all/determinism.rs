@@ -1,0 +1,49 @@
+//! The same bits whatever a model runs on: every example with any number of threads and each instruction set that the machine has.
+
+use embate_solver::model::Model;
+use embate_solver::simulation::{Options, Simulation};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Instruction sets of this machine.
+pub(crate) fn instruction_sets() -> Vec<String> {
+    let there = |name: &&str| {
+        let model = Model::default();
+        let options = Options { threads: 1, simd: Some((*name).into()) };
+        // An empty model has other faults.
+        Simulation::new(&model, &options).err().is_none_or(|error| !error.to_string().contains("instruction set"))
+    };
+    ["scalar", "avx2", "avx512"].into_iter().filter(there).map(String::from).collect()
+}
+
+/// The models that people copy.
+pub(crate) fn examples() -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
+    let mut models: Vec<PathBuf> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    models.sort();
+    models
+}
+
+/// Steps that tests do of an example.
+pub(crate) const STEPS: u64 = if cfg!(debug_assertions) { 60 } else { 1500 };
+
+#[test]
+fn every_example_has_the_same_bits_on_1_2_3_and_7_threads_and_each_instruction_set() {
+    let levels = instruction_sets();
+    let models = examples();
+    assert!(models.len() >= 17 && levels.contains(&"scalar".to_string()));
+    for folder in models {
+        let model = embate_files::model_file::load(&folder, &[]).unwrap_or_else(|told| panic!("{}", told.rendered));
+        let hash = |threads: usize, simd: &str| {
+            let mut simulation = Simulation::new(&model, &Options { threads, simd: Some(simd.into()) }).unwrap();
+            simulation.advance(f64::INFINITY, STEPS).unwrap();
+            simulation.summary().state_hash
+        };
+        let wanted = hash(1, "scalar");
+        for simd in &levels {
+            for threads in if simd == "scalar" { &[2][..] } else { &[1, 2, 3, 7] } {
+                assert_eq!(hash(*threads, simd), wanted, "{} on {threads} thread(s) with {simd}", folder.display());
+            }
+        }
+    }
+}

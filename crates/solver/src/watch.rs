@@ -193,6 +193,8 @@ impl Watch {
             of_parts[group.part][1] += report.stored + report.dissipated;
         }
         for (part, [hourglass, internal]) in of_parts.into_iter().enumerate() {
+            // Less than nothing is as wrong: forces that hold shapes back by the rate have then given more than they took.
+            let hourglass = hourglass.abs();
             let is_much = hourglass > HOURGLASS_MOST * internal && hourglass > NOTHING * largest;
             if self.lasts(&HOURGLASS, part, is_much, system) {
                 let (name, share) = (&system.mesh.parts[part].name, hourglass / internal);

@@ -3,8 +3,8 @@
 //! `cargo test --release -p embate-solver --test embate-soak -- --seconds 7200 --first 1` (30 seconds from model 1 if nothing is said; `--count 1 --first N` for one model). Every eighth
 //! model runs again with scalar lanes and two threads and must end with the same state hash. What is found is told with the number of the model.
 //!
-//! Of 3917 models 13 lose or gain more than a hundredth of their energy, most of them by stiff contacts at the corners of bodies of a few elements: they are told, and more than [`DRIFTING`]
-//! of all is a finding.
+//! Of 3794 models 13 lose or gain more than a hundredth of their energy, most of them in one step in which a node passes a corner, and in two the hourglass control of one-point elements gives more
+//! than it took: they are told, and more than [`DRIFTING`] of all is a finding.
 
 mod generator;
 
@@ -105,7 +105,7 @@ fn run(seed: u64, steps: &mut u64) -> (End, Option<String>, Vec<String>) {
     let result = simulation.advance(f64::INFINITY, u64::MAX);
     *steps += simulation.steps();
     let summary = simulation.summary();
-    let drift = drift(&summary, &result, simulation.sweeps().1 > 0);
+    let drift = drift(&summary, &result, simulation.sweeps().1 > 0).or_else(|| borrowed(&simulation));
     let mut faults = wrong(&summary, &result);
     if seed.is_multiple_of(8) && result.is_ok() {
         let again = Options { threads: 2, simd: Some("scalar".into()) };
@@ -124,6 +124,13 @@ fn drift(summary: &Summary, result: &Result<(), Error>, unsolved: bool) -> Optio
     let drifted = summary.energy_drift > ENERGY || matches!(result, Err(Error::EnergyDrift { .. }));
     let told = || format!("energy drift {:.2e} after {} steps", summary.energy_drift, summary.steps);
     (drifted && summary.erosion.is_none() && !unsolved).then(told)
+}
+
+/// Energy that hourglass control has given without having taken it: the books close, and yet it comes from nowhere.
+fn borrowed(simulation: &Simulation) -> Option<String> {
+    let ledger = simulation.ledger();
+    let share = ledger.stores.hourglass / ledger.largest;
+    (share < -ENERGY).then(|| format!("hourglass energy is {share:.2e} of the largest total after {} steps", simulation.steps()))
 }
 
 /// Drifts of momentum, and numbers that are none.

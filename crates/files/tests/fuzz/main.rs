@@ -1,6 +1,6 @@
 //! Damaged inputs one after the other: whatever a file holds, its reader answers, and soon.
 //!
-//! `cargo test --release -p embate-files --test embate-fuzz -- --seconds 600 [--only model|gmsh|deck|state] [--first N]` (two seconds each if nothing is said). Inputs are those of the other
+//! `cargo test --release -p embate-files --test embate-fuzz -- --seconds 600 [--only model|gmsh|deck|state] [--first N] [--count N]` (two seconds each if nothing is said). Inputs are those of the other
 //! tests with bytes flipped, cut out, doubled, put in from elsewhere, and numbers made large, negative or none; input number N is always the same. States are damaged behind their check sums.
 #![allow(clippy::unwrap_used)] // what is found is told with its number
 
@@ -37,7 +37,10 @@ fn main() {
     let count: u64 = value("--count").and_then(|word| word.parse().ok()).unwrap_or(u64::MAX);
     let mut found = Vec::new();
     let targets = [model(), gmsh(), deck(), state()];
-    std::panic::set_hook(Box::new(|_| {}));
+    // Of one input alone the panic tells its place.
+    if count > 1 {
+        std::panic::set_hook(Box::new(|_| {}));
+    }
     for target in targets {
         if value("--only").is_none_or(|only| only == target.name) {
             found.extend(fuzz(&target, Duration::from_secs_f64(seconds), first, count));

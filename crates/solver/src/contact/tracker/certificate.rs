@@ -1,9 +1,19 @@
 //! What was checked in a run, for those who have to trust it: pairs, crossings, and what could not be explained.
 
-use crate::archive::keep_all;
+use crate::archive::{Archive, Keep, Kept, keep_each};
 use std::ops::AddAssign;
 
-keep_all!(Certificate { pairs_swept, crossings_found, unverified });
+/// More than any run counts: what is added to a count that was read can't overflow.
+const COUNT_MOST: u64 = 1 << 62;
+
+impl Keep for Certificate {
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        let Self { pairs_swept, crossings_found, unverified } = self;
+        keep_each!(archive; pairs_swept, crossings_found, unverified);
+        let counts = [*pairs_swept, *crossings_found, *unverified];
+        archive.check(counts.into_iter().all(|count| count < COUNT_MOST), "a certificate counts more than any run can")
+    }
+}
 
 /// Proof that no contact was missed: every pair in reach is swept in every step, and the entries and exits of a node through the segments of a body, counted in
 /// whole numbers that lose nothing, must agree with the contacts that it has.

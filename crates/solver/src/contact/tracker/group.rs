@@ -54,6 +54,9 @@ impl Group {
     }
 }
 
+/// More often no node has gone into a body.
+const LEVELS: u32 = 1 << 24;
+
 /// One pass: nodes of one surface against another, or the same.
 pub(super) struct Pass {
     pub(super) slave: usize,
@@ -132,6 +135,7 @@ impl Pass {
         targets[self.slave].surface.nodes.get(group.slave as usize) == Some(&group.node)
             && group.begin <= group.end
             && group.end as usize <= self.candidates.len()
+            && group.level.unsigned_abs() < LEVELS
             && (group.memory == NONE || (group.memory as usize) < self.segment_bodies.len())
     }
 

@@ -5,10 +5,9 @@
 
 use embate_files::checkpoint::{Checkpoint, generations};
 use embate_files::threads::Threads;
-use embate_solver::bench::spinning_block;
+use embate_solver::bench::{shortest, spinning_block};
 use embate_solver::simulation::{Options, Simulation};
 use std::hint::black_box;
-use std::time::Instant;
 
 fn main() {
     let sizes: Vec<usize> = std::env::args().skip(1).filter_map(|word| word.parse().ok()).collect();
@@ -17,34 +16,24 @@ fn main() {
             let model = spinning_block(element, law, n);
             let mut simulation = Simulation::new(&model, &Options { threads: 2, simd: None }).expect("the model is sound");
             let steps = (2_000_000 / (n * n)).clamp(5, 200) as u64;
-            let step = milliseconds(1, || simulation.advance(f64::INFINITY, steps).expect("it runs")) / steps as f64;
+            let step = 1e3 * shortest(1, || simulation.advance(f64::INFINITY, steps).expect("it runs")) / steps as f64;
             println!("{} elements {element} {law}: a step {step:.3} ms", n * n);
             let mut state = simulation.state().expect("every state can be kept");
-            let taken = milliseconds(3, || state = simulation.state().expect("every state can be kept"));
+            let taken = 1e3 * shortest(3, || state = simulation.state().expect("every state can be kept"));
             let plain: usize = state.sections.iter().map(|section| section.bytes.len()).sum();
             println!("  taking the state   {taken:9.2} ms, {:6.1} steps; {:.1} MB", taken / step, 1e-6 * plain as f64);
             let folder = std::env::temp_dir().join(format!("embate-bench-{}", std::process::id()));
             let checkpoint = Checkpoint::of(state, &model);
             for count in [1, 2] {
                 let threads = Threads::new(count);
-                let time = milliseconds(3, || checkpoint.write(&folder, &threads).expect("the folder can be written"));
+                let time = 1e3 * shortest(3, || checkpoint.write(&folder, &threads).expect("the folder can be written"));
                 let path = &generations(&folder)[0].path;
                 let size = std::fs::metadata(path).expect("it was just written").len() as f64;
                 println!("  writing, {count} thread(s) {time:9.2} ms, {:6.1} steps; {:.2} of the size", time / step, size / plain as f64);
-                let time = milliseconds(3, || drop(black_box(Checkpoint::read(path, &threads).expect("it was just written"))));
+                let time = 1e3 * shortest(3, || drop(black_box(Checkpoint::read(path, &threads).expect("it was just written"))));
                 println!("  reading, {count} thread(s) {time:9.2} ms, {:6.1} steps", time / step);
             }
             std::fs::remove_dir_all(&folder).expect("it was just made");
         }
     }
-}
-
-/// The shortest of so many rounds.
-fn milliseconds(rounds: usize, mut work: impl FnMut()) -> f64 {
-    let time = |_| {
-        let begin = Instant::now();
-        work();
-        1e3 * begin.elapsed().as_secs_f64()
-    };
-    (0..rounds).map(time).fold(f64::INFINITY, f64::min)
 }

@@ -6,12 +6,11 @@
 use embate_files::picture::{Film, FilmSettings};
 use embate_files::threads::Threads;
 use embate_files::vtu::VtuWriter;
-use embate_solver::bench::spinning_block;
+use embate_solver::bench::{shortest, spinning_block};
 use embate_solver::output::Frame;
 use embate_solver::simulation::{Options, Simulation};
 use std::hint::black_box;
 use std::io::Cursor;
-use std::time::Instant;
 
 /// Frames of the film.
 const FRAMES: usize = 24;
@@ -25,11 +24,11 @@ fn main() {
         let mut frames: Vec<Frame<2>> = Vec::new();
         let mut step = f64::INFINITY;
         for _ in 0..FRAMES {
-            step = step.min(milliseconds(1, || simulation.advance(f64::INFINITY, steps as u64).expect("it runs")) / steps as f64);
+            step = step.min(1e3 * shortest(1, || simulation.advance(f64::INFINITY, steps as u64).expect("it runs")) / steps as f64);
             frames.push(simulation.frame());
         }
         println!("{} elements: a step {step:.3} ms", n * n);
-        let taken = milliseconds(9, || drop(black_box(simulation.frame())));
+        let taken = 1e3 * shortest(9, || drop(black_box(simulation.frame())));
         println!("  taking a frame          {taken:8.3} ms, {:6.1} steps", taken / step);
 
         let cells = simulation.cells();
@@ -40,10 +39,11 @@ fn main() {
             let threads = Threads::new(count);
             let writer = VtuWriter::new(&cells, &threads);
             let mut file = Cursor::new(Vec::new());
-            let time = milliseconds(15, || {
-                file.set_position(0);
-                writer.file(last, &[]).expect("fields fit their cells").write(&threads, &mut file).expect("a vector takes every byte");
-            });
+            let time = 1e3
+                * shortest(15, || {
+                    file.set_position(0);
+                    writer.file(last, &[]).expect("fields fit their cells").write(&threads, &mut file).expect("a vector takes every byte");
+                });
             let packed = file.get_ref().len();
             single = if count == 1 { time } else { single };
             let (share, rate) = (packed as f64 / raw as f64, 1e-3 * raw as f64 / time);
@@ -59,7 +59,7 @@ fn main() {
             let threads = Threads::new(count);
             let mut film = Film::new(simulation.cells(), FilmSettings { title: "Spinning block".into(), ..FilmSettings::default() });
             frames.iter().for_each(|frame| film.add(frame));
-            let time = milliseconds(5, || film.finish(&folder, &threads).expect("the folder can be written")) / FRAMES as f64;
+            let time = 1e3 * shortest(5, || film.finish(&folder, &threads).expect("the folder can be written")) / FRAMES as f64;
             single = if count == 1 { time } else { single };
             println!(
                 "  film, {count} thread(s)       {time:8.3} ms a frame, {:6.1} steps; ratio to one thread {:.2}",
@@ -69,14 +69,4 @@ fn main() {
         }
         std::fs::remove_dir_all(&folder).expect("it was just made");
     }
-}
-
-/// The shortest of so many rounds.
-fn milliseconds(rounds: usize, mut work: impl FnMut()) -> f64 {
-    let time = |_| {
-        let begin = Instant::now();
-        work();
-        1e3 * begin.elapsed().as_secs_f64()
-    };
-    (0..rounds).map(time).fold(f64::INFINITY, f64::min)
 }

@@ -4,7 +4,7 @@
 //! with themselves. At rest nothing presses; in motion every second strip moves against its neighbours. Told are the shares of the step that contact, its
 //! tracking and the swept check take, and the time of a global search.
 
-use embate_solver::bench::{step_times, strips};
+use embate_solver::bench::{shortest, step_times, strips};
 use embate_solver::contact::Sweep;
 use embate_solver::contact::projection::node_segment::Target;
 use embate_solver::contact::search::registry;
@@ -13,7 +13,6 @@ use embate_solver::mesh::Mesh;
 use embate_solver::model::{Contact, Friction, Interface, Model, Partners};
 use embate_solver::simulation::Options;
 use std::hint::black_box;
-use std::time::Instant;
 
 /// Size of an element of the strips, m.
 const SIZE: f64 = 1e-3;
@@ -65,32 +64,28 @@ fn track_alone(model: &Model, step: f64) {
     let make = || Tracker::new(vec![target.clone()], &[(0, 0)], (registry::<2>()[0].make)(), positions).with_bodies(&mesh.bodies(), &[]);
     let mut tracker = make();
     let still = Sweep::between(positions, positions);
-    let time = |work: &mut dyn FnMut()| {
-        (0..7).fold(f64::INFINITY, |shortest: f64, _| {
-            let start = Instant::now();
-            work();
-            shortest.min(start.elapsed().as_secs_f64() * 1e3)
-        })
-    };
     tracker.track(still, 0.0);
-    let tracked = time(&mut || {
-        black_box(tracker.track(still, 0.0).len());
-    });
+    let tracked = 1e3
+        * shortest(7, || {
+            black_box(tracker.track(still, 0.0).len());
+        });
     let candidates = tracker.search_report().candidates;
     let far: Vec<_> = positions.iter().map(|x| [x[0] + 0.2 * SIZE, x[1]]).collect();
     let mut turn = false;
-    let searched = time(&mut || {
-        turn = !turn;
-        let new = if turn { &far } else { positions };
-        black_box(tracker.track(Sweep::between(new, new), 0.0).len());
-    });
+    let searched = 1e3
+        * shortest(7, || {
+            turn = !turn;
+            let new = if turn { &far } else { positions };
+            black_box(tracker.track(Sweep::between(new, new), 0.0).len());
+        });
     let touches = tracker.track(still, SIZE).to_vec();
-    let swept = time(&mut || {
-        for touch in &touches {
-            let x = positions[touch.node as usize];
-            black_box(target.passage(x, x, touch.projection.segment, positions, positions));
-        }
-    });
+    let swept = 1e3
+        * shortest(7, || {
+            for touch in &touches {
+                let x = positions[touch.node as usize];
+                black_box(target.passage(x, x, touch.projection.segment, positions, positions));
+            }
+        });
     let swept = swept * candidates as f64 / touches.len().max(1) as f64;
     println!("  {segments} segments, {candidates} pairs in reach");
     println!(

@@ -7,6 +7,7 @@
 //! a neighbour waits for memory, whatever the method. Small cases come in several variants that take turns, because a processor
 //! learns the branches of a repeated search of a thousand segments by heart, which no simulation's next search would profit from.
 
+use embate_solver::bench::Random;
 use embate_solver::contact::search::{Pair, Query, registry};
 use std::hint::black_box;
 use std::time::Instant;
@@ -20,21 +21,6 @@ struct Case {
 
 /// Makes variant v of a case with n segments.
 type Make = fn(usize, u64) -> Case;
-
-/// A small generator of numbers that look random (Steele et al. 2014, SplitMix64).
-struct Random(u64);
-
-impl Random {
-    fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let x = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        x ^ (x >> 31)
-    }
-    fn unit(&mut self) -> f64 {
-        (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
-    }
-}
 
 fn waves(n: usize, variant: u64) -> Case {
     let phase = variant as f64 * 0.7;
@@ -60,7 +46,7 @@ fn mixed(n: usize, variant: u64) -> Case {
 fn ring_field(n: usize, variant: u64, in_rows: bool) -> Case {
     const AROUND: usize = 16;
     let count = n / AROUND;
-    let mut random = Random(7 + variant);
+    let mut random = Random::new(7 + variant);
     let side = (count as f64).sqrt() * 8.0;
     let mut case = Case { positions: vec![], slaves: vec![], facets: vec![] };
     let mut centres: Vec<_> = (0..count).map(|_| (random.unit() * side, random.unit() * side)).collect();
@@ -82,7 +68,7 @@ fn ring_field(n: usize, variant: u64, in_rows: bool) -> Case {
 
 fn shuffled(n: usize, variant: u64) -> Case {
     let mut case = rings(n, variant);
-    let mut random = Random(11 + variant);
+    let mut random = Random::new(11 + variant);
     let mut shuffle = |n: usize| {
         let mut order: Vec<usize> = (0..n).collect();
         for i in (1..n).rev() {

@@ -5,8 +5,10 @@
 pub mod message;
 pub mod error;
 pub mod archive;
+pub mod hash;
 pub mod quantity;
 pub mod tensor;
+mod vector;
 pub mod rows;
 pub mod model;
 pub mod mesh;

@@ -6,6 +6,7 @@ use crate::contact::ContactKind;
 use crate::contact::springs::Tangential;
 use crate::contact::traces::{State, Traces};
 use crate::error::Fault;
+use crate::hash::Fnv;
 use crate::material::Variable;
 use crate::mesh::ElementGroup;
 use crate::model::messages::UNKNOWN_NAME;
@@ -352,7 +353,7 @@ pub(crate) fn cells(system: &System) -> Cells {
 
 /// FNV-1a hash (64 bit) of the bits of all positions and velocities v^{n+1/2}, node by node, then of the obstacles that move; hexadecimal.
 pub(crate) fn state_hash(system: &System) -> String {
-    let mut hash = 0xcbf2_9ce4_8422_2325u64;
+    let mut hash = Fnv::default();
     let moving = system.bodies.iter().filter(|body| !body.of_elements && !body.is_fixed());
     let states = moving.flat_map(|body| [body.centre[0], body.centre[1], body.angle].into_iter().chain(body.velocity));
     // Nodes in the order of the curve, then those of obstacles: as they are numbered only for speed, that is no matter here.
@@ -360,11 +361,9 @@ pub(crate) fn state_hash(system: &System) -> String {
     let positions = nodes().flat_map(|node| system.positions[node]);
     let velocities = nodes().flat_map(|node| system.velocities[node]);
     for value in positions.chain(velocities).chain(states) {
-        for byte in value.to_bits().to_le_bytes() {
-            hash = (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
-        }
+        hash.add(&value.to_le_bytes());
     }
-    format!("{hash:016x}")
+    hash.to_string()
 }
 
 /// Linear and angular momentum of a model on which nothing acts from outside.

@@ -19,18 +19,29 @@ impl<T> Default for Rows<T> {
 impl<T: Copy + Default> Rows<T> {
     /// From pairs of a key below `count` and an item; the items of a key keep the order of the pairs.
     pub fn new(count: usize, pairs: impl Iterator<Item = (u32, T)> + Clone) -> Self {
-        let mut starts = vec![0_u32; count + 1];
-        pairs.clone().for_each(|(key, _)| starts[key as usize + 1] += 1);
+        let mut rows = Self::default();
+        rows.fill(count, pairs);
+        rows
+    }
+
+    /// The same in the memory that is there.
+    pub fn fill(&mut self, count: usize, pairs: impl Iterator<Item = (u32, T)> + Clone) {
+        let Self { starts, items } = self;
+        // Counted two places further: the sums are then one place further, where each moves on to the end of its key, which is the start of the next.
+        starts.clear();
+        starts.resize(count + 2, 0);
+        pairs.clone().for_each(|(key, _)| starts[key as usize + 2] += 1);
         for key in 0..count {
-            starts[key + 1] += starts[key];
+            starts[key + 2] += starts[key + 1];
         }
-        let (mut next, mut items) = (starts.clone(), vec![T::default(); starts[count] as usize]);
+        items.clear();
+        items.resize(starts[count + 1] as usize, T::default());
         for (key, item) in pairs {
-            let place = &mut next[key as usize];
+            let place = &mut starts[key as usize + 1];
             items[*place as usize] = item;
             *place += 1;
         }
-        Self { starts, items }
+        starts.truncate(count + 1);
     }
 
     /// Number of keys.

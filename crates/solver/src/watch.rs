@@ -167,11 +167,14 @@ impl Watch {
     pub(crate) fn notices(&self) -> impl Iterator<Item = Notice> {
         self.seen.iter().map(|(&(number, _), Seen { told, most })| {
             let kind = MESSAGES[number];
-            let most = match kind.code {
-                "W0611" | "W0612" => format!("{:.1} % at most", 100.0 * most),
-                "W0615" => format!("it fell to 1/{most:.0}"),
-                _ if *most == 1.0 => "1 element".to_string(),
-                _ => format!("{most} elements at most"),
+            let most = if [&HOURGLASS, &SPRINGS].contains(&kind) {
+                format!("{:.1} % at most", 100.0 * most)
+            } else if kind == &SHORT_STEP {
+                format!("it fell to 1/{most:.0}")
+            } else if *most == 1.0 {
+                "1 element".to_string()
+            } else {
+                format!("{most} elements at most")
             };
             Notice::new(kind, format!("{told}; {most}"))
         })

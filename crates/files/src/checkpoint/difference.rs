@@ -3,6 +3,7 @@
 //! Lines come from the model's own structure (`parts[0].velocity[1] = 3.0`), so a new key is seen without anything being told here. Meshes count by their size and a check sum. A run that goes on may end
 //! at another time, have other limits, checkpoints and output; all else must be the same, else its bits would mean nothing.
 
+use embate_solver::hash::Fnv;
 use embate_solver::model::{ImportedMesh, Model};
 use flate2::Crc;
 use std::collections::BTreeMap;
@@ -73,9 +74,11 @@ impl Identity {
     /// Digest of all that must be the same (64 bit FNV-1a); hexadecimal.
     pub(super) fn digest(&self) -> String {
         let fixed = self.lines.iter().filter(|(key, _)| !is_free(key));
-        let bytes = fixed.flat_map(|(key, value)| [key.as_bytes(), b" = ", value.as_bytes(), b"\n"]).flatten();
-        let hash = bytes.fold(0xcbf2_9ce4_8422_2325u64, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3));
-        format!("{hash:016x}")
+        let mut hash = Fnv::default();
+        for piece in fixed.flat_map(|(key, value)| [key, " = ", value, "\n"]) {
+            hash.add(piece.as_bytes());
+        }
+        hash.to_string()
     }
 
     /// What of `self` is not as `before`, of all that must be the same if a run is to go on: a line for each key.

@@ -21,11 +21,3 @@ pub struct Told {
     pub(super) extent: Option<Extent>,
     pub(super) far: Option<f64>,
 }
-
-impl Told {
-    /// Number of frames.
-    #[must_use]
-    pub fn frames(&self) -> usize {
-        self.frames.len()
-    }
-}

@@ -14,6 +14,7 @@ use embate_solver::archive::Section;
 use embate_solver::model::Model;
 use embate_solver::output::{Cells, Frame};
 use embate_solver::simulation::State;
+use std::cell::OnceCell;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -60,7 +61,9 @@ pub(super) struct Writer {
     frames: Frames,
     film: Option<Film>,
     threads: Threads,
-    identity: Identity,
+    /// For checkpoints: what the model is, looked at when the first one is written.
+    model: Model,
+    identity: OnceCell<Identity>,
     origin: Origin,
     /// What was told before the run failed.
     before_failure: Option<(Told, Vec<Section>)>,
@@ -94,7 +97,8 @@ impl Writer {
             frames: Frames::new(&cells, &threads),
             film: model.output.pictures.then(|| Film::new(cells, film_settings(model))),
             threads,
-            identity: Identity::of(model),
+            model: model.clone(),
+            identity: OnceCell::new(),
             origin: Origin::default(),
             before_failure: None,
         })
@@ -121,7 +125,7 @@ impl Writer {
             Film::recalled(cells, film_settings(model), &past.film, frame)
         });
         let (title, of_revolution) = (picture_title(model), model.is_axisymmetric());
-        let (include, identity, origin) = (model.output.include.clone(), Identity::of(model), past.origin.clone());
+        let (include, origin) = (model.output.include.clone(), past.origin.clone());
         Ok(Self {
             folder,
             title,
@@ -133,7 +137,8 @@ impl Writer {
             frames,
             film,
             threads,
-            identity,
+            model: model.clone(),
+            identity: OnceCell::new(),
             origin,
             before_failure: None,
         })
@@ -160,7 +165,8 @@ impl Writer {
             Some(before) => before,
             None => self.told_so_far()?,
         };
-        let checkpoint = Checkpoint { state: state.clone(), origin: self.origin.clone(), identity: self.identity.clone(), told, film };
+        let identity = self.identity.get_or_init(|| Identity::of(&self.model)).clone();
+        let checkpoint = Checkpoint { state: state.clone(), origin: self.origin.clone(), identity, told, film };
         Ok(checkpoint.write(self.folder.path(), &self.threads)?)
     }
 

@@ -10,6 +10,7 @@ use crate::results::Report;
 use crate::sweep::messages::WANTED;
 use crate::verification::Samples;
 use embate_solver::error::Error;
+use embate_solver::hash::Fnv;
 use embate_solver::model::Model;
 use embate_solver::simulation::{Options, Simulation};
 use std::path::Path;
@@ -199,17 +200,8 @@ pub(super) fn in_parallel<T: Send>(count: usize, jobs: usize, work: &(dyn Fn(usi
 
 /// Tells models apart: a hash (FNV-1a) of everything that a model says.
 fn hash(model: &Model) -> String {
-    struct Fnv(u64);
-    impl std::fmt::Write for Fnv {
-        fn write_str(&mut self, text: &str) -> std::fmt::Result {
-            for byte in text.bytes() {
-                self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
-            }
-            Ok(())
-        }
-    }
-    let mut hash = Fnv(0xcbf2_9ce4_8422_2325);
+    let mut hash = Fnv::default();
     // Numbers are written so that they read back as the same numbers; writing here can't fail.
     let _ = std::fmt::Write::write_fmt(&mut hash, format_args!("{model:?}"));
-    format!("{:016x}", hash.0)
+    hash.to_string()
 }

@@ -1,27 +1,6 @@
 //! Damage to files: the same number gives the same damage.
 
-/// Random numbers by SplitMix64 (Steele, Lea and Flood, OOPSLA 2014).
-pub(crate) struct Dice(u64);
-
-impl Dice {
-    pub(crate) fn new(seed: u64) -> Self {
-        let mut one = Self(seed);
-        Self(one.next() ^ seed.rotate_left(32))
-    }
-
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^ (z >> 31)
-    }
-
-    /// Below `end`, zero if that is.
-    fn below(&mut self, end: usize) -> usize {
-        (self.next() % end.max(1) as u64) as usize
-    }
-}
+use embate_solver::bench::Random;
 
 /// Numbers and signs that readers stumble over.
 const WORDS: &[&str] = &[
@@ -74,7 +53,7 @@ impl<'a> Damage<'a> {
     }
 
     /// One of the files with one to eight damages.
-    pub(crate) fn of(&self, dice: &mut Dice) -> Vec<u8> {
+    pub(crate) fn of(&self, dice: &mut Random) -> Vec<u8> {
         let mut bytes = self.seeds[dice.below(self.seeds.len())].clone();
         for _ in 0..=dice.below(8) {
             self.damage(&mut bytes, dice);
@@ -82,7 +61,7 @@ impl<'a> Damage<'a> {
         bytes
     }
 
-    fn damage(&self, bytes: &mut Vec<u8>, dice: &mut Dice) {
+    fn damage(&self, bytes: &mut Vec<u8>, dice: &mut Random) {
         let at = dice.below(bytes.len());
         let end = (at + dice.below(40)).min(bytes.len());
         match dice.below(8) {

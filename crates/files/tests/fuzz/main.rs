@@ -6,9 +6,10 @@
 
 mod damage;
 
-use damage::{Damage, Dice};
+use damage::Damage;
 use embate_files::{abaqus, gmsh, model_file};
 use embate_solver::archive::Section;
+use embate_solver::bench::Random;
 use embate_solver::model::Model;
 use embate_solver::simulation::{Options, Simulation};
 use std::fs;
@@ -57,7 +58,7 @@ fn fuzz(target: &Target, time: Duration, first: u64, count: u64) -> Vec<String> 
         if begin.elapsed() > time {
             break;
         }
-        let bytes = Damage::new(&target.seeds).of(&mut Dice::new(number));
+        let bytes = Damage::new(&target.seeds).of(&mut Random::apart(number));
         let start = Instant::now();
         if let Err(panic) = catch_unwind(AssertUnwindSafe(|| (target.read)(&bytes))) {
             let text = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());

@@ -1,13 +1,15 @@
 //! What speed is measured with, for `embate bench` and for the benchmarks of this crate: bodies of any element and law (`bodies.rs`), rates of kernels and whole
-//! steps (`rates.rs`), and what the machine could do at best (`ceilings.rs`).
+//! steps (`rates.rs`), numbers that look random (`random.rs`), and what the machine could do at best (`ceilings.rs`).
 //!
 //! Times are those of the machine's clock, the best of several rounds: other work on the machine makes rounds slower, never faster.
 
 mod bodies;
 mod ceilings;
+mod random;
 mod rates;
 
 pub use bodies::{Patch, material, spinning_block, strips};
 pub use ceilings::{multiply_add, triad};
 pub use embate_lanes::Level;
-pub use rates::{Size, best_rate, kernel, step, step_times, steps_of};
+pub use random::Random;
+pub use rates::{Size, best_rate, kernel, shortest, step, step_times, steps_of};

@@ -31,6 +31,16 @@ pub fn best_rate(seconds: f64, mut work: impl FnMut() -> f64) -> f64 {
     best
 }
 
+/// The shortest of so many rounds of `work`, s.
+pub fn shortest(rounds: usize, mut work: impl FnMut()) -> f64 {
+    let time = |_| {
+        let begin = Instant::now();
+        work();
+        begin.elapsed().as_secs_f64()
+    };
+    (0..rounds).map(time).fold(f64::INFINITY, f64::min)
+}
+
 /// Element-steps per second of the block alone, on one thread: from the motion of the nodes to the forces on them.
 ///
 /// # Errors

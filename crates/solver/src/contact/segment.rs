@@ -22,6 +22,7 @@ use crate::load::tributary::Depth;
 use crate::mesh::surface::{NONE, Surface};
 use crate::model::{ContactLaw, Penalty};
 use crate::rows::Rows;
+use crate::vector::{dot, minus};
 use std::any::Any;
 
 /// Registry entry.
@@ -581,14 +582,6 @@ impl Common {
             }
         }
     }
-}
-
-fn minus(a: Vector, b: Vector) -> Vector {
-    [a[0] - b[0], a[1] - b[1]]
-}
-
-fn dot(a: Vector, b: Vector) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
 }
 
 #[cfg(test)]

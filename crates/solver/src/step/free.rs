@@ -6,6 +6,7 @@
 use super::nodes::Nodes;
 use crate::energy::Sums;
 use crate::step::Vector;
+use crate::vector::dot;
 use embate_lanes::{BATCH, Batch, Kernel, Lane};
 
 /// The groups of eight nodes.
@@ -75,11 +76,6 @@ impl LaneSums {
 #[inline(always)]
 fn eight(values: &[f64], first: usize) -> Batch {
     values[first..].first_chunk().map_or(Batch::default(), |values| Batch(*values))
-}
-
-#[inline(always)]
-fn dot<L: Lane>(a: [L; 2], b: [L; 2]) -> L {
-    a[0] * b[0] + a[1] * b[1]
 }
 
 #[inline(always)]

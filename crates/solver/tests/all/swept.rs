@@ -6,6 +6,7 @@
 //! touches may then be seen on either side.
 #![allow(clippy::unwrap_used)] // what tests call may stop a test like the tests themselves
 
+use embate_solver::bench::Random;
 use embate_solver::contact::projection::node_segment::{Target, Vector};
 use embate_solver::mesh::surface::{NONE, Surface};
 
@@ -151,16 +152,16 @@ fn is_simple(polygon: &[Point]) -> bool {
     apart && open && (0..n).map(|i| cross(polygon[i], polygon[(i + 1) % n])).sum::<i128>() < 0
 }
 
-/// Pseudo-random numbers (splitmix64).
-struct Random(u64);
+/// Random points and polygons of whole numbers.
+struct Lattice(Random);
 
-impl Random {
+impl Lattice {
+    fn new(place: u64) -> Self {
+        Self(Random::new(place))
+    }
+
     fn below(&mut self, n: u64) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        (z ^ (z >> 31)) % n
+        self.0.bits() % n
     }
 
     fn point(&mut self, range: u64) -> Point {
@@ -362,7 +363,7 @@ fn compare_body(old: &[Point], new: &[Point], node: [Point; 2], map: &Map, tally
 
 #[test]
 fn bodies_in_motion_are_entered_where_whole_numbers_say() {
-    let mut random = Random(3);
+    let mut random = Lattice::new(3);
     let mut tally = Tally::default();
     for motion in 0..12_000 {
         let range = [2, 3, 5, 9][motion % 4];
@@ -383,7 +384,7 @@ fn bodies_in_motion_are_entered_where_whole_numbers_say() {
 #[test]
 fn lone_segments_that_do_anything_are_entered_where_whole_numbers_say() {
     // Segments without length at an end of the step too, nodes that begin or end on segments, everything on few places.
-    let mut random = Random(4);
+    let mut random = Lattice::new(4);
     let mut tally = Tally::default();
     let target = alone();
     for motion in 0..200_000 {
@@ -398,14 +399,14 @@ fn lone_segments_that_do_anything_are_entered_where_whole_numbers_say() {
 }
 
 /// A lattice point, the unit a tenth and off by a few last bits, and the same in whole multiples of 2⁻⁵⁶: exactly what the numbers are.
-fn shaken_bits(random: &mut Random, p: Point) -> (Vector, Point) {
+fn shaken_bits(random: &mut Lattice, p: Point) -> (Vector, Point) {
     let x = p.map(|c| c as f64 * 0.1 + (random.below(7) as f64 - 3.0) * f64::EPSILON / 2.0);
     (x, x.map(|c| (c * 2.0_f64.powi(56)) as i128))
 }
 
 #[test]
 fn rounding_hides_no_way_in() {
-    let mut random = Random(5);
+    let mut random = Lattice::new(5);
     let (mut came_in, mut by_rounding) = (0, 0);
     for motion in 0..30_000 {
         let corners = 3 + random.below(4) as usize;
@@ -543,7 +544,7 @@ fn who_dips_by_a_last_bit_or_between_last_bits_is_found() {
     // On the other segment, which turns, the node goes far behind in between, and ends on it.
     let slides = ([[0.1, -0.3], [0.8, 0.1]], [[0.1, -0.29], [0.8, 0.09]], false);
     let turns = ([[0.1, -0.3], [0.5, 0.5]], [[0.1, -0.3], [0.9, -0.7]], true);
-    let mut random = Random(6);
+    let mut random = Lattice::new(6);
     let target = alone();
     for (old, new, dips) in [slides, turns] {
         let mut found = 0;

@@ -1,6 +1,6 @@
 //! Random models: bodies of any shape, element and law that fly at each other, with any contact between them; the same seed gives the same model.
 
-use embate_solver::bench;
+use embate_solver::bench::{self, Random};
 use embate_solver::block::stress_state::STRESS_STATES;
 use embate_solver::contact::search;
 use embate_solver::element::ELEMENTS;
@@ -12,27 +12,17 @@ use embate_solver::model::{
 };
 use embate_solver::quantity::Dimension;
 
-/// Random numbers by SplitMix64 (Steele, Lea and Flood, OOPSLA 2014).
-pub(crate) struct Dice(u64);
+/// Throws for all that a model has.
+pub(crate) struct Dice(Random);
 
 impl Dice {
     pub(crate) fn new(seed: u64) -> Self {
-        // Neighbours begin far from each other in the one long row of numbers.
-        let mut one = Self(seed);
-        Self(one.next() ^ seed.rotate_left(32))
-    }
-
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^ (z >> 31)
+        Self(Random::apart(seed))
     }
 
     /// Between two numbers.
     fn number(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * (self.next() >> 11) as f64 / (1u64 << 53) as f64
+        low + (high - low) * self.0.unit()
     }
 
     /// Between two positive numbers, each order of magnitude as often.
@@ -41,7 +31,7 @@ impl Dice {
     }
 
     fn whole(&mut self, low: usize, high: usize) -> usize {
-        low + (self.next() % (high - low + 1) as u64) as usize
+        low + self.0.below(high - low + 1)
     }
 
     fn chance(&mut self, of: f64) -> bool {

@@ -15,6 +15,7 @@ use crate::contact::node_segment::{Slave, segment_ends};
 use crate::contact::springs::{Answers, End, Spring, Springs};
 use crate::contact::tracker::{Certificate, SearchReport, Touch, Tracker};
 use crate::contact::{Formulation, Scene};
+use crate::vector::dot;
 use std::any::Any;
 
 /// The circle, in the frame of its body.
@@ -191,10 +192,6 @@ impl Formulation for RoundSegments {
     fn search_report(&self) -> Option<SearchReport> {
         Some(self.tracker.search_report())
     }
-}
-
-fn dot(a: Vector, b: Vector) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
 }
 
 /// Direction of a vector; x for one without.

@@ -6,6 +6,7 @@
 
 use crate::archive::keep_all;
 use crate::mesh::surface::{NONE, Surface};
+use crate::vector::{bound, cross, dot, minus, plus, times};
 
 /// A point or vector of the plane.
 pub type Vector = [f64; 2];
@@ -388,7 +389,7 @@ impl Target {
         let (de, dr) = (minus(e1, e0), minus(r1, r0));
         let (begin, end) = (cross(e0, r0), cross(e1, r1));
         let (b, a) = (cross(e0, dr) + cross(de, r0), cross(de, dr));
-        let rounding = ROUNDING * (size(e0) + size(e1)) * (size(r0) + size(r1));
+        let rounding = ROUNDING * (bound(e0) + bound(e1)) * (bound(r0) + bound(r1));
         // NaN fails the comparisons too
         if !(begin.abs() <= b.abs() + a.abs() + rounding && rounding < f64::INFINITY) {
             return None;
@@ -501,31 +502,6 @@ fn fall(a: f64, b: f64, c: f64, certain: bool) -> Option<f64> {
 
 fn nearer(best: Feature, other: Feature) -> Feature {
     if other.distance < best.distance { other } else { best }
-}
-
-fn minus(a: Vector, b: Vector) -> Vector {
-    [a[0] - b[0], a[1] - b[1]]
-}
-
-fn plus(a: Vector, b: Vector) -> Vector {
-    [a[0] + b[0], a[1] + b[1]]
-}
-
-fn times(factor: f64, a: Vector) -> Vector {
-    [factor * a[0], factor * a[1]]
-}
-
-/// Bound of a vector's length.
-fn size(a: Vector) -> f64 {
-    a[0].abs() + a[1].abs()
-}
-
-fn dot(a: Vector, b: Vector) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
-}
-
-fn cross(a: Vector, b: Vector) -> f64 {
-    a[0] * b[1] - a[1] * b[0]
 }
 
 /// Outward normal of a segment with the body on its right: n = (−t₂, t₁).

@@ -6,6 +6,7 @@
 //! on it) pairs would be too many: such hubs keep what the springs have added to their velocity.
 
 use super::link::{Arm, Link, Slot, dot};
+use crate::rows::Rows;
 use std::ops::Range;
 
 /// Springs at a node that know each other one by one; with more it is a hub.
@@ -14,9 +15,8 @@ const PAIRS: usize = 8;
 /// Springs by what they share.
 #[derive(Default)]
 pub(super) struct Couplings {
-    /// Where the touches of each slot end; touches are (link, arm), in the order of the links.
-    ends: Vec<u32>,
-    touches: Vec<[u32; 2]>,
+    /// The (link, arm) at each slot, in the order of the links.
+    touches: Rows<[u32; 2]>,
     /// Where the neighbours of each link end.
     rows: Vec<u32>,
     neighbours: Vec<u32>,
@@ -36,11 +36,12 @@ pub(super) type Rates = [f64; 2];
 impl Couplings {
     /// Finds who touches which slot, which slots are hubs, and what springs do to each other; `slides`: whether any of them cares for slip.
     pub(super) fn find(&mut self, links: &mut [Link], arms: &[Arm], slips: &[[f64; 3]], slots: &mut [Slot], slides: bool) {
-        self.touch(links, arms, slots.len());
+        let at_arms = |(i, link): (usize, &Link)| link.arms().map(move |k| (arms[k].slot, [i as u32, k as u32]));
+        self.touches.fill(slots.len(), links.iter().enumerate().flat_map(at_arms));
         for (number, slot) in slots.iter_mut().enumerate() {
-            slot.is_hub = slot.is_body || range(&self.ends, number).len() > PAIRS;
+            slot.is_hub = slot.is_body || self.touches.of(number).len() > PAIRS;
         }
-        let Self { ends, touches, rows, neighbours, normal, along, found } = self;
+        let Self { touches, rows, neighbours, normal, along, found } = self;
         rows.clear();
         neighbours.clear();
         normal.clear();
@@ -58,7 +59,7 @@ impl Couplings {
                 }
                 let response = slot.mobility.response(row);
                 let response_along = if slides { slot.mobility.response(slips[k]) } else { [0.0; 3] };
-                for &[j, other] in &touches[range(ends, number)] {
+                for &[j, other] in touches.of(number) {
                     // Ends that move as one leave a spring its own neighbour.
                     if j as usize == i && other as usize == k {
                         continue;
@@ -88,36 +89,14 @@ impl Couplings {
         }
     }
 
-    /// The springs at every slot.
-    fn touch(&mut self, links: &[Link], arms: &[Arm], slots: usize) {
-        // Counted one further, so that each count becomes the begin of its slot and, once that is filled, its end.
-        self.ends.clear();
-        self.ends.resize(slots + 1, 0);
-        for arm in arms {
-            self.ends[arm.slot as usize + 1] += 1;
-        }
-        for slot in 0..slots {
-            self.ends[slot + 1] += self.ends[slot];
-        }
-        self.touches.clear();
-        self.touches.resize(arms.len(), [0; 2]);
-        for (i, link) in links.iter().enumerate() {
-            for k in link.arms() {
-                let at = &mut self.ends[arms[k].slot as usize];
-                self.touches[*at as usize] = [i as u32, k as u32];
-                *at += 1;
-            }
-        }
-        self.ends.truncate(slots);
-    }
-
     /// The springs at a slot: (link, arm).
     pub(super) fn touches(&self, slot: usize) -> &[[u32; 2]] {
-        &self.touches[range(&self.ends, slot)]
+        self.touches.of(slot)
     }
 
     fn row(&self, i: usize) -> Range<usize> {
-        range(&self.rows, i)
+        let begin = if i == 0 { 0 } else { self.rows[i - 1] };
+        begin as usize..self.rows[i] as usize
     }
 
     /// The links that share a slot with link `i`, but for hubs.
@@ -152,11 +131,4 @@ impl Couplings {
         }
         rates
     }
-}
-
-/// What ends at `ends[i]` and begins where the one before ends.
-#[inline]
-fn range(ends: &[u32], i: usize) -> Range<usize> {
-    let begin = if i == 0 { 0 } else { ends[i - 1] };
-    begin as usize..ends[i] as usize
 }

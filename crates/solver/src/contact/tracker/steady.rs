@@ -7,6 +7,7 @@ use super::super::Sweep;
 use super::super::projection::node_segment::{CLEAR, END_TOLERANCE, Projection, ROUNDING, Target};
 use super::group::Group;
 use crate::mesh::surface::NONE;
+use crate::vector::{bound, cross, dot, minus};
 use embate_lanes::{BATCH, Batch, Kernel, Lane, Level};
 
 /// Fewer are looked at one by one.
@@ -121,7 +122,7 @@ impl Places {
         // It stays on its side of the segment's line.
         let (de, dr) = (minus(e1, e0), minus(r1, r0));
         let (b, a) = (cross(e0, dr) + cross(de, r0), cross(de, dr));
-        let rounding = L::splat(ROUNDING) * (size(e0) + size(e1)) * (size(r0) + size(r1));
+        let rounding = L::splat(ROUNDING) * (bound(e0) + bound(e1)) * (bound(r0) + bound(r1));
         let mut bits = L::bits((b.abs() + a.abs() + rounding).less(cross(e0, r0).abs()));
         // It projects on the inside.
         let square = dot(e1, e1);
@@ -158,26 +159,6 @@ fn load<L: Lane, const N: usize>(points: &[[Batch; 2]; N], at: usize) -> [[L; 2]
         *loaded = [L::load(&point[0], at), L::load(&point[1], at)];
     }
     loaded
-}
-
-#[inline(always)]
-fn minus<L: Lane>(a: [L; 2], b: [L; 2]) -> [L; 2] {
-    [a[0] - b[0], a[1] - b[1]]
-}
-
-#[inline(always)]
-fn dot<L: Lane>(a: [L; 2], b: [L; 2]) -> L {
-    a[0] * b[0] + a[1] * b[1]
-}
-
-#[inline(always)]
-fn cross<L: Lane>(a: [L; 2], b: [L; 2]) -> L {
-    a[0] * b[1] - a[1] * b[0]
-}
-
-#[inline(always)]
-fn size<L: Lane>(a: [L; 2]) -> L {
-    a[0].abs() + a[1].abs()
 }
 
 #[cfg(test)]

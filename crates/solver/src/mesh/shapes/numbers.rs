@@ -3,6 +3,7 @@
 //! Sines, cosines and angles are computed here with fixed operations: the same bits on every platform, exact zeros and ones on the axes (nodes
 //! that should lie on a symmetry line do), and mirror images that agree to the last bit.
 
+pub(super) use crate::vector::{cross, dot, minus};
 use embate_lanes::math::{exp, ln};
 use std::f64::consts::FRAC_PI_2;
 
@@ -114,18 +115,6 @@ pub(super) fn quarters_of([x, y]: [f64; 2]) -> f64 {
         rest += (s * cos - c * sin) / FRAC_PI_2;
     }
     whole + rest
-}
-
-pub(super) fn minus(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
-    [a[0] - b[0], a[1] - b[1]]
-}
-
-pub(super) fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
-}
-
-pub(super) fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[1] - a[1] * b[0]
 }
 
 pub(super) fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {

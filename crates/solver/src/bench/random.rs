@@ -1,0 +1,37 @@
+//! Numbers that look random, the same on every machine: for bodies that benchmarks and tests make up.
+
+/// A generator by SplitMix64 (Steele, Lea and Flood, OOPSLA 2014).
+#[derive(Clone, Debug)]
+pub struct Random(u64);
+
+impl Random {
+    /// From this place on in the one long row of numbers.
+    #[must_use]
+    pub fn new(place: u64) -> Self {
+        Self(place)
+    }
+
+    /// Number `seed` of many that begin far from each other in the row.
+    #[must_use]
+    pub fn apart(seed: u64) -> Self {
+        Self(Self(seed).bits() ^ seed.rotate_left(32))
+    }
+
+    /// 64 bits.
+    pub fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let x = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        x ^ (x >> 31)
+    }
+
+    /// From 0 to 1, without 1.
+    pub fn unit(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// Below `end`; 0 where that is 0.
+    pub fn below(&mut self, end: usize) -> usize {
+        (self.bits() % end.max(1) as u64) as usize
+    }
+}

@@ -45,6 +45,11 @@ pub(crate) struct Place {
 }
 
 impl Place {
+    /// A given place, or that of the run.
+    pub(crate) fn at(model: Option<PathBuf>) -> Self {
+        Self { model }
+    }
+
     /// The model that began the run, with these further keys.
     pub(crate) fn load(&self, origin: &Origin, set: &[String]) -> Result<(Loaded, Origin), Failure> {
         let path =

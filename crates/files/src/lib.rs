@@ -2,6 +2,7 @@
 
 pub mod abaqus;
 pub mod checkpoint;
+pub mod comparison;
 pub mod gmsh;
 pub mod messages;
 pub mod model_file;

@@ -26,6 +26,8 @@ pub mod build;
 mod culprit;
 mod record;
 mod watch;
+pub mod hashes;
+pub mod parting;
 pub mod output;
 pub mod simulation;
 pub mod bench;

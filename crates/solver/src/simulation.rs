@@ -13,6 +13,7 @@ use crate::contact::messages::{INSIDE_AT_START, MISSED, NO_FORCE, TIES_BROKE, UN
 use crate::contact::tracker::{Certificate, SearchReport};
 use crate::contact::{Contact, ContactKind, search};
 use crate::error::{ERODED, Error, Fault, INSTRUCTIONS, MASS_ADDED, Notice, RELAXED, Warning};
+use crate::hashes::{self, Hashes, Hashing};
 use crate::mesh::PartMesh;
 use crate::model::{self, Cadence, Model};
 use crate::output::{Cells, Eroded, Erosion, Frame, Summary};
@@ -42,6 +43,12 @@ impl Options {
             0 => std::thread::available_parallelism().map_or(1, usize::from),
             threads => threads,
         }
+    }
+
+    /// Whether this machine has an instruction set of this name.
+    #[must_use]
+    pub fn has(simd: &str) -> bool {
+        Level::named(simd).is_some()
     }
 }
 
@@ -105,6 +112,17 @@ pub trait Observer {
     /// # Errors
     /// As [`Observer::frame`].
     fn state(&mut self, _state: State) -> Result<(), ObserverError> {
+        Ok(())
+    }
+    /// Whether it takes hashes that are due by `output.hash_steps`.
+    fn keeps_hashes(&self) -> bool {
+        false
+    }
+    /// Hashes of the first state, of those that are due, and of the one at the end; told before anything else of a later step.
+    ///
+    /// # Errors
+    /// As [`Observer::frame`].
+    fn hashes(&mut self, _hashes: Hashes) -> Result<(), ObserverError> {
         Ok(())
     }
     /// The run has failed: the row and the frame that follow show the state of the failure.
@@ -175,6 +193,9 @@ pub struct Simulation {
     max_steps: u64,
     /// Steps between two states that are handed out; `None`: only when asked for.
     state_steps: Option<u64>,
+    /// Steps between two hashes of the state; `None`: none.
+    hash_steps: Option<u64>,
+    hashing: Hashing,
     course: Option<Course>,
     /// Search of each contact by name.
     search_names: BTreeMap<String, String>,
@@ -218,6 +239,8 @@ impl Simulation {
             fields: model.output.fields,
             max_steps: model.run.max_steps.unwrap_or(u64::MAX),
             state_steps: model.run.checkpoint_steps,
+            hash_steps: model.output.hash_steps,
+            hashing: Hashing::default(),
             course: None,
             search_names: model.contacts.iter().map(|contact| (contact.name.clone(), search_name(contact))).collect(),
             pool,
@@ -318,14 +341,16 @@ impl Simulation {
     fn go_on(&mut self, time: f64, steps: u64) -> Result<(), Error> {
         let last = self.system.step.saturating_add(steps).min(self.max_steps);
         let mut shortest = std::mem::take(&mut self.shortest);
+        let mut hashing = std::mem::take(&mut self.hashing);
         let result = self.within_pool(|system| {
             while system.time < time && system.time < system.limits.end && system.step < last {
                 system.step()?;
                 shortest.note(system);
+                hashing.note(system);
             }
             Ok(())
         });
-        self.shortest = shortest;
+        (self.shortest, self.hashing) = (shortest, hashing);
         result
     }
 
@@ -349,9 +374,19 @@ impl Simulation {
             rows.pass(self.system.time);
             frames.pass(self.system.time);
         }
+        self.hashing = Hashing::new(&self.system, self.hash_steps.filter(|_| observer.keeps_hashes()));
+        if course.is_resumed {
+            self.hashing.pass(self.system.step);
+        } else {
+            self.hashing.take(&self.system);
+        }
         loop {
             let time = self.system.time;
             let over = self.is_over();
+            if over {
+                self.hashing.take(&self.system);
+            }
+            self.tell_hashes(observer)?;
             if (rows.due(time) || over) && time > course.last_row {
                 self.note_momentum();
                 observer.row(&self.history_row()).map_err(output)?;
@@ -388,6 +423,7 @@ impl Simulation {
                 course.stage = self.system.step;
             }
             if let Err(error) = result {
+                self.tell_hashes(observer)?;
                 observer.failing();
                 // The state of the failure is what the user needs to see, and what was to be seen of it before.
                 self.watch.look(&self.system, &self.shortest, true);
@@ -398,6 +434,13 @@ impl Simulation {
                 return Err(error);
             }
         }
+    }
+
+    /// Hashes of the state now.
+    #[must_use]
+    pub fn hashes(&self) -> Hashes {
+        let nodes: Vec<_> = (0..self.system.mesh.parts.len()).map(|part| hashes::nodes(&self.system, part)).collect();
+        hashes::hashes(&self.system, &nodes)
     }
 
     /// Runs on, and tells `observer` of a row and a frame at the first step at or after `from`, from there every `every`, and at the first step at or after `to`, all in s. The steps are those
@@ -445,6 +488,10 @@ impl Simulation {
         let mut frame = observer.spare();
         self.recorded.fill(&self.system, &mut frame);
         observer.frame(frame).map_err(output)
+    }
+
+    fn tell_hashes(&mut self, observer: &mut dyn Observer) -> Result<(), Error> {
+        self.hashing.taken.drain(..).try_for_each(|hashes| observer.hashes(hashes)).map_err(output)
     }
 
     fn note_momentum(&mut self) {

@@ -4,6 +4,7 @@
 mod bench;
 mod command_line;
 mod determinism;
+mod diff;
 mod estimates;
 mod examples;
 mod messages;

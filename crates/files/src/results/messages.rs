@@ -2,7 +2,7 @@
 
 use embate_solver::message::{Example, Message};
 
-pub(crate) static MESSAGES: &[&Message] = &[&EXISTS, &NOT_A_FOLDER, &REFUSED, &FRAME, &PICTURE, &BUG, &NO_PICTURES];
+pub(crate) static MESSAGES: &[&Message] = &[&EXISTS, &NOT_A_FOLDER, &REFUSED, &FRAME, &PICTURE, &DAMAGED_LOG, &BUG, &NO_PICTURES];
 
 /// Something is in the way.
 pub static EXISTS: Message = Message {
@@ -44,6 +44,15 @@ pub(crate) static PICTURE: Message = Message {
     example: Example::Words("A program that draws frames itself asks for a field that they don't have."),
     cause: "The field is not in the frames, a value is not finite, or the encoder refused.",
     cure: "Take a field that is recorded (`output.include`), or leave pictures out (`pictures = false`).",
+};
+
+/// A log is not as the run left it.
+pub(crate) static DAMAGED_LOG: Message = Message {
+    code: "E0721",
+    title: "a damaged record of a run",
+    example: Example::Words("A digit of a line in `hashes.csv` was changed, and the run is compared with another one."),
+    cause: "A line of `hashes.csv` is not the one that its check sum was made of, or `run.json` can't be read: the disk, a copy or another program changed the file.",
+    cure: "Put the file back from a copy, or run the model again. Without the file the end states are compared all the same.",
 };
 
 /// A bug.

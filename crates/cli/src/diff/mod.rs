@@ -138,25 +138,29 @@ fn again(arguments: &Arguments, runs: &[RunLeft; 2], [from, to]: [u64; 2]) -> Re
     terminal::print(&words::again(&sides, [from, to], &pairing.left_out))?;
     let mut display = Display::on_terminal(arguments.quiet);
     let mut show = |share: f64, step: u64| display.show(share * step as f64 / to.max(1) as f64, || format!("step {step} of {to}"));
+    let mut not_repeated = None;
     for (k, side) in sides.iter_mut().enumerate() {
         // What fails here did not fail when it ran.
         let failed = side.go_to(from, |step| show(0.5, step)).err();
-        let stands = side.simulation.steps() == from && side.repeats(runs[k].hashes_at(from));
-        if failed.is_some() || !stands {
-            return Ok(terminal::print(&words::not_repeated(k, from, failed.as_ref().map(Error::with_code)))?);
+        if failed.is_some() || side.simulation.steps() != from || !side.repeats(runs[k].hashes_at(from)) {
+            not_repeated.get_or_insert_with(|| words::not_repeated(k, from, failed.as_ref().map(Error::with_code)));
         }
     }
+    if let Some(text) = not_repeated {
+        display.close();
+        return Ok(terminal::print(&text)?);
+    }
     let found = in_step(&pairing, &mut sides, to, |step| show(1.0, step));
+    display.close();
     terminal::print(&words::found(&found, &sides))?;
     // They must come to what they logged, else the answer is not about these runs.
     for (k, side) in sides.iter_mut().enumerate() {
-        let failed = side.go_to(to, |step| show(1.0, step)).is_err();
-        let comes = failed || side.simulation.steps() != to || side.repeats(runs[k].hashes_at(to));
-        if !comes {
-            terminal::print(&words::not_repeated(k, to, None))?;
+        let Some(logged) = runs[k].hashes_at(to) else { continue };
+        let failed = side.go_to(to, |_| {}).err();
+        if failed.is_some() || side.simulation.steps() != to || !side.repeats(Some(logged)) {
+            terminal::print(&words::not_repeated(k, to, failed.as_ref().map(Error::with_code)))?;
         }
     }
-    display.close();
     Ok(())
 }
 

@@ -224,6 +224,8 @@ fn apart(value: Value) -> String {
         _ if !value.differs() => "same".into(),
         None => "not a number".into(),
         Some(0) => "sign of zero".into(),
+        _ if value.0 == 0.0 || value.1 == 0.0 => "from zero".into(),
+        _ if value.0.is_sign_negative() != value.1.is_sign_negative() => "other sign".into(),
         Some(ulps @ ..1_000_000) => format!("{} ulp", grouped(ulps)),
         Some(ulps) => format!("{:.1e} ulp", ulps as f64),
     }
@@ -241,5 +243,6 @@ mod tests {
         assert_eq!(told(0.0, -0.0), "sign of zero");
         assert_eq!(told(1.0, 2.0), "4.5e15 ulp");
         assert_eq!(told(f64::NAN, 2.0), "not a number");
+        assert_eq!([told(0.0, 1e-300), told(1e-3, -1e-3)], ["from zero", "other sign"]);
     }
 }

@@ -268,9 +268,8 @@ fn other_meshes_are_left_out_and_nothing_in_common_is_refused() {
     write(&folder, "b.toml", &PULLED.replacen("elements = [4, 2]", "elements = [2, 4]", 1).replace("1 kN/m", "2 kN/m"));
     run(&folder, "b.toml", "b", []);
     let answer = diff(&folder, 1, []);
-    for text in ["not compared: part \"still\" has another mesh: as many nodes, but other elements"] {
-        assert!(answer.out.contains(text), "{text}: {}", answer.out);
-    }
+    let text = "not compared: part \"still\" has another mesh: as many nodes, but other elements";
+    assert!(answer.out.contains(text), "{}", answer.out);
     // One more part, far from the others: all that both have is the same, and the hashes of their parts are, too.
     let more = r#"    { name = "new", material = "steel", rectangle = { corner = ["0.05 m", 0], size = ["10 mm", "10 mm"], elements = [7, 5] }, velocity = [0, 3] },"#;
     write(&folder, "b.toml", &PULLED.replace("part = [\n", &format!("part = [\n{more}\n")));

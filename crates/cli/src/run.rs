@@ -1,11 +1,16 @@
 //! `embate run`: a model from its file to its results.
 
 use crate::Failure;
+use crate::complaint::Complaint;
 use crate::input::{self, ModelArguments};
-use crate::recording::{self, Manner, in_the_way};
+use crate::recording::{self, Manner, Recording, in_the_way};
 use clap::Args;
+use embate_files::model_file::Loaded;
+use embate_files::post_mortem;
+use embate_files::results::messages::NO_POST_MORTEM;
 use embate_files::results::{Recorder, ResultFolder};
-use embate_solver::simulation::Simulation;
+use embate_solver::error::Error;
+use embate_solver::simulation::{Options, Simulation};
 use std::path::{Path, PathBuf};
 
 /// Which model, where to and how.
@@ -35,7 +40,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let path = arguments.out.clone().unwrap_or_else(|| input::default_folder(model));
     refuse(&path)?;
     let options = arguments.manner.options();
-    let mut simulation = input::ready(model, &options)?;
+    let mut simulation = Simulation::new(model, &options).map_err(|error| not_ready(&loaded, &options, &error, &path))?;
     // Also of a quiet run, and before it: who reads them late has waited for nothing.
     input::warn(&loaded, &simulation);
     // Only now: a model that can't run must not cost the results of an earlier one.
@@ -45,5 +50,16 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         let shown = (simulation.history_columns(), simulation.cells());
         Recorder::keeping(folder, model, shown, options.thread_count(), Some(checkpoints), on_progress)
     };
-    recording::record(model, &mut simulation, (&path, &arguments.manner, arguments.verbose), make, Simulation::run)
+    let recording = Recording::of(&loaded, &path, &arguments.manner, arguments.verbose);
+    recording::record(&recording, &mut simulation, make, Simulation::run)
+}
+
+/// A model that can't begin: of what its numbers need there is a page, beside the results of earlier runs if there are any.
+fn not_ready(loaded: &Loaded, options: &Options, error: &Error, path: &Path) -> Failure {
+    let complaint = Complaint::from(error);
+    Failure::Input(match post_mortem::too_much_mass(loaded, options, error, path) {
+        Ok(None) => complaint,
+        Ok(Some(page)) => recording::with_page(complaint, &page),
+        Err(error) => complaint.and(Complaint::new(&NO_POST_MORTEM, format!("the post-mortem is missing: {error}"))),
+    })
 }

@@ -63,7 +63,8 @@ static OUTPUT: Message = Message {
     cure: "Free some space, or write to another disk with --out.",
 };
 
-pub(crate) static MASS_SCALING: Message = Message {
+/// Mass scaling would add more than its limit.
+pub static MASS_SCALING: Message = Message {
     code: "E0605",
     title: "mass scaling would add more than its limit",
     example: Example::Model("[run]\nmass_scaling = { time_step = \"10 us\", limit = 0.01 }\n"),

@@ -28,4 +28,5 @@ mod record;
 mod watch;
 pub mod output;
 pub mod simulation;
+pub mod post_mortem;
 pub mod bench;

@@ -2,6 +2,7 @@
 
 mod clock;
 mod course;
+mod memory;
 mod shortest;
 mod state;
 
@@ -16,12 +17,14 @@ use crate::error::{ERODED, Error, Fault, INSTRUCTIONS, MASS_ADDED, Notice, RELAX
 use crate::mesh::PartMesh;
 use crate::model::{self, Cadence, Model};
 use crate::output::{Cells, Eroded, Erosion, Frame, Summary};
+use crate::post_mortem::Tracer;
 use crate::record::{Momentum, Recorded};
 use crate::step::System;
 use crate::watch::Watch;
 use clock::Clock;
 use course::Course;
 use embate_lanes::Level;
+use memory::Memory;
 pub(crate) use shortest::Shortest;
 use std::collections::BTreeMap;
 
@@ -176,6 +179,9 @@ pub struct Simulation {
     /// Steps between two states that are handed out; `None`: only when asked for.
     state_steps: Option<u64>,
     course: Option<Course>,
+    memory: Memory,
+    /// Looks at every step of a run that goes to its failure once more.
+    pub(crate) tracer: Option<Box<Tracer>>,
     /// Search of each contact by name.
     search_names: BTreeMap<String, String>,
     pool: Option<rayon::ThreadPool>,
@@ -219,11 +225,13 @@ impl Simulation {
             max_steps: model.run.max_steps.unwrap_or(u64::MAX),
             state_steps: model.run.checkpoint_steps,
             course: None,
+            memory: Memory::default(),
+            tracer: None,
             search_names: model.contacts.iter().map(|contact| (contact.name.clone(), search_name(contact))).collect(),
             pool,
             system,
         };
-        simulation.within_pool(System::start)?;
+        within_pool(simulation.pool.as_ref(), &mut simulation.system, System::start)?;
         simulation.momentum = Momentum::new(&simulation.system);
         simulation.shortest.note(&simulation.system);
         simulation.check_obstacles(model)?;
@@ -239,13 +247,15 @@ impl Simulation {
         Ok(simulation)
     }
 
-    /// Runs `work` on the system inside the thread pool, so that parallel loops in it start without a detour.
-    fn within_pool(&mut self, work: impl FnOnce(&mut System) -> Result<(), Error> + Send) -> Result<(), Error> {
-        let system = &mut self.system;
-        match &self.pool {
-            Some(pool) => pool.install(|| work(system)),
-            None => work(system),
-        }
+    /// Lets the run keep states in memory, in so many bytes for all of them together: see [`Simulation::states`].
+    pub fn keep_states_in(&mut self, bytes: usize) {
+        self.memory = Memory::of(bytes);
+    }
+
+    /// States of the run so far that are in memory, the newest first; none where they are too large for their room.
+    #[must_use]
+    pub fn states(&self) -> &[State] {
+        self.memory.states()
     }
 
     /// Nodes behind an obstacle at the start are faults.
@@ -305,6 +315,12 @@ impl Simulation {
         self.system.step
     }
 
+    /// Elements of all parts.
+    #[must_use]
+    pub fn elements(&self) -> usize {
+        self.system.mesh.groups.iter().map(crate::mesh::ElementGroup::elements).sum()
+    }
+
     /// Steps until `time` is reached (never beyond the end), at most `steps` of them.
     ///
     /// # Errors
@@ -317,16 +333,19 @@ impl Simulation {
 
     fn go_on(&mut self, time: f64, steps: u64) -> Result<(), Error> {
         let last = self.system.step.saturating_add(steps).min(self.max_steps);
-        let mut shortest = std::mem::take(&mut self.shortest);
-        let result = self.within_pool(|system| {
+        let Self { shortest, tracer, recorded, .. } = self;
+        let mut tracer = tracer.as_mut();
+        within_pool(self.pool.as_ref(), &mut self.system, |system| {
             while system.time < time && system.time < system.limits.end && system.step < last {
-                system.step()?;
+                let stepped = system.step();
+                if let Some(tracer) = &mut tracer {
+                    tracer.note(system, recorded, stepped.as_ref().err());
+                }
+                stepped?;
                 shortest.note(system);
             }
             Ok(())
-        });
-        self.shortest = shortest;
-        result
+        })
     }
 
     /// Whether the run has come to its end.
@@ -366,6 +385,11 @@ impl Simulation {
                 if over || course.stage == self.system.step { self.watch.look(&self.system, &self.shortest, over) } else { Vec::new() };
             if over {
                 return Ok(());
+            }
+            if course.stage == self.system.step && self.memory.is_due(self.system.step) {
+                self.course = Some(course);
+                let state = self.state()?;
+                self.memory.take(state);
             }
             let control = observer.progress(&self.progress(end, &self.system.governor_name(self.system.governor), &notices));
             if matches!(control, Control::Keep | Control::KeepAndStop) || course.is_state_due(self.system.step, state_steps) {
@@ -597,7 +621,7 @@ impl Simulation {
     pub fn summary(&self) -> Summary {
         let system = &self.system;
         Summary {
-            elements: system.mesh.groups.iter().map(|group| group.elements()).sum(),
+            elements: self.elements(),
             nodes: system.mesh.positions.len(),
             steps: system.step,
             time_end: system.time,
@@ -617,6 +641,18 @@ impl Simulation {
             simd: system.level.name().to_string(),
             warnings: self.warnings(),
         }
+    }
+}
+
+/// Runs `work` on the system inside the thread pool, so that parallel loops in it start without a detour.
+fn within_pool(
+    pool: Option<&rayon::ThreadPool>,
+    system: &mut System,
+    work: impl FnOnce(&mut System) -> Result<(), Error> + Send,
+) -> Result<(), Error> {
+    match pool {
+        Some(pool) => pool.install(|| work(system)),
+        None => work(system),
     }
 }
 

@@ -83,11 +83,38 @@ pub struct Loaded {
 }
 
 impl Loaded {
+    /// Where the key of a path such as `part[0].ring.inner` stands, and its value as it is written there.
+    #[must_use]
+    pub fn key(&self, path: &str) -> KeyPlace {
+        let (place, node) = self.root.find(path);
+        let Some(source) = self.sources.get(place.source) else { return KeyPlace::default() };
+        let line = |at: usize| 1 + source.text.bytes().take(at).filter(|&byte| byte == b'\n').count();
+        let is_somewhere = place.end > place.start && place.source == 0;
+        let written = node.filter(|node| !matches!(node.value, tree::Value::Table(_)) || node.place.end > node.place.start);
+        let written = written.and_then(|node| source.text.get(node.place.start..node.place.end)).map(str::to_string);
+        KeyPlace {
+            file: source.name.clone(),
+            line: if is_somewhere { line(place.start) } else { 0 },
+            written: written.filter(|_| node.is_some()),
+        }
+    }
+
     /// Warnings of the model (those of [`Model::warnings`], of a simulation made from it) with their lines and columns; no text where there are none.
     #[must_use]
     pub fn told(&self, warnings: &[Warning]) -> Diagnostics {
         Faults::warnings(warnings).into_diagnostics(&self.sources, Some(&self.root))
     }
+}
+
+/// Where a key stands in the file.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct KeyPlace {
+    /// File as it was named, or `--set`.
+    pub file: String,
+    /// Line from 1 of the key, or of the nearest thing above it that is there; 0: nothing of it is there.
+    pub line: usize,
+    /// Its value as it is written; `None` where the key is not there.
+    pub written: Option<String>,
 }
 
 /// A file of described sections that has been read, with the text to which later faults point.

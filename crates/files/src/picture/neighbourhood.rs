@@ -16,6 +16,8 @@ const WIDE: [f64; 2] = [500.0, 760.0];
 const HIGH: [f64; 2] = [0.3, 1.1];
 const AIR: f64 = 16.0;
 const NAME: f64 = 42.0;
+/// A culprit that is narrower, pixels, gets a line to it.
+const FOUND: f64 = 22.0;
 const HEAD: f64 = 34.0;
 /// Largest number of an element, pixels; a smaller one than the second is not legible.
 const FONT: f64 = 12.0;
@@ -92,7 +94,10 @@ impl<'a> Scene<'a> {
             [[0, 1].map(|k| low[k].min(own[0][k].max(-most))), [0, 1].map(|k| high[k].max(own[1][k].min(most)))]
         };
         let view = moments().map(reach).fold(first, grown);
-        let span = [0, 1].map(|k| 1.08 * (view[1][k] - view[0][k])).map(|span| if span > 0.0 { span } else { 1.0 });
+        // What is opposite of the culprit is shown as well.
+        let own = |cell: &&embate_solver::post_mortem::NearCell| near.cells.first().is_some_and(|first| first.part == cell.part);
+        let air = if near.cells.iter().all(|cell| own(&cell)) { 1.08 } else { 1.3 };
+        let span = [0, 1].map(|k| air * (view[1][k] - view[0][k])).map(|span| if span > 0.0 { span } else { 1.0 });
         let size = [wide, (wide * span[1] / span[0] + NAME).clamp(HIGH[0] * wide, HIGH[1] * wide)];
         let norms = moments().flat_map(|moment| &moment.forces).map(|f| f[0].hypot(f[1])).filter(|norm| norm.is_finite());
         Self {
@@ -219,17 +224,26 @@ impl<'a> Scene<'a> {
         }
         let wide = f64::from(text::width(mark, 13.0, Weight::Bold)) + 12.0;
         let [x, y] = [left + 10.0, top + 10.0];
-        // The line ends before the number of the element.
-        let from = [x + 0.5 * wide, y + 22.0];
-        let long = (at[0] - from[0]).hypot(at[1] - from[1]).max(1.0);
-        let to = [0, 1].map(|k| at[k] + 11.0 / long * (from[k] - at[k]));
-        let line = path(&[from, to], false);
-        let _ = writeln!(out, "<path d=\"{line}\" stroke=\"{colour}\" stroke-width=\"1.5\"/>");
+        // What is large is seen without a line to it.
+        if self.near.node.is_none() && self.least(moment) * self.scale < FOUND {
+            let line = path(&[[x + 0.5 * wide, y + 22.0], at], false);
+            let _ = writeln!(out, "<path d=\"{line}\" stroke=\"{colour}\" stroke-width=\"1.5\"/>");
+        }
         let _ = writeln!(
             out,
             "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{wide:.1}\" height=\"22\" rx=\"3\" fill=\"#ffffff\" stroke=\"{colour}\" stroke-width=\"1.5\"/>"
         );
         write_text(out, mark, [x + 6.0, y + 15.5], "start", CULPRIT, " font-weight=\"bold\"");
+    }
+
+    /// The smaller side of the box around the culprit, m.
+    fn least(&self, moment: &Moment) -> f64 {
+        let nodes = self.near.element.map_or(&[][..], |element| &self.near.cells[element].nodes);
+        let side = |k: usize| {
+            let all = || nodes.iter().map(|&node| moment.positions[node][k]);
+            all().fold(f64::NEG_INFINITY, f64::max) - all().fold(f64::INFINITY, f64::min)
+        };
+        side(0).min(side(1))
     }
 
     fn legend(&self, out: &mut String, [left, top]: [f64; 2], width: f64, (mark, depth): (&str, &str)) {

@@ -7,7 +7,7 @@ use super::page::shown;
 use crate::model_file::Loaded;
 use embate_solver::error::Error;
 use embate_solver::model::describe::{self, Need};
-use embate_solver::model::{ContactLaw, Formulation, Interface, Load, Model, Penalty};
+use embate_solver::model::{ContactLaw, Drive, Formulation, Interface, Load, Model, Penalty};
 use embate_solver::post_mortem::{Acting, Culprit, Moment, Trace};
 
 /// One change.
@@ -234,6 +234,12 @@ impl<'a> Case<'a> {
     fn driven(&self, all: &mut Vec<Advice>, what: &str) {
         for Acting { path, on } in &self.acting {
             all.push(Advice::new(self.driven_key(path), format!("{what} (on `{on}`)")));
+            for curve in self.curves(path) {
+                let keys = ["value", "expression", "sine"].map(|key| format!("curve.{curve}.{key}"));
+                if let Some(path) = keys.into_iter().find(|path| self.failed.loaded.key(path).written.is_some()) {
+                    all.push(Advice::new(path, "look at all of its values and their unit: it drives the former"));
+                }
+            }
         }
         for Pressing { kind, name, force, .. } in self.pressing().iter().take(2).filter(|it| it.kind == "obstacle") {
             // One that stands still does nothing of itself.
@@ -248,11 +254,28 @@ impl<'a> Case<'a> {
         self.thrown(all);
     }
 
+    /// Names of the curves of a constraint or load.
+    fn curves(&self, path: &str) -> Vec<String> {
+        let of = |drive: &Drive| match drive {
+            Drive::Curve(name) => Some(name.clone()),
+            Drive::Constant(_) => None,
+        };
+        if let Some(it) = number(path, "constraint").and_then(|at| self.model().constraints.get(at)) {
+            let drives = [&it.velocity, &it.displacement, &it.acceleration].into_iter().flatten().flatten();
+            return drives.chain(it.rotation.iter().map(|rotation| &rotation.speed)).filter_map(of).collect();
+        }
+        match number(path, "load").and_then(|at| self.model().loads.get(at)) {
+            Some(
+                Load::Force { curve, .. } | Load::Pressure { curve, .. } | Load::Gravity { curve, .. } | Load::Centrifugal { curve, .. },
+            ) => curve.iter().cloned().collect(),
+            _ => Vec::new(),
+        }
+    }
+
     /// The key of a constraint or load that has the value.
     fn driven_key(&self, path: &str) -> String {
-        let number = |kind: &str| path.strip_prefix(kind)?.strip_prefix('[')?.strip_suffix(']')?.parse::<usize>().ok();
-        let key = if let Some(it) = number("constraint").and_then(|at| self.model().constraints.get(at)) {
-            let is_moved = |components: &[Option<embate_solver::model::Drive>; 2]| components.iter().flatten().next().is_some();
+        let key = if let Some(it) = number(path, "constraint").and_then(|at| self.model().constraints.get(at)) {
+            let is_moved = |components: &[Option<Drive>; 2]| components.iter().flatten().next().is_some();
             [
                 ("velocity", is_moved(&it.velocity)),
                 ("displacement", is_moved(&it.displacement)),
@@ -262,7 +285,7 @@ impl<'a> Case<'a> {
             .into_iter()
             .find_map(|(key, is_there)| is_there.then_some(key))
         } else {
-            number("load").and_then(|at| self.model().loads.get(at)).and_then(|load| match load {
+            number(path, "load").and_then(|at| self.model().loads.get(at)).and_then(|load| match load {
                 Load::Force { .. } => Some("force"),
                 Load::Pressure { .. } => Some("pressure"),
                 Load::Gravity { .. } => Some("gravity"),
@@ -291,19 +314,19 @@ impl<'a> Case<'a> {
             if interface.damping == 0.0 {
                 all.push(Advice::new(format!("{path}.damping"), "try 0.1: it takes the chatter of surfaces that open and close"));
             }
-            let is_default =
-                kind == "contact" && self.model().contacts.iter().any(|it| it.name == name && it.formulation == Formulation::Pinball);
-            if is_default {
-                all.push(Advice::new(
-                    format!("{path}.formulation"),
-                    "try `double_pass`: pinballs are coarse, and lose or make energy where bodies slide",
-                ));
+            let formulation = self.model().contacts.iter().find(|it| kind == "contact" && it.name == name).map(|it| it.formulation);
+            let why = match formulation {
+                Some(Formulation::Segment) => {
+                    "try `double_pass`: it bears penalties a thousand times as stiff; here pairs of segments begin and end with gaps of their own"
+                }
+                Some(Formulation::Pinball) => "try `double_pass`: pinballs are coarse where bodies slide",
+                _ => "",
+            };
+            if !why.is_empty() {
+                all.push(Advice::new(format!("{path}.formulation"), why));
             }
         }
-        all.push(Advice::new(
-            "run.safety",
-            "try 0.5: a step that is not stable makes energy; if the drift then falls to a quarter, it was the step",
-        ));
+        all.push(Advice::new("run.safety", "try 0.5: where the step is to blame, the drift falls to a third or less"));
         if let Some(index) = self.part() {
             let part = &self.model().parts[index];
             let finer = "take more elements there: what is strained much in one step is not resolved";
@@ -320,7 +343,12 @@ impl<'a> Case<'a> {
     fn softer(&self, all: &mut Vec<Advice>, path: &str, interface: &Interface, why: &str) {
         match &interface.law {
             ContactLaw::Penalty(Penalty::Automatic { scale, .. }) => {
-                all.push(Advice::new(format!("{path}.penalty_scale"), format!("try a tenth, {}: {why}", scale / 10.0)));
+                let less = if *scale > 100.0 {
+                    "leave it out: 1 is as stiff as the elements behind".to_string()
+                } else {
+                    format!("try a tenth, {}", scale / 10.0)
+                };
+                all.push(Advice::new(format!("{path}.penalty_scale"), format!("{less}; {why}")));
             }
             ContactLaw::Penalty(_) => all.push(Advice::new(
                 format!("{path}.penalty"),
@@ -334,6 +362,11 @@ impl<'a> Case<'a> {
             }
         }
     }
+}
+
+/// Place in its list of what a path such as `load[2]` names, if it is of this kind.
+fn number(path: &str, kind: &str) -> Option<usize> {
+    path.strip_prefix(kind)?.strip_prefix('[')?.strip_suffix(']')?.parse().ok()
 }
 
 /// What a key is now, and where it stands.

@@ -11,6 +11,8 @@ use crate::step::System;
 pub const RINGS: u8 = 3;
 /// What acts on elements within this ring acts on the culprit.
 const NEXT: u8 = 1;
+/// Elements are near that lie in the box around the rings, and by this fraction of its size beyond.
+const BEYOND: f64 = 0.2;
 /// Other elements near it that are shown, at most.
 const BESIDE: usize = 400;
 
@@ -135,6 +137,8 @@ impl System {
         for x in found.iter().flat_map(|&((g, element), _)| self.mesh.groups[g].cell(element)).filter_map(|&node| seen(node)) {
             (low, high) = ([low[0].min(x[0]), low[1].min(x[1])], [high[0].max(x[0]), high[1].max(x[1])]);
         }
+        let more = BEYOND * (high[0] - low[0]).max(high[1] - low[1]);
+        (low, high) = (low.map(|v| v - more), high.map(|v| v + more));
         let is_inside = |x: [f64; 2]| (0..2).all(|k| (low[k]..=high[k]).contains(&x[k]));
         let mut beside = Vec::new();
         for (g, group) in self.mesh.groups.iter().enumerate() {

@@ -7,6 +7,7 @@ mod determinism;
 mod estimates;
 mod examples;
 mod messages;
+mod post_mortem;
 mod restart;
 mod sweep;
 mod verification;

@@ -31,6 +31,7 @@ pub(crate) use tree::Node;
 
 use crate::model_file::messages::{ENCODING, FILE, SYNTAX};
 use embate_solver::error::Warning;
+use embate_solver::message::Message;
 use embate_solver::model::Model;
 use embate_solver::quantity::Dimension;
 use std::io::Read;
@@ -56,6 +57,12 @@ pub fn load(path: &Path, set: &[String]) -> Result<Model, Diagnostics> {
 /// All faults at once.
 pub fn load_with_places(path: &Path, set: &[String]) -> Result<Loaded, Diagnostics> {
     Template::load(path, set)?.loaded(&[])
+}
+
+/// [`load_with_places`] of a model with faults of one kind alone: as if it had none; `None` where it has others.
+#[must_use]
+pub fn load_despite(kind: &Message, path: &Path, set: &[String]) -> Option<Loaded> {
+    Template::load(path, set).ok()?.loaded_despite(kind)
 }
 
 /// A time with its unit as in a model file, `3.1 ms` for example, or a number in s.

@@ -57,8 +57,10 @@ fn mass_text(loaded: &Loaded, fault: &Fault, needed: &MassNeeded) -> String {
     let (share, longest) = (needed.share(needed.scaling.time_step), needed.longest());
     let mut text =
         format!("# Post-mortem of {}: {}\n\n{}. ({}) Nothing was run.\n\n", model.name, fault.kind.title, fault.message, fault.kind.code);
-    let mut advice =
-        vec![Advice::new("run.mass_scaling.time_step", format!("a step of {} needs just what the limit allows", shown(longest, "s")))];
+    let mut advice = vec![Advice::new(
+        "run.mass_scaling.time_step",
+        format!("a step of {} needs no more than the limit allows", shown(rounded_down(longest), "s")),
+    )];
     if let Some(worst) = needed.heaviest.first() {
         text += &table(
             &["", ""],
@@ -113,6 +115,12 @@ fn mass_text(loaded: &Loaded, fault: &Fault, needed: &MassNeeded) -> String {
     );
     text.push('\n');
     text + &causes(fault.kind, &advice, loaded)
+}
+
+/// Four digits, not more than the value.
+fn rounded_down(value: f64) -> f64 {
+    let power = 10f64.powi(3 - value.abs().max(1e-300).log10().floor() as i32);
+    (value * power).floor() / power
 }
 
 /// Two digits, not less than the value.

@@ -53,6 +53,27 @@ const FAILURES: &[Failure] = &[
         keys: [("run.mass_scaling.time_step", "\"100 ns\""), ("part[1].rectangle.elements", "[80, 4]")],
         pictures: &["place.svg", "neighbourhood.svg", "mass.svg"],
     },
+    Failure {
+        name: "deep-contact",
+        code: "E0606",
+        culprit: "contact \"landing\" at node ",
+        keys: [("contact[0].penalty_scale", "1e-4"), ("part[0].velocity", "[0, \"-20 m/s\"]")],
+        pictures: ALL,
+    },
+    Failure {
+        name: "runaway",
+        code: "E0607",
+        culprit: "of part \"weight\"",
+        keys: [("load[0].gravity", "[0, \"-9.81 Gm/s^2\"]"), ("material.lead", "[material.lead]")],
+        pictures: ALL,
+    },
+    Failure {
+        name: "memory",
+        code: "E0608",
+        culprit: "**part \"plate\"** with 4000000 of 4000100 elements",
+        keys: [("part[0].rectangle.elements", "[4000, 1000]"), ("run.memory_limit", "\"1 GB\"")],
+        pictures: &[],
+    },
 ];
 
 fn failures() -> PathBuf {

@@ -133,9 +133,66 @@ impl<'a> Case<'a> {
                 self.material(&mut all, "look at every value and unit: the law of the culprit's part");
                 self.thrown(&mut all);
             }
+            Error::TooDeep { depth, .. } => self.pressed_in(&mut all, *depth),
+            Error::Runaway { speed, .. } => {
+                self.driven(&mut all, "look at its value and unit: it acts on the culprit");
+                self.shot(&mut all);
+                self.material(&mut all, "look at the density and its unit: what is too light is too fast");
+                let what = format!("only if such speeds are meant: more than {}", shown(*speed, "m/s"));
+                all.push(Advice::new("run.velocity_limit", what));
+            }
             _ => {}
         }
         all
+    }
+
+    /// A contact that is too soft for what presses on it, or that began too late.
+    fn pressed_in(&self, all: &mut Vec<Advice>, depth: f64) {
+        if let Some((kind, name)) = self.contact()
+            && let Some((path, interface)) = self.interface(&kind, &name)
+        {
+            if interface.active[0] > 0.0 {
+                all.push(Advice::new(
+                    format!("{path}.birth"),
+                    "let it act before the bodies meet: what is inside when it begins stays inside",
+                ));
+            }
+            match &interface.law {
+                ContactLaw::Penalty(Penalty::Automatic { scale, .. }) if *scale < 1.0 => {
+                    all.push(Advice::new(
+                        format!("{path}.penalty_scale"),
+                        "leave it out: 1 is as stiff as the elements behind, and this is far softer",
+                    ));
+                }
+                ContactLaw::Penalty(Penalty::Automatic { scale, .. }) => {
+                    all.push(Advice::new(format!("{path}.penalty_scale"), format!("try ten times as much, {}", 10.0 * scale)));
+                }
+                ContactLaw::Penalty(_) => {
+                    all.push(Advice::new(
+                        format!("{path}.penalty"),
+                        "raise it, or leave it out: the automatic penalty is as stiff as the elements behind",
+                    ));
+                }
+                ContactLaw::PressureGap { .. } => {
+                    all.push(Advice::new(format!("{path}.pressures"), "let the pressure grow further or more steeply"))
+                }
+                ContactLaw::Multiplier => {}
+            }
+            if interface.law != ContactLaw::Multiplier {
+                all.push(Advice::new(format!("{path}.law"), "or take `multiplier`, which lets nothing in"));
+            }
+        }
+        self.driven(all, "look at its value and unit: it presses the bodies together");
+        all.push(Advice::new("run.penetration_limit", format!("only if so much depth is meant: more than {}", shown(depth, "m"))));
+    }
+
+    /// A contact that may have shot the culprit away.
+    fn shot(&self, all: &mut Vec<Advice>) {
+        if let Some(it) = self.pressing().first()
+            && let Some((path, interface)) = self.interface(it.kind, it.name)
+        {
+            self.softer(all, &path, interface, &format!("{} \"{}\" pressed there in step {}", it.kind, it.name, it.step));
+        }
     }
 
     /// It went over from one step to the next.

@@ -10,7 +10,7 @@ mod plots;
 mod start;
 
 pub use again::Findings;
-pub use start::{memory, too_much_mass};
+pub use start::at_start;
 
 use crate::model_file::Loaded;
 use crate::results::{ResultsError, part_path, write_whole};

@@ -10,19 +10,20 @@ use crate::model_file::Loaded;
 use crate::picture::neighbourhood::{Panel, neighbourhood};
 use crate::picture::place::place;
 use crate::results::ResultsError;
-use embate_solver::error::{Error, Fault, MASS_SCALING};
-use embate_solver::message::Message;
+use embate_solver::error::{Fault, MASS_SCALING, MEMORY};
 use embate_solver::model::Model;
 use embate_solver::post_mortem::MassNeeded;
 use embate_solver::simulation::Options;
 use std::path::{Path, PathBuf};
 
-/// The page of mass scaling that would add more than its limit: `None` if that is not among the faults.
+/// The page of a model that can't begin because of what its numbers need: more mass than its limit, more memory than there may be; `None` if that is not among the faults.
 ///
 /// # Errors
 /// What the system says.
-pub fn too_much_mass(loaded: &Loaded, options: &Options, error: &Error, results: &Path) -> Result<Option<PathBuf>, ResultsError> {
-    let Error::Model(faults) = error else { return Ok(None) };
+pub fn at_start(loaded: &Loaded, options: &Options, faults: &[Fault], results: &Path) -> Result<Option<PathBuf>, ResultsError> {
+    if let Some(fault) = faults.iter().find(|fault| fault.kind == &MEMORY) {
+        return write(results, &vec![("README.md", memory_text(loaded, fault))]).map(Some);
+    }
     let Some(fault) = faults.iter().find(|fault| fault.kind == &MASS_SCALING) else { return Ok(None) };
     // Another fault of the model would be found here as well, and is told already.
     let Ok(Some(needed)) = MassNeeded::of(&loaded.model, options) else { return Ok(None) };
@@ -133,15 +134,12 @@ fn percent(share: f64) -> String {
     format!("{} %", shown(100.0 * share, ""))
 }
 
-/// The page of a model that needs more memory than there may be; `model` is the model as it would be with room enough.
-///
-/// # Errors
-/// What the system says.
-pub fn memory(loaded: &Loaded, kind: &'static Message, message: &str, results: &Path) -> Result<PathBuf, ResultsError> {
+fn memory_text(loaded: &Loaded, fault: &Fault) -> String {
     let model = &loaded.model;
     let counts = counts(model);
     let all: u128 = counts.iter().sum();
-    let mut text = format!("# Post-mortem of {}: {}\n\n{message}. ({}) Nothing was run.\n\n", model.name, kind.title, kind.code);
+    let mut text =
+        format!("# Post-mortem of {}: {}\n\n{}. ({}) Nothing was run.\n\n", model.name, fault.kind.title, fault.message, fault.kind.code);
     let largest = (0..counts.len()).max_by_key(|&part| counts[part]);
     if let Some(part) = largest {
         text += &table(
@@ -167,8 +165,7 @@ pub fn memory(loaded: &Loaded, kind: &'static Message, message: &str, results: &
         .into_iter()
         .collect();
     advice.push(Advice::new("run.memory_limit", "raise it, if the machine has more"));
-    text += &causes(kind, &advice, loaded);
-    write(results, &vec![("README.md", text)])
+    text + &causes(fault.kind, &advice, loaded)
 }
 
 /// Elements of each part.

@@ -126,6 +126,12 @@ impl System {
                 (None, Some(node)) => self.suspect_node(node),
                 (None, None) => self.fastest_node().map_or(Suspect::default(), |node| self.suspect_node(node)),
             },
+            Error::TooDeep { .. } => {
+                let contact = self.contacts.iter().position(|contact| contact.penetration > self.limits.penetration);
+                let deepest = contact.and_then(|contact| self.deepest(&self.contacts[contact]));
+                deepest.map_or(Suspect::default(), |(node, _)| Suspect { contact, ..self.suspect_node(node) })
+            }
+            Error::Runaway { .. } => self.fastest_node().map_or(Suspect::default(), |node| self.suspect_node(node)),
             _ => Suspect::default(),
         }
     }
@@ -174,12 +180,6 @@ impl System {
             };
             (0..group.elements()).find(is_bad).map(|element| (g, element))
         })
-    }
-
-    fn fastest_node(&self) -> Option<usize> {
-        let square = |v: &[f64; 2]| v[0] * v[0] + v[1] * v[1];
-        let own = &self.velocities[..self.mesh.user_nodes.len()];
-        own.iter().enumerate().max_by(|(_, a), (_, b)| square(a).total_cmp(&square(b))).map(|(node, _)| node)
     }
 
     /// The node whose kinetic energy changed most in the last update, and the contact that pressed most on it.

@@ -117,7 +117,9 @@ impl Tracer {
 
     /// Looks at the system after a step, or after one that failed.
     pub(crate) fn note(&mut self, system: &System, recorded: &Recorded, error: Option<&Error>) {
-        let is_closed = error.is_none_or(|error| matches!(error, Error::EnergyDrift { .. }));
+        // These are looked for when the books are closed.
+        let is_late = |error| matches!(error, &Error::EnergyDrift { .. } | &Error::TooDeep { .. } | &Error::Runaway { .. });
+        let is_closed = error.is_none_or(is_late);
         if is_closed {
             let total = balance(system);
             let size = self.total.map_or(0.0, |before| (total - before).abs() / system.ledger.largest);

@@ -339,3 +339,26 @@ fn next(case: &Case<'_>, step: u64) -> String {
     }
     text
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_have_four_digits_and_a_unit_that_fits() {
+        assert_eq!(shown(8.0e-9, "s"), "8 ns");
+        assert_eq!(shown(63_340_123.0, "Pa"), "63.34 MPa");
+        assert_eq!(shown(0.1248, "kg/m"), "124.8 g/m");
+        assert_eq!(shown(5.406, "kg/m"), "5.406 kg/m");
+        assert_eq!(shown(-1.1e-16, ""), "0");
+        assert_eq!(shown(-0.13364, ""), "-0.1336");
+        assert_eq!(shown(-0.0, "Pa"), "0 Pa");
+        assert_eq!(shown(f64::NAN, "s"), "no number");
+        assert_eq!(point([0.0056441, 0.0191813]), "(5.6441, 19.1813) mm");
+    }
+
+    #[test]
+    fn what_stands_in_a_table_keeps_to_its_cell() {
+        assert_eq!(row(&["a|b".into(), "c\nd".into()]), "| a\\|b | c d |\n");
+    }
+}

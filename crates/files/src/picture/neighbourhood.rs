@@ -130,7 +130,7 @@ impl<'a> Scene<'a> {
             let path = path(&outline.points.iter().map(|x| place(far(x))).collect::<Vec<_>>(), false);
             let _ = writeln!(out, "<path d=\"{path}\" fill=\"none\" stroke=\"{}\" stroke-width=\"5\"/>", hex(BORDER));
         }
-        let mut numbers = String::new();
+        let mut labels = Vec::new();
         // The culprit's own last, so that its line lies above those of others.
         for (k, cell) in self.near.cells.iter().enumerate().rev() {
             let corners: Vec<[f64; 2]> = cell.nodes.iter().map(|&node| moment.positions[node]).collect();
@@ -149,10 +149,10 @@ impl<'a> Scene<'a> {
                 hex(fill),
                 hex(stroke)
             );
-            self.label(&mut numbers, &points, &cell.element.to_string(), fill, is_culprit);
+            labels.extend(Label::of(&points, cell.element.to_string(), fill, is_culprit));
         }
         self.forces(out, moment, &place);
-        out.push_str(&numbers);
+        write_labels(out, labels.into_iter().rev());
         self.mark(out, moment, corner, &place, mark);
         out.push_str("</g>\n");
         let _ =
@@ -167,29 +167,6 @@ impl<'a> Scene<'a> {
         let level = ((value - self.range[0]) / (self.range[1] - self.range[0])).clamp(0.0, 1.0);
         let colour = MAP[(level * (MAP.len() - 1) as f64).round() as usize];
         mix(WHITE, colour, if is_ring { 0.8 } else { 0.35 })
-    }
-
-    /// The number of an element, as large as it fits.
-    fn label(&self, out: &mut String, points: &[[f64; 2]], number: &str, fill: Rgb, is_bold: bool) {
-        let mean = |k: usize| points.iter().map(|p| p[k]).sum::<f64>() / points.len() as f64;
-        let cross = |k: usize| {
-            let (a, b) = (points[k], points[(k + 1) % points.len()]);
-            a[0] * b[1] - b[0] * a[1]
-        };
-        let area = 0.5 * (0..points.len()).map(cross).sum::<f64>().abs();
-        let longest = (0..points.len())
-            .map(|k| (points[k][0] - points[(k + 1) % points.len()][0]).hypot(points[k][1] - points[(k + 1) % points.len()][1]))
-            .fold(1e-9, f64::max);
-        let width = f64::from(text::width(number, 1.0, Weight::Regular));
-        // It must fit into the element's length, and its height into the element's.
-        let font = FONT.min(0.95 * longest / width).min(if points.len() == 2 { FONT } else { 0.8 * area / longest });
-        if font < FONT_LEAST {
-            return;
-        }
-        let dark = 0.3 * f64::from(fill[0]) + 0.6 * f64::from(fill[1]) + 0.1 * f64::from(fill[2]) < 125.0;
-        let weight = if is_bold { " font-weight=\"bold\"" } else { "" };
-        let more = format!(" font-size=\"{font:.1}\"{weight}");
-        write_text(out, number, [mean(0), mean(1) + 0.36 * font], "middle", if dark { WHITE } else { TEXT }, &more);
     }
 
     /// Contact forces as arrows that end at their nodes.
@@ -296,6 +273,52 @@ impl<'a> Scene<'a> {
             write_text(out, &name, [x + 30.0, y + 12.0], "start", TEXT, "");
             x += need;
         }
+    }
+}
+
+/// The number of an element, as large as it fits.
+struct Label {
+    text: String,
+    at: [f64; 2],
+    font: f64,
+    width: f64,
+    colour: Rgb,
+    is_bold: bool,
+}
+
+impl Label {
+    /// `None` where it would be too small to be read.
+    fn of(points: &[[f64; 2]], text: String, fill: Rgb, is_bold: bool) -> Option<Self> {
+        let next = |k: usize| points[(k + 1) % points.len()];
+        let cross = |k: usize| points[k][0] * next(k)[1] - next(k)[0] * points[k][1];
+        let area = 0.5 * (0..points.len()).map(cross).sum::<f64>().abs();
+        let longest = (0..points.len()).map(|k| (points[k][0] - next(k)[0]).hypot(points[k][1] - next(k)[1])).fold(1e-9, f64::max);
+        let width = f64::from(text::width(&text, 1.0, Weight::Regular));
+        // It must fit into the element's length, and its height into the element's.
+        let font = FONT.min(0.95 * longest / width).min(if points.len() == 2 { FONT } else { 0.8 * area / longest });
+        let dark = 0.3 * f64::from(fill[0]) + 0.6 * f64::from(fill[1]) + 0.1 * f64::from(fill[2]) < 125.0;
+        let at = [0, 1].map(|k| points.iter().map(|p| p[k]).sum::<f64>() / points.len() as f64);
+        let colour = if dark { WHITE } else { TEXT };
+        (font >= FONT_LEAST).then_some(Self { text, at, font, width: width * font, colour, is_bold })
+    }
+
+    fn hides(&self, other: &Self) -> bool {
+        let apart = [0, 1].map(|k| (self.at[k] - other.at[k]).abs());
+        apart[0] < 0.5 * (self.width + other.width) && apart[1] < 0.5 * (self.font + other.font)
+    }
+}
+
+/// Those that come first stay where bodies overlap: two numbers on each other are none.
+fn write_labels(out: &mut String, labels: impl Iterator<Item = Label>) {
+    let mut written: Vec<Label> = Vec::new();
+    for label in labels {
+        if written.iter().any(|other| label.hides(other)) {
+            continue;
+        }
+        let weight = if label.is_bold { " font-weight=\"bold\"" } else { "" };
+        let more = format!(" font-size=\"{:.1}\"{weight}", label.font);
+        write_text(out, &label.text, [label.at[0], label.at[1] + 0.36 * label.font], "middle", label.colour, &more);
+        written.push(label);
     }
 }
 

@@ -36,7 +36,8 @@ pub(super) fn shown(value: f64, si: &str) -> String {
 pub(super) fn point([x, y]: [f64; 2]) -> String {
     let unit = unit("m", x.abs().max(y.abs()));
     let number = |value: f64| {
-        let text = format!("{:.4}", value * unit.factor);
+        // No minus before nothing.
+        let text = format!("{:.4}", (1e4 * value * unit.factor).round() / 1e4 + 0.0);
         text.trim_end_matches('0').trim_end_matches('.').to_string()
     };
     format!("({}, {}) {}", number(x), number(y), unit.name)

@@ -24,7 +24,9 @@ fn curve(name: &str, colour: Rgb, points: Vec<[f64; 2]>) -> Curve {
 fn panel(name: &str, si: &'static str, from_zero: bool, curves: Vec<Curve>) -> Panel {
     let is_shown = |curve: &Curve| {
         let values = || curve.points.iter().map(|p| p[1]).filter(|v| v.is_finite());
-        values().count() > 1 && values().any(|value| value != 0.0)
+        // Strains smaller than this are rounding.
+        let nothing = if si.is_empty() { 1e-12 } else { 0.0 };
+        values().count() > 1 && values().any(|value| value.abs() > nothing)
     };
     let curves: Vec<Curve> = curves.into_iter().filter(is_shown).collect();
     let height = 130.0 + 14.0 * curves.len().saturating_sub(4) as f64;

@@ -79,7 +79,7 @@ impl<'a> Case<'a> {
                     .filter(|(_, force)| force.is_finite())
             };
             let (step, force) = forces().max_by(|(_, a), (_, b)| a.total_cmp(b)).filter(|(_, force)| *force > 0.0)?;
-            let lasts = forces().last().is_some_and(|(_, last)| last > 0.0);
+            let lasts = forces().next_back().is_some_and(|(_, last)| last > 0.0);
             Some(Pressing { kind, name, force, step, lasts })
         };
         let mut all: Vec<Pressing<'_>> = self.trace.contacts.iter().enumerate().filter_map(of).collect();

@@ -226,6 +226,9 @@ fn place_of(loaded: &Loaded, path: &str) -> String {
     if place.line > 0 { format!("{file} line {}", place.line) } else { file }
 }
 
+/// Takes one of the figures of a culprit.
+type Figure = fn(&Vitals) -> f64;
+
 /// What became of the culprit, as a table; of energies also which of them changed.
 fn story(case: &Case<'_>) -> String {
     let mut text = in_sentences(case);
@@ -238,7 +241,7 @@ fn story(case: &Case<'_>) -> String {
     };
     let mut columns: Vec<&Moment> = [all.first(), case.last_good(), all.last()].into_iter().flatten().collect();
     columns.dedup_by_key(|moment| moment.step);
-    let quantities: [(&str, &str, fn(&Vitals) -> f64); 12] = [
+    let quantities: [(&str, &str, Figure); 12] = [
         ("stable step of the element", "s", |v| v.time_step),
         ("shape at its worst corner (1: square; below 0: folded over)", "", |v| v.shape),
         ("size over that at the start", "", |v| v.area_ratio),
@@ -252,7 +255,7 @@ fn story(case: &Case<'_>) -> String {
         ("speed", "m/s", |v| v.speed),
         ("depth of the contact", "m", |v| v.penetration),
     ];
-    let is_there = |value: fn(&Vitals) -> f64| all.iter().any(|moment| value(&moment.vitals).is_finite());
+    let is_there = |value: Figure| all.iter().any(|moment| value(&moment.vitals).is_finite());
     let rows: Vec<Vec<String>> = quantities
         .iter()
         .filter(|(.., value)| is_there(*value))

@@ -104,7 +104,7 @@ pub(crate) struct Tracer {
     /// First step that is kept.
     from: u64,
     /// Sum of all energies after the last step, J/m.
-    total: Option<f64>,
+    total: f64,
     trace: Trace,
 }
 
@@ -112,7 +112,7 @@ impl Tracer {
     fn new(suspect: Suspect, near: Near, from: u64, columns: Vec<String>, system: &System) -> Self {
         let contacts = system.contacts.iter().map(|contact| (contact.kind.name(), contact.name.clone())).collect();
         let trace = Trace { columns, contacts, near: near.shown.clone(), begin: (system.step, system.ledger.drift()), ..Trace::default() };
-        Self { suspect, near, from, total: Some(balance(system)).filter(|_| system.step > 0), trace }
+        Self { suspect, near, from, total: balance(system), trace }
     }
 
     /// Looks at the system after a step, or after one that failed.
@@ -122,11 +122,11 @@ impl Tracer {
         let is_closed = error.is_none_or(is_late);
         if is_closed {
             let total = balance(system);
-            let size = self.total.map_or(0.0, |before| (total - before).abs() / system.ledger.largest);
+            let size = (total - self.total).abs() / system.ledger.largest;
             if self.trace.jump.is_none_or(|jump| size > jump.size) {
                 self.trace.jump = Some(Jump { step: system.step, size, suspect: system.hottest() });
             }
-            self.total = Some(total);
+            self.total = total;
         }
         if system.step >= self.from {
             self.trace.moments.push(system.moment(&self.suspect, &self.near, recorded, is_closed));

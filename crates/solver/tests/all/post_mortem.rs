@@ -32,7 +32,8 @@ fn punched() -> Model {
     let mut punch = Obstacle::fixed("punch", ObstacleShape::Circle { centre: [0.05, 0.13], radius: 0.03, hollow: false });
     punch.motion.velocity = [Some(0.0.into()), Some((-speed).into())];
     model.obstacles.push(punch);
-    model.run.energy_limit = 10.0;
+    // Nothing else stops it before.
+    (model.run.energy_limit, model.run.penetration_limit) = (10.0, Some(1.0));
     model
 }
 

@@ -3,7 +3,7 @@
 use crate::complaint::Complaint;
 use crate::input::{self, ModelArguments, key_and_value};
 use crate::messages::USAGE;
-use crate::recording::{self, Manner};
+use crate::recording::{self, Manner, Recording};
 use crate::{Failure, terminal};
 use clap::Args;
 use embate_files::checkpoint::messages::{MODEL_CHANGED, NO_CHECKPOINT, OLDER};
@@ -90,7 +90,7 @@ pub(crate) fn resume(arguments: &Arguments) -> Result<(), Failure> {
         let checkpoints = recording::checkpoints(model, origin);
         Recorder::reopen(path, (model, &past), simulation.history_columns(), shown, options.thread_count(), checkpoints, on_progress)
     };
-    recording::record(model, &mut simulation, (path, &arguments.manner, arguments.verbose), make, Simulation::run)
+    recording::record(&Recording::of(&loaded, path, &arguments.manner, arguments.verbose), &mut simulation, make, Simulation::run)
 }
 
 /// The newest sound checkpoint of a run; what is wrong with newer ones is told.

@@ -8,6 +8,7 @@ pub mod messages;
 pub mod model_file;
 mod outline;
 pub mod picture;
+pub mod post_mortem;
 pub mod results;
 pub mod sweep;
 pub mod threads;

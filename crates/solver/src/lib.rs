@@ -30,4 +30,5 @@ pub mod hashes;
 pub mod parting;
 pub mod output;
 pub mod simulation;
+pub mod post_mortem;
 pub mod bench;

@@ -8,6 +8,7 @@ mod diff;
 mod estimates;
 mod examples;
 mod messages;
+mod post_mortem;
 mod restart;
 mod sweep;
 mod verification;

@@ -3,6 +3,7 @@
 use super::ran::RAN;
 use super::{HASHES, ResultsError, atomic::part_path};
 use crate::checkpoint::{FOLDER, is_checkpoint};
+use crate::post_mortem;
 use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -53,6 +54,7 @@ impl ResultFolder {
         } else {
             Self::refuse_existing(path)?;
         }
+        post_mortem::remove(path)?;
         let frames = path.join(FRAMES);
         fs::create_dir_all(&frames).map_err(ResultsError::file("create", &frames))?;
         Ok(Self { path: path.to_path_buf() })
@@ -76,6 +78,7 @@ impl ResultFolder {
         for file in existing(path)?.into_iter().filter(|file| is_later(file)) {
             fs::remove_file(&file).map_err(ResultsError::file("remove", &file))?;
         }
+        post_mortem::remove(path)?;
         let folder = path.join(FRAMES);
         fs::create_dir_all(&folder).map_err(ResultsError::file("create", &folder))?;
         Ok(Self { path: path.to_path_buf() })
@@ -89,6 +92,7 @@ impl ResultFolder {
         for file in existing(path)? {
             fs::remove_file(&file).map_err(ResultsError::file("remove", &file))?;
         }
+        post_mortem::remove(path)?;
         for folder in [path.join(PICTURES), path.join(FRAMES), path.join(FOLDER), path.to_path_buf()] {
             // Stays if something foreign lies in it.
             let _ = fs::remove_dir(folder);

@@ -2,7 +2,8 @@
 
 use embate_solver::message::{Example, Message};
 
-pub(crate) static MESSAGES: &[&Message] = &[&EXISTS, &NOT_A_FOLDER, &REFUSED, &FRAME, &PICTURE, &DAMAGED_LOG, &BUG, &NO_PICTURES];
+pub(crate) static MESSAGES: &[&Message] =
+    &[&EXISTS, &NOT_A_FOLDER, &REFUSED, &FRAME, &PICTURE, &DAMAGED_LOG, &BUG, &NO_PICTURES, &NO_POST_MORTEM];
 
 /// Something is in the way.
 pub static EXISTS: Message = Message {
@@ -71,4 +72,13 @@ pub static NO_PICTURES: Message = Message {
     example: Example::Words("The picture shows a field of which a value is not finite in the last frame of a run that failed."),
     cause: "A picture could not be made; all other results are there.",
     cure: "Draw the fields with ParaView, or choose another `picture_field`.",
+};
+
+/// The post-mortem is missing.
+pub static NO_POST_MORTEM: Message = Message {
+    code: "W0702",
+    title: "the post-mortem of a failed run is missing",
+    example: Example::Words("A run fails because the disk is full, and there is no room for the page either."),
+    cause: "The page or one of its pictures could not be written; the failure itself is told all the same.",
+    cure: "Free some space and run the model again; it fails in the same step.",
 };

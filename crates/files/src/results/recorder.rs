@@ -11,6 +11,7 @@ use super::messages::NO_PICTURES;
 use super::report::{Report, RunStatus};
 use super::writer::{Job, Writer};
 use crate::checkpoint::{Checkpoint, Origin};
+use crate::post_mortem;
 use crate::threads::Threads;
 use embate_solver::error::Notice;
 use embate_solver::hashes::Hashes;
@@ -40,6 +41,8 @@ pub struct Recorder<'a> {
     hashes: Vec<Hashes>,
     handover: Handover,
     is_stopped: bool,
+    /// The page about the failure.
+    post_mortem: Option<String>,
     begin: Instant,
     /// Steps before it began.
     steps_before: u64,
@@ -144,6 +147,7 @@ impl<'a> Recorder<'a> {
             hashes: Vec::new(),
             handover: Handover::new(writer, threads > 1),
             is_stopped: false,
+            post_mortem: None,
             begin: now,
             steps_before: 0,
             checkpoints,
@@ -154,6 +158,11 @@ impl<'a> Recorder<'a> {
     /// What was told since the last job.
     fn job(&mut self) -> Job {
         Job { rows: std::mem::take(&mut self.rows), hashes: std::mem::take(&mut self.hashes), ..Job::default() }
+    }
+
+    /// Lets the summary point to the page about the failure.
+    pub fn point_to_post_mortem(&mut self) {
+        self.post_mortem = Some(post_mortem::PAGE.into());
     }
 
     /// Completes all files. `error` is the message of a failed run, `user_cpu_seconds` tells the process's user CPU time.
@@ -180,6 +189,7 @@ impl<'a> Recorder<'a> {
             None if self.is_stopped || is_early => RunStatus::Stopped,
             None => RunStatus::Done,
         };
+        report.post_mortem = self.post_mortem;
         report.wall_seconds = self.begin.elapsed().as_secs_f64();
         report.user_cpu_seconds = user_cpu_seconds();
         report.output_seconds = end.worked.as_secs_f64();

@@ -22,6 +22,7 @@ impl Keep for Simulation {
         #[rustfmt::skip]
         let Self {
             recorded: _, threads: _, model_warnings: _, warnings: _, history: _, fields: _, max_steps: _, state_steps: _, hash_steps: _, hashing: _, search_names: _, pool: _,
+            memory: _, tracer: _,
             system, momentum, shortest, watch, course,
         } = self;
         archive.section("run")?;

@@ -7,8 +7,11 @@ pub mod messages;
 pub mod model_file;
 mod outline;
 pub mod picture;
+mod reach;
 pub mod results;
 pub mod sweep;
 pub mod threads;
 pub mod verification;
 pub mod vtu;
+
+pub use reach::Reach;

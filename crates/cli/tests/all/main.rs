@@ -7,9 +7,11 @@ mod determinism;
 mod estimates;
 mod examples;
 mod messages;
+mod outside;
 mod restart;
 mod sweep;
 mod verification;
+mod unsafe_code;
 mod warnings;
 mod whole_runs;
 

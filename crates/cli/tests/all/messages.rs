@@ -9,6 +9,7 @@ use embate_solver::message::{AREAS, BASE, Example, Message};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 fn catalogue() -> Vec<&'static Message> {
     let mut all = messages::all();
@@ -117,14 +118,30 @@ fn provoked(message: &Message) -> Option<String> {
             arguments = "import deck.inp --out imported".to_string();
         }
         Example::Command(line) => arguments = line.to_string(),
+        Example::Shell(lines) => {
+            fs::write(folder.join("model.toml"), model).unwrap();
+            return script(&folder, lines);
+        }
         Example::Words(_) => return None,
     }
     fs::write(folder.join("model.toml"), model).unwrap();
-    let answer = embate(&folder, arguments.split_whitespace());
+    Some(told(&embate(&folder, arguments.split_whitespace()).err))
+}
+
+/// What lines of a shell print on standard error; only the last may fail.
+fn script(folder: &Path, lines: &str) -> Option<String> {
+    let program = Path::new(env!("CARGO_BIN_EXE_embate")).parent().unwrap();
+    let path = std::env::join_paths([program.to_path_buf()].into_iter().chain(std::env::split_paths(&std::env::var_os("PATH")?))).unwrap();
+    let output = Command::new("sh").args(["-e", "-c", lines]).env("PATH", path).current_dir(folder).output().unwrap();
+    Some(told(&String::from_utf8(output.stderr).unwrap()))
+}
+
+/// The messages of a run: without its progress, and without what the machine has.
+fn told(err: &str) -> String {
     let progress = |line: &&str| line.trim_start().split_once(" %  ").is_some_and(|(share, _)| share.parse::<u32>().is_ok());
     // What the machine has is no part of the message.
     let told = |line: &str| line.split("this machine has").next().map_or(String::new(), |start| format!("{}\n", start.trim_end()));
-    Some(answer.err.lines().filter(|line| !progress(line)).map(told).collect())
+    err.lines().filter(|line| !progress(line)).map(told).collect()
 }
 
 /// The sections of a text, each with its header; what stands above all has an empty one.

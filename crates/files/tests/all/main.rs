@@ -6,4 +6,5 @@ mod abaqus;
 mod gmsh;
 mod model_file;
 mod picture;
+mod reach;
 mod results;

@@ -101,7 +101,9 @@ pub(crate) static TIE: Message = Message {
 pub(crate) static TIED_TWICE: Message = Message {
     code: "E0409",
     title: "a node in two ties",
-    example: Example::Words("A node at the corner of three bodies is bound by the ties of two contacts."),
+    example: Example::Model(
+        "[[part]]\nname = \"block\"\nmaterial = \"steel\"\nrectangle = { corner = [0, 0], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }\n\n[[part]]\nname = \"lower\"\nmaterial = \"steel\"\nrectangle = { corner = [\"10 mm\", \"-5 mm\"], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }\n\n[[part]]\nname = \"upper\"\nmaterial = \"steel\"\nrectangle = { corner = [\"10 mm\", \"5 mm\"], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }\n\n[[contact]]\nname = \"one\"\nbetween = [\"block.right\", \"lower.left\"]\ntied = true\n\n[[contact]]\nname = \"two\"\nbetween = [\"block.right\", \"upper.left\"]\ntied = true\n",
+    ),
     cause: "Two ties would hold one node against each other.",
     cure: "Leave one of the two out, name smaller surfaces, or let the other surface be the slave.",
 };

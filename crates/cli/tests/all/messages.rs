@@ -41,6 +41,31 @@ fn held(path: &Path, text: &str) {
     );
 }
 
+/// Messages that no short input of the program provokes, and why; all others have examples that are run.
+const IN_WORDS: &[(&str, &str)] = &[
+    ("E0123", "only programs that make models themselves come to it: of a model file it is E0104, E0107 or E0110 before"),
+    ("E0208", "of a model file such lines are no surface but a set of nodes; crates/solver/src/mesh/surface.rs tests it"),
+    ("E0301", "only programs that make models themselves come to it: of a model file it is E0107 before"),
+    ("E0302", "only programs that make models themselves come to it: of a model file it is E0106 before"),
+    ("E0603", "contact that makes energy is a fault of the solver rather than of a short model"),
+    ("E0701", "it takes a disk that is full; restart.rs has one"),
+    ("E0705", "only programs that write fields themselves come to it"),
+    ("E0706", "only programs that draw frames themselves come to it"),
+    ("E0710", "a state of another version comes with the header of that version, which is E0712"),
+    ("E0799", "it is a bug by definition"),
+    ("W0405", "of the random models of embate-soak a few come to it, and none of them is short"),
+    ("W0406", "no model is known in which contact misses a node; locate.rs counts, and the tests of contact hold that there are none"),
+    ("W0712", "a disk that is full, or a run that fails earlier the second time, which the same bits forbid"),
+];
+
+#[test]
+fn examples_in_words_are_those_that_no_input_provokes() {
+    let words: Vec<&str> = catalogue().iter().filter(|it| matches!(it.example, Example::Words(_))).map(|it| it.code).collect();
+    let reasons: Vec<&str> = IN_WORDS.iter().map(|(code, _)| *code).collect();
+    assert_eq!(words, reasons, "make an example that a test runs, or say why there is none");
+    assert!(IN_WORDS.iter().all(|(_, reason)| reason.len() > 15));
+}
+
 /// Texts of all files of source below a folder.
 fn sources(folder: &Path, texts: &mut Vec<String>) {
     for entry in fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {

@@ -42,7 +42,7 @@ pub(crate) static SOURCE_IN_THE_WAY: Message = Message {
 pub(crate) static RUNS_FAILED: Message = Message {
     code: "E0906",
     title: "runs of a sweep failed",
-    example: Example::Shell("embate sweep model.toml --vary run.energy_limit=0.05,1e-15 --out swept --quiet\n"),
+    example: Example::Shell("embate sweep model.toml --vary run.step_limit=1ns,1us --out swept --quiet\n"),
     cause: "The rows of the table say for each run why it failed; the message has the first.",
     cure: "Run the model with those values alone (embate run --set KEY=VALUE) and look at its last state.",
 };

@@ -74,8 +74,8 @@ const MEETING: &str = r#"
 run.end = "1 ms"
 material.steel = { law = "j2", density = 7800, young = "200 GPa", poisson = 0.3, yield = "100 MPa", hardening = "1 GPa", failure = { plastic_strain = 0.5 } }
 part = [
-    { name = "a", material = "steel", element = "quad4_reduced", rectangle = { corner = [0, 0], size = [0.01, 0.01], elements = [2, 2] }, velocity = [50, 0] },
-    { name = "b", material = "steel", rectangle = { corner = [0.01, 0.001], size = [0.01, 0.01], elements = [2, 2] } },
+    { name = "a", material = "steel", element = "quad4_reduced", rectangle = { corner = [0, 0], size = [0.01, 0.01], elements = [1, 1] }, velocity = [50, 0] },
+    { name = "b", material = "steel", rectangle = { corner = [0.01, 0.001], size = [0.01, 0.01], elements = [1, 1] } },
 ]
 contact = [{ name = "all", bodies = "all", friction = 0.3 }]
 obstacle = [{ name = "wall", plane = { point = [0.0201, 0], normal = [-1, 0] } }]

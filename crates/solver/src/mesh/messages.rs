@@ -83,8 +83,8 @@ pub(crate) static BAD_ELEMENT: Message = Message {
 pub(crate) static NOT_A_SURFACE: Message = Message {
     code: "E0208",
     title: "lines that are no surface of a body",
-    example: Example::Shell(
-        "cat > mesh.msh <<'END'\n$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n1 1 \"inner\"\n2 2 \"body\"\n$EndPhysicalNames\n$Nodes\n4\n1 0 0 0\n2 0.01 0 0\n3 0.01 0.01 0\n4 0 0.01 0\n$EndNodes\n$Elements\n3\n1 1 2 1 1 1 3\n2 2 2 2 1 1 2 3\n3 2 2 2 1 1 3 4\n$EndElements\nEND\ncat >> model.toml <<'END'\n[[part]]\nname = \"cut\"\nmaterial = \"steel\"\nmesh = { file = \"mesh.msh\", group = \"body\" }\n\n[[contact]]\nbetween = [\"inner\", \"wall.left\"]\nEND\nembate check model.toml\n",
+    example: Example::Words(
+        "A program that makes its meshes itself calls a line inside of a body a surface, or names one twice; of a mesh file such lines are a set of nodes.",
     ),
     cause: "Contact, pressure and boundaries act on the outside of bodies: lines that bound the elements of one part, each once.",
     cure: "Name a side of a part, or a group of lines on its outside.",

@@ -1,11 +1,12 @@
 //! What `run` and `check` share: reading a model, making it ready, and where its results go.
 
 use crate::complaint::Complaint;
-use crate::{Failure, terminal};
+use crate::{Failure, machine, terminal};
 use clap::Args;
 use embate_files::Reach;
 use embate_files::checkpoint::Origin;
 use embate_files::model_file::{self, Loaded};
+use embate_solver::error::Error;
 use embate_solver::model::Model;
 use embate_solver::simulation::{Options, Simulation};
 use std::ffi::OsStr;
@@ -56,8 +57,12 @@ pub(crate) fn origin(arguments: &ModelArguments) -> Origin {
     Origin { path, set: arguments.set.clone() }
 }
 
-/// Makes a model ready to step.
+/// Makes a model ready to step, if the machine has the memory.
 pub(crate) fn ready(model: &Model, options: &Options) -> Result<Simulation, Failure> {
+    let spare = machine::memory_available().filter(|_| model.run.memory_limit.is_none());
+    if let Some(fault) = spare.and_then(|bytes| model.memory_fault(bytes as f64, "what the machine has to spare")) {
+        return Err(Failure::Input(Complaint::from(&Error::Model(vec![fault]))));
+    }
     Simulation::new(model, options).map_err(|error| Failure::Input(Complaint::from(&error)))
 }
 

@@ -6,6 +6,7 @@ mod discrete;
 mod failure;
 mod fans;
 mod idle;
+mod limits;
 mod mass;
 mod mirrors;
 mod obstacles;
@@ -51,7 +52,7 @@ use crate::rigid::Bodies;
 use crate::step::erosion::Erosion;
 use crate::step::free::Groups;
 use crate::step::relaxation::Relaxation;
-use crate::step::{CHUNK, Governor, Limits, System};
+use crate::step::{CHUNK, Governor, System};
 use embate_lanes::{Level, Team};
 use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
@@ -156,12 +157,11 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<(System, Ve
     // Made only to be told of elements that overlap where nothing touches. A symmetry line is no surface: pressures count the length on the model's side.
     let outside =
         mesh.outside_without(&[], |segment| contacts.is_empty() || constraints.is_mirror(segment)).map_err(|fault| vec![fault])?;
+    let limits = limits::of(model, &mesh, &blocks, &outside);
     // Without contacts there is nothing to remember of any node.
     let touched = if contacts.is_empty() { 0 } else { nodes };
     let traces = Traces::new(outside, &mesh.positions[..touched.min(mesh.positions.len())], Depth::of(model));
     let run = &model.run;
-    let (step, largest) = (run.step_limit.unwrap_or(0.0), run.time_step.unwrap_or(f64::INFINITY));
-    let limits = Limits { end: run.end, safety: run.safety, energy: run.energy_limit, step, largest };
     let mut system = System {
         slots: vec![[0.0; 2]; assembly.count],
         rigid: mesh.groups.iter().map(|group| model.parts[group.part].rigid.is_some()).chain(has_springs.then_some(false)).collect(),

@@ -1,5 +1,6 @@
 //! Who is to blame: names elements, nodes and contacts with their places, for errors, progress and the summary. Called rarely.
 
+use crate::contact::Contact;
 use crate::error::Error;
 use crate::step::{Governor, System};
 
@@ -68,6 +69,42 @@ impl System {
         Error::Collapsed { time_step, limit: self.limits.step, governor: self.governor_name(governor), time: self.time, step: self.step }
     }
 
+    /// The fastest of all nodes.
+    pub(crate) fn runaway(&self) -> Error {
+        let square = |v: &[f64; 2]| v[0] * v[0] + v[1] * v[1];
+        let fastest = self.velocities.iter().enumerate().max_by(|(_, a), (_, b)| square(a).total_cmp(&square(b)));
+        let node = fastest.map_or(0, |(node, _)| node);
+        Error::Runaway { place: self.node_place(node), speed: self.speed, limit: self.limits.velocity, time: self.time, step: self.step }
+    }
+
+    /// The deepest spring of a contact.
+    pub(crate) fn too_deep(&self, contact: &Contact) -> Error {
+        let deepest = contact.penetrations(&self.springs).max_by(|(_, a), (_, b)| a.total_cmp(b));
+        let (node, depth) = deepest.map_or((0, contact.penetration), |(node, depth)| (node as usize, depth));
+        Error::TooDeep {
+            contact: format!("{} \"{}\"", contact.kind.name(), contact.name).into(),
+            place: self.node_place(node).into(),
+            depth,
+            limit: self.limits.penetration,
+            time: self.time,
+            step: self.step,
+        }
+    }
+
+    /// A node and where it is.
+    fn node_place(&self, node: usize) -> String {
+        let [x, y] = self.positions[node];
+        format!("{} at ({x:.6e}, {y:.6e})", self.node_name(node))
+    }
+
+    /// A node by the user's number, and the parts that it belongs to.
+    fn node_name(&self, node: usize) -> String {
+        let Some(user) = self.mesh.user_nodes.get(node) else { return "a point of an obstacle".into() };
+        let parts = self.mesh.parts.iter().filter(|part| part.nodes.contains(&(node as u32)));
+        let parts: Vec<_> = parts.map(|part| format!("\"{}\"", part.name)).collect();
+        format!("node {user} of part {}", parts.join(" and "))
+    }
+
     pub(crate) fn not_finite(&self) -> Error {
         let bad = (0..self.positions.len()).find(|&node| !self.positions[node].iter().chain(&self.velocities[node]).all(|v| v.is_finite()));
         let (what, place) = match bad {
@@ -75,7 +112,7 @@ impl System {
                 // Positions of the step before are there as long as those of this one are not.
                 let is_seen = self.positions[node].iter().all(|x| x.is_finite());
                 let [x, y] = if is_seen { self.positions[node] } else { self.positions_old[node] };
-                let name = self.mesh.user_nodes.get(node).map_or("a point of an obstacle".to_string(), |user| format!("node {user}"));
+                let name = self.node_name(node);
                 ("the motion of a node".to_string(), format!("{name}, last seen at ({x:.6e}, {y:.6e})"))
             }
             None => ("an energy".to_string(), "no node is affected yet".to_string()),

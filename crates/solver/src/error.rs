@@ -6,8 +6,22 @@ use crate::message::{Example, Message};
 use std::fmt;
 use thiserror::Error;
 
-pub(crate) static MESSAGES: &[&Message] =
-    &[&INVERTED, &COLLAPSED, &ENERGY_DRIFT, &NOT_FINITE, &STATE, &OUTPUT, &MASS_SCALING, &INSTRUCTIONS, &MASS_ADDED, &ERODED, &RELAXED];
+pub(crate) static MESSAGES: &[&Message] = &[
+    &INVERTED,
+    &COLLAPSED,
+    &ENERGY_DRIFT,
+    &NOT_FINITE,
+    &STATE,
+    &OUTPUT,
+    &MASS_SCALING,
+    &TOO_DEEP,
+    &RUNAWAY,
+    &MEMORY,
+    &INSTRUCTIONS,
+    &MASS_ADDED,
+    &ERODED,
+    &RELAXED,
+];
 
 static INVERTED: Message = Message {
     code: "E0601",
@@ -45,6 +59,32 @@ static NOT_FINITE: Message = Message {
     ),
     cause: "Parameters, loads or units are wrong by powers of ten, so that a value overflowed or zero was divided by zero.",
     cure: "Check material parameters, loads and units of what the message names.",
+};
+
+static TOO_DEEP: Message = Message {
+    code: "E0606",
+    title: "a contact is too deep",
+    example: Example::Model(
+        "[[contact]]\nname = \"hit\"\nbetween = [\"block.right\", \"wall.left\"]\npenalty_scale = 1e-9\n\n[run]\nend = \"2 ms\"\n",
+    ),
+    cause: "A surface is deeper inside another than its longest segment (or than `run.penetration_limit`): the contact is far too soft for what presses on it, or began to act when the bodies were already inside each other.",
+    cure: "Raise `penalty_scale` or `penalty` of the contact, or take the law `multiplier`; raise `run.penetration_limit` where so much depth is meant.",
+};
+
+static RUNAWAY: Message = Message {
+    code: "E0607",
+    title: "a node runs away",
+    example: Example::Model("[[load]]\ngravity = [\"9.81e13 m/s^2\", 0]\n"),
+    cause: "No body moves many times as fast as its waves, unless it was thrown so: a load, a velocity or a unit is wrong by powers of ten, a spring or a contact shot a node away, or a light node has nothing that holds it.",
+    cure: "Look at the node that the message names, and at the units of loads on its part; raise `run.velocity_limit` where such speeds are meant.",
+};
+
+pub(crate) static MEMORY: Message = Message {
+    code: "E0608",
+    title: "more memory than there may be",
+    example: Example::Model("[run]\nmemory_limit = \"1 kB\"\n"),
+    cause: "The model has so many elements that they would not fit into the memory that `run.memory_limit` allows, or that the machine has to spare.",
+    cure: "Take larger elements, and fine ones only where something happens (`grading`), or a machine with more memory; raise `run.memory_limit`.",
 };
 
 static STATE: Message = Message {
@@ -247,6 +287,42 @@ pub enum Error {
         #[doc = "Step number."]
         step: u64,
     },
+    /// A contact is deeper than its limit.
+    #[error(
+        "{contact} is {depth:.3e} m deep at {place}, more than the limit of {limit:.3e} m, at time {time:.6e} s, step {step}; \
+         raise its penalty, or take the law \"multiplier\"; raise run.penetration_limit if so much depth is meant"
+    )]
+    TooDeep {
+        #[doc = "Which contact or obstacle, in words."]
+        contact: Box<str>,
+        #[doc = "Node and its coordinates."]
+        place: Box<str>,
+        #[doc = "Depth, m."]
+        depth: f64,
+        #[doc = "Limit, m."]
+        limit: f64,
+        #[doc = "Time, s."]
+        time: f64,
+        #[doc = "Step number."]
+        step: u64,
+    },
+    /// A node is faster than its limit.
+    #[error(
+        "{place} runs at {speed:.3e} m/s, more than the limit of {limit:.3e} m/s, at time {time:.6e} s, step {step}; \
+         check the units of loads and velocities, and what holds it; raise run.velocity_limit if such speeds are meant"
+    )]
+    Runaway {
+        #[doc = "Node and its coordinates."]
+        place: String,
+        #[doc = "Speed, m/s."]
+        speed: f64,
+        #[doc = "Limit, m/s."]
+        limit: f64,
+        #[doc = "Time, s."]
+        time: f64,
+        #[doc = "Step number."]
+        step: u64,
+    },
     /// A number stopped being finite.
     #[error("{what} is no longer a finite number at time {time:.6e} s, step {step}; {place}; check material parameters, loads and units")]
     NotFinite {
@@ -277,6 +353,8 @@ impl Error {
             Self::Collapsed { .. } => Some(&COLLAPSED),
             Self::EnergyDrift { .. } => Some(&ENERGY_DRIFT),
             Self::NotFinite { .. } => Some(&NOT_FINITE),
+            Self::TooDeep { .. } => Some(&TOO_DEEP),
+            Self::Runaway { .. } => Some(&RUNAWAY),
             Self::State(_) => Some(&STATE),
             Self::Output(_) => Some(&OUTPUT),
         }

@@ -3,7 +3,7 @@
 
 use std::fmt;
 
-/// Physical dimension as integer exponents of kilogram, metre, second and kelvin. Values are SI `f64`.
+/// Physical dimension as integer exponents of kilogram, metre, second and kelvin, and of bytes. Values are SI `f64`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Dimension {
     /// Exponent of mass (kg).
@@ -14,11 +14,13 @@ pub struct Dimension {
     pub time: i8,
     /// Exponent of temperature (K).
     pub temperature: i8,
+    /// Exponent of information (B).
+    pub information: i8,
 }
 
 impl Dimension {
     const fn new(mass: i8, length: i8, time: i8) -> Self {
-        Self { mass, length, time, temperature: 0 }
+        Self { mass, length, time, temperature: 0, information: 0 }
     }
     /// A pure number (also angles: the reader turns degrees into radians).
     pub const NONE: Self = Self::new(0, 0, 0);
@@ -56,6 +58,8 @@ impl Dimension {
     pub const INERTIA_PER_LENGTH: Self = Self::new(1, 1, 0);
     /// K.
     pub const TEMPERATURE: Self = Self { temperature: 1, ..Self::NONE };
+    /// B: memory.
+    pub const INFORMATION: Self = Self { information: 1, ..Self::NONE };
     /// J/kg/K: heat per mass and temperature.
     pub const SPECIFIC_HEAT: Self = Self { temperature: -1, ..Self::new(0, 2, -2) };
 
@@ -77,7 +81,7 @@ impl Dimension {
             1 => (*name).to_string(),
             p => format!("{name}^{p}"),
         };
-        let all = [("kg", self.mass), ("m", self.length), ("s", self.time), ("K", self.temperature)];
+        let all = [("kg", self.mass), ("m", self.length), ("s", self.time), ("K", self.temperature), ("B", self.information)];
         let above: Vec<_> = all.iter().filter(|(_, e)| *e > 0).map(power).collect();
         let below: Vec<_> = all.iter().filter(|(_, e)| *e < 0).map(power).collect();
         let above = if above.is_empty() { "1".to_string() } else { above.join(" ") };

@@ -46,6 +46,9 @@ const HOLD: f64 = 1.05;
 /// A step that grows does so by at most this factor from one to the next.
 const GROWTH: f64 = 1.001;
 
+/// How many times as fast as the fastest wave and the fastest node at the start together a node may become. Gas into empty space reaches 2/(γ − 1) times its speed of sound.
+pub const RUNAWAY: f64 = 20.0;
+
 /// Steps before the end that are made equal.
 const LANDING: f64 = 128.0;
 
@@ -62,6 +65,10 @@ pub struct Limits {
     pub step: f64,
     /// Largest time step, s; infinite: none is given.
     pub largest: f64,
+    /// Largest speed of a node, m/s; before the start, where none is given: that of the fastest wave, negative.
+    pub velocity: f64,
+    /// Largest depth of a contact, m.
+    pub penetration: f64,
 }
 
 /// Who sets the time step.
@@ -183,10 +190,11 @@ impl System {
     /// One step: x, forces, stable step, v, ledger.
     ///
     /// # Errors
-    /// An inverted element, a collapsed step, a value that is not finite, too much energy drift.
+    /// An inverted element, a collapsed step, a value that is not finite, too much energy drift, a node that runs away, a contact that is too deep.
     pub fn step(&mut self) -> Result<(), Error> {
         self.move_nodes();
-        self.respond()
+        self.respond()?;
+        self.see_limits()
     }
 
     /// Everything that follows from the positions x^n.
@@ -226,6 +234,10 @@ impl System {
         let kinetic = |(_, (m, v)): (u32, (&f64, &Vector))| 0.5 * m * (v[0] * v[0] + v[1] * v[1]);
         let nodes: f64 = (0..).zip(self.mass.iter().zip(&self.velocities)).filter(free).map(kinetic).sum();
         self.ledger = Ledger::new(nodes + self.bodies.kinetic(), self.energy_of_round_off());
+        if self.limits.velocity <= 0.0 {
+            let square = self.velocities.iter().map(|v| v[0] * v[0] + v[1] * v[1]).fold(0.0, f64::max);
+            self.limits.velocity = RUNAWAY * (square.sqrt() - self.limits.velocity);
+        }
         self.positions_old.clone_from(&self.positions);
         self.see_rigid_parts();
         self.respond()?;
@@ -425,6 +437,15 @@ impl System {
 }
 
 impl System {
+    /// Whether nodes are as fast, and contacts as deep, as is sound.
+    fn see_limits(&self) -> Result<(), Error> {
+        if self.speed > self.limits.velocity {
+            return Err(self.runaway());
+        }
+        let deep = self.contacts.iter().find(|contact| contact.penetration > self.limits.penetration);
+        deep.map_or(Ok(()), |contact| Err(self.too_deep(contact)))
+    }
+
     /// Largest |v^{n+1/2}|, m/s.
     fn largest_speed(&self) -> f64 {
         let free = self.sums.iter().fold(0.0f64, |largest, sums| largest.max(sums.speed_squared));

@@ -25,8 +25,8 @@ pub(super) struct Wanted<'a> {
 /// A unit or a product of units: `value = number · numerator / denominator · 10^ten`, and degrees if `degrees` is one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Unit {
-    /// Exponents of kg, m, s, K.
-    powers: [i32; 4],
+    /// Exponents of kg, m, s, K, B.
+    powers: [i32; 5],
     numerator: u128,
     denominator: u128,
     ten: i32,
@@ -35,10 +35,10 @@ struct Unit {
     radians: i32,
 }
 
-const ONE: Unit = Unit { powers: [0; 4], numerator: 1, denominator: 1, ten: 0, degrees: 0, radians: 0 };
+const ONE: Unit = Unit { powers: [0; 5], numerator: 1, denominator: 1, ten: 0, degrees: 0, radians: 0 };
 
-/// A unit of the table: name, exponents of kg, m, s, K, numerator, power of ten, and the prefixes that it takes.
-struct Entry(&'static str, [i32; 4], u128, i32, &'static [&'static str]);
+/// A unit of the table: name, exponents of kg, m, s, K, B, numerator, power of ten, and the prefixes that it takes.
+struct Entry(&'static str, [i32; 5], u128, i32, &'static [&'static str]);
 
 const ALL: &[&str] = &["f", "p", "n", "u", "µ", "μ", "m", "c", "d", "da", "h", "k", "M", "G", "T", "P"];
 const SMALL: &[&str] = &["f", "p", "n", "u", "µ", "μ", "m"];
@@ -46,29 +46,32 @@ const LARGE: &[&str] = &["k", "M"];
 
 /// Every unit. Inch, foot and pound are exact by definition (1959); the pound-force is the pound times 9.80665 m/s².
 const TABLE: &[Entry] = &[
-    Entry("m", [0, 1, 0, 0], 1, 0, ALL),
-    Entry("g", [1, 0, 0, 0], 1, -3, ALL),
-    Entry("s", [0, 0, 1, 0], 1, 0, ALL),
-    Entry("min", [0, 0, 1, 0], 60, 0, &[]),
-    Entry("h", [0, 0, 1, 0], 3600, 0, &[]),
-    Entry("N", [1, 1, -2, 0], 1, 0, ALL),
-    Entry("Pa", [1, -1, -2, 0], 1, 0, ALL),
-    Entry("bar", [1, -1, -2, 0], 1, 5, &["m", "k", "M"]),
-    Entry("J", [1, 2, -2, 0], 1, 0, ALL),
-    Entry("W", [1, 2, -3, 0], 1, 0, ALL),
-    Entry("Hz", [0, 0, -1, 0], 1, 0, ALL),
-    Entry("K", [0, 0, 0, 1], 1, 0, SMALL),
-    Entry("t", [1, 0, 0, 0], 1, 3, LARGE),
-    Entry("in", [0, 1, 0, 0], 254, -4, &[]),
-    Entry("ft", [0, 1, 0, 0], 3048, -4, &[]),
-    Entry("lb", [1, 0, 0, 0], 45_359_237, -8, &[]),
-    Entry("lbf", [1, 1, -2, 0], 44_482_216_152_605, -13, &[]),
-    Entry("psi", [1, -1, -2, 0], 44_482_216_152_605, -13, &[]), // divided by in² in `lookup`
-    Entry("ksi", [1, -1, -2, 0], 44_482_216_152_605, -10, &[]),
-    Entry("rpm", [0, 0, -1, 0], 6, 0, &[]), // degrees in `plain`: 360 deg in 60 s
-    Entry("rad", [0, 0, 0, 0], 1, 0, SMALL),
-    Entry("deg", [0, 0, 0, 0], 1, 0, &[]),
-    Entry("%", [0, 0, 0, 0], 1, -2, &[]),
+    Entry("m", [0, 1, 0, 0, 0], 1, 0, ALL),
+    Entry("g", [1, 0, 0, 0, 0], 1, -3, ALL),
+    Entry("s", [0, 0, 1, 0, 0], 1, 0, ALL),
+    Entry("min", [0, 0, 1, 0, 0], 60, 0, &[]),
+    Entry("h", [0, 0, 1, 0, 0], 3600, 0, &[]),
+    Entry("N", [1, 1, -2, 0, 0], 1, 0, ALL),
+    Entry("Pa", [1, -1, -2, 0, 0], 1, 0, ALL),
+    Entry("bar", [1, -1, -2, 0, 0], 1, 5, &["m", "k", "M"]),
+    Entry("J", [1, 2, -2, 0, 0], 1, 0, ALL),
+    Entry("W", [1, 2, -3, 0, 0], 1, 0, ALL),
+    Entry("Hz", [0, 0, -1, 0, 0], 1, 0, ALL),
+    Entry("K", [0, 0, 0, 1, 0], 1, 0, SMALL),
+    Entry("t", [1, 0, 0, 0, 0], 1, 3, LARGE),
+    Entry("in", [0, 1, 0, 0, 0], 254, -4, &[]),
+    Entry("ft", [0, 1, 0, 0, 0], 3048, -4, &[]),
+    Entry("lb", [1, 0, 0, 0, 0], 45_359_237, -8, &[]),
+    Entry("lbf", [1, 1, -2, 0, 0], 44_482_216_152_605, -13, &[]),
+    Entry("psi", [1, -1, -2, 0, 0], 44_482_216_152_605, -13, &[]), // divided by in² in `lookup`
+    Entry("ksi", [1, -1, -2, 0, 0], 44_482_216_152_605, -10, &[]),
+    Entry("rpm", [0, 0, -1, 0, 0], 6, 0, &[]), // degrees in `plain`: 360 deg in 60 s
+    Entry("rad", [0, 0, 0, 0, 0], 1, 0, SMALL),
+    Entry("deg", [0, 0, 0, 0, 0], 1, 0, &[]),
+    Entry("B", [0, 0, 0, 0, 1], 1, 0, &["k", "M", "G", "T"]),
+    Entry("MiB", [0, 0, 0, 0, 1], 1 << 20, 0, &[]),
+    Entry("GiB", [0, 0, 0, 0, 1], 1 << 30, 0, &[]),
+    Entry("%", [0, 0, 0, 0, 0], 1, -2, &[]),
 ];
 
 /// Words that people write for a unit, with what they mean.
@@ -182,9 +185,15 @@ impl Unit {
     }
 
     fn dimension(&self) -> Option<Dimension> {
-        let [mass, length, time, temperature] = self.powers;
+        let [mass, length, time, temperature, information] = self.powers;
         let small = |power: i32| i8::try_from(power).ok();
-        Some(Dimension { mass: small(mass)?, length: small(length)?, time: small(time)?, temperature: small(temperature)? })
+        Some(Dimension {
+            mass: small(mass)?,
+            length: small(length)?,
+            time: small(time)?,
+            temperature: small(temperature)?,
+            information: small(information)?,
+        })
     }
 }
 
@@ -373,6 +382,7 @@ pub(super) fn quantity(dimension: Dimension) -> &'static str {
         Dimension::FORCE => "force",
         Dimension::INERTIA_PER_LENGTH => "moment of inertia per length",
         Dimension::TEMPERATURE => "temperature",
+        Dimension::INFORMATION => "amount of memory",
         Dimension::SPECIFIC_HEAT => "specific heat",
         _ => "another dimension",
     }

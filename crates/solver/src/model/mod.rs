@@ -80,6 +80,12 @@ pub struct Run {
     pub energy_limit: f64,
     /// Time step (s) below which the run stops; `None`: a thousandth of the first stable step.
     pub step_limit: Option<f64>,
+    /// Speed of a node (m/s) above which the run stops; `None`: [`crate::step::RUNAWAY`] times the fastest wave and the fastest node at the start together.
+    pub velocity_limit: Option<f64>,
+    /// Depth of a contact (m) at which the run stops; `None`: the longest segment of the surfaces.
+    pub penetration_limit: Option<f64>,
+    /// Memory (bytes) that the model may need; `None`: no limit.
+    pub memory_limit: Option<f64>,
     /// Largest time step (s), and that of a model of rigid parts alone; `None`: what the elements need, also those of rigid parts if there are no others.
     pub time_step: Option<f64>,
     /// Largest number of steps; `None`: no limit.
@@ -141,6 +147,9 @@ impl Default for Run {
             safety: 0.9,
             energy_limit: 0.05,
             step_limit: None,
+            velocity_limit: None,
+            penetration_limit: None,
+            memory_limit: None,
             time_step: None,
             max_steps: None,
             bulk_viscosity: [0.0; 2],

@@ -50,7 +50,7 @@ impl System {
             forces: _, boundary: _, joins: _, level: _, team: _, of_revolution: _, slots: _, sums: _, groups: _, of_bodies: _, initial_penetrations: _,
             mass_added: _, blocks: _, contacts: _, traces: _, positions: _, positions_old: _, velocities: _, velocities_old: _, contact_forces: _,
             springs: _, erosion: _,
-            limits: Limits { end, safety: _, energy: _, step: _, largest: _ },
+            limits: Limits { end, safety: _, energy: _, step: _, largest: _, velocity: _, penetration: _ },
             bodies, curves, step, time, time_step_old, time_step, governor, reports, ledger, penetration_max, speed, travel, relaxation,
         } = self;
         keep_each!(archive; step, time, time_step_old, time_step, governor, penetration_max, speed, travel);

@@ -1,6 +1,7 @@
 //! Prescribed motion, symmetry, walls and gravity through the public face.
 
 use crate::bodies::*;
+use embate_solver::error::Error;
 use embate_solver::model::{Constraint, Curve, CurveShape, Drive, Load, Model, Obstacle, Penalty, Ring, Rotation, Shape, Symmetry};
 
 fn fix(model: &mut Model, on: &str, velocity: [Option<f64>; 2]) {
@@ -316,4 +317,26 @@ fn a_wall_holds_the_nodes_of_bonded_parts_with_one_spring_each() {
         let worst = whole.iter().flatten().zip(cut.iter().flatten()).fold(0.0_f64, |worst, (a, b)| worst.max((a - b).abs()));
         assert!(worst < 1e-12, "{penalty:?}: {worst}");
     }
+}
+
+#[test]
+fn a_body_that_falls_far_faster_than_its_waves_is_told_with_node_and_speed() {
+    // From v0, under gravity g, the first step with v > limit is known: the block is at rest inside.
+    let mut model = model(1e-3);
+    add(&mut model, "block", rectangle([0.0, 0.0], [0.1, 0.1], [2, 2]), [3.0, 0.0]);
+    model.loads.push(Load::Gravity { parts: vec![], acceleration: [0.0, -1e9], curve: None });
+    let fall = |model: &Model| simulation(model).advance(f64::INFINITY, u64::MAX).unwrap_err();
+    let Error::Runaway { place, speed, limit, time, .. } = fall(&model) else { panic!("it runs away") };
+    assert!(place.starts_with("node ") && place.contains("\"block\""), "{place}");
+    let modulus = 1e9 * 0.7 / (1.3 * 0.4); // of the bodies of these tests, 1000 kg/m³
+    let fastest = 20.0 * ((modulus / 1000.0f64).sqrt() + 3.0);
+    assert!((limit / fastest - 1.0).abs() < 1e-2, "{limit:e} of {fastest:e}");
+    let step = simulation(&model).time_step();
+    assert!(speed > limit && speed < limit + 1.01e9 * step, "{speed:e}");
+    assert!((1e9 * time - speed).abs() < 2.0 * 1e9 * step, "{time:e}");
+    // A limit of its own.
+    model.run.velocity_limit = Some(1e3);
+    assert!(matches!(fall(&model), Error::Runaway { limit: 1e3, .. }));
+    model.run.velocity_limit = Some(1e12);
+    assert!(simulation(&model).advance(f64::INFINITY, u64::MAX).is_ok());
 }

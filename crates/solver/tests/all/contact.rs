@@ -3,7 +3,8 @@
 
 use crate::bodies::*;
 use embate_solver::contact::search::registry;
-use embate_solver::model::{Disk, Formulation, InitialPenetration, Model, Obstacle, Penalty, Rectangle, Shape, Symmetry};
+use embate_solver::error::Error;
+use embate_solver::model::{ContactLaw, Disk, Formulation, InitialPenetration, Model, Obstacle, Penalty, Rectangle, Shape, Symmetry};
 use embate_solver::simulation::{Options, Simulation};
 
 /// Two blocks that meet obliquely, corner against side.
@@ -364,4 +365,27 @@ fn a_projectile_that_moves_several_plate_thicknesses_in_a_step_does_not_pass() {
         let foil = positions[..82].iter().map(|x| x[1]).fold(f64::NEG_INFINITY, f64::max);
         assert!(positions[82..].iter().all(|x| x[1] > foil + 0.01), "{height}: it is back above the foil");
     }
+}
+
+#[test]
+fn a_contact_that_gives_way_is_told_with_its_deepest_node() {
+    // A block meets a wall with next to no penalty: it goes on with its velocity, so the depth after t is v (t − t0).
+    let mut model = model(2e-3);
+    add(&mut model, "block", rectangle([0.0, 0.0], [0.01, 0.01], [2, 2]), [10.0, 0.0]);
+    add(&mut model, "wall", rectangle([0.011, -0.01], [0.02, 0.03], [4, 6]), [0.0, 0.0]);
+    touch(&mut model, "block", "wall");
+    model.contacts[0].interface.law = ContactLaw::Penalty(Penalty::PerNode(1.0));
+    let fail = |model: &Model| simulation(model).advance(f64::INFINITY, u64::MAX).unwrap_err();
+    for given in [None, Some(0.002)] {
+        model.run.penetration_limit = given;
+        let Error::TooDeep { contact, place, depth, limit, time, .. } = fail(&model) else { panic!("it is too deep") };
+        assert!(contact.starts_with("contact ") && place.starts_with("node "), "{contact}: {place}");
+        // The wall has the longest segment that looks outside.
+        assert!((limit - given.unwrap_or(0.005)).abs() < 1e-15, "{limit:e}");
+        let step = simulation(&model).time_step();
+        assert!(depth > limit && depth < limit + 10.0 * step * 1.01, "{depth:e}");
+        assert!((10.0f64 * time - 0.001 - depth).abs() < 1e-6, "{time:e}");
+    }
+    model.run.penetration_limit = Some(1.0);
+    assert!(simulation(&model).advance(f64::INFINITY, u64::MAX).is_ok());
 }

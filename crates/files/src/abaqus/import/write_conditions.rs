@@ -11,7 +11,7 @@ use embate_solver::quantity::Dimension;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
-const FORCE: Dimension = Dimension { mass: 1, length: 1, time: -2, temperature: 0 };
+const FORCE: Dimension = Dimension::FORCE;
 
 impl Importer<'_> {
     /// The name of the curve that is an amplitude times a factor; `None` (and a note) if there is no such amplitude.

@@ -135,6 +135,10 @@ impl Check<'_> {
                 self.fault(&PERIOD, "run.step_limit", "the step limit is not smaller than the end time, so no step could be taken", "");
             }
         }
+        let limits = [("velocity", run.velocity_limit), ("penetration", run.penetration_limit), ("memory", run.memory_limit)];
+        for (name, limit) in limits {
+            limit.into_iter().for_each(|limit| self.number(&format!("run.{name}_limit"), limit));
+        }
         if let Some(largest) = run.time_step {
             self.number("run.time_step", largest);
         }

@@ -4,6 +4,7 @@ use super::Check;
 use super::warnings::parameters;
 use crate::block::stress_state::{PlaneStress, STRESS_STATES, StressState};
 use crate::element;
+use crate::error::{Fault, MEMORY};
 use crate::material;
 use crate::material::messages::{INITIAL_STATE, SOFTENS_TOO_STEEPLY};
 use crate::mesh::messages::{BARS, GROUP, NO_ELEMENT, SAME_PLACE, SHAPE, TOO_MANY};
@@ -45,6 +46,9 @@ impl Check<'_> {
                 );
             }
             total = total.saturating_add(count);
+        }
+        if let Some(limit) = model.run.memory_limit {
+            self.faults.extend(model.memory_fault(limit, "`run.memory_limit`"));
         }
     }
 
@@ -305,6 +309,28 @@ fn element_count(model: &Model, part: &Part) -> u128 {
             found.map_or(0, |it| it.cells.len() as u128)
         }
         _ => 0,
+    }
+}
+
+/// Memory that an element takes with its share of nodes, results and pictures, bytes: about, as measured (`docs/performance.md`, peak of a run of `quad4` and `j2`).
+const BYTES_PER_ELEMENT: f64 = 600.0;
+
+impl Model {
+    /// The fault of a model that needs more memory than `limit`, bytes, which is what `whose` says: so many elements, 600 bytes each.
+    #[must_use]
+    pub fn memory_fault(&self, limit: f64, whose: &str) -> Option<Fault> {
+        let counts = || self.parts.iter().map(|part| element_count(self, part) as f64);
+        let needed = BYTES_PER_ELEMENT * counts().sum::<f64>();
+        if needed <= limit {
+            return None;
+        }
+        let (index, largest) = counts().enumerate().max_by(|(_, a), (_, b)| a.total_cmp(b))?;
+        let message = format!(
+            "the model needs about {needed:.3e} bytes, {BYTES_PER_ELEMENT} for each element, {:.1} % of them in this part; {whose} is {limit:.3e} bytes",
+            100.0 * BYTES_PER_ELEMENT * largest / needed
+        );
+        let path = format!("part[{index}].{}", size_key(&self.parts[index].shape));
+        Some(Fault::new(&MEMORY, path, message, "take larger elements, or raise `run.memory_limit`"))
     }
 }
 

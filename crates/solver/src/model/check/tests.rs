@@ -84,11 +84,14 @@ fn a_number_that_is_not_finite_is_found_wherever_it_is() {
         };
         [&mut centre[1], inner, outer, from, to].into_iter().nth(which).expect("five numbers")
     }
-    let places: [(&str, Place); 31] = [
+    let places: [(&str, Place); 34] = [
         ("run.end", |m| &mut m.run.end),
         ("run.safety", |m| &mut m.run.safety),
         ("run.energy_limit", |m| &mut m.run.energy_limit),
         ("run.step_limit", |m| m.run.step_limit.insert(0.0)),
+        ("run.velocity_limit", |m| m.run.velocity_limit.insert(0.0)),
+        ("run.penetration_limit", |m| m.run.penetration_limit.insert(0.0)),
+        ("run.memory_limit", |m| m.run.memory_limit.insert(0.0)),
         ("run.time_step", |m| m.run.time_step.insert(0.0)),
         ("material.steel.young", |m| m.materials.get_mut("steel").and_then(|it| it.parameters.get_mut("young")).expect("young")),
         ("part[0].velocity[1]", |m| &mut m.parts[0].velocity[1]),

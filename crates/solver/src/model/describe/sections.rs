@@ -70,6 +70,24 @@ static RUN: Section = Section {
             "Time step below which the run stops.",
         ),
         key(
+            "velocity_limit",
+            Quantity(Dimension::VELOCITY, Positive),
+            Optional("twenty times the fastest wave and the fastest node at the start together"),
+            "Speed of a node above which the run stops: faster than waves, no body moves in a sound model.",
+        ),
+        key(
+            "penetration_limit",
+            Quantity(Dimension::LENGTH, Positive),
+            Optional("the longest segment of the surfaces"),
+            "Depth of a contact at which the run stops.",
+        ),
+        key(
+            "memory_limit",
+            Quantity(Dimension::INFORMATION, Positive),
+            Optional("what the machine has to spare, where it tells"),
+            "Memory that the model may need, such as `8 GB`: one that needs more is refused before it is meshed.",
+        ),
+        key(
             "time_step",
             Quantity(Dimension::TIME, Positive),
             Optional("what the elements need"),

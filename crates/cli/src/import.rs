@@ -4,6 +4,7 @@ use crate::complaint::Complaint;
 use crate::messages::{IGNORED, SOURCE_IN_THE_WAY};
 use crate::{Failure, terminal};
 use clap::Args;
+use embate_files::Reach;
 use embate_files::abaqus::import::{self, Imported, MESH_NAME, Units};
 use embate_files::results::messages::{EXISTS, REFUSED};
 use embate_files::{model_file, results};
@@ -26,6 +27,9 @@ pub(crate) struct Arguments {
     /// Replace files that are there
     #[arg(long)]
     force: bool,
+    /// Read files that the deck includes also where they lie outside of its folder
+    #[arg(long)]
+    allow_outside: bool,
 }
 
 pub(crate) fn import(arguments: &Arguments) -> Result<(), Failure> {
@@ -33,7 +37,8 @@ pub(crate) fn import(arguments: &Arguments) -> Result<(), Failure> {
         Some(text) => Units::parse(text).map_err(|fault| Failure::Input(Complaint::from([fault].as_slice())))?,
         None => Units::default(),
     };
-    let imported = import::import(&arguments.deck, &units).map_err(|faults| Failure::Input(Complaint::from(faults.as_slice())))?;
+    let reach = if arguments.allow_outside { Reach::Anywhere } else { Reach::Folder };
+    let imported = import::import(&arguments.deck, &units, reach).map_err(|faults| Failure::Input(Complaint::from(faults.as_slice())))?;
     let report = imported.report.text();
     write(arguments, &imported, &report)?;
     terminal::print(&report)?;

@@ -3,6 +3,7 @@
 use crate::complaint::Complaint;
 use crate::{Failure, machine, terminal};
 use clap::Args;
+use embate_files::Reach;
 use embate_files::checkpoint::Origin;
 use embate_files::model_file::{self, Loaded};
 use embate_solver::error::Error;
@@ -19,6 +20,22 @@ pub(crate) struct ModelArguments {
     /// Override a key of the model file, for example `run.end="5 ms"`; may be repeated
     #[arg(long, value_name = "KEY=VALUE", value_parser = key_and_value)]
     pub(crate) set: Vec<String>,
+    #[command(flatten)]
+    pub(crate) leave: Leave,
+}
+
+/// Whether files may lie outside of the folder of what names them.
+#[derive(Args, Clone, Copy, Default)]
+pub(crate) struct Leave {
+    /// Read files that the model names also where they lie outside of its folder
+    #[arg(long)]
+    allow_outside: bool,
+}
+
+impl Leave {
+    pub(crate) fn reach(self) -> Reach {
+        if self.allow_outside { Reach::Anywhere } else { Reach::Folder }
+    }
 }
 
 pub(crate) fn key_and_value(text: &str) -> Result<String, String> {
@@ -30,7 +47,8 @@ pub(crate) fn key_and_value(text: &str) -> Result<String, String> {
 
 /// Reads a model; all faults of the file become one message.
 pub(crate) fn load(arguments: &ModelArguments) -> Result<Loaded, Failure> {
-    model_file::load_with_places(&arguments.model, &arguments.set).map_err(|diagnostics| Failure::Input(Complaint::from(&diagnostics)))
+    model_file::load_with_places(&arguments.model, &arguments.set, arguments.leave.reach())
+        .map_err(|diagnostics| Failure::Input(Complaint::from(&diagnostics)))
 }
 
 /// Where a model came from, to find it again.

@@ -67,7 +67,9 @@ pub(crate) static NOT_AGAIN: Message = Message {
 pub(crate) static SOURCE_IN_THE_WAY: Message = Message {
     code: "E0913",
     title: "an import that would write over its deck",
-    example: Example::Words("A deck called mesh.inp is imported into its own folder."),
+    example: Example::Shell(
+        "mkdir decks\ncat > decks/mesh.inp <<END\n*NODE\n1, 0, 0\n2, 0.01, 0\n3, 0.01, 0.01\n4, 0, 0.01\n*ELEMENT, TYPE=CPE4, ELSET=body\n1, 1, 2, 3, 4\n*SOLID SECTION, ELSET=body, MATERIAL=steel\n*MATERIAL, NAME=steel\n*DENSITY\n7800\n*ELASTIC\n200e9, 0.3\n*STEP\n*DYNAMIC, EXPLICIT\n, 1e-4\n*END STEP\nEND\nembate import decks/mesh.inp --out decks\n",
+    ),
     cause: "The mesh of the model is written as mesh.inp into the folder of the model.",
     cure: "Choose another folder with --out.",
 };
@@ -75,7 +77,7 @@ pub(crate) static SOURCE_IN_THE_WAY: Message = Message {
 pub(crate) static RUNS_FAILED: Message = Message {
     code: "E0906",
     title: "runs of a sweep failed",
-    example: Example::Words("One of the values of a sweep makes a contact so stiff that the run ends by its energy drift."),
+    example: Example::Shell("embate sweep model.toml --vary run.step_limit=1ns,1us --out swept --quiet\n"),
     cause: "The rows of the table say for each run why it failed; the message has the first.",
     cure: "Run the model with those values alone (embate run --set KEY=VALUE) and look at its last state.",
 };
@@ -91,7 +93,9 @@ pub(crate) static NO_CASE: Message = Message {
 pub(crate) static CHECKS_FAILED: Message = Message {
     code: "E0924",
     title: "checks of verification fail",
-    example: Example::Words("A model of a case is changed, and its answer is no longer the known one."),
+    example: Example::Shell(
+        "mkdir -p cases/hit\ncp model.toml cases/hit/model.toml\ncat > cases/hit/expected.toml <<END\ntitle = \"a block hits a wall\"\ntier = \"every\"\n\n[[check]]\nname = \"kinetic energy at the start, J/m\"\nquantity = { history = \"energy.kinetic\", at = \"0 s\" }\nexpect = 38\ntolerance = 1e-9\nreason = \"half of 0.78 kg/m times the square of 10 m/s\"\nEND\nembate verify --in cases --quiet\n",
+    ),
     cause: "A number of a run is farther from the known one than its tolerance.",
     cure: "The lines above say by how much; --out keeps the runs to look at.",
 };
@@ -99,7 +103,9 @@ pub(crate) static CHECKS_FAILED: Message = Message {
 pub(crate) static IGNORED: Message = Message {
     code: "W0910",
     title: "an imported model that is not the whole deck",
-    example: Example::Words("A deck has a keyword that the model can do without, such as an output request of a kind that is not there."),
+    example: Example::Deck(
+        "*NODE\n1, 0, 0\n2, 0.01, 0\n3, 0.01, 0.01\n4, 0, 0.01\n*ELEMENT, TYPE=CPE4, ELSET=body\n1, 1, 2, 3, 4\n*SOLID SECTION, ELSET=body, MATERIAL=steel\n*MATERIAL, NAME=steel\n*DENSITY\n7800\n*ELASTIC\n200e9, 0.3\n*EXPANSION\n1.2e-5\n*STEP\n*DYNAMIC, EXPLICIT\n, 1e-4\n*END STEP\n",
+    ),
     cause: "Something of the deck does not act in the model; import.txt says what.",
     cure: "Read import.txt, and add to the model what is missing.",
 };

@@ -50,7 +50,7 @@ pub(crate) fn replay(arguments: &Arguments) -> Result<(), Failure> {
         ResultFolder::refuse_existing(&path).map_err(in_the_way)?;
     }
     let options = arguments.manner.options();
-    let (origin, past) = nearest(&arguments.folder, from, &options)?;
+    let (origin, past) = nearest(&arguments.folder, from, &options, &arguments.place)?;
     let (mut loaded, _) = arguments.place.load(&origin, &[])?;
     // A run that ended by its number of steps may be looked at beyond them.
     loaded.model.run.max_steps = None;
@@ -76,7 +76,7 @@ pub(crate) fn replay(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// Where the model of a run came from, and its newest checkpoint that is not after a time; without one the run begins anew.
-fn nearest(path: &Path, time: f64, options: &Options) -> Result<(Origin, Option<Checkpoint>), Failure> {
+fn nearest(path: &Path, time: f64, options: &Options, place: &Place) -> Result<(Origin, Option<Checkpoint>), Failure> {
     let threads = Threads::new(options.thread_count());
     let mut origin = None;
     let mut limit = u64::MAX;
@@ -91,7 +91,7 @@ fn nearest(path: &Path, time: f64, options: &Options) -> Result<(Origin, Option<
     match origin {
         Some(checkpoint) => {
             let origin = checkpoint.origin.clone();
-            let (loaded, _) = Place::default().load(&origin, &[])?;
+            let (loaded, _) = place.load(&origin, &[])?;
             refuse_changes(
                 &Identity::of(&loaded.model).differences_in_steps(&checkpoint.identity),
                 "limits, checkpoints and output may change",

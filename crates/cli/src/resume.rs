@@ -1,7 +1,7 @@
 //! `embate resume`: a run that was stopped goes on from its newest checkpoint, as if it had never been stopped.
 
 use crate::complaint::Complaint;
-use crate::input::{self, ModelArguments, key_and_value};
+use crate::input::{self, Leave, ModelArguments, key_and_value};
 use crate::messages::USAGE;
 use crate::recording::{self, Manner, Recording};
 use crate::{Failure, terminal};
@@ -36,18 +36,20 @@ pub(crate) struct Arguments {
     verbose: bool,
 }
 
-/// Where the model is now.
-#[derive(Args, Default)]
+/// Where the model is now. Leave to read outside of its folder is asked for again: a checkpoint may come from somebody else.
+#[derive(Args)]
 pub(crate) struct Place {
     /// Model file or folder, if it is not where it was when the run began
     #[arg(long, value_name = "PATH")]
     model: Option<PathBuf>,
+    #[command(flatten)]
+    leave: Leave,
 }
 
 impl Place {
     /// A given place, or that of the run.
-    pub(crate) fn at(model: Option<PathBuf>) -> Self {
-        Self { model }
+    pub(crate) fn at(model: Option<PathBuf>, leave: Leave) -> Self {
+        Self { model, leave }
     }
 
     /// The model that began the run, with these further keys.
@@ -55,7 +57,7 @@ impl Place {
         let path =
             self.model.as_ref().map_or_else(|| origin.path.clone(), |path| std::path::absolute(path).unwrap_or_else(|_| path.clone()));
         let origin = Origin { path, set: origin.set.iter().chain(set).cloned().collect() };
-        let loaded = input::load(&ModelArguments { model: origin.path.clone(), set: origin.set.clone() })?;
+        let loaded = input::load(&ModelArguments { model: origin.path.clone(), set: origin.set.clone(), leave: self.leave })?;
         Ok((loaded, origin))
     }
 }

@@ -62,7 +62,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 fn load(arguments: &Arguments) -> Result<Loaded, Failure> {
     input::load(&arguments.model).map_err(|failure| {
         let Failure::Input(complaint) = failure else { return failure };
-        let Some(loaded) = model_file::load_despite(&MEMORY, &arguments.model.model, &arguments.model.set) else {
+        let Some(loaded) = model_file::load_despite(&MEMORY, &arguments.model.model, &arguments.model.set, arguments.model.leave.reach())
+        else {
             return Failure::Input(complaint);
         };
         with_page(complaint, arguments, &loaded, &loaded.model.check())

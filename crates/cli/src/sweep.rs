@@ -66,13 +66,14 @@ pub(crate) fn sweep(arguments: &Arguments) -> Result<(), Failure> {
         0 => machine::processors(),
         jobs => jobs.into(),
     };
-    let ModelArguments { model, set } = &arguments.model;
+    let ModelArguments { model, set, leave } = &arguments.model;
     let request = match &arguments.table {
         Some(file) => Request::Table(file),
         None if arguments.zip => Request::Zip(&arguments.vary),
         None => Request::Factorial(&arguments.vary),
     };
-    let prepared = Sweep::prepare(model, set, request, &arguments.output, arguments.simd.clone(), jobs, &is_stopped).map_err(told)?;
+    let prepared =
+        Sweep::prepare(model, leave.reach(), set, request, &arguments.output, arguments.simd.clone(), jobs, &is_stopped).map_err(told)?;
     let Some(sweep) = prepared else { return Err(Failure::Interrupted) };
     let folder = arguments.out.clone().unwrap_or_else(|| {
         let mut name = input::default_folder(sweep.first()).into_os_string();

@@ -3,6 +3,7 @@
 //! Cases come from `embate-files`; here are the choice of cases, the table and the exit code: 1 when a check fails.
 
 use crate::complaint::Complaint;
+use crate::input::Leave;
 use crate::interrupt::Interrupt;
 use crate::messages::{CHECKS_FAILED, NO_CASE};
 use crate::numbers::{per_cent, significant, table, with_unit};
@@ -43,6 +44,8 @@ pub(crate) struct Arguments {
     /// No progress
     #[arg(long, short)]
     quiet: bool,
+    #[command(flatten)]
+    leave: Leave,
 }
 
 pub(crate) fn verify(arguments: &Arguments) -> Result<(), Failure> {
@@ -103,7 +106,8 @@ fn chosen(arguments: &Arguments) -> Result<Vec<Case>, Failure> {
     }
     let mut cases = Vec::new();
     for name in names.iter().filter(|name| arguments.cases.is_empty() || arguments.cases.contains(name)) {
-        let case = verification::load(&arguments.folder.join(name)).map_err(|diagnostics| Failure::Input(Complaint::from(&diagnostics)))?;
+        let case = verification::load(&arguments.folder.join(name), arguments.leave.reach())
+            .map_err(|diagnostics| Failure::Input(Complaint::from(&diagnostics)))?;
         if !arguments.cases.is_empty() || arguments.all || arguments.list || case.tier == Tier::Every {
             cases.push(case);
         }

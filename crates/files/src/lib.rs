@@ -9,8 +9,11 @@ pub mod model_file;
 mod outline;
 pub mod picture;
 pub mod post_mortem;
+mod reach;
 pub mod results;
 pub mod sweep;
 pub mod threads;
 pub mod verification;
 pub mod vtu;
+
+pub use reach::Reach;

@@ -30,8 +30,8 @@ pub fn markdown(all: &[&Message]) -> String {
         "# Messages\n\n\
          Every error and warning has a code that stays the same from version to version. `embate explain CODE` prints an entry of this page, `embate explain` lists all codes.\n\
          A message says what is wrong, where, and what to do about this case; the entry says how such a thing comes about. Of each code at most {SHOWN} messages are shown, the rest is counted.\n\n\
-         This page is made from the catalogue in the program (`EMBATE_BLESS=1 cargo test -p embate --test all messages`). Examples in TOML are run by tests. They are lines that take the\n\
-         place of those of this sound model, unless the entry says that they are a whole file:\n\n\
+         This page is made from the catalogue in the program (`EMBATE_BLESS=1 cargo test -p embate --test all messages`). Examples are run by tests, all but those in words. Those in TOML are lines that take the\n\
+         place of those of this sound model, unless the entry says that they are a whole file; commands find it as `model.toml`:\n\n\
          ```toml\n{BASE}```\n"
     );
     for (digits, area) in AREAS {
@@ -61,6 +61,7 @@ pub fn entry(message: &Message) -> String {
         Example::Gmsh(text) => fenced("For example, a mesh file:", "text", text),
         Example::Deck(text) => fenced("For example, a deck:", "text", text),
         Example::Command(text) => fenced("For example:", "text", &format!("embate {text}\n")),
+        Example::Shell(text) => fenced("For example, in a shell:", "sh", text),
         Example::Words(text) => format!("For example: {text}\n"),
     };
     format!("**{}.**\n{}\n\n{example}\nWhat to do: {}", upper(message.title), message.cause, message.cure)

@@ -132,7 +132,9 @@ pub(crate) static MASS_ADDED: Message = Message {
 pub(crate) static ERODED: Message = Message {
     code: "W0602",
     title: "elements were eroded",
-    example: Example::Words("A part with `failure` is strained until its first element fails."),
+    example: Example::Model(
+        "[run]\nend = \"20 us\"\n\n[material.steel]\nlaw = \"j2\"\nyield = \"100 MPa\"\nhardening = \"1 GPa\"\nfailure = { plastic_strain = 0.01 }\n\n[[part]]\nname = \"block\"\nmaterial = \"steel\"\nvelocity = [\"200 m/s\", 0]\nrectangle = { corner = [0, 0], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }\n\n[[part]]\nname = \"wall\"\nmaterial = \"steel\"\nrectangle = { corner = [\"10.01 mm\", \"-5 mm\"], size = [\"10 mm\", \"20 mm\"], elements = [2, 4] }\n",
+    ),
     cause: "Elements reached the limit of a criterion and were taken out; the message names the first.",
     cure: "Nothing, where that is what is computed; else look at the place and time of the first.",
 };

@@ -34,6 +34,8 @@ pub enum Example {
     Deck(&'static str),
     /// Arguments of the program; `model.toml` is [`BASE`].
     Command(&'static str),
+    /// Lines of a shell, with [`BASE`] as `model.toml`; the last calls the program.
+    Shell(&'static str),
     /// When it comes, where no short input provokes it.
     Words(&'static str),
 }

@@ -64,8 +64,8 @@ static BEYOND_TABLE: Message = Message {
 static SHORT_STEP: Message = Message {
     code: "W0615",
     title: "a step that fell to a tenth",
-    example: Example::Words(
-        "An element of a body that is torn becomes a needle, and the run takes ten times as long as was expected (examples/taylor-bar with its coarse mesh).",
+    example: Example::Model(
+        "[run]\nend = \"99.6 us\"\n\n[[part]]\nname = \"block\"\nmaterial = \"steel\"\nrectangle = { corner = [0, 0], size = [\"10 mm\", \"10 mm\"], elements = [1, 2] }\n\n[[constraint]]\non = \"block\"\nfixed = \"x\"\n\n[[constraint]]\non = \"block.bottom\"\nfixed = \"y\"\n\n[[constraint]]\non = \"block.top\"\nvelocity = { y = \"-100 m/s\" }\n\n[[contact]]\nname = \"self\"\nbodies = \"all\"\n",
     ),
     cause: "The step goes with the smallest element over the speed of sound in it: one was squeezed, or a material became stiff.",
     cure: "Look at the element that the message names; let it fail (`failure = { time_step = ... }`), or refine less there.",

@@ -6,6 +6,7 @@
 mod words;
 
 use crate::complaint::Complaint;
+use crate::input::Leave;
 use crate::messages::{NO_RESULTS, NOT_AGAIN, NOTHING_IN_COMMON};
 use crate::progress::Display;
 use crate::resume::Place;
@@ -41,6 +42,8 @@ pub(crate) struct Arguments {
     /// Go over runs without logs (`hashes.csv`) from the start
     #[arg(long, conflicts_with = "logs")]
     whole: bool,
+    #[command(flatten)]
+    leave: Leave,
     /// No progress
     #[arg(long, short)]
     quiet: bool,
@@ -121,10 +124,10 @@ fn unknown(a: &Path, b: &Path) -> Failure {
 
 /// Goes over a stretch of both once more, and tells where they part in it.
 fn again(arguments: &Arguments, runs: &[RunLeft; 2], [from, to]: [u64; 2]) -> Result<(), Unable> {
-    let places = [&arguments.model_a, &arguments.model_b];
+    let places = [&arguments.model_a, &arguments.model_b].map(|model| Place::at(model.clone(), arguments.leave));
     let mut sides = Vec::new();
     for k in 0..2 {
-        let model = model(&runs[k], places[k].as_ref(), k)?;
+        let model = model(&runs[k], &places[k], k)?;
         let (options, told) = options(&runs[k]);
         told.into_iter().try_for_each(|line| terminal::print(&format!("{}: {line}\n", NAMES[k])))?;
         sides.push(Again::new(&model, &options, &runs[k].folder, from).map_err(|error| Complaint::from(&error))?);
@@ -165,13 +168,13 @@ fn again(arguments: &Arguments, runs: &[RunLeft; 2], [from, to]: [u64; 2]) -> Re
 }
 
 /// The model of a run, if it is the one that ran.
-fn model(run: &RunLeft, place: Option<&PathBuf>, k: usize) -> Result<Model, Complaint> {
+fn model(run: &RunLeft, place: &Place, k: usize) -> Result<Model, Complaint> {
     let not_again = |text: String| Complaint::new(&NOT_AGAIN, format!("{text}; what is told above is known from the logs"));
     let cure = format!("name the one that ran with --model-{} PATH", NAMES[k].to_lowercase());
     let Some((origin, identity)) = &run.model else {
         return Err(not_again(format!("run {} does not tell its model", NAMES[k])).help("run it again: it leaves run.json, which does"));
     };
-    let loaded = Place::at(place.cloned()).load(origin, &[]);
+    let loaded = place.load(origin, &[]);
     let (loaded, _) = loaded.map_err(|failure| {
         let complaint = not_again(format!("the model of run {} can't be read", NAMES[k])).help(&cure);
         match failure {

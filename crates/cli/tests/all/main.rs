@@ -8,10 +8,12 @@ mod diff;
 mod estimates;
 mod examples;
 mod messages;
+mod outside;
 mod post_mortem;
 mod restart;
 mod sweep;
 mod verification;
+mod unsafe_code;
 mod warnings;
 mod whole_runs;
 

@@ -14,6 +14,7 @@ mod sets;
 mod text;
 
 use crate::gmsh::messages::MESH_FILE;
+use crate::reach::{Bounds, Reach};
 use deck::Deck;
 use embate_solver::error::Fault;
 use embate_solver::model::ImportedMesh;
@@ -25,11 +26,16 @@ use text::Text;
 /// # Errors
 /// The file can't be read, or what [`parse`] finds.
 pub fn read(path: &Path, scale: f64) -> Result<ImportedMesh, Vec<Fault>> {
-    let text = Text::read(path, &path.display().to_string()).map_err(|fault| vec![fault])?;
+    read_within(path, scale, &Bounds::of(path.parent().unwrap_or(Path::new("")), "deck's", Reach::Folder))
+}
+
+/// [`read`] with the folder that included files must lie in.
+pub(crate) fn read_within(path: &Path, scale: f64, bounds: &Bounds) -> Result<ImportedMesh, Vec<Fault>> {
+    let text = Text::read(path, &path.display().to_string(), bounds).map_err(|fault| vec![fault])?;
     mesh(&text, scale)
 }
 
-/// Makes a plane mesh from the bytes of a deck (.inp); what it includes is looked for in `folder`.
+/// Makes a plane mesh from the bytes of a deck (.inp); what it includes is looked for in `folder` and nowhere else.
 ///
 /// - Positions are x and y times `scale` (m per unit of the file), with instances in place; z is 0 within 1e-9 of the mesh's size.
 /// - Groups: element sets (two-dimensional, elements in the order of the set), surfaces of element edges (lines), surfaces of nodes and node
@@ -45,7 +51,7 @@ pub fn read(path: &Path, scale: f64) -> Result<ImportedMesh, Vec<Fault>> {
 /// The first fault of the text with its line: what is no keyword, number or name, a missing node, a number twice, elements of second order,
 /// of three dimensions or of unknown type, keywords that generate nodes or elements; or all nodes that are off the plane.
 pub fn parse(bytes: &[u8], source: &str, folder: &Path, scale: f64) -> Result<ImportedMesh, Vec<Fault>> {
-    let text = Text::parse(bytes, source, folder).map_err(|fault| vec![fault])?;
+    let text = Text::parse(bytes, source, folder, &Bounds::of(folder, "deck's", Reach::Folder)).map_err(|fault| vec![fault])?;
     mesh(&text, scale)
 }
 

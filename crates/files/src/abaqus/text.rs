@@ -4,6 +4,7 @@
 //! keep their spelling, because names are compared without case but shown as written.
 
 use crate::abaqus::messages::{DECK, SYNTAX};
+use crate::reach::Bounds;
 use embate_solver::error::Fault;
 use embate_solver::message::Message;
 use std::path::{Path, PathBuf};
@@ -76,21 +77,21 @@ pub(super) struct Text {
 
 impl Text {
     /// Reads a file and what it includes.
-    pub(super) fn read(path: &Path, shown: &str) -> Result<Self, Fault> {
-        let bytes = std::fs::read(path).map_err(|error| {
+    pub(super) fn read(path: &Path, shown: &str, bounds: &Bounds) -> Result<Self, Fault> {
+        let bytes = read(path).map_err(|error| {
             Fault::new(&DECK, shown, format!("the file can't be read: {error}"), "check its path, which starts at the model file's folder")
         })?;
-        Self::parse(&bytes, shown, path.parent().unwrap_or(Path::new("")))
+        Self::parse(&bytes, shown, path.parent().unwrap_or(Path::new("")), bounds)
     }
 
     /// Cuts the bytes of a file; what it includes is looked for in `folder`.
-    pub(super) fn parse(bytes: &[u8], shown: &str, folder: &Path) -> Result<Self, Fault> {
+    pub(super) fn parse(bytes: &[u8], shown: &str, folder: &Path, bounds: &Bounds) -> Result<Self, Fault> {
         let mut text = Self::default();
-        text.add(bytes, shown.to_string(), folder, 0)?;
+        text.add(bytes, shown.to_string(), (folder, bounds), 0)?;
         Ok(text)
     }
 
-    fn add(&mut self, bytes: &[u8], name: String, folder: &Path, depth: usize) -> Result<(), Fault> {
+    fn add(&mut self, bytes: &[u8], name: String, place: (&Path, &Bounds), depth: usize) -> Result<(), Fault> {
         if bytes.starts_with(b"HDF") || bytes.iter().take(4096).any(|b| *b == 0) {
             return Err(Fault::new(&DECK, name, "this is not a text", "an input deck (.inp) is a text of keywords that begin with a star"));
         }
@@ -132,7 +133,7 @@ impl Text {
             let block = self.keyword(&whole, line)?;
             if block.keyword == "INCLUDE" {
                 self.lines.truncate(first);
-                self.include(&block, folder, depth)?;
+                self.include(&block, place, depth)?;
             } else {
                 self.blocks.push(block);
             }
@@ -163,7 +164,7 @@ impl Text {
         Ok(Block { keyword, parameters, line, data: Vec::new() })
     }
 
-    fn include(&mut self, block: &Block, folder: &Path, depth: usize) -> Result<(), Fault> {
+    fn include(&mut self, block: &Block, (folder, bounds): (&Path, &Bounds), depth: usize) -> Result<(), Fault> {
         let Some(file) = block.parameter("INPUT").filter(|file| !file.is_empty()) else {
             return Err(self.fault(&SYNTAX, block.line, "*INCLUDE names no file", "write *INCLUDE, INPUT=file.inp"));
         };
@@ -172,12 +173,13 @@ impl Text {
             return Err(self.fault(&DECK, block.line, message, "look whether a file includes itself"));
         }
         let path: PathBuf = folder.join(file);
-        let bytes = std::fs::read(&path).map_err(|error| {
+        bounds.hold(&path, &shown(file)).map_err(|(kind, message, help)| self.fault(kind, block.line, message, help))?;
+        let bytes = read(&path).map_err(|error| {
             let message = format!("the file {} can't be read: {error}", shown(file));
             self.fault(&DECK, block.line, message, "paths begin at the folder of the file that includes")
         })?;
         let inner = path.parent().unwrap_or(folder).to_path_buf();
-        self.add(&bytes, file.to_string(), &inner, depth + 1)
+        self.add(&bytes, file.to_string(), (&inner, bounds), depth + 1)
     }
 
     /// The text of a line.
@@ -236,6 +238,11 @@ impl Text {
     pub(super) fn shown_name(&self) -> &str {
         self.sources.first().map_or("", |source| &source.name)
     }
+}
+
+/// The bytes of a file; what is none, a pipe for one, would be waited for.
+fn read(path: &Path) -> std::io::Result<Vec<u8>> {
+    if std::fs::metadata(path)?.is_file() { std::fs::read(path) } else { Err(std::io::Error::other("it is no file")) }
 }
 
 /// Cuts at commas that are not in quotes; the pieces are trimmed.

@@ -8,7 +8,9 @@ pub(crate) static MESSAGES: &[&Message] =
 pub(super) static DAMAGED: Message = Message {
     code: "E0711",
     title: "a damaged checkpoint",
-    example: Example::Words("A byte of `checkpoint/NUMBER.embate` has flipped, or the file was cut off, and there is no older one."),
+    example: Example::Shell(
+        "embate run model.toml --out out --quiet --set run.checkpoint_steps=4 --set run.max_steps=9\ntruncate -s 1000 out/checkpoint/*.embate\nembate resume out\n",
+    ),
     cause: "A check sum of the file is not that of its bytes: the disk, a copy or another program changed it.",
     cure: "Put the file back from a copy, or run the model again.",
 };
@@ -16,7 +18,9 @@ pub(super) static DAMAGED: Message = Message {
 pub(super) static VERSION: Message = Message {
     code: "E0712",
     title: "a checkpoint of another version",
-    example: Example::Words("A run is stopped, embate is updated, and the run shall go on."),
+    example: Example::Shell(
+        "mkdir -p out/checkpoint\nprintf 'embate\\r\\n\\001\\000\\000\\000\\023\\000\\000\\000{\"version\":\"0.0.9\"}\\273\\112\\134\\321' > out/checkpoint/000000000008.embate\nembate resume out\n",
+    ),
     cause: "What a state holds changes from version to version, and a run that goes on must give the same bits.",
     cure: "Go on with the version that the message names, or run the model again.",
 };
@@ -25,7 +29,9 @@ pub(super) static VERSION: Message = Message {
 pub(crate) static RESULTS_CHANGED: Message = Message {
     code: "E0713",
     title: "results that are not as the checkpoint knows them",
-    example: Example::Words("Rows of `history.csv` were deleted between a run and `embate resume`."),
+    example: Example::Shell(
+        "embate run model.toml --out out --quiet --set run.checkpoint_steps=4 --set run.max_steps=9\nsed -i 2d out/history.csv\nembate resume out\n",
+    ),
     cause: "A run that goes on appends to its files, so that they become those of a run that was never stopped; that can't be where they have changed.",
     cure: "Put the file back as it was, or run the model again.",
 };
@@ -34,7 +40,9 @@ pub(crate) static RESULTS_CHANGED: Message = Message {
 pub(crate) static IN_USE: Message = Message {
     code: "E0714",
     title: "results that another run writes",
-    example: Example::Words("`embate resume` is started twice in one folder."),
+    example: Example::Shell(
+        "embate run model.toml --out out --quiet --set run.checkpoint_steps=4 --set run.max_steps=9\nflock out/history.csv embate resume out\n",
+    ),
     cause: "Two programs that append to one file would spoil it.",
     cure: "Wait for the other run, or stop it first.",
 };
@@ -43,7 +51,9 @@ pub(crate) static IN_USE: Message = Message {
 pub static MODEL_CHANGED: Message = Message {
     code: "E0715",
     title: "a model that is not the one that began the run",
-    example: Example::Words("The density of a material was changed between a run and `embate resume`."),
+    example: Example::Shell(
+        "embate run model.toml --out out --quiet --set run.checkpoint_steps=4 --set run.max_steps=9\nsed -i 's/7800/7900/' model.toml\nembate resume out\n",
+    ),
     cause: "A state is one of its model. End, limits, checkpoints and output may change; the message lists what else has.",
     cure: "Undo the changes, or run the changed model from the start.",
 };
@@ -61,7 +71,9 @@ pub static NO_CHECKPOINT: Message = Message {
 pub static OLDER: Message = Message {
     code: "W0711",
     title: "an older checkpoint instead of a damaged one",
-    example: Example::Words("The newest of two checkpoints is damaged."),
+    example: Example::Shell(
+        "embate run model.toml --out out --quiet --set run.checkpoint_steps=4 --set run.max_steps=9\ntruncate -s 1000 out/checkpoint/000000000008.embate\nembate resume out --quiet\n",
+    ),
     cause: "A check sum of the newest file is not that of its bytes; two are kept for this.",
     cure: "Nothing is lost: the run does the steps between the two once more. Look after the disk.",
 };

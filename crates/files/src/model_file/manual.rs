@@ -34,6 +34,8 @@ pub fn reference_markdown() -> String {
     );
     out.push_str("## Names\n\nParts, materials, contacts, obstacles and probes have names of letters, digits, `_` and `-`. A contact, a constraint, a load, a join or a probe may name a part\n");
     out.push_str("(its whole outside, or all its nodes), a side of a built-in shape such as `plate.top`, or a group of a mesh file; a part comes before a group of the same name.\n\n");
+    out.push_str("## Files\n\nPaths of files begin at the folder of the model file; between folders stands `/` on every system. A file must lie in that folder or below. Where a path ends decides, after `..` and symbolic links: a link that stays inside\n");
+    out.push_str("is followed, one that leads out is refused, and so is an absolute path to somewhere else. The same holds for what a deck includes. With `--allow-outside` every command that reads a model reads files from anywhere.\n\n");
     let _ = writeln!(out, "## Above all sections\n");
     table(&mut out, TOP.keys, TOP.rules);
     for section in SECTIONS {

@@ -3,7 +3,7 @@
 use embate_solver::message::{Example, Message};
 
 pub(crate) static MESSAGES: &[&Message] =
-    &[&FILE, &ENCODING, &SYNTAX, &MISSING_SECTION, &FORM, &UNKNOWN_KEY, &MISSING_KEY, &TYPE, &UNIT, &CHOICE, &OVERRIDE];
+    &[&FILE, &ENCODING, &SYNTAX, &MISSING_SECTION, &FORM, &UNKNOWN_KEY, &MISSING_KEY, &TYPE, &UNIT, &CHOICE, &OVERRIDE, &OUTSIDE];
 
 pub(super) static FILE: Message = Message {
     code: "E0101",
@@ -16,7 +16,7 @@ pub(super) static FILE: Message = Message {
 pub(super) static ENCODING: Message = Message {
     code: "E0102",
     title: "a file that is not UTF-8",
-    example: Example::Words("A model file was saved by an old editor with an umlaut in a comment."),
+    example: Example::Shell("printf '# gr\\374n\\n' > old.toml\nembate check old.toml\n"),
     cause: "The bytes at the place shown are no text in UTF-8.",
     cure: "Save the file with the encoding UTF-8.",
 };
@@ -94,4 +94,15 @@ pub(super) static OVERRIDE: Message = Message {
     example: Example::Command("check model.toml --set contact.7.friction=0.1"),
     cause: "The path of --set, or of a value of a sweep, leads to nothing in the model.",
     cure: "Write the path as keys stand in the file: run.end, material.steel.young, part.block.velocity; things of a list by name or number.",
+};
+
+pub(crate) static OUTSIDE: Message = Message {
+    code: "E0124",
+    title: "a file outside of the model's folder",
+    example: Example::Model(
+        "[[part]]\nname = \"block\"\nmaterial = \"steel\"\nmesh = { file = \"../block.msh\", group = \"block\" }\n\n[[contact]]\nname = \"self\"\nbodies = \"all\"\n",
+    ),
+    cause: "A model, or a deck that it names, names a file that does not lie in its folder or below: by `..`, by an absolute path, or by a symbolic link. \
+            A model from somebody else must not read your other files unasked.",
+    cure: "Put the file into the folder, or add --allow-outside to the command. Resume, replay and sweeps that go on are asked again: leave is never kept in a file.",
 };

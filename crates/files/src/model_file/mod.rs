@@ -29,6 +29,7 @@ pub(crate) use reader::{Document, Record, Vocabulary};
 pub(crate) use template::{Change, Template};
 pub(crate) use tree::Node;
 
+use crate::Reach;
 use crate::model_file::messages::{ENCODING, FILE, SYNTAX};
 use embate_solver::error::Warning;
 use embate_solver::message::Message;
@@ -46,23 +47,23 @@ const SIZE_MAX: u64 = 16 << 20;
 /// the file is `model.toml`, else after the file.
 ///
 /// # Errors
-/// All faults at once.
+/// All faults at once; a file outside of the model's folder is one.
 pub fn load(path: &Path, set: &[String]) -> Result<Model, Diagnostics> {
-    load_with_places(path, set).map(|loaded| loaded.model)
+    load_with_places(path, set, Reach::Folder).map(|loaded| loaded.model)
 }
 
-/// [`load`], with what is needed to show warnings at their places in the file.
+/// [`load`], with what is needed to show warnings at their places in the file. `reach`: from where files are read that the model names.
 ///
 /// # Errors
 /// All faults at once.
-pub fn load_with_places(path: &Path, set: &[String]) -> Result<Loaded, Diagnostics> {
-    Template::load(path, set)?.loaded(&[])
+pub fn load_with_places(path: &Path, set: &[String], reach: Reach) -> Result<Loaded, Diagnostics> {
+    Template::load(path, set, reach)?.loaded(&[])
 }
 
 /// [`load_with_places`] of a model with faults of one kind alone: as if it had none; `None` where it has others.
 #[must_use]
-pub fn load_despite(kind: &Message, path: &Path, set: &[String]) -> Option<Loaded> {
-    Template::load(path, set).ok()?.loaded_despite(kind)
+pub fn load_despite(kind: &Message, path: &Path, set: &[String], reach: Reach) -> Option<Loaded> {
+    Template::load(path, set, reach).ok()?.loaded_despite(kind)
 }
 
 /// A time with its unit as in a model file, `3.1 ms` for example, or a number in s.
@@ -168,7 +169,7 @@ fn source(file: &Path) -> Result<Source, Diagnostics> {
     }
 }
 
-/// Reads a model from a text. `name` becomes the model's name and stands for the file in messages; mesh files are looked for in `folder`.
+/// Reads a model from a text. `name` becomes the model's name and stands for the file in messages; mesh files are looked for in `folder` and nowhere else.
 ///
 /// # Errors
 /// All faults at once.
@@ -181,7 +182,7 @@ pub fn load_text(name: &str, text: &str, folder: &Path, set: &[String]) -> Resul
 /// # Errors
 /// All faults at once.
 pub fn load_text_with_places(name: &str, text: &str, folder: &Path, set: &[String]) -> Result<Loaded, Diagnostics> {
-    Template::of(name, Source { name: name.to_string(), text: text.to_string() }, folder, set)?.loaded(&[])
+    Template::of(name, Source { name: name.to_string(), text: text.to_string() }, (folder, Reach::Folder), set)?.loaded(&[])
 }
 
 /// The SI value and the dimension of a quantity such as `3 mm`; `None` if it is none.

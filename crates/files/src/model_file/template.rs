@@ -6,6 +6,7 @@
 use super::diagnostics::{Diagnostics, Faults, Source};
 use super::tree::{self, Node, Place, Value};
 use super::{FILE_NAME, Loaded, build, name_of, parsed, reader, set, source};
+use crate::Reach;
 use crate::model_file::messages::OVERRIDE;
 use embate_solver::error::Fault;
 use embate_solver::message::Message;
@@ -18,6 +19,7 @@ use std::path::{Path, PathBuf};
 pub(crate) struct Template {
     name: String,
     folder: PathBuf,
+    reach: Reach,
     sources: Vec<Source>,
     root: Node,
     /// What is wrong with the overrides.
@@ -44,17 +46,17 @@ impl Template {
     ///
     /// # Errors
     /// A file that can't be read or is no TOML. Faults of the overrides are told with those of a model.
-    pub(crate) fn load(path: &Path, set: &[String]) -> Result<Self, Diagnostics> {
+    pub(crate) fn load(path: &Path, set: &[String], reach: Reach) -> Result<Self, Diagnostics> {
         let file = if path.is_dir() { path.join(FILE_NAME) } else { path.to_path_buf() };
         let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).map_or_else(|| PathBuf::from("."), Path::to_path_buf);
-        Self::of(&name_of(&file), source(&file)?, &folder, set)
+        Self::of(&name_of(&file), source(&file)?, (&folder, reach), set)
     }
 
-    pub(super) fn of(name: &str, source: Source, folder: &Path, set: &[String]) -> Result<Self, Diagnostics> {
+    pub(super) fn of(name: &str, source: Source, (folder, reach): (&Path, Reach), set: &[String]) -> Result<Self, Diagnostics> {
         let (source, mut root) = parsed(source)?;
         let (mut sources, mut faults) = (vec![source], Faults::default());
         set::apply(&mut root, set, &mut sources, &mut faults);
-        Ok(Self { name: name.to_string(), folder: folder.to_path_buf(), sources, root, faults })
+        Ok(Self { name: name.to_string(), folder: folder.to_path_buf(), reach, sources, root, faults })
     }
 
     /// Adds a text that changes come from; its number is that of [`Change::source`].
@@ -104,7 +106,7 @@ impl Template {
     fn read(&self, changes: &[Change<'_>]) -> (Loaded, Faults) {
         let (root, mut faults) = self.changed(changes);
         let document = reader::read(&root, &reader::MODEL, &mut faults);
-        let model = build::model(&document, &self.name, &self.folder, &mut faults);
+        let model = build::model(&document, &self.name, (&self.folder, self.reach), &mut faults);
         note(&mut faults, model.check());
         (Loaded { model, sources: self.sources.clone(), root }, faults)
     }

@@ -9,7 +9,7 @@ pub(crate) static MESSAGES: &[&Message] =
 pub static EXISTS: Message = Message {
     code: "E0702",
     title: "something is in the way",
-    example: Example::Words("A model is run a second time into the folder of its results."),
+    example: Example::Shell("embate run model.toml --out out --quiet\nembate run model.toml --out out\n"),
     cause: "The folder or file holds something that would be lost.",
     cure: "Choose another place with --out, or replace what is there with --force.",
 };
@@ -69,7 +69,7 @@ pub static BUG: Message = Message {
 pub static NO_PICTURES: Message = Message {
     code: "W0701",
     title: "pictures are missing",
-    example: Example::Words("The picture shows a field of which a value is not finite in the last frame of a run that failed."),
+    example: Example::Shell("mkdir -p out/check.png\nembate check model.toml --out out\n"),
     cause: "A picture could not be made; all other results are there.",
     cure: "Draw the fields with ParaView, or choose another `picture_field`.",
 };

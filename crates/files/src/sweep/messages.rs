@@ -31,7 +31,9 @@ pub(super) static TABLE: Message = Message {
 pub(super) static OTHER: Message = Message {
     code: "E0904",
     title: "a folder with another sweep",
-    example: Example::Words("A sweep with other values is started in the folder of one that is done."),
+    example: Example::Shell(
+        "embate sweep model.toml --vary contact.hit.friction=0.1,0.2 --out swept --quiet\nembate sweep model.toml --vary contact.hit.friction=0.1,0.3 --out swept --quiet\n",
+    ),
     cause: "A sweep goes on where it was stopped, but this one has other runs.",
     cure: "Choose another folder with --out, or start anew with --force.",
 };
@@ -39,7 +41,9 @@ pub(super) static OTHER: Message = Message {
 pub(super) static BUSY: Message = Message {
     code: "E0905",
     title: "two sweeps in one folder",
-    example: Example::Words("The same sweep is started twice at the same time."),
+    example: Example::Shell(
+        "mkdir swept\ntouch swept/sweep.journal\nflock swept/sweep.journal embate sweep model.toml --vary contact.hit.friction=0.1,0.2 --out swept --quiet\n",
+    ),
     cause: "Another program writes into the folder.",
     cure: "Wait for its end, or choose another folder with --out.",
 };

@@ -5,6 +5,7 @@
 use super::outputs::{self, Output};
 use super::plan::{Plan, Request};
 use super::{Keep, SweepError};
+use crate::Reach;
 use crate::model_file::{Diagnostics, Faults, Template};
 use crate::results::Report;
 use crate::sweep::messages::WANTED;
@@ -39,12 +40,13 @@ struct Examined {
 }
 
 impl Sweep {
-    /// Reads and examines all runs on so many threads. `set` overrides keys of the model; no `outputs`: the usual ones; `simd`: an instruction set by name.
+    /// Reads and examines all runs on so many threads. `reach`: from where files are read that the model names; `set` overrides keys of it; no `outputs`: the usual ones; `simd`: an instruction set by name.
     ///
     /// # Errors
     /// All faults at once. `None` where `is_stopped` ended the examination.
     pub fn prepare(
         model: &Path,
+        reach: Reach,
         set: &[String],
         request: Request<'_>,
         outputs: &[String],
@@ -52,7 +54,7 @@ impl Sweep {
         jobs: usize,
         is_stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<Self>, SweepError> {
-        let mut template = Template::load(model, set).map_err(SweepError::Model)?;
+        let mut template = Template::load(model, set, reach).map_err(SweepError::Model)?;
         let plan = Plan::read(request, &mut template)?;
         let options = Options { threads: 1, simd };
         // Where it has faults, they are told below with those of the other runs.

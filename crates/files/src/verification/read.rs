@@ -5,6 +5,7 @@
 
 use super::case::{Accepted, Case, Check, Combination, How, Place, Quantity, Source, TAKES, Take, Tier, With};
 use super::describe::EXPECTED;
+use crate::Reach;
 use crate::model_file::{self, Described, Diagnostics, Document, Faults, Record};
 use crate::verification::messages::{CASE, UNJUDGED};
 use embate_solver::model::Model;
@@ -23,11 +24,11 @@ struct Variant {
     set: Vec<String>,
 }
 
-/// Reads the case in `folder`, its models included.
+/// Reads the case in `folder`, its models included. `reach`: from where files are read that they name.
 ///
 /// # Errors
 /// All faults of `expected.toml`, or all of a model file.
-pub fn load(folder: &Path) -> Result<Case, Diagnostics> {
+pub fn load(folder: &Path, reach: Reach) -> Result<Case, Diagnostics> {
     let name = folder.file_name().map_or_else(|| "case".to_string(), |name| name.to_string_lossy().into_owned());
     let files = model_files(folder);
     let (text, (title, tier, variants, checks)) = Described::read(&folder.join(FILE_NAME), &EXPECTED, |document, faults| {
@@ -37,7 +38,7 @@ pub fn load(folder: &Path) -> Result<Case, Diagnostics> {
         let tier = if document.top.text("tier") == "all" { Tier::All } else { Tier::Every };
         (document.top.text("title"), tier, variants, checks)
     })?;
-    let models = models(folder, &variants, &checks)?;
+    let models = models((folder, reach), &variants, &checks)?;
     Ok(Case { name, title, tier, folder: folder.to_path_buf(), models, checks, text })
 }
 
@@ -238,7 +239,11 @@ fn taken(record: &Record, source: &str, missing: &str, fits: impl Fn(&Take) -> b
 }
 
 /// The models that the checks name, each once.
-fn models(folder: &Path, variants: &BTreeMap<String, Variant>, checks: &[Check]) -> Result<Vec<(String, Model)>, Diagnostics> {
+fn models(
+    (folder, reach): (&Path, Reach),
+    variants: &BTreeMap<String, Variant>,
+    checks: &[Check],
+) -> Result<Vec<(String, Model)>, Diagnostics> {
     let mut models: Vec<(String, Model)> = Vec::new();
     let named = checks.iter().flat_map(|check| {
         let with = check.with.as_ref().and_then(|with| with.model.as_ref());
@@ -251,7 +256,7 @@ fn models(folder: &Path, variants: &BTreeMap<String, Variant>, checks: &[Check])
         }
         let plain = Variant { model: name.clone(), set: Vec::new() };
         let variant = variants.get(name).unwrap_or(&plain);
-        let model = model_file::load(&folder.join(format!("{}.toml", variant.model)), &variant.set)?;
+        let model = model_file::load_with_places(&folder.join(format!("{}.toml", variant.model)), &variant.set, reach)?.model;
         models.push((name.clone(), model));
     }
     Ok(models)

@@ -7,4 +7,5 @@ mod gmsh;
 mod model_file;
 mod picture;
 mod post_mortem;
+mod reach;
 mod results;

@@ -101,7 +101,9 @@ pub(crate) static TIE: Message = Message {
 pub(crate) static TIED_TWICE: Message = Message {
     code: "E0409",
     title: "a node in two ties",
-    example: Example::Words("A node at the corner of three bodies is bound by the ties of two contacts."),
+    example: Example::Model(
+        "[[part]]\nname = \"block\"\nmaterial = \"steel\"\nrectangle = { corner = [0, 0], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }\n\n[[part]]\nname = \"lower\"\nmaterial = \"steel\"\nrectangle = { corner = [\"10 mm\", \"-5 mm\"], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }\n\n[[part]]\nname = \"upper\"\nmaterial = \"steel\"\nrectangle = { corner = [\"10 mm\", \"5 mm\"], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }\n\n[[contact]]\nname = \"one\"\nbetween = [\"block.right\", \"lower.left\"]\ntied = true\n\n[[contact]]\nname = \"two\"\nbetween = [\"block.right\", \"upper.left\"]\ntied = true\n",
+    ),
     cause: "Two ties would hold one node against each other.",
     cure: "Leave one of the two out, name smaller surfaces, or let the other surface be the slave.",
 };
@@ -127,7 +129,9 @@ pub(crate) static OBSTACLE: Message = Message {
 pub(crate) static NO_STEP: Message = Message {
     code: "E0412",
     title: "a penalty from a time step that nothing gives",
-    example: Example::Words("All parts are rigid, a contact's `penalty_from` is \"time_step\", and `[run]` has no `time_step`."),
+    example: Example::Model(
+        "[[part]]\nname = \"block\"\nmaterial = \"steel\"\nrigid = true\nvelocity = [\"10 m/s\", 0]\nrectangle = { corner = [0, 0], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }\n\n[[part]]\nname = \"wall\"\nmaterial = \"steel\"\nrigid = true\nrectangle = { corner = [\"10.01 mm\", \"-5 mm\"], size = [\"10 mm\", \"20 mm\"], elements = [2, 4] }\n\n[[contact]]\nname = \"hit\"\nbetween = [\"block.right\", \"wall.left\"]\npenalty_from = \"time_step\"\n",
+    ),
     cause: "The step comes from elements, and rigid parts have none that deform.",
     cure: "Give `time_step` in `[run]`, or take another `penalty_from`.",
 };
@@ -167,7 +171,9 @@ pub(crate) static INSIDE_AT_START: Message = Message {
 pub(crate) static TIES_BROKE: Message = Message {
     code: "W0404",
     title: "ties that broke, or that bound nothing",
-    example: Example::Words("A tie with a `tie_strength` is loaded beyond it."),
+    example: Example::Model(
+        "[[part]]\nname = \"block\"\nmaterial = \"steel\"\nvelocity = [\"-10 m/s\", 0]\nrectangle = { corner = [0, 0], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }\n\n[[part]]\nname = \"wall\"\nmaterial = \"steel\"\nrectangle = { corner = [\"10 mm\", \"-5 mm\"], size = [\"10 mm\", \"20 mm\"], elements = [2, 4] }\n\n[[contact]]\nname = \"hit\"\nbetween = [\"block.right\", \"wall.left\"]\ntied = true\ntie_strength = \"10 MPa\"\n",
+    ),
     cause: "The force in a tie went over its strength, or the parts that it held were eroded.",
     cure: "Nothing, where that is what is computed; else raise `tie_strength`.",
 };

@@ -62,7 +62,9 @@ pub(crate) static SAME_PLACE: Message = Message {
 pub(crate) static GROUP: Message = Message {
     code: "E0206",
     title: "a group of a mesh file can't be a body",
-    example: Example::Words("A part names a group of points or lines where surfaces are needed, or a group without elements."),
+    example: Example::Gmsh(
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n1 1 \"block\"\n2 2 \"body\"\n$EndPhysicalNames\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n$EndNodes\n$Elements\n2\n1 1 2 1 1 1 2\n2 2 2 2 1 1 2 3\n$EndElements\n",
+    ),
     cause: "Parts are made of groups of surfaces, parts of bars of groups of lines.",
     cure: "Name another group, or correct the physical groups in Gmsh and mesh again.",
 };
@@ -81,7 +83,9 @@ pub(crate) static BAD_ELEMENT: Message = Message {
 pub(crate) static NOT_A_SURFACE: Message = Message {
     code: "E0208",
     title: "lines that are no surface of a body",
-    example: Example::Words("A contact names a group of lines inside of a body, or a line twice."),
+    example: Example::Words(
+        "A program that makes its meshes itself calls a line inside of a body a surface, or names one twice; of a mesh file such lines are a set of nodes.",
+    ),
     cause: "Contact, pressure and boundaries act on the outside of bodies: lines that bound the elements of one part, each once.",
     cure: "Name a side of a part, or a group of lines on its outside.",
 };
@@ -89,7 +93,9 @@ pub(crate) static NOT_A_SURFACE: Message = Message {
 pub(crate) static OVERLAP: Message = Message {
     code: "E0209",
     title: "elements that overlap",
-    example: Example::Words("Two elements of a mesh file share the same corner nodes, or three share an edge."),
+    example: Example::Gmsh(
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 \"block\"\n$EndPhysicalNames\n$Nodes\n5\n1 0 0 0\n2 2 0 0\n3 1 1 0\n4 1 2 0\n5 1 -1 0\n$EndNodes\n$Elements\n3\n1 2 2 1 1 1 2 3\n2 2 2 1 1 1 2 4\n3 2 2 1 1 2 1 5\n$EndElements\n",
+    ),
     cause: "In the plane an edge belongs to two elements at most, which lie on its two sides.",
     cure: "Remove elements that are there twice, and turn those that are clockwise.",
 };

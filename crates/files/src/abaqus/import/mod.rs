@@ -22,6 +22,7 @@ use super::deck::Deck;
 use super::plane::{self, Names};
 use super::text::{Block, Line, Text, folded, shown};
 use crate::abaqus::messages::{SYNTAX, UNKNOWN};
+use crate::reach::{Bounds, Reach};
 use embate_solver::error::Fault;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -40,14 +41,15 @@ pub struct Imported {
     pub report: Report,
 }
 
-/// Makes a model of a deck whose numbers are in `units`.
+/// Makes a model of a deck whose numbers are in `units`. `reach`: from where files are read that it includes.
 ///
 /// # Errors
 /// Faults of the text or the mesh, with their places; what can't be left out without making another model (equations, several
 /// materials on one element, no step).
-pub fn import(path: &Path, units: &Units) -> Result<Imported, Vec<Fault>> {
+pub fn import(path: &Path, units: &Units, reach: Reach) -> Result<Imported, Vec<Fault>> {
     let shown = path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned());
-    let text = Text::read(path, &shown).map_err(|fault| vec![fault])?;
+    let text =
+        Text::read(path, &shown, &Bounds::of(path.parent().unwrap_or(Path::new("")), "deck's", reach)).map_err(|fault| vec![fault])?;
     let deck = Deck::read(&text).map_err(|fault| vec![fault])?;
     plane::mesh(&deck, &text, 1.0)?;
     let mut importer = Importer::new(&text, &deck, units.clone());

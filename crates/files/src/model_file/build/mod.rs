@@ -13,6 +13,7 @@ use super::reader::{Document, Record};
 use super::units::shorten;
 use super::value::Datum;
 use crate::gmsh::messages::MESH_FILE;
+use crate::reach::{Bounds, Reach};
 use crate::{abaqus, gmsh};
 use embate_solver::mesh::shapes::Values;
 use embate_solver::model::{
@@ -24,8 +25,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// The model of a file in `folder`.
-pub(super) fn model(document: &Document, name: &str, folder: &Path, faults: &mut Faults) -> Model {
-    let mut meshes = Meshes { folder, read: Vec::new(), loaded: Vec::new() };
+pub(super) fn model(document: &Document, name: &str, (folder, reach): (&Path, Reach), faults: &mut Faults) -> Model {
+    let mut meshes = Meshes { folder, bounds: Bounds::of(folder, "model's", reach), read: Vec::new(), loaded: Vec::new() };
     let parts = document.section("part").iter().map(|record| part(record, &mut meshes, faults)).collect();
     let mut model = Model { name: name.to_string(), meshes: meshes.loaded, ..Model::default() };
     model.title = document.top.text("title");
@@ -139,6 +140,7 @@ fn placement(part: &Record) -> Placement {
 /// The mesh files of a model, each read once per scale.
 struct Meshes<'a> {
     folder: &'a Path,
+    bounds: Bounds,
     read: Vec<(PathBuf, u64, Option<usize>)>,
     loaded: Vec<Arc<ImportedMesh>>,
 }
@@ -152,9 +154,12 @@ impl Meshes<'_> {
         if let Some((.., index)) = self.read.iter().find(|(known, bits, _)| *known == path && *bits == scale.to_bits()) {
             return *index;
         }
-        let index = if path.is_file() {
+        let index = if let Err((kind, message, help)) = self.bounds.hold(&path, &shorten(&file)) {
+            faults.value(kind, &record.key("file"), place, (message, help));
+            None
+        } else if path.is_file() {
             let is_deck = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("inp"));
-            match if is_deck { abaqus::read(&path, scale) } else { gmsh::read(&path, scale) } {
+            match if is_deck { abaqus::read_within(&path, scale, &self.bounds) } else { gmsh::read(&path, scale) } {
                 Ok(mesh) => {
                     self.loaded.push(Arc::new(mesh));
                     Some(self.loaded.len() - 1)
@@ -170,7 +175,8 @@ impl Meshes<'_> {
             }
         } else {
             let message = format!("there is no file {}", shorten(&file));
-            let help = format!("paths begin at the model's folder, {}", self.folder.display());
+            let slashes = if file.contains('\\') { "; between folders stands / on every system" } else { "" };
+            let help = format!("paths begin at the model's folder, {}{slashes}", self.folder.display());
             faults.value(&MESH_FILE, &record.key("file"), place, (message, help));
             None
         };

@@ -1,5 +1,6 @@
 //! Whole decks become models, and the report tells what became of each keyword.
 
+use embate_files::Reach;
 use embate_files::abaqus::import::{Imported, Outcome, Units, import, table_markdown};
 use embate_files::model_file;
 use embate_solver::error::Fault;
@@ -19,7 +20,7 @@ fn imported(name: &str, deck: &str, units: &str) -> Result<(Imported, PathBuf), 
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("import-{name}"));
     fs::create_dir_all(&folder).unwrap();
     fs::write(folder.join("deck.inp"), deck).unwrap();
-    let imported = import(&folder.join("deck.inp"), &Units::parse(units).unwrap())?;
+    let imported = import(&folder.join("deck.inp"), &Units::parse(units).unwrap(), Reach::Folder)?;
     fs::write(folder.join("mesh.inp"), &imported.mesh).unwrap();
     fs::write(folder.join("model.toml"), &imported.model).unwrap();
     Ok((imported, folder))

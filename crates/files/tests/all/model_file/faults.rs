@@ -306,3 +306,17 @@ fn parts_and_surfaces_come_from_mesh_files() {
     assert_eq!(found(&contact), ["23:20 group `block` is a group of surfaces, not lines"]);
     std::fs::remove_dir_all(&folder).unwrap();
 }
+
+#[test]
+fn a_missing_parameter_is_one_fault_and_nothing_follows_from_it() {
+    for (eos, missing) in [
+        ("eos = \"linear\"", "bulk_modulus"),
+        ("eos = \"mie_gruneisen\"\ns1 = 1.5\ngamma0 = 2", "c0"),
+        ("eos = \"polynomial\"", "coefficients"),
+        ("eos = \"jwl\"\npressure_b = 1e9\nr1 = 4\nr2 = 1\nomega = 0.3\nenergy_initial = 1e9", "pressure_a"),
+    ] {
+        let found = faults(&changed("young = \"200 GPa\"", &format!("young = \"200 GPa\"\n{eos}")));
+        let told: Vec<String> = found.iter().map(|fault| format!("{} {}", fault.kind.code, fault.message)).collect();
+        assert!(matches!(&told[..], [one] if one.starts_with("E0107") && one.contains(&format!("`{missing}`"))), "{eos}: {told:?}");
+    }
+}

@@ -195,7 +195,7 @@ impl Check<'_> {
                 Some(own) if !law(parameter.name) => format!("equation of state `{}` needs `{}`", own.name, parameter.name),
                 _ => format!("law `{}` needs `{}`", it.law, parameter.name),
             };
-            for parameter in all {
+            for &parameter in &all {
                 let path = format!("{path}.{}", parameter.name);
                 if parameter.list > 0 {
                     self.list(&path, it, parameter, &needs(parameter));
@@ -237,7 +237,11 @@ impl Check<'_> {
                     help,
                 );
             }
-            if self.faults.len() == before {
+            // Of what is missing it is told already that it is, and no more can be said.
+            let is_given = |parameter: &&Parameter| {
+                parameter.default.is_some() || it.parameters.contains_key(parameter.name) || it.lists.contains_key(parameter.name)
+            };
+            if self.faults.len() == before && all.iter().all(is_given) {
                 let faults = material::faults(&it.law, &Parameters::new(kind.parameters, &it.parameters, &it.lists));
                 let own = own.map(|own| material::eos::faults(own.name, &Parameters::new(own.parameters, &it.parameters, &it.lists)));
                 let faults = faults.into_iter().chain(own.into_iter().flatten());

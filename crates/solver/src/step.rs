@@ -234,15 +234,17 @@ impl System {
         let kinetic = |(_, (m, v)): (u32, (&f64, &Vector))| 0.5 * m * (v[0] * v[0] + v[1] * v[1]);
         let nodes: f64 = (0..).zip(self.mass.iter().zip(&self.velocities)).filter(free).map(kinetic).sum();
         self.ledger = Ledger::new(nodes + self.bodies.kinetic(), self.energy_of_round_off());
-        if self.limits.velocity <= 0.0 {
-            let square = self.velocities.iter().map(|v| v[0] * v[0] + v[1] * v[1]).fold(0.0, f64::max);
-            self.limits.velocity = RUNAWAY * (square.sqrt() - self.limits.velocity);
-        }
+        let square = |[x, y]: Vector| x * x + y * y;
+        let nodes = self.velocities.iter().map(|&v| square(v)).fold(0.0, f64::max);
         self.positions_old.clone_from(&self.positions);
         self.see_rigid_parts();
         self.respond()?;
         if self.limits.step <= 0.0 {
             self.limits.step = 1e-3 * self.time_step;
+        }
+        if self.limits.velocity <= 0.0 {
+            let all = self.bodies.iter().map(|body| square([body.velocity[0], body.velocity[1]])).fold(nodes, f64::max);
+            self.limits.velocity = RUNAWAY * (all.sqrt() - self.limits.velocity);
         }
         Ok(())
     }
@@ -442,7 +444,9 @@ impl System {
         if self.speed > self.limits.velocity {
             return Err(self.runaway());
         }
-        let deep = self.contacts.iter().find(|contact| contact.penetration > self.limits.penetration);
+        // What comes in within a step is no deeper than both sides go in it.
+        let limit = self.limits.penetration + 2.0 * self.time_step_old * self.speed;
+        let deep = self.contacts.iter().find(|contact| contact.penetration > limit);
         deep.map_or(Ok(()), |contact| Err(self.too_deep(contact)))
     }
 

@@ -14,7 +14,7 @@ use super::damping::step_squared;
 use super::strain::{Tensor, averages, circumference};
 use super::stress_state::StressState;
 use super::strip::{Parts, Strip};
-use crate::element::{Corners, Element};
+use crate::element::{Corners, Element, KEPT};
 use crate::material::Family;
 use crate::material::points::RESPONSE;
 use crate::tensor::{Dim, Matrix, Space, SymmetricTensor};
@@ -353,9 +353,14 @@ where
     ) -> L {
         let own = batch * E::HOURGLASS..(batch + 1) * E::HOURGLASS;
         let (changes, keep) = (&self.strip.swing[own.clone()], &mut self.hourglass[own]);
-        let (mut swing, mut kept) = ([L::splat(0.0); D], [L::splat(0.0); D]);
-        for i in 0..D {
-            (swing[i], kept[i]) = (L::load(&changes[i], at), L::load(&keep[i], at));
+        let (mut swing, mut kept) = ([L::splat(0.0); D], [L::splat(0.0); KEPT]);
+        if E::SWINGS {
+            for i in 0..D {
+                swing[i] = L::load(&changes[i], at);
+            }
+        }
+        for i in 0..E::HOURGLASS {
+            kept[i] = L::load(&keep[i], at);
         }
         // Nothing else holds the shape of a fluid; of a solid that can't change its volume, K would lock it.
         let shape_modulus = if self.is_solid { modulus.min(L::splat(4.0) * shear) } else { modulus };
@@ -370,10 +375,11 @@ where
             shape_modulus,
             mass,
             rate: L::splat(if self.time_step > 0.0 { 1.0 / self.time_step } else { 0.0 }),
+            is_start: self.time_step <= 0.0,
             is_plane_stress: S::PLANE_STRESS,
         };
         let held = self.element.hold_shape(&corners);
-        for i in 0..D {
+        for i in 0..E::HOURGLASS {
             held.kept[i].store(&mut keep[i], at);
         }
         for a in 0..N {
@@ -382,7 +388,8 @@ where
             }
         }
         let element = &mut self.elements[batch];
-        (L::load(&element.hourglass, at) + held.work).store(&mut element.hourglass, at);
+        let booked = if E::SWINGS { L::load(&element.hourglass, at) + held.work } else { held.work };
+        booked.store(&mut element.hourglass, at);
         held.stiffening
     }
 }

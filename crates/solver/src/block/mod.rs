@@ -113,7 +113,7 @@ pub trait Block<const D: usize>: Send + Sync {
     /// The node of each slot in which [`Block::advance`] leaves forces, or [`NO_NODE`]. A node's slots follow each other in the order of the elements.
     fn slots(&self) -> &[u32];
     /// Advances all points to the end of the step and writes to the slots what pulls on their nodes, N/m in the plane.
-    /// The result does not depend on `level` or on the threads of the `team`.
+    /// The first time is that of time zero, without a step. The result does not depend on `level` or on the threads of the `team`.
     fn advance(&mut self, motion: &Motion<'_, D>, level: Level, slots: &mut [[f64; D]], team: &mut Team) -> Report;
     /// From now on keeps the forces of every element for [`Block::force`]: of elements that can fail. Lines have slots of their own, and keep nothing besides.
     fn keep_forces(&mut self) {}

@@ -141,7 +141,7 @@ where
             let own = circumference::<S, L, D, N>(determinant * L::splat(E::WEIGHTS[p]), &x_middle, &shape);
             own.store(&mut self.strip.volume[batch * P + p], at);
             let (gradient, turns) = Dim::<D>::displaced(&increments[p], &Dim::<D>::adjugate(&middle[p]), determinant);
-            if E::HOURGLASS > 0 {
+            if E::SWINGS {
                 self.swing(batch, at, E::swing(x, &step, &gradient), &turns);
             }
             rotations[p] = turns;
@@ -232,7 +232,7 @@ where
             volume_initial += own_initial;
         }
         let ratio_mean = volume / volume_initial;
-        if E::HOURGLASS > 0 {
+        if E::SWINGS {
             let (dt, half) = (L::splat(self.time_step), L::splat(0.5));
             let mut step = *v;
             for a in 0..N {

@@ -200,7 +200,7 @@ impl NodeSegment {
             if touch.slope != 0.0 {
                 lean(&mut ends, &touch, scene.sweep.new);
             }
-            let carried = if self.stores { carried(&memory, normal, gap, &ends, self.reach, scene.sweep) } else { 0.0 };
+            let carried = if self.stores { carried(&memory, normal, gap, &ends, self.reach, scene.sweep, self.has_begun) } else { 0.0 };
             let (side, slip, gap) = (self.tracker.side(touch.pass), memory.slip, gap + carried);
             springs.push(Spring { normal, gap, stiffness, area, side, slip, ..Spring::default() }, &ends);
             *self.tracker.kept_mut(&touch) = Memory { offset, faces, carried, normal, ..memory };
@@ -291,26 +291,45 @@ pub fn segment_ends([a, b]: [u32; 2], projection: &Projection, arm: f64, positio
 
 /// Cosine of the angle by which the normal of a spring may turn within a step before its gap is carried over.
 const TURNED: f64 = 0.87;
+/// Cosine beyond which it is the same stretch of surface for certain.
+const STEADY: f64 = 0.999;
+/// Fraction of the way that its ends go past each other in a step by which a gap may begin elsewhere than it ended before it is carried over: what a turn by some fifteen degrees makes.
+const JUMPED: f64 = 0.25;
 
-/// By how much a spring's gap is moved (m), so that it begins at n − ½ where it ended in the step before, though its normal jumped: from face to face of a corner. `open` is the gap from
-/// which on the law does not push.
+/// By how much a spring's gap is moved (m), so that it begins at n − ½ where it ended in the step before, though its normal or its depth jumped: from face to face of a corner, or to another
+/// stretch of the surface. `open` is the gap from which on the law does not push.
 ///
-/// The gap itself goes on there, its rate does not: g^{n−½} = g^n − ½ dt ġ^{n−½} would begin elsewhere, by up to what the node goes in half a step, and a spring that is not much deeper
-/// than that would lose or gain any multiple of its energy. What it was moved by stays for as long as it pushes, and then goes as the surfaces part.
-fn carried(memory: &Memory, normal: Vector, gap: f64, ends: &[End], open: f64, sweep: Sweep<'_>) -> f64 {
+/// At a corner the gap itself goes on, its rate does not: g^{n−½} = g^n − ½ dt ġ^{n−½} would begin elsewhere, by up to what the node goes in half a step, and a spring that is not much deeper
+/// than that would lose or gain any multiple of its energy. Where a surface folds, a node is near another stretch of it from one step to the next, and deep inside that. What it was moved by
+/// stays for as long as it pushes, and then goes as the surfaces part.
+fn carried(memory: &Memory, normal: Vector, gap: f64, ends: &[End], open: f64, sweep: Sweep<'_>, has_begun: bool) -> f64 {
     let Memory { half, normal: before, carried, .. } = *memory;
-    if before == [0.0; 2] {
+    let is_new = before == [0.0; 2];
+    if is_new && (gap >= open || !has_begun) {
         return 0.0;
     }
-    let is_turned = before[0] * normal[0] + before[1] * normal[1] < TURNED;
-    if !is_turned && (carried == 0.0 || half < open) {
+    let half = if is_new { open } else { half };
+    let cosine = before[0] * normal[0] + before[1] * normal[1];
+    let stays = carried == 0.0 || half < open;
+    if cosine > STEADY && stays {
         return carried;
     }
-    let way = |end: &End| {
+    let (mut way, mut relative) = (0.0, [0.0; 2]);
+    for end in ends {
         let [old, new] = [sweep.old, sweep.new].map(|positions| positions[end.at as usize]);
-        [0, 1].map(|d| (end.share * normal[d] + end.lean[d]) * (new[d] - old[d])).iter().sum::<f64>()
-    };
-    let begins = gap - 0.5 * ends.iter().map(way).sum::<f64>();
+        for d in 0..2 {
+            way += (end.share * normal[d] + end.lean[d]) * (new[d] - old[d]);
+            relative[d] += end.share * (new[d] - old[d]);
+        }
+    }
+    let begins = gap - 0.5 * way;
+    let jump = (begins + carried).min(open) - half.min(open);
+    // What is new may have come in within the step.
+    let least = if is_new { 1.0 } else { JUMPED };
+    let has_jumped = jump.abs() > least * (relative[0] * relative[0] + relative[1] * relative[1]).sqrt();
+    if (is_new || cosine >= TURNED) && !has_jumped && stays {
+        return carried;
+    }
     if half < open { half - begins } else { (open - begins).max(0.0) }
 }
 
@@ -386,5 +405,27 @@ mod tests {
                 .sum();
             assert!(spin.abs() < 1e-14, "{x:?}: {spin}");
         }
+    }
+
+    #[test]
+    fn a_gap_that_jumps_begins_where_it_ended_and_one_that_goes_on_is_left_alone() {
+        // The node goes down by 0.02 in the step, half of it after n − ½.
+        let (old, new) = ([[0.5, 0.03], [0.0, 0.0], [1.0, 0.0]], [[0.5, 0.01], [0.0, 0.0], [1.0, 0.0]]);
+        let sweep = Sweep::between(&old, &new);
+        let ends = [End::node(0, 1.0), End::node(1, -0.5), End::node(2, -0.5)];
+        let (up, aside) = ([0.0, 1.0], [0.1, (1.0f64 - 0.01).sqrt()]);
+        let of = |half: f64, before: Vector, gap: f64| {
+            carried(&Memory { half, normal: before, ..Memory::default() }, up, gap, &ends, 0.0, sweep, true)
+        };
+        assert_eq!(of(-0.5, up, -0.9), 0.0, "the normal stayed: so did the surface");
+        assert_eq!(of(-0.01, aside, -0.022), 0.0, "off by no more than a turn makes");
+        assert!((of(-0.01, aside, -0.9) - (-0.01 + 0.89)).abs() < 1e-15, "another stretch, and deep in it");
+        assert!((of(0.3, aside, -0.9) - 0.89).abs() < 1e-15, "it was open");
+        assert_eq!(of(0.3, aside, 0.2), 0.0, "and is");
+        // A spring that was not there.
+        assert_eq!(of(0.0, [0.0; 2], -0.02), 0.0, "what came in within the step");
+        assert!((of(0.0, [0.0; 2], -0.9) - 0.89).abs() < 1e-15, "what can't have");
+        let at_start = carried(&Memory::default(), up, -0.9, &ends, 0.0, sweep, false);
+        assert_eq!(at_start, 0.0, "at the start the model has decided");
     }
 }

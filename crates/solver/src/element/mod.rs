@@ -45,8 +45,10 @@ where
     const MEAN_DILATATION: bool;
     /// Whether the dilatation is averaged over the nodes of the block and back (`block/nodal.rs`); for elements with one point.
     const NODAL_DILATATION: bool = false;
-    /// Batches that hourglass control keeps per element: `D` where there is such control, a force against the amplitude of the pattern; 0: none is needed.
+    /// Batches that hourglass control keeps per element, at most [`KEPT`]; 0: none is needed.
     const HOURGLASS: usize = 0;
+    /// Whether that control follows the amplitude of the pattern from step to step and keeps a force against it, which turns with the element.
+    const SWINGS: bool = false;
 
     /// The element with its options.
     fn new(options: &ElementOptions) -> Self;
@@ -65,12 +67,12 @@ where
         None
     }
     /// Change of the amplitude q of the shape that the points do not feel, m, in a `step` of the nodes to `x` whose displacement gradient at mid-step is known.
-    /// Called only where hourglass control keeps something, as [`Element::hold_shape`].
+    /// Called only where hourglass control follows it ([`Element::SWINGS`]).
     #[inline(always)]
     fn swing<L: Lane>(_x: &[[L; D]; N], _step: &[[L; D]; N], _gradient: &Matrix<L, D>) -> [L; D] {
         [L::splat(0.0); D]
     }
-    /// Forces against the shapes that the points do not feel.
+    /// Forces against the shapes that the points do not feel. Called only where hourglass control keeps something.
     #[inline(always)]
     fn hold_shape<L: Lane>(&self, corners: &Corners<L, D, N>) -> Held<L, D, N> {
         let zero = L::splat(0.0);
@@ -85,6 +87,9 @@ pub struct ElementOptions {
     pub hourglass: Option<f64>,
 }
 
+/// Most batches that hourglass control keeps per element.
+pub const KEPT: usize = 5;
+
 /// What hourglass control reads.
 #[derive(Clone, Copy, Debug)]
 pub struct Corners<L, const D: usize, const N: usize> {
@@ -92,8 +97,8 @@ pub struct Corners<L, const D: usize, const N: usize> {
     pub x: [[L; D]; N],
     /// Change of the amplitude in the step that led there, m, in directions of its end.
     pub swing: [L; D],
-    /// What was kept at its beginning, turned to its end.
-    pub kept: [L; D],
+    /// What was kept at its beginning; a force that follows the amplitude is turned to its end.
+    pub kept: [L; KEPT],
     /// Area, m².
     pub area: L,
     /// Volume: area times depth, m² (m³).
@@ -108,6 +113,8 @@ pub struct Corners<L, const D: usize, const N: usize> {
     pub mass: L,
     /// One over the step, 1/s; 0 where there was none.
     pub rate: L,
+    /// Whether there was none: these are the positions at time zero.
+    pub is_start: bool,
     /// Whether there is no stress normal to the plane.
     pub is_plane_stress: bool,
 }
@@ -118,8 +125,8 @@ pub struct Held<L, const D: usize, const N: usize> {
     /// Forces against which the nodes move, as those of the stresses: f_a = ∂W/∂x_a, N/m.
     pub forces: [[L; D]; N],
     /// What is kept until the next step.
-    pub kept: [L; D],
-    /// Work taken from the nodes in the step by the trapezoidal rule, J/m.
+    pub kept: [L; KEPT],
+    /// Work taken from the nodes in the step by the trapezoidal rule where control follows the amplitude, else the energy that is stored, J/m.
     pub work: L,
     /// Square of the stable step without it over that with it, at least 1.
     pub stiffening: L,

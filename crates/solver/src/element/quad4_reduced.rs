@@ -8,20 +8,22 @@
 //! - `stiffness`: Q̇ = κ k₁ q̇, k₁ = 2 M' V / h². With κ = 1 and M' = M the pattern swings as fast as the stretch of a square. Keeps shapes. The source takes M' = M; here
 //!   it is at most 4µ (M at ν = 1/3, what bending costs at ν = ½), because with M a κ of 0.05 locks what is nearly incompressible. Of a fluid it is M.
 //! - `viscous`: Q = 2 κ √(k₁ m) q̇: the part κ of critical damping. Shapes that are there remain.
-//! - `assumed_strain`: Q̇ = κ (V/A) Ē [[H_xx, −ν̄ H_xy], [−ν̄ H_xy, H_yy]] q̇ in the axes along the line through the middles of two opposite sides,
+//! - `assumed_strain`: Q = K q, K = κ (V/A) Ē [[H_xx, −ν̄ H_xy], [−ν̄ H_xy, H_yy]] in the axes along the line through the middles of two opposite sides,
 //!   H_ij = ∫ h,i h,j dA ≈ A/3 (ξ,i ξ,j + η,i η,j), Ē = 2µ (1 + ν̄), ν̄ = ν/(1 − ν) or, in plane stress, ν: what elastic bending costs, exact on rectangles (ASQBI).
-//!   While the point flows, the bending stays elastic.
+//!   The source has Q̇ = K q̇ with the shape of the moment; here K and γ are those of the start, and K turns with the element ([`Frame`]): W = ½ q̂·K q̂ is a potential, which gives back what it
+//!   took whatever becomes of the element, where rates gave ten times as much in elements that fold. f_a = ∂W/∂x_a has besides ¼ γ_a Q the couple that turns the frame, so that
+//!   angular momentum is kept. With γ of the start, h has the same share of it: every b_j is made of the two diagonals. While the point flows, the bending stays elastic.
 //!
 //! The stable step: the linear shapes and the pattern, each with its own largest ω² (a and b), are orthogonal on parallelograms. Else they share c² = 1 − 4/γ·γ, since
 //! h is orthogonal to every b_j; for two positive matrices whose ranges have at most this cosine c, ω² ≤ ½ (a + b + √((a − b)² + 4abc²)) ≤ a + abc²/(a − b), which is taken
 //! where b ≤ a/2, with a/2 for a − b, and a + b elsewhere: no root. A damping d that lags half a
 //! step takes part as 2 d / Δt. With the linear shapes' step, a Δt² = 4, and b Δt² is ½ κ γ·γ and √2 κ γ·γ (with M for M', which is no less), and κ Ē λ h² γ·γ / 4M with
-//! the largest eigenvalue λ of H/A.
+//! the largest eigenvalue λ of H/A (of the potential K's own, κ Ē V λ at the start), and what the turn of the frame adds.
 //!
 //! Sources: Flanagan and Belytschko, Int. J. Numer. Meth. Engng 17 (1981) 679-706; Hughes and Winget, Int. J. Numer. Meth. Engng 15 (1980) 1862-1867; Belytschko and Bindeman, Comput. Meth. Appl. Mech. Engng 88 (1991) 311-340.
 
 use super::quad4::{Quad4Full, distance_squared, shape};
-use super::{Corners, Element, ElementKind, ElementOptions, Held};
+use super::{Corners, Element, ElementKind, ElementOptions, Held, KEPT};
 use crate::tensor::{Dim, Matrix, Space, scaled};
 use embate_lanes::Lane;
 use std::f64::consts::{SQRT_2, TAU};
@@ -68,6 +70,42 @@ impl<L: Lane> Differences<L> {
     fn along(&self) -> [L; 2] {
         [self.first[0] - self.second[0], self.first[1] - self.second[1]]
     }
+
+    /// Of positions: axes that turn with the element.
+    #[inline(always)]
+    fn frame(&self) -> Frame<L> {
+        let (along, across) = (self.along(), [self.first[0] + self.second[0], self.first[1] + self.second[1]]);
+        let p = [along[0] + across[1], along[1] - across[0]];
+        let square = p[0] * p[0] + p[1] * p[1];
+        let scale = L::splat(1.0) / square.sqrt();
+        Frame { p, axis: [p[0] * scale, p[1] * scale], square }
+    }
+
+    /// Of positions, with one over twice the area: what γ has of the diagonals besides h.
+    #[inline(always)]
+    fn diagonals(&self, inverse: L) -> [L; 2] {
+        [
+            (self.twist[1] * self.second[0] - self.twist[0] * self.second[1]) * inverse,
+            (self.twist[0] * self.first[1] - self.twist[1] * self.first[0]) * inverse,
+        ]
+    }
+}
+
+/// Axes of an element: with the lines through the middles of opposite sides, l along and m across, p = (l_x + m_y, l_y − m_x) is the sum of l and of m turned back by a right angle.
+/// p·p = l·l + m·m + 2 l × m is positive as long as the area at the centre is.
+struct Frame<L> {
+    p: [L; 2],
+    /// p/|p|.
+    axis: [L; 2],
+    /// p·p.
+    square: L,
+}
+
+/// γ of the nodes.
+#[inline(always)]
+fn gamma<L: Lane>(first: L, second: L) -> [L; 4] {
+    let one = L::splat(1.0);
+    [one - first, -(one + second), one + first, second - one]
 }
 
 /// What takes nodal vectors to their gradient at the centre, all of it times 2A.
@@ -141,25 +179,70 @@ struct Answer<L> {
     swing: L,
 }
 
-/// The assumed strain's answer to the change of the amplitude.
+/// What the potential of the assumed strain keeps of the start: γ as its parts along the diagonals, and the stiffness in the axes of [`frame`], N/m (N).
 #[inline(always)]
-fn bend<L: Lane>(coefficient: L, corners: &Corners<L, 2, 4>, [numerator, extent]: [L; 2], end: &Differences<L>, inverse: L) -> Answer<L> {
-    let (half, one, two, four) = (L::splat(0.5), L::splat(1.0), L::splat(2.0), L::splat(4.0));
-    let Corners { modulus, shear, volume, swing, .. } = *corners;
+fn potential<L: Lane>(coefficient: L, corners: &Corners<L, 2, 4>, start: &Differences<L>, inverse: L) -> [L; KEPT] {
+    let (one, two) = (L::splat(1.0), L::splat(2.0));
+    let Corners { modulus, shear, volume, .. } = *corners;
     // ν = (M − 2µ) / 2(M − µ), ν/(1 − ν) = (M − 2µ) / M
     let poisson = (modulus - two * shear) / if corners.is_plane_stress { two * (modulus - shear) } else { modulus };
     let young = two * shear * (one + poisson);
-    let along = end.along();
+    let along = start.along();
     let scale = one / (along[0] * along[0] + along[1] * along[1]).sqrt();
     let axis = [along[0] * scale, along[1] * scale];
-    let [xx, yy, xy] = bending(&scaled(Centre::new(end).natural(), inverse), axis, poisson);
-    let [x, y] = turned_back(swing, axis);
+    let [xx, yy, xy] = bending(&scaled(Centre::new(start).natural(), inverse), axis, poisson);
     let k = coefficient * young * volume;
+    // The axis along the middles as the frame sees it.
+    let [cos, sin] = turned_back(axis, start.frame().axis);
+    let (squares, product) = ([cos * cos, sin * sin], two * cos * sin * xy);
+    let [first, second] = start.diagonals(inverse);
+    [
+        first,
+        second,
+        k * (squares[0] * xx - product + squares[1] * yy),
+        k * (squares[1] * xx + product + squares[0] * yy),
+        k * (cos * sin * (xx - yy) + (squares[0] - squares[1]) * xy),
+    ]
+}
+
+/// The potential of the assumed strain: W = ½ q̂·K q̂, and f_a = ∂W/∂x_a with the turn of the frame.
+#[inline(always)]
+fn bend<L: Lane>(
+    coefficient: L,
+    corners: &Corners<L, 2, 4>,
+    [numerator, extent]: [L; 2],
+    end: &Differences<L>,
+    inverse: L,
+) -> Held<L, 2, 4> {
+    let (quarter, half, two, four) = (L::splat(0.25), L::splat(0.5), L::splat(2.0), L::splat(4.0));
+    let kept = if corners.is_start { potential(coefficient, corners, end, inverse) } else { corners.kept };
+    let [first, second, xx, yy, xy] = kept;
+    let amplitude = |i: usize| (end.twist[i] + first * end.first[i] + second * end.second[i]) * quarter;
+    let Frame { p, axis, square } = end.frame();
+    let [x, y] = turned_back([amplitude(0), amplitude(1)], axis);
+    let [force_x, force_y] = [xx * x + xy * y, xy * x + yy * y];
+    let force = turned([force_x * quarter, force_y * quarter], axis);
+    // ∂θ/∂x_a = (−p_x m_a − p_y l_a, p_x l_a − p_y m_a) / p·p, and ∂W/∂θ = −q̂ × Q.
+    let couple = (x * force_y - y * force_x) / square;
+    let (u, w) = (couple * p[0], couple * p[1]);
+    let (sum, difference) = (u + w, u - w);
+    let gamma = gamma(first, second);
+    let turns = [[-sum, difference], [-difference, -sum], [sum, -difference], [difference, sum]];
+    let mut forces = turns;
+    for a in 0..4 {
+        forces[a] = [gamma[a] * force[0] + turns[a][0], gamma[a] * force[1] + turns[a][1]];
+    }
     let difference = xx - yy;
     let largest = (xx + yy + (difference * difference + four * xy * xy).sqrt()) * half;
-    Answer {
-        added: turned([k * (xx * x + xy * y), k * (xy * x + yy * y)], axis),
-        swing: coefficient * young * largest * numerator / (four * modulus * extent),
+    let swing = largest * numerator / (four * corners.modulus * corners.volume * extent);
+    let more = two * (first * first + second * second);
+    // |dq̂| ≤ ¼|γ||dx| + |q̂| √8/|p| |dx|, the second part at most r times the first.
+    let r = (L::splat(32.0) * (x * x + y * y) / square).sqrt();
+    Held {
+        forces,
+        kept,
+        work: half * (force_x * x + force_y * y),
+        stiffening: together(swing, more) + swing * (four + more) * quarter * (r * (two + r)),
     }
 }
 
@@ -187,7 +270,7 @@ fn together<L: Lane>(swing: L, more: L) -> L {
 
 #[inline(always)]
 fn hold_shape<L: Lane>(control: Control, coefficient: f64, corners: &Corners<L, 2, 4>) -> Held<L, 2, 4> {
-    let (quarter, half, one, two, four) = (L::splat(0.25), L::splat(0.5), L::splat(1.0), L::splat(2.0), L::splat(4.0));
+    let (zero, quarter, half, one, two, four) = (L::splat(0.0), L::splat(0.25), L::splat(0.5), L::splat(1.0), L::splat(2.0), L::splat(4.0));
     let Corners { shape_modulus, mass, rate, volume, swing: change, kept: old, .. } = *corners;
     let coefficient = L::splat(coefficient);
     let end = Differences::of(&corners.x);
@@ -204,12 +287,11 @@ fn hold_shape<L: Lane>(control: Control, coefficient: f64, corners: &Corners<L, 
             let c = two * coefficient * (stiffness * mass).sqrt() * rate;
             Answer { added: [c * change[0], c * change[1]], swing: L::splat(SQRT_2) * coefficient }
         }
-        Control::AssumedStrain => bend(coefficient, corners, thickness_squared, &end, inverse),
+        Control::AssumedStrain => return bend(coefficient, corners, thickness_squared, &end, inverse),
     };
     let force = if matches!(control, Control::Viscous) { added } else { [old[0] + added[0], old[1] + added[1]] };
-    let first = (end.twist[1] * end.second[0] - end.twist[0] * end.second[1]) * inverse;
-    let second = (end.twist[0] * end.first[1] - end.twist[1] * end.first[0]) * inverse;
-    let gamma = [one - first, -(one + second), one + first, second - one];
+    let [first, second] = end.diagonals(inverse);
+    let gamma = gamma(first, second);
     let quarters = [force[0] * quarter, force[1] * quarter];
     let mut forces = [[one; 2]; 4];
     for a in 0..4 {
@@ -219,7 +301,7 @@ fn hold_shape<L: Lane>(control: Control, coefficient: f64, corners: &Corners<L, 
     let together = together(swing, two * (first * first + second * second));
     Held {
         forces,
-        kept: force,
+        kept: [force[0], force[1], zero, zero, zero],
         work: half * ((old[0] + force[0]) * change[0] + (old[1] + force[1]) * change[1]),
         stiffening: if matches!(control, Control::Viscous) { together * together } else { together },
     }
@@ -239,7 +321,8 @@ macro_rules! reduced {
             const WEIGHTS: [f64; 1] = [0.5];
             const NODES: [[f64; 2]; 4] = DIAGONAL_NODES;
             const MEAN_DILATATION: bool = false;
-            const HOURGLASS: usize = 2;
+            const HOURGLASS: usize = if matches!(Control::$control, Control::AssumedStrain) { KEPT } else { 2 };
+            const SWINGS: bool = !matches!(Control::$control, Control::AssumedStrain);
 
             fn new(options: &ElementOptions) -> Self {
                 Self { coefficient: options.hourglass.unwrap_or($coefficient) }

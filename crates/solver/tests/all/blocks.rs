@@ -18,7 +18,7 @@ fn near_one(size: f64, numbers: &mut Spread) -> Gradient {
     [[1.0 + a[0], a[1]], [b[0], 1.0 + b[1]]]
 }
 
-fn largest<'a>(values: impl IntoIterator<Item = &'a f64>) -> f64 {
+pub(crate) fn largest<'a>(values: impl IntoIterator<Item = &'a f64>) -> f64 {
     values.into_iter().fold(0.0, |largest, value| largest.max(value.abs()))
 }
 

@@ -1,5 +1,6 @@
 //! Elements with one point: hourglass shapes are held, bending costs what it should, and turns cost nothing.
 
+use crate::blocks::largest;
 use crate::patches::*;
 use embate_solver::block::BlockInput;
 
@@ -124,4 +125,61 @@ fn a_thousand_turns_leave_no_stress_and_no_force() {
         println!("{element} {law}: stress {:.1e}, force {:.1e} of Young's modulus", stress / YOUNG, force / YOUNG);
         assert!(stress < 1e-11 * YOUNG && force < 1e-11 * YOUNG, "{element} {law}: {stress} {force}");
     });
+}
+
+#[test]
+fn assumed_strain_gives_back_what_it_took_however_an_element_is_folded() {
+    let mut numbers = Spread::new(31);
+    for law in ["neo_hookean", "ogden"] {
+        for _ in 0..20 {
+            let start: Vec<_> = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]
+                .into_iter()
+                .map(|x: [f64; 2]| {
+                    let [dx, dy] = numbers.vector(0.1);
+                    [x[0] + dx, x[1] + dy]
+                })
+                .collect();
+            let mut body = Body::single("quad4_reduced_assumed_strain", &material(law, 0.3), &start);
+            assert!(body.energy().abs() < 1e-20 * YOUNG, "nothing is stored at the start");
+            // Far enough to fold corners over; the centre stays the right way round.
+            let mut x = start.clone();
+            for (x, way) in x.iter_mut().zip([0.6, 0.0, 0.1, -0.05]) {
+                let chance = numbers.vector(0.05);
+                *x = [x[0] + way + chance[0], x[1] + way + chance[1]];
+            }
+            let at = |body: &mut Body, x: &[[f64; 2]]| {
+                body.move_to(x);
+                body.energy()
+            };
+            let energy = at(&mut body, &x);
+            let forces = body.forces();
+            let (held, size) = (body.report.hourglass, largest(forces.iter().flatten()));
+            assert!(held > 0.0, "{law}: {held}");
+            // Forces are the slope of all energy: that of the rubber and that of the control.
+            for a in 0..4 {
+                for d in 0..2 {
+                    let mut moved = |by: f64| {
+                        let mut x = x.clone();
+                        x[a][d] += by;
+                        at(&mut body, &x)
+                    };
+                    let slope = (moved(1e-6) - moved(-1e-6)) / 2e-6;
+                    assert!((forces[a][d] + slope).abs() < 1e-6 * size, "{law} node {a} {d}: {} {slope}", forces[a][d]);
+                }
+            }
+            let moment: f64 = x.iter().zip(&forces).map(|(x, f)| x[0] * f[1] - x[1] * f[0]).sum();
+            assert!(moment.abs() < 1e-12 * size, "{law}: moment {moment}");
+            // By another way to the same place, and back.
+            for turn in [0.3, 1.1, -0.7] {
+                let (s, c) = f64::sin_cos(turn);
+                body.map(|[x, y]| [c * x - s * y, s * x + c * y]);
+                let turned = body.report.hourglass;
+                if turn == 0.3 {
+                    let same = at(&mut body, &x);
+                    assert!((same - energy).abs() < 1e-12 * energy && (turned - body.report.hourglass).abs() < 1e-5 * held, "{law}");
+                }
+            }
+            assert!(at(&mut body, &start).abs() < 1e-12 * energy, "{law}: {}", body.energy());
+        }
+    }
 }

@@ -269,7 +269,7 @@ impl Body {
             connectivity: connectivity.to_vec(),
             nodes_per_element: nodes_of(element),
         };
-        body.move_to(positions);
+        body.go(positions, &vec![[0.0; 2]; positions.len()], 0.0);
         body
     }
 
@@ -287,7 +287,11 @@ impl Body {
         let time_step = 1.0 / 64.0; // exact, so that velocities are as exact as displacements
         let velocity = |(x, old): (&[f64; 2], &[f64; 2])| [(x[0] - old[0]) / time_step, (x[1] - old[1]) / time_step];
         let velocities: Vec<_> = positions.iter().zip(&self.positions).map(velocity).collect();
-        let motion = Motion { positions, velocities: &velocities, time_step };
+        self.go(positions, &velocities, time_step);
+    }
+
+    fn go(&mut self, positions: &[[f64; 2]], velocities: &[[f64; 2]], time_step: f64) {
+        let motion = Motion { positions, velocities, time_step };
         self.report = self.block.advance(&motion, self.level, &mut self.slots, &mut self.team);
         self.positions = positions.to_vec();
     }

@@ -72,7 +72,7 @@ static RUN: Section = Section {
         key(
             "velocity_limit",
             Quantity(Dimension::VELOCITY, Positive),
-            Optional("twenty times the fastest wave and the fastest node at the start together"),
+            Optional("twenty times the fastest wave and the fastest node or obstacle at the start together"),
             "Speed of a node above which the run stops: faster than waves, no body moves in a sound model.",
         ),
         key(

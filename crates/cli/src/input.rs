@@ -57,13 +57,18 @@ pub(crate) fn origin(arguments: &ModelArguments) -> Origin {
     Origin { path, set: arguments.set.clone() }
 }
 
-/// Makes a model ready to step, if the machine has the memory.
+/// Makes a model ready to step.
 pub(crate) fn ready(model: &Model, options: &Options) -> Result<Simulation, Failure> {
+    simulation(model, options).map_err(|error| Failure::Input(Complaint::from(&error)))
+}
+
+/// The simulation of a model, if the machine has the memory.
+pub(crate) fn simulation(model: &Model, options: &Options) -> Result<Simulation, Error> {
     let spare = machine::memory_available().filter(|_| model.run.memory_limit.is_none());
     if let Some(fault) = spare.and_then(|bytes| model.memory_fault(bytes as f64, "what the machine has to spare")) {
-        return Err(Failure::Input(Complaint::from(&Error::Model(vec![fault]))));
+        return Err(Error::Model(vec![fault]));
     }
-    Simulation::new(model, options).map_err(|error| Failure::Input(Complaint::from(&error)))
+    Simulation::new(model, options)
 }
 
 /// Prints what the user should know of a model before he trusts its results.

@@ -1,12 +1,13 @@
 //! The program `embate`: reads the command line, calls the libraries, turns their errors into messages and exit codes.
 //!
-//! One file per command. Exit codes: 0 done, 1 a run failed (or a bug), 2 bad input or command line,
+//! One file per command. Exit codes: 0 done, 1 a run failed (or a bug), or two runs differ, 2 bad input or command line,
 //! 3 imported but not all of it acts, 130 stopped by Ctrl-C or SIGTERM.
 
 mod bench;
 mod check;
 mod complaint;
 mod cpu;
+mod diff;
 mod explain;
 mod import;
 mod input;
@@ -47,6 +48,8 @@ enum Command {
     Resume(resume::Arguments),
     /// Go through a stretch of a run once more, with denser output
     Replay(replay::Arguments),
+    /// Tell the first step, part and node at which two runs part
+    Diff(diff::Arguments),
     /// Run a model with many values, one run on each core, and write one table
     Sweep(sweep::Arguments),
     /// Look at a model without running it: parts, masses, stable step, probes, penetrations, a picture
@@ -74,6 +77,8 @@ enum Failure {
     Input(Complaint),
     /// A run failed, or its results could not be written.
     Run(Complaint),
+    /// Two runs are not the same; this has been told.
+    Different,
     /// A deck was imported, but not all of it acts in the model.
     Incomplete(Complaint),
     /// The user stopped a run.
@@ -83,7 +88,7 @@ enum Failure {
 impl Failure {
     fn code(&self) -> u8 {
         match self {
-            Self::Run(_) => 1,
+            Self::Run(_) | Self::Different => 1,
             Self::Input(_) => 2,
             Self::Incomplete(_) => 3,
             Self::Interrupted => 130,
@@ -128,6 +133,7 @@ fn obey(command: &Command) -> Result<(), Failure> {
         Command::Run(arguments) => run::run(arguments),
         Command::Resume(arguments) => resume::resume(arguments),
         Command::Replay(arguments) => replay::replay(arguments),
+        Command::Diff(arguments) => diff::diff(arguments),
         Command::Sweep(arguments) => sweep::sweep(arguments),
         Command::Check(arguments) => check::check(arguments),
         Command::List(arguments) => list::list(arguments),

@@ -2,8 +2,19 @@
 
 use embate_solver::message::{Example, Message};
 
-pub(crate) static MESSAGES: &[&Message] =
-    &[&USAGE, &NO_NAME, &NO_CODE, &SOURCE_IN_THE_WAY, &RUNS_FAILED, &NO_CASE, &CHECKS_FAILED, &IGNORED];
+pub(crate) static MESSAGES: &[&Message] = &[
+    &USAGE,
+    &NO_NAME,
+    &NO_CODE,
+    &NO_RESULTS,
+    &NOTHING_IN_COMMON,
+    &SOURCE_IN_THE_WAY,
+    &RUNS_FAILED,
+    &NO_CASE,
+    &CHECKS_FAILED,
+    &IGNORED,
+    &NOT_AGAIN,
+];
 
 pub(crate) static USAGE: Message = Message {
     code: "E0802",
@@ -27,6 +38,30 @@ pub(crate) static NO_CODE: Message = Message {
     example: Example::Command("explain E9999"),
     cause: "The code is misspelt, or of another version of the program.",
     cure: "`embate explain` lists all codes.",
+};
+
+pub(crate) static NO_RESULTS: Message = Message {
+    code: "E0811",
+    title: "nothing that tells what a run was",
+    example: Example::Command("diff . ."),
+    cause: "The folder is not one of results, or its run was killed before it left anything, or it kept no hashes (`output.hash_steps = 0`) and has not ended.",
+    cure: "Give the folders that `embate run` wrote, the one with summary.json.",
+};
+
+pub(crate) static NOTHING_IN_COMMON: Message = Message {
+    code: "E0812",
+    title: "two runs that can't be compared",
+    example: Example::Words("`embate diff` gets a run of a coarse mesh and one of a fine mesh of the same part."),
+    cause: "Nodes are held against each other by part and number; here no part of one run has its name and its elements in the other.",
+    cure: "Compare runs of one mesh; for others compare histories and fields.",
+};
+
+pub(crate) static NOT_AGAIN: Message = Message {
+    code: "W0811",
+    title: "runs that can't be gone over once more",
+    example: Example::Words("The model file of a run has been changed since, and the run is compared with another one by `embate diff`."),
+    cause: "The step and the node at which two runs part are found by going over both once more, and that needs the models that ran; what is told without is known from the logs.",
+    cure: "Put the model back as it was, or name the one that ran with --model-a or --model-b.",
 };
 
 pub(crate) static SOURCE_IN_THE_WAY: Message = Message {

@@ -6,8 +6,11 @@ use crate::numbers::{grouped, per_cent, table, with_unit};
 use crate::progress::Display;
 use crate::{Failure, cpu, terminal};
 use clap::Args;
+use embate_files::checkpoint::Origin;
 use embate_files::checkpoint::messages::LAST_GOOD;
-use embate_files::checkpoint::{self, Origin};
+use embate_files::model_file::Loaded;
+use embate_files::post_mortem::{self, Failed};
+use embate_files::results::messages::NO_POST_MORTEM;
 use embate_files::results::{Checkpoints, OnProgress, Recorder, Report, ResultsError, RunStatus};
 use embate_solver::error::Error;
 use embate_solver::model::Model;
@@ -55,6 +58,30 @@ pub(crate) fn checkpoints(model: &Model, origin: Origin) -> Checkpoints {
     Checkpoints { pause: model.run.checkpoint.and_then(|pause| Duration::try_from_secs_f64(pause).ok()), origin }
 }
 
+/// What is run, and where its results go.
+pub(crate) struct Recording<'r> {
+    pub(crate) loaded: &'r Loaded,
+    pub(crate) path: &'r Path,
+    /// Result folder with the checkpoints of the run; that of the results, but where these are of a stretch of it.
+    pub(crate) checkpoints: &'r Path,
+    /// Whether the state of the last good step of a run that fails is kept.
+    pub(crate) keeps_last_good: bool,
+    pub(crate) manner: &'r Manner,
+    pub(crate) is_verbose: bool,
+}
+
+impl<'r> Recording<'r> {
+    /// A run from its beginning, or from where it was stopped, to its end.
+    pub(crate) fn of(loaded: &'r Loaded, path: &'r Path, manner: &'r Manner, is_verbose: bool) -> Self {
+        let run = &loaded.model.run;
+        let keeps_last_good = run.checkpoint.is_some() || run.checkpoint_steps.is_some();
+        Self { loaded, path, checkpoints: path, keeps_last_good, manner, is_verbose }
+    }
+}
+
+/// Bytes for the states that a run keeps in memory, from which it can go to its failure once more.
+const ROOM: usize = 64 << 20;
+
 /// What an error of results is before anything was run.
 pub(crate) fn in_the_way(error: ResultsError) -> Failure {
     Failure::Input(Complaint::new(error.kind(), error))
@@ -62,12 +89,12 @@ pub(crate) fn in_the_way(error: ResultsError) -> Failure {
 
 /// Runs a simulation by `go` and records it by what `make` makes, to the last word.
 pub(crate) fn record<'a>(
-    model: &Model,
+    recording: &Recording<'_>,
     simulation: &mut Simulation,
-    (path, manner, is_verbose): (&Path, &Manner, bool),
     make: impl FnOnce(&Simulation, OnProgress<'a>) -> Result<Recorder<'a>, ResultsError>,
     go: impl FnOnce(&mut Simulation, &mut dyn Observer) -> Result<(), Error>,
 ) -> Result<(), Failure> {
+    let Recording { path, manner, .. } = *recording;
     let interrupt = Interrupt::watch();
     let display = Rc::new(RefCell::new(Display::new(manner.quiet)));
     let told = Rc::new(RefCell::new(Vec::new()));
@@ -89,14 +116,15 @@ pub(crate) fn record<'a>(
         Control::Stop
     };
     let mut recorder = make(simulation, Box::new(on_progress)).map_err(in_the_way)?;
+    simulation.keep_states_in(ROOM);
     let ran = go(simulation, &mut recorder);
-    let mut unkept = None;
+    let mut told_late = Vec::new();
     if let Err(error) = &ran
-        && !matches!(error, Error::Output(_))
-        && (model.run.checkpoint.is_some() || model.run.checkpoint_steps.is_some())
+        && !matches!(error, Error::Output(_) | Error::State(_))
+        && !interrupt.is_pressed()
     {
-        display.borrow().say("the run failed; going once more to its last good step, to keep that state (Ctrl-C: not)");
-        unkept = keep_last_good(model, simulation, (path, manner), &interrupt, &mut recorder).err();
+        display.borrow().say("the run failed; going once more to its last steps, to see how it came (Ctrl-C: not)");
+        told_late = look_into(recording, simulation, error, &interrupt, &mut recorder);
     }
     let outcome = recorder.finish(ran.as_ref().err().map(Error::with_code), &simulation.summary(), cpu::user_seconds);
     if let Ok(display) = Rc::try_unwrap(display) {
@@ -106,9 +134,7 @@ pub(crate) fn record<'a>(
     let unwritten = outcome.unwritten.map_or(Ok(()), |error| Err(Complaint::new(error.kind(), error)));
     let result = ran.map_err(|error| Complaint::from(&error)).and(unwritten);
     let report = outcome.report;
-    if let Some(error) = unkept {
-        terminal::complain(&Complaint::new(&LAST_GOOD, error).to_string());
-    }
+    told_late.iter().for_each(|complaint| terminal::complain(&complaint.to_string()));
     if !manner.quiet {
         // Those of the model come first, and have been told, as has what was seen on the way: the summary says how it went on.
         let told = told.borrow();
@@ -120,33 +146,45 @@ pub(crate) fn record<'a>(
     if !manner.quiet {
         terminal::print(&closing_text(&report, path))?;
     }
-    if is_verbose {
+    if recording.is_verbose {
         terminal::print(&search_text(&simulation.searches()))?;
     }
     if interrupt.is_pressed() && report.status == RunStatus::Stopped { Err(Failure::Interrupted) } else { Ok(()) }
 }
 
-/// Keeps the state of the step before that which failed.
-fn keep_last_good(
-    model: &Model,
+/// Finds out how a failure came, writes its page, and keeps the state of the step before, where that is wanted. What goes wrong with that hides nothing.
+fn look_into(
+    recording: &Recording<'_>,
     simulation: &Simulation,
-    (path, manner): (&Path, &Manner),
+    error: &Error,
     interrupt: &Interrupt,
     recorder: &mut Recorder<'_>,
-) -> Result<(), String> {
-    let step = simulation.steps().saturating_sub(1);
-    if step == 0 || interrupt.is_pressed() {
-        return Ok(());
+) -> Vec<Complaint> {
+    let Recording { loaded, path, checkpoints, keeps_last_good, manner, .. } = *recording;
+    let options = manner.options();
+    let failed = Failed { model: &loaded.model, loaded, options: &options, simulation, error, checkpoints, keeps_last_good };
+    let mut findings = failed.findings(|| !interrupt.is_pressed());
+    let mut complaints = Vec::new();
+    let kept = findings.last_good.take().map_or(Ok(()), |state| recorder.state(state).map_err(|error| error.to_string()));
+    if let Some(fault) = kept.err().or(findings.fault.take()) {
+        complaints.push(Complaint::new(&LAST_GOOD, fault));
     }
-    let state = checkpoint::state_at(model, &manner.options(), path, step, || !interrupt.is_pressed());
-    match state.map_err(|error| format!("the state of the last good step could not be kept: {error}"))? {
-        Some(state) => recorder.state(state).map_err(|error| error.to_string()),
-        None => Ok(()),
+    match failed.write(&findings, path) {
+        Ok(_) => recorder.point_to_post_mortem(),
+        Err(error) => complaints.push(Complaint::new(&NO_POST_MORTEM, format!("the post-mortem is missing: {error}"))),
     }
+    complaints
+}
+
+/// A complaint that points to the page about it.
+pub(crate) fn with_page(complaint: Complaint, page: &Path) -> Complaint {
+    complaint.and(format!("  post-mortem: {}", page.display()))
 }
 
 fn with_results(complaint: Complaint, path: &Path) -> Complaint {
     let kept: Vec<&str> = FILES.iter().map(|(name, _)| *name).filter(|name| path.join(name).exists()).collect();
+    let page = path.join(post_mortem::PAGE);
+    let complaint = if page.exists() { with_page(complaint, &page) } else { complaint };
     if kept.is_empty() { complaint } else { complaint.and(format!("  results until then: {} ({})", path.display(), kept.join(", "))) }
 }
 

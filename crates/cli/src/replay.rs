@@ -2,7 +2,7 @@
 
 use crate::Failure;
 use crate::input;
-use crate::recording::{self, Manner, in_the_way};
+use crate::recording::{self, Manner, Recording, in_the_way};
 use crate::resume::{Place, no_checkpoint, ready, refuse_changes, usage};
 use clap::Args;
 use embate_files::checkpoint::{self, Checkpoint, Identity, Origin};
@@ -71,7 +71,8 @@ pub(crate) fn replay(arguments: &Arguments) -> Result<(), Failure> {
         Recorder::new(folder, &stretch, simulation.history_columns(), simulation.cells(), options.thread_count(), on_progress)
     };
     let window = |simulation: &mut Simulation, observer: &mut dyn Observer| simulation.run_window([from, to], output_every, observer);
-    recording::record(&stretch, &mut simulation, (&path, &arguments.manner, false), make, window)
+    let of_run = Recording::of(&loaded, &path, &arguments.manner, false);
+    recording::record(&Recording { checkpoints: &arguments.folder, keeps_last_good: false, ..of_run }, &mut simulation, make, window)
 }
 
 /// Where the model of a run came from, and its newest checkpoint that is not after a time; without one the run begins anew.

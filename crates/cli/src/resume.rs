@@ -3,7 +3,7 @@
 use crate::complaint::Complaint;
 use crate::input::{self, Leave, ModelArguments, key_and_value};
 use crate::messages::USAGE;
-use crate::recording::{self, Manner};
+use crate::recording::{self, Manner, Recording};
 use crate::{Failure, terminal};
 use clap::Args;
 use embate_files::checkpoint::messages::{MODEL_CHANGED, NO_CHECKPOINT, OLDER};
@@ -47,6 +47,11 @@ pub(crate) struct Place {
 }
 
 impl Place {
+    /// A given place, or that of the run.
+    pub(crate) fn at(model: Option<PathBuf>, leave: Leave) -> Self {
+        Self { model, leave }
+    }
+
     /// The model that began the run, with these further keys.
     pub(crate) fn load(&self, origin: &Origin, set: &[String]) -> Result<(Loaded, Origin), Failure> {
         let path =
@@ -87,7 +92,7 @@ pub(crate) fn resume(arguments: &Arguments) -> Result<(), Failure> {
         let checkpoints = recording::checkpoints(model, origin);
         Recorder::reopen(path, (model, &past), simulation.history_columns(), shown, options.thread_count(), checkpoints, on_progress)
     };
-    recording::record(model, &mut simulation, (path, &arguments.manner, arguments.verbose), make, Simulation::run)
+    recording::record(&Recording::of(&loaded, path, &arguments.manner, arguments.verbose), &mut simulation, make, Simulation::run)
 }
 
 /// The newest sound checkpoint of a run; what is wrong with newer ones is told.

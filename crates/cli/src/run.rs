@@ -1,10 +1,16 @@
 //! `embate run`: a model from its file to its results.
 
 use crate::Failure;
+use crate::complaint::Complaint;
 use crate::input::{self, ModelArguments};
-use crate::recording::{self, Manner, in_the_way};
+use crate::recording::{self, Manner, Recording, in_the_way};
 use clap::Args;
+use embate_files::model_file::{self, Loaded};
+use embate_files::post_mortem;
+use embate_files::results::messages::NO_POST_MORTEM;
 use embate_files::results::{Recorder, ResultFolder};
+use embate_solver::error::{Error, Fault, MEMORY};
+use embate_solver::model::Model;
 use embate_solver::simulation::Simulation;
 use std::path::{Path, PathBuf};
 
@@ -30,12 +36,15 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let refuse = |folder: &Path| if arguments.force { Ok(()) } else { ResultFolder::refuse_existing(folder).map_err(in_the_way) };
     // Before any work is done.
     arguments.out.as_deref().map_or(Ok(()), refuse)?;
-    let loaded = input::load(&arguments.model)?;
+    let loaded = load(arguments)?;
     let model = &loaded.model;
-    let path = arguments.out.clone().unwrap_or_else(|| input::default_folder(model));
+    let path = folder(arguments, model);
     refuse(&path)?;
     let options = arguments.manner.options();
-    let mut simulation = input::ready(model, &options)?;
+    let mut simulation = input::simulation(model, &options).map_err(|error| match &error {
+        Error::Model(faults) => with_page(Complaint::from(&error), arguments, &loaded, faults),
+        _ => Failure::Input(Complaint::from(&error)),
+    })?;
     // Also of a quiet run, and before it: who reads them late has waited for nothing.
     input::warn(&loaded, &simulation);
     // Only now: a model that can't run must not cost the results of an earlier one.
@@ -45,5 +54,32 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         let shown = (simulation.history_columns(), simulation.cells());
         Recorder::keeping(folder, model, shown, options.thread_count(), Some(checkpoints), on_progress)
     };
-    recording::record(model, &mut simulation, (&path, &arguments.manner, arguments.verbose), make, Simulation::run)
+    let recording = Recording::of(&loaded, &path, &arguments.manner, arguments.verbose);
+    recording::record(&recording, &mut simulation, make, Simulation::run)
+}
+
+/// Reads the model; of one that needs too much memory there is a page.
+fn load(arguments: &Arguments) -> Result<Loaded, Failure> {
+    input::load(&arguments.model).map_err(|failure| {
+        let Failure::Input(complaint) = failure else { return failure };
+        let Some(loaded) = model_file::load_despite(&MEMORY, &arguments.model.model, &arguments.model.set, arguments.model.leave.reach())
+        else {
+            return Failure::Input(complaint);
+        };
+        with_page(complaint, arguments, &loaded, &loaded.model.check())
+    })
+}
+
+/// That a model can't begin: of what its numbers need there is a page, beside the results of earlier runs if there are any.
+fn with_page(complaint: Complaint, arguments: &Arguments, loaded: &Loaded, faults: &[Fault]) -> Failure {
+    let path = folder(arguments, &loaded.model);
+    Failure::Input(match post_mortem::at_start(loaded, &arguments.manner.options(), faults, &path) {
+        Ok(None) => complaint,
+        Ok(Some(page)) => recording::with_page(complaint, &page),
+        Err(error) => complaint.and(Complaint::new(&NO_POST_MORTEM, format!("the post-mortem is missing: {error}"))),
+    })
+}
+
+fn folder(arguments: &Arguments, model: &Model) -> PathBuf {
+    arguments.out.clone().unwrap_or_else(|| input::default_folder(model))
 }

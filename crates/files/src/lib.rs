@@ -2,11 +2,13 @@
 
 pub mod abaqus;
 pub mod checkpoint;
+pub mod comparison;
 pub mod gmsh;
 pub mod messages;
 pub mod model_file;
 mod outline;
 pub mod picture;
+pub mod post_mortem;
 mod reach;
 pub mod results;
 pub mod sweep;

@@ -15,17 +15,23 @@ impl System {
     }
 
     fn element_with_step(&self, squared: f64) -> String {
-        for (group, block) in self.mesh.groups.iter().zip(&self.blocks) {
-            // NaN equals nothing, so a block whose step is NaN is found by its own failure to compare.
-            let governs = |&element: &usize| block.is_alive(element) && block.time_step_squared(element).total_cmp(&squared).is_eq();
-            if let Some(element) = (0..block.elements()).find(governs) {
-                let [x, y] = self.centre(group.cell(element));
-                let user = group.user_elements[element];
-                return format!("element {user} of part \"{}\" ({x:.6e}, {y:.6e})", self.mesh.parts[group.part].name);
-            }
+        if let Some((g, element)) = self.governing_element(squared) {
+            let group = &self.mesh.groups[g];
+            let [x, y] = self.centre(group.cell(element));
+            let user = group.user_elements[element];
+            return format!("element {user} of part \"{}\" ({x:.6e}, {y:.6e})", self.mesh.parts[group.part].name);
         }
         let what = if self.has_springs { "springs and the elements that they hold" } else { "an element" };
         what.into()
+    }
+
+    /// The element, by group and number, whose squared step this is.
+    pub(crate) fn governing_element(&self, squared: f64) -> Option<(usize, usize)> {
+        self.mesh.groups.iter().zip(&self.blocks).enumerate().find_map(|(g, (_, block))| {
+            // NaN equals nothing, so a block whose step is NaN is found by its own failure to compare.
+            let governs = |&element: &usize| block.is_alive(element) && block.time_step_squared(element).total_cmp(&squared).is_eq();
+            (0..block.elements()).find(governs).map(|element| (g, element))
+        })
     }
 
     pub(crate) fn centre(&self, nodes: &[u32]) -> [f64; 2] {
@@ -37,8 +43,16 @@ impl System {
         [sum[0] / n as f64, sum[1] / n as f64]
     }
 
-    /// The element that is most inside out. The Jacobian of a quadrilateral is smallest in a corner.
     pub(crate) fn inverted(&self) -> Error {
+        let (g, element) = self.most_inverted();
+        let group = &self.mesh.groups[g];
+        let at = self.centre(group.cell(element)).to_vec();
+        let (part, element) = (self.mesh.parts[group.part].name.clone(), group.user_elements[element] as usize);
+        Error::Inverted { part, element, at, time: self.time, step: self.step }
+    }
+
+    /// The element, by group and number, that is most inside out. The Jacobian of a quadrilateral is smallest in a corner.
+    pub(crate) fn most_inverted(&self) -> (usize, usize) {
         let mut worst = (f64::INFINITY, 0, 0);
         for (g, (group, block)) in self.mesh.groups.iter().zip(&self.blocks).enumerate() {
             let n = group.nodes_per_element;
@@ -56,10 +70,7 @@ impl System {
                 }
             }
         }
-        let group = &self.mesh.groups[worst.1];
-        let at = self.centre(group.cell(worst.2)).to_vec();
-        let (part, element) = (self.mesh.parts[group.part].name.clone(), group.user_elements[worst.2] as usize);
-        Error::Inverted { part, element, at, time: self.time, step: self.step }
+        (worst.1, worst.2)
     }
 
     pub(crate) fn collapsed(&self, time_step: f64, governor: Governor) -> Error {
@@ -69,18 +80,31 @@ impl System {
         Error::Collapsed { time_step, limit: self.limits.step, governor: self.governor_name(governor), time: self.time, step: self.step }
     }
 
+    /// The first node whose place or velocity is no number.
+    pub(crate) fn node_not_finite(&self) -> Option<usize> {
+        (0..self.positions.len()).find(|&node| !self.positions[node].iter().chain(&self.velocities[node]).all(|v| v.is_finite()))
+    }
+
+    pub(crate) fn fastest_node(&self) -> Option<usize> {
+        let square = |v: &[f64; 2]| v[0] * v[0] + v[1] * v[1];
+        self.velocities.iter().enumerate().max_by(|(_, a), (_, b)| square(a).total_cmp(&square(b))).map(|(node, _)| node)
+    }
+
     /// The fastest of all nodes.
     pub(crate) fn runaway(&self) -> Error {
-        let square = |v: &[f64; 2]| v[0] * v[0] + v[1] * v[1];
-        let fastest = self.velocities.iter().enumerate().max_by(|(_, a), (_, b)| square(a).total_cmp(&square(b)));
-        let node = fastest.map_or(0, |(node, _)| node);
+        let node = self.fastest_node().unwrap_or(0);
         Error::Runaway { place: self.node_place(node), speed: self.speed, limit: self.limits.velocity, time: self.time, step: self.step }
     }
 
-    /// The deepest spring of a contact.
-    pub(crate) fn too_deep(&self, contact: &Contact) -> Error {
+    /// The node of a contact that is deepest inside, and how deep, m.
+    pub(crate) fn deepest(&self, contact: &Contact) -> Option<(usize, f64)> {
         let deepest = contact.penetrations(&self.springs).max_by(|(_, a), (_, b)| a.total_cmp(b));
-        let (node, depth) = deepest.map_or((0, contact.penetration), |(node, depth)| (node as usize, depth));
+        deepest.map(|(node, depth)| (node as usize, depth))
+    }
+
+    /// The contact that is too deep, at its deepest node.
+    pub(crate) fn too_deep(&self, contact: &Contact) -> Error {
+        let (node, depth) = self.deepest(contact).unwrap_or((0, contact.penetration));
         Error::TooDeep {
             contact: format!("{} \"{}\"", contact.kind.name(), contact.name).into(),
             place: self.node_place(node).into(),
@@ -106,7 +130,7 @@ impl System {
     }
 
     pub(crate) fn not_finite(&self) -> Error {
-        let bad = (0..self.positions.len()).find(|&node| !self.positions[node].iter().chain(&self.velocities[node]).all(|v| v.is_finite()));
+        let bad = self.node_not_finite();
         let (what, place) = match bad {
             Some(node) => {
                 // Positions of the step before are there as long as those of this one are not.

@@ -79,7 +79,8 @@ static RUNAWAY: Message = Message {
     cure: "Look at the node that the message names, and at the units of loads on its part; raise `run.velocity_limit` where such speeds are meant.",
 };
 
-pub(crate) static MEMORY: Message = Message {
+/// A model needs more memory than there may be.
+pub static MEMORY: Message = Message {
     code: "E0608",
     title: "more memory than there may be",
     example: Example::Model("[run]\nmemory_limit = \"1 kB\"\n"),
@@ -103,7 +104,8 @@ static OUTPUT: Message = Message {
     cure: "Free some space, or write to another disk with --out.",
 };
 
-pub(crate) static MASS_SCALING: Message = Message {
+/// Mass scaling would add more than its limit.
+pub static MASS_SCALING: Message = Message {
     code: "E0605",
     title: "mass scaling would add more than its limit",
     example: Example::Model("[run]\nmass_scaling = { time_step = \"10 us\", limit = 0.01 }\n"),

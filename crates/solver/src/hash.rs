@@ -1,4 +1,4 @@
-//! FNV-1a (64 bit): tells states and models apart. No safeguard against anybody who means harm.
+//! Hashes (64 bit) that tell states and models apart: FNV-1a byte by byte, and a faster one number by number. No safeguard against anybody who means harm.
 
 use std::fmt;
 
@@ -19,6 +19,12 @@ impl Fnv {
             self.0 = (self.0 ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3);
         }
     }
+
+    /// What was taken in so far, as a number.
+    #[must_use]
+    pub fn value(&self) -> u64 {
+        self.0
+    }
 }
 
 /// So that text is taken in without being put together first; never fails.
@@ -35,9 +41,31 @@ impl fmt::Display for Fnv {
     }
 }
 
+/// Takes a number of 64 bits into a hash: one-to-one in either of them, so that one number that differs is never lost. (Multiplication carries bits upwards, the shift brings them down again.)
+#[inline(always)]
+#[must_use]
+pub fn mixed(hash: u64, number: u64) -> u64 {
+    // The constant of the golden ratio: odd, with bits everywhere.
+    let product = (hash ^ number).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    product ^ (product >> 32)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn every_bit_of_a_number_changes_about_half_of_the_bits_of_what_follows() {
+        let of = |numbers: [u64; 3]| numbers.into_iter().fold(7, mixed);
+        let numbers = [1.0_f64, -0.0, 1e300].map(f64::to_bits);
+        for (at, bit) in (0..2).flat_map(|at| (0..64).map(move |bit| (at, bit))) {
+            let mut other = numbers;
+            other[at] ^= 1 << bit;
+            let changed = (of(numbers) ^ of(other)).count_ones();
+            assert!((10..54).contains(&changed), "{changed} bits by bit {bit} of number {at}");
+        }
+        assert_ne!(of(numbers), of([numbers[1], numbers[0], numbers[2]]));
+    }
 
     #[test]
     fn known_texts_have_their_known_hashes() {

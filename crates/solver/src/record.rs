@@ -287,7 +287,8 @@ fn fill_cells(system: &System, fields: &mut [Field]) {
     }
 }
 
-fn von_mises(s: &[f64; 6]) -> f64 {
+/// Equivalent stress, Pa.
+pub(crate) fn von_mises(s: &[f64; 6]) -> f64 {
     let differences = (s[0] - s[1]).powi(2) + (s[1] - s[2]).powi(2) + (s[2] - s[0]).powi(2);
     (0.5 * differences + 3.0 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5])).sqrt()
 }

@@ -2,26 +2,31 @@
 
 mod clock;
 mod course;
+mod memory;
 mod shortest;
 mod state;
+mod summary;
 
 pub use state::State;
 
 use crate::build;
 use crate::contact::initial::{self, Penetration};
-use crate::contact::messages::{INSIDE_AT_START, MISSED, NO_FORCE, TIES_BROKE, UNSOLVED};
-use crate::contact::tracker::{Certificate, SearchReport};
-use crate::contact::{Contact, ContactKind, search};
-use crate::error::{ERODED, Error, Fault, INSTRUCTIONS, MASS_ADDED, Notice, RELAXED, Warning};
+use crate::contact::messages::INSIDE_AT_START;
+use crate::contact::tracker::SearchReport;
+use crate::contact::{ContactKind, search};
+use crate::error::{Error, Fault, INSTRUCTIONS, MASS_ADDED, Notice, Warning};
+use crate::hashes::{self, Hashes, Hashing};
 use crate::mesh::PartMesh;
 use crate::model::{self, Cadence, Model};
-use crate::output::{Cells, Eroded, Erosion, Frame, Summary};
+use crate::output::{Cells, Frame};
+use crate::post_mortem::Tracer;
 use crate::record::{Momentum, Recorded};
 use crate::step::System;
 use crate::watch::Watch;
 use clock::Clock;
 use course::Course;
 use embate_lanes::Level;
+use memory::Memory;
 pub(crate) use shortest::Shortest;
 use std::collections::BTreeMap;
 
@@ -42,6 +47,12 @@ impl Options {
             0 => std::thread::available_parallelism().map_or(1, usize::from),
             threads => threads,
         }
+    }
+
+    /// Whether this machine has an instruction set of this name.
+    #[must_use]
+    pub fn has(simd: &str) -> bool {
+        Level::named(simd).is_some()
     }
 }
 
@@ -105,6 +116,17 @@ pub trait Observer {
     /// # Errors
     /// As [`Observer::frame`].
     fn state(&mut self, _state: State) -> Result<(), ObserverError> {
+        Ok(())
+    }
+    /// Whether it takes hashes that are due by `output.hash_steps`.
+    fn keeps_hashes(&self) -> bool {
+        false
+    }
+    /// Hashes of the first state, of those that are due, and of the one at the end; told before anything else of a later step.
+    ///
+    /// # Errors
+    /// As [`Observer::frame`].
+    fn hashes(&mut self, _hashes: Hashes) -> Result<(), ObserverError> {
         Ok(())
     }
     /// The run has failed: the row and the frame that follow show the state of the failure.
@@ -175,7 +197,13 @@ pub struct Simulation {
     max_steps: u64,
     /// Steps between two states that are handed out; `None`: only when asked for.
     state_steps: Option<u64>,
+    /// Steps between two hashes of the state; `None`: none.
+    hash_steps: Option<u64>,
+    hashing: Hashing,
     course: Option<Course>,
+    memory: Memory,
+    /// Looks at every step of a run that goes to its failure once more.
+    pub(crate) tracer: Option<Box<Tracer>>,
     /// Search of each contact by name.
     search_names: BTreeMap<String, String>,
     pool: Option<rayon::ThreadPool>,
@@ -218,12 +246,16 @@ impl Simulation {
             fields: model.output.fields,
             max_steps: model.run.max_steps.unwrap_or(u64::MAX),
             state_steps: model.run.checkpoint_steps,
+            hash_steps: model.output.hash_steps,
+            hashing: Hashing::default(),
             course: None,
+            memory: Memory::default(),
+            tracer: None,
             search_names: model.contacts.iter().map(|contact| (contact.name.clone(), search_name(contact))).collect(),
             pool,
             system,
         };
-        simulation.within_pool(System::start)?;
+        within_pool(simulation.pool.as_ref(), &mut simulation.system, System::start)?;
         simulation.momentum = Momentum::new(&simulation.system);
         simulation.shortest.note(&simulation.system);
         simulation.check_obstacles(model)?;
@@ -239,13 +271,15 @@ impl Simulation {
         Ok(simulation)
     }
 
-    /// Runs `work` on the system inside the thread pool, so that parallel loops in it start without a detour.
-    fn within_pool(&mut self, work: impl FnOnce(&mut System) -> Result<(), Error> + Send) -> Result<(), Error> {
-        let system = &mut self.system;
-        match &self.pool {
-            Some(pool) => pool.install(|| work(system)),
-            None => work(system),
-        }
+    /// Lets the run keep states in memory, in so many bytes for all of them together: see [`Simulation::states`].
+    pub fn keep_states_in(&mut self, bytes: usize) {
+        self.memory = Memory::of(bytes);
+    }
+
+    /// States of the run so far that are in memory, the newest first; none where they are too large for their room.
+    #[must_use]
+    pub fn states(&self) -> &[State] {
+        self.memory.states()
     }
 
     /// Nodes behind an obstacle at the start are faults.
@@ -305,6 +339,12 @@ impl Simulation {
         self.system.step
     }
 
+    /// Elements of all parts.
+    #[must_use]
+    pub fn elements(&self) -> usize {
+        self.system.mesh.groups.iter().map(crate::mesh::ElementGroup::elements).sum()
+    }
+
     /// Steps until `time` is reached (never beyond the end), at most `steps` of them.
     ///
     /// # Errors
@@ -317,16 +357,20 @@ impl Simulation {
 
     fn go_on(&mut self, time: f64, steps: u64) -> Result<(), Error> {
         let last = self.system.step.saturating_add(steps).min(self.max_steps);
-        let mut shortest = std::mem::take(&mut self.shortest);
-        let result = self.within_pool(|system| {
+        let Self { shortest, tracer, recorded, hashing, .. } = self;
+        let mut tracer = tracer.as_mut();
+        within_pool(self.pool.as_ref(), &mut self.system, |system| {
             while system.time < time && system.time < system.limits.end && system.step < last {
-                system.step()?;
+                let stepped = system.step();
+                if let Some(tracer) = &mut tracer {
+                    tracer.note(system, recorded, stepped.as_ref().err());
+                }
+                stepped?;
                 shortest.note(system);
+                hashing.note(system);
             }
             Ok(())
-        });
-        self.shortest = shortest;
-        result
+        })
     }
 
     /// Whether the run has come to its end.
@@ -349,9 +393,19 @@ impl Simulation {
             rows.pass(self.system.time);
             frames.pass(self.system.time);
         }
+        self.hashing = Hashing::new(&self.system, self.hash_steps.filter(|_| observer.keeps_hashes()));
+        if course.is_resumed {
+            self.hashing.pass(self.system.step);
+        } else {
+            self.hashing.take(&self.system);
+        }
         loop {
             let time = self.system.time;
             let over = self.is_over();
+            if over {
+                self.hashing.take(&self.system);
+            }
+            self.tell_hashes(observer)?;
             if (rows.due(time) || over) && time > course.last_row {
                 self.note_momentum();
                 observer.row(&self.history_row()).map_err(output)?;
@@ -366,6 +420,11 @@ impl Simulation {
                 if over || course.stage == self.system.step { self.watch.look(&self.system, &self.shortest, over) } else { Vec::new() };
             if over {
                 return Ok(());
+            }
+            if course.stage == self.system.step && self.memory.is_due(self.system.step) {
+                self.course = Some(course);
+                let state = self.state()?;
+                self.memory.take(state);
             }
             let control = observer.progress(&self.progress(end, &self.system.governor_name(self.system.governor), &notices));
             if matches!(control, Control::Keep | Control::KeepAndStop) || course.is_state_due(self.system.step, state_steps) {
@@ -388,6 +447,7 @@ impl Simulation {
                 course.stage = self.system.step;
             }
             if let Err(error) = result {
+                self.tell_hashes(observer)?;
                 observer.failing();
                 // The state of the failure is what the user needs to see, and what was to be seen of it before.
                 self.watch.look(&self.system, &self.shortest, true);
@@ -398,6 +458,13 @@ impl Simulation {
                 return Err(error);
             }
         }
+    }
+
+    /// Hashes of the state now.
+    #[must_use]
+    pub fn hashes(&self) -> Hashes {
+        let nodes: Vec<_> = (0..self.system.mesh.parts.len()).map(|part| hashes::nodes(&self.system, part)).collect();
+        hashes::hashes(&self.system, &nodes)
     }
 
     /// Runs on, and tells `observer` of a row and a frame at the first step at or after `from`, from there every `every`, and at the first step at or after `to`, all in s. The steps are those
@@ -445,6 +512,10 @@ impl Simulation {
         let mut frame = observer.spare();
         self.recorded.fill(&self.system, &mut frame);
         observer.frame(frame).map_err(output)
+    }
+
+    fn tell_hashes(&mut self, observer: &mut dyn Observer) -> Result<(), Error> {
+        self.hashing.taken.drain(..).try_for_each(|hashes| observer.hashes(hashes)).map_err(output)
     }
 
     fn note_momentum(&mut self) {
@@ -504,119 +575,17 @@ impl Simulation {
             warnings: self.warnings.clone(),
         }
     }
+}
 
-    fn warnings(&self) -> Vec<Notice> {
-        let mut warnings: Vec<Notice> = self.model_warnings.iter().map(Notice::from).chain(self.warnings.iter().cloned()).collect();
-        warnings.extend(self.watch.notices());
-        let mut tell = |kind, text: String| warnings.push(Notice::new(kind, text));
-        for contact in &self.system.contacts {
-            let Some(ties) = contact.ties() else { continue };
-            let all = ties.nodes.len() + ties.broken;
-            if ties.broken > 0 {
-                tell(&TIES_BROKE, format!("contact \"{}\": {} of {all} ties broke", contact.name, ties.broken));
-            } else if all == 0 {
-                tell(&TIES_BROKE, format!("contact \"{}\": its ties bound no node", contact.name));
-            }
-        }
-        if let Some(Erosion { elements, first: Eroded { part, element, at: [x, y], time, criterion }, .. }) = self.erosion() {
-            let all: Vec<String> = elements.iter().map(|(part, count)| format!("{count} of part \"{part}\"")).collect();
-            tell(
-                &ERODED,
-                format!(
-                    "elements were eroded: {}; the first was element {element} of part \"{part}\" at ({x:.6e}, {y:.6e}) m, at {time:.6e} s by `{criterion}`",
-                    all.join(", ")
-                ),
-            );
-        }
-        if let Some(relaxation) = &self.system.relaxation {
-            tell(
-                &RELAXED,
-                match relaxation.rest {
-                    Some(time) => format!(
-                        "relaxation: at rest at {time:.6e} s, where the run ended; kinetic over internal energy {:.3e}",
-                        relaxation.ratio
-                    ),
-                    None => format!("relaxation: not at rest; kinetic over internal energy {:.3e}", relaxation.ratio),
-                },
-            );
-        }
-        let unsolved = self.system.springs.unsolved;
-        if unsolved > 0 {
-            tell(
-                &UNSOLVED,
-                format!("in {unsolved} step(s) the contact forces were not solved to the last digit: lower the contact penalties"),
-            );
-        }
-        let unverified = self.certificate().unverified;
-        if unverified > 0 {
-            tell(
-                &MISSED,
-                format!(
-                    "{unverified} time(s) a node was inside a body without being in contact with it: a contact was missed, or a body went through itself"
-                ),
-            );
-        }
-        for contact in self.system.contacts.iter().filter(|contact| self.system.step > 0 && !contact.has_pressed) {
-            tell(&NO_FORCE, format!("{} \"{}\" transmitted nothing in the whole run", contact.kind.name(), contact.name));
-        }
-        warnings
-    }
-
-    /// What erosion has done so far.
-    fn erosion(&self) -> Option<Erosion> {
-        let system = &self.system;
-        let erosion = system.erosion.as_ref()?;
-        let first = erosion.first.clone()?;
-        let of_part = |(part, &count): (&PartMesh, &usize)| (part.name.clone(), count);
-        let elements = system.mesh.parts.iter().zip(&erosion.by_part).filter(|(_, count)| **count > 0).map(of_part).collect();
-        Some(Erosion { elements, mass_loose: system.mass_loose(), first })
-    }
-
-    /// What was checked in all contacts so far.
-    fn certificate(&self) -> Certificate {
-        let mut sum = Certificate::default();
-        for contact in &self.system.contacts {
-            sum += contact.certificate();
-        }
-        sum
-    }
-
-    /// What the global search of each contact between surfaces did so far.
-    #[must_use]
-    pub fn searches(&self) -> Vec<ContactSearch> {
-        let of = |contact: &Contact| {
-            let report = contact.search_report()?;
-            let search = self.search_names.get(&contact.name).cloned().unwrap_or_default();
-            Some(ContactSearch { contact: contact.name.clone(), search, report, pairs_swept: contact.certificate().pairs_swept })
-        };
-        self.system.contacts.iter().filter_map(of).collect()
-    }
-
-    /// Figures of the run so far (valid after a failure too).
-    #[must_use]
-    pub fn summary(&self) -> Summary {
-        let system = &self.system;
-        Summary {
-            elements: system.mesh.groups.iter().map(|group| group.elements()).sum(),
-            nodes: system.mesh.positions.len(),
-            steps: system.step,
-            time_end: system.time,
-            rest: self.system.relaxation.as_ref().and_then(|relaxation| relaxation.rest),
-            stable_time_step_min: self.shortest.time_step,
-            stable_time_step_governor: self.shortest.governor.clone(),
-            energy_drift: system.ledger.drift(),
-            ledger_residual: system.ledger.residual(),
-            momentum_drift_linear: self.momentum.as_ref().map(Momentum::linear),
-            momentum_drift_angular: self.momentum.as_ref().and_then(Momentum::angular),
-            penetration_max: system.penetration_max,
-            contact: self.certificate(),
-            erosion: self.erosion(),
-            mass_added: system.mass_added[0],
-            state_hash: crate::record::state_hash(system),
-            threads: self.threads,
-            simd: system.level.name().to_string(),
-            warnings: self.warnings(),
-        }
+/// Runs `work` on the system inside the thread pool, so that parallel loops in it start without a detour.
+fn within_pool(
+    pool: Option<&rayon::ThreadPool>,
+    system: &mut System,
+    work: impl FnOnce(&mut System) -> Result<(), Error> + Send,
+) -> Result<(), Error> {
+    match pool {
+        Some(pool) => pool.install(|| work(system)),
+        None => work(system),
     }
 }
 

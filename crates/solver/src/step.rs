@@ -280,7 +280,7 @@ impl System {
     }
 
     /// What all blocks told, with the step that is stable for elements and springs together.
-    fn joined_reports(&self) -> Report {
+    pub(crate) fn joined_reports(&self) -> Report {
         let fold = |reports: &[Report]| reports.iter().fold(Report::NOTHING, |sum, &report| sum.join(report));
         match self.reports.split_last() {
             Some((springs, elements)) if self.has_springs => {

@@ -262,7 +262,7 @@ impl Watch {
 }
 
 /// Smallest Jacobian determinant at a corner over the square of the longest side: 1 for a square, less for what is long, sheared or folded; lines have the best.
-fn shape(cell: &[u32], positions: &[[f64; 2]]) -> f64 {
+pub(crate) fn shape(cell: &[u32], positions: &[[f64; 2]]) -> f64 {
     let n = cell.len();
     let x = |corner: usize| positions[cell[corner % n] as usize];
     let side = |corner: usize| {

@@ -4,10 +4,12 @@
 mod bench;
 mod command_line;
 mod determinism;
+mod diff;
 mod estimates;
 mod examples;
 mod messages;
 mod outside;
+mod post_mortem;
 mod restart;
 mod sweep;
 mod verification;

@@ -6,7 +6,8 @@
 use embate_solver::hash::Fnv;
 use embate_solver::model::{ImportedMesh, Model};
 use flate2::Crc;
-use std::collections::BTreeMap;
+use serde::{Deserialize, Serialize};
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::sync::Arc;
 
@@ -44,7 +45,8 @@ const NAMES: &[(&str, &str)] = &[
 const TOLD: usize = 20;
 
 /// What a model is, key by key.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(transparent)]
 pub struct Identity {
     lines: BTreeMap<String, String>,
 }
@@ -96,17 +98,30 @@ impl Identity {
         self.differing(before, |key| !is_free(key) || key == "run.end")
     }
 
+    /// What of two models is not the same: a line for each key that acts on the steps, and one for each of the others.
+    #[must_use]
+    pub fn apart(&self, other: &Self) -> [Vec<String>; 2] {
+        let side = |value: Option<&String>| value.map_or("has no such key".to_string(), |value| format!("has {value}"));
+        let line = |key: &str, [a, b]: [Option<&String>; 2]| format!("{key}: A {}, B {}", side(a), side(b));
+        let acts = |key: &str| !is_free(key) || key == "run.end";
+        // Files and folders may be called as they like.
+        [self.telling(other, acts, line), self.telling(other, |key| !acts(key) && key != "name", line)]
+    }
+
     fn differing(&self, before: &Self, counts: impl Fn(&str) -> bool) -> Vec<String> {
-        let keys: std::collections::BTreeSet<&String> = self.lines.keys().chain(before.lines.keys()).collect();
-        let mut told: Vec<String> = Vec::new();
-        for key in keys.into_iter().filter(|key| counts(key)) {
-            match (before.lines.get(key), self.lines.get(key)) {
-                (Some(old), Some(new)) if old != new => told.push(format!("{key}: was {old}, is {new}")),
-                (Some(old), None) => told.push(format!("{key}: was {old}, is gone")),
-                (None, Some(new)) => told.push(format!("{key}: is new, {new}")),
-                _ => {}
-            }
-        }
+        before.telling(self, counts, |key, values| match values {
+            [Some(old), Some(new)] => format!("{key}: was {old}, is {new}"),
+            [Some(old), None] => format!("{key}: was {old}, is gone"),
+            [None, new] => format!("{key}: is new, {}", new.map_or("", String::as_str)),
+        })
+    }
+
+    /// A line for each key that counts and does not have the same value in both.
+    fn telling(&self, other: &Self, counts: impl Fn(&str) -> bool, line: impl Fn(&str, [Option<&String>; 2]) -> String) -> Vec<String> {
+        let keys: BTreeSet<&String> = self.lines.keys().chain(other.lines.keys()).collect();
+        let values = |key: &String| [self.lines.get(key), other.lines.get(key)];
+        let keys = keys.into_iter().filter(|key| counts(key) && values(key)[0] != values(key)[1]);
+        let mut told: Vec<String> = keys.map(|key| line(key, values(key))).collect();
         if told.len() > TOLD {
             let more = told.len() - TOLD;
             told.truncate(TOLD);

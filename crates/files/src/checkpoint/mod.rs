@@ -16,11 +16,9 @@ use crate::results::{Told, part_path};
 use crate::threads::Threads;
 use container::Block;
 use embate_solver::archive::Section;
-use embate_solver::error::Error;
 use embate_solver::message::Message;
 use embate_solver::model::Model;
-use embate_solver::output::Frame;
-use embate_solver::simulation::{Control, Observer, ObserverError, Options, Progress, Simulation, State};
+use embate_solver::simulation::State;
 use serde::{Deserialize, Serialize};
 use std::fs::{self, File};
 use std::io;
@@ -211,58 +209,6 @@ impl Checkpoint {
         let (film, sections) = sections.partition(|section| section.name == FILM);
         let state = Arc::new(State { step: header.step, time: header.time, sections });
         Ok(Self { state, origin: header.origin, identity, told: header.told, film })
-    }
-}
-
-/// The state of a run at a step before it failed: found by going there again from the newest checkpoint before it, or from the start. `None`: `goes_on` said no on the way.
-///
-/// # Errors
-/// Those of a simulation.
-pub fn state_at(
-    model: &Model,
-    options: &Options,
-    results: &Path,
-    step: u64,
-    goes_on: impl FnMut() -> bool,
-) -> Result<Option<State>, Error> {
-    let threads = Threads::new(options.thread_count());
-    // The state is due at this step alone, so the run's own stages stay what they were.
-    let mut model = model.clone();
-    (model.run.checkpoint_steps, model.run.max_steps) = (Some(step), None);
-    let mut simulation = match newest(results, &threads, |generation| generation.step < step) {
-        Ok((checkpoint, _)) => Simulation::resumed(&model, options, &checkpoint.state.sections)?,
-        Err(_) => Simulation::new(&model, options)?,
-    };
-    let mut waiting = Waiting { state: None, goes_on };
-    match simulation.run(&mut waiting) {
-        Err(error) if waiting.state.is_none() => Err(error),
-        _ => Ok(waiting.state),
-    }
-}
-
-/// Waits for a state; all else is known.
-struct Waiting<F> {
-    state: Option<State>,
-    goes_on: F,
-}
-
-impl<F: FnMut() -> bool> Observer for Waiting<F> {
-    fn frame(&mut self, _: Frame<2>) -> Result<(), ObserverError> {
-        Ok(())
-    }
-    fn row(&mut self, _: &[f64]) -> Result<(), ObserverError> {
-        Ok(())
-    }
-    fn keeps_states(&self) -> bool {
-        true
-    }
-    fn state(&mut self, state: State) -> Result<(), ObserverError> {
-        self.state = Some(state);
-        // It has what it came for.
-        Err("the step is reached".into())
-    }
-    fn progress(&mut self, _: &Progress<'_>) -> Control {
-        if (self.goes_on)() { Control::Continue } else { Control::Stop }
     }
 }
 

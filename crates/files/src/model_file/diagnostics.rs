@@ -127,6 +127,11 @@ impl Faults {
         self.problems.is_empty()
     }
 
+    /// Whether there are no faults but of one kind.
+    pub(crate) fn are_all(&self, kind: &Message) -> bool {
+        self.problems.iter().all(|problem| problem.kind == kind)
+    }
+
     /// Gives every fault its place in the text.
     pub(crate) fn into_diagnostics(self, sources: &[Source], root: Option<&Node>) -> Diagnostics {
         let mut problems = self.problems;

@@ -32,6 +32,7 @@ pub(crate) use tree::Node;
 use crate::Reach;
 use crate::model_file::messages::{ENCODING, FILE, SYNTAX};
 use embate_solver::error::Warning;
+use embate_solver::message::Message;
 use embate_solver::model::Model;
 use embate_solver::quantity::Dimension;
 use std::io::Read;
@@ -59,6 +60,12 @@ pub fn load_with_places(path: &Path, set: &[String], reach: Reach) -> Result<Loa
     Template::load(path, set, reach)?.loaded(&[])
 }
 
+/// [`load_with_places`] of a model with faults of one kind alone: as if it had none; `None` where it has others.
+#[must_use]
+pub fn load_despite(kind: &Message, path: &Path, set: &[String], reach: Reach) -> Option<Loaded> {
+    Template::load(path, set, reach).ok()?.loaded_despite(kind)
+}
+
 /// A time with its unit as in a model file, `3.1 ms` for example, or a number in s.
 ///
 /// # Errors
@@ -84,11 +91,38 @@ pub struct Loaded {
 }
 
 impl Loaded {
+    /// Where the key of a path such as `part[0].ring.inner` stands, and its value as it is written there.
+    #[must_use]
+    pub fn key(&self, path: &str) -> KeyPlace {
+        let (place, node) = self.root.find(path);
+        let Some(source) = self.sources.get(place.source) else { return KeyPlace::default() };
+        let line = |at: usize| 1 + source.text.bytes().take(at).filter(|&byte| byte == b'\n').count();
+        let is_somewhere = place.end > place.start && place.source == 0;
+        let written = node.filter(|node| !matches!(node.value, tree::Value::Table(_)) || node.place.end > node.place.start);
+        let written = written.and_then(|node| source.text.get(node.place.start..node.place.end)).map(str::to_string);
+        KeyPlace {
+            file: source.name.clone(),
+            line: if is_somewhere { line(place.start) } else { 0 },
+            written: written.filter(|_| node.is_some()),
+        }
+    }
+
     /// Warnings of the model (those of [`Model::warnings`], of a simulation made from it) with their lines and columns; no text where there are none.
     #[must_use]
     pub fn told(&self, warnings: &[Warning]) -> Diagnostics {
         Faults::warnings(warnings).into_diagnostics(&self.sources, Some(&self.root))
     }
+}
+
+/// Where a key stands in the file.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct KeyPlace {
+    /// File as it was named, or `--set`.
+    pub file: String,
+    /// Line from 1 of the key, or of the nearest thing above it that is there; 0: nothing of it is there.
+    pub line: usize,
+    /// Its value as it is written; `None` where the key is not there.
+    pub written: Option<String>,
 }
 
 /// A file of described sections that has been read, with the text to which later faults point.

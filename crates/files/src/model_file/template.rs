@@ -93,15 +93,22 @@ impl Template {
     /// # Errors
     /// All faults at once.
     pub(super) fn loaded(&self, changes: &[Change<'_>]) -> Result<Loaded, Diagnostics> {
+        let (loaded, faults) = self.read(changes);
+        if faults.is_empty() { Ok(loaded) } else { Err(faults.into_diagnostics(&self.sources, Some(&loaded.root))) }
+    }
+
+    /// The model, whatever faults of a kind it has; `None` where it has others.
+    pub(super) fn loaded_despite(&self, kind: &Message) -> Option<Loaded> {
+        let (loaded, faults) = self.read(&[]);
+        faults.are_all(kind).then_some(loaded)
+    }
+
+    fn read(&self, changes: &[Change<'_>]) -> (Loaded, Faults) {
         let (root, mut faults) = self.changed(changes);
         let document = reader::read(&root, &reader::MODEL, &mut faults);
         let model = build::model(&document, &self.name, (&self.folder, self.reach), &mut faults);
         note(&mut faults, model.check());
-        if faults.is_empty() {
-            Ok(Loaded { model, sources: self.sources.clone(), root })
-        } else {
-            Err(faults.into_diagnostics(&self.sources, Some(&root)))
-        }
+        (Loaded { model, sources: self.sources.clone(), root }, faults)
     }
 
     /// Faults of the model with these changes that were found later, with their places.

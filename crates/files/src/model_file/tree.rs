@@ -104,6 +104,17 @@ fn entries(table: &DeTable<'_>, source: usize, offset: usize) -> Vec<Entry> {
 impl Node {
     /// The place of a path such as `part[0].ring.inner`, or of the nearest thing above it that exists.
     pub(super) fn locate(&self, path: &str) -> Place {
+        self.walk(path).0
+    }
+
+    /// The same, with the node at the path if it is there.
+    pub(super) fn find<'a>(&'a self, path: &'a str) -> (Place, Option<&'a Self>) {
+        let (place, node, rest) = self.walk(path);
+        (place, Some(node).filter(|_| rest.is_empty()))
+    }
+
+    /// Goes down a path as far as there is something: where that is, what it is, and what is left of the path.
+    fn walk<'a>(&'a self, path: &'a str) -> (Place, &'a Self, &'a str) {
         let (mut here, mut found, mut rest) = (self, self.place, path);
         loop {
             let next = match &here.value {
@@ -111,7 +122,7 @@ impl Node {
                 Value::List(items) => indexed(items, rest),
                 _ => None,
             };
-            let Some((place, node, after)) = next else { return found };
+            let Some((place, node, after)) = next else { return (found, here, rest) };
             (here, rest) = (node, after);
             found = if matches!(node.value, Value::Table(_)) { place } else { node.place };
         }

@@ -5,40 +5,40 @@
 use std::sync::LazyLock;
 
 /// Red, green, blue, each 0 to 255.
-pub(super) type Rgb = [u8; 3];
+pub(crate) type Rgb = [u8; 3];
 
 /// Number of colours in the map.
-pub(super) const LEVELS: usize = 256;
+pub(crate) const LEVELS: usize = 256;
 
-pub(super) const WHITE: Rgb = [255, 255, 255];
+pub(crate) const WHITE: Rgb = [255, 255, 255];
 /// Text.
-pub(super) const TEXT: Rgb = [34, 38, 46];
+pub(crate) const TEXT: Rgb = [34, 38, 46];
 /// Less important text.
-pub(super) const TEXT_FAINT: Rgb = [92, 98, 110];
+pub(crate) const TEXT_FAINT: Rgb = [92, 98, 110];
 /// Element edges and outlines.
-pub(super) const INK: Rgb = [16, 18, 28];
+pub(crate) const INK: Rgb = [16, 18, 28];
 /// Border of the plot.
-pub(super) const BORDER: Rgb = [168, 174, 184];
+pub(crate) const BORDER: Rgb = [168, 174, 184];
 /// Grid.
-pub(super) const GRID: Rgb = [233, 236, 240];
+pub(crate) const GRID: Rgb = [233, 236, 240];
 /// Obstacles.
-pub(super) const SOLID: Rgb = [227, 230, 235];
+pub(crate) const SOLID: Rgb = [227, 230, 235];
 /// Bodies without a value.
-pub(super) const NO_VALUE: Rgb = [178, 184, 192];
+pub(crate) const NO_VALUE: Rgb = [178, 184, 192];
 
 /// Colour-blind-safe set of Okabe and Ito (2008), without its yellow, which is lost on white.
-pub(super) const DISTINCT: [Rgb; 7] =
+pub(crate) const DISTINCT: [Rgb; 7] =
     [[0, 114, 178], [213, 94, 0], [0, 158, 115], [204, 121, 167], [230, 159, 0], [86, 180, 233], [110, 110, 120]];
 
 /// Colour of part `index`: softened so that mesh lines stay visible on it.
-pub(super) fn part(index: usize) -> Rgb {
+pub(crate) fn part(index: usize) -> Rgb {
     let round = (index / DISTINCT.len()) % 3;
     let lighter = [0.30, 0.62, 0.05][round];
     DISTINCT[index % DISTINCT.len()].map(|c| (f64::from(c) + (255.0 - f64::from(c)) * lighter).round() as u8)
 }
 
 /// The map from low (dark violet) over blue and green to high (light yellow).
-pub(super) static MAP: LazyLock<[Rgb; LEVELS]> = LazyLock::new(|| std::array::from_fn(|i| map_colour(i as f64 / (LEVELS - 1) as f64)));
+pub(crate) static MAP: LazyLock<[Rgb; LEVELS]> = LazyLock::new(|| std::array::from_fn(|i| map_colour(i as f64 / (LEVELS - 1) as f64)));
 
 fn map_colour(t: f64) -> Rgb {
     let lightness = 0.37 + 0.56 * t;
@@ -78,7 +78,7 @@ fn gamma(c: f64) -> f64 {
 }
 
 /// `under` seen through `over` of opacity `alpha`.
-pub(super) fn mix(under: Rgb, over: Rgb, alpha: f32) -> Rgb {
+pub(crate) fn mix(under: Rgb, over: Rgb, alpha: f32) -> Rgb {
     let alpha = alpha.clamp(0.0, 1.0);
     std::array::from_fn(|k| {
         let (u, o) = (f32::from(under[k]), f32::from(over[k]));

@@ -6,18 +6,20 @@
 
 mod animation;
 mod body;
-mod colour;
+pub(crate) mod colour;
 mod field;
 mod film;
 mod lzw;
 mod mesh;
+pub(crate) mod neighbourhood;
 mod obstacle;
+pub(crate) mod place;
 mod plots;
 
 mod raster;
-mod scale;
+pub(crate) mod scale;
 mod scene;
-mod svg;
+pub(crate) mod svg;
 pub(crate) mod sweep;
 
 mod text;

@@ -3,15 +3,15 @@
 
 /// A unit in which values are shown: shown = value × `factor`.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Unit {
-    pub(super) factor: f64,
+pub(crate) struct Unit {
+    pub(crate) factor: f64,
     /// Name with prefix; empty for a plain number.
-    pub(super) name: String,
+    pub(crate) name: String,
 }
 
 impl Unit {
     /// ` [mm]`, or nothing for a plain number.
-    pub(super) fn bracket(&self) -> String {
+    pub(crate) fn bracket(&self) -> String {
         if self.name.is_empty() { String::new() } else { format!(" [{}]", self.name) }
     }
 }
@@ -21,7 +21,7 @@ const PREFIXES: [(i32, &str); 10] =
 
 /// The unit for SI values up to `magnitude`, as engineers write them: mm up to some metres, MPa for everything between soft and hard,
 /// else the prefix that leaves one to three digits before the point.
-pub(super) fn unit(si: &str, magnitude: f64) -> Unit {
+pub(crate) fn unit(si: &str, magnitude: f64) -> Unit {
     let magnitude = magnitude.abs();
     if !(magnitude.is_finite() && magnitude > 0.0) {
         return Unit { factor: 1.0, name: pretty(si) };
@@ -61,24 +61,24 @@ fn superscript(exponent: i32) -> String {
 
 /// Ticks on a line: values `first · step`, `(first + 1) · step`, ...
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Ticks {
-    pub(super) values: Vec<f64>,
-    pub(super) step: f64,
+pub(crate) struct Ticks {
+    pub(crate) values: Vec<f64>,
+    pub(crate) step: f64,
 }
 
 impl Ticks {
     /// Label of a tick: as many decimals as the step needs, a true minus sign, powers of ten when it would get long.
-    pub(super) fn label(&self, value: f64) -> String {
+    pub(crate) fn label(&self, value: f64) -> String {
         number(value, self.step)
     }
     /// Labels of all ticks.
-    pub(super) fn labels(&self) -> Vec<String> {
+    pub(crate) fn labels(&self) -> Vec<String> {
         self.values.iter().map(|v| self.label(*v)).collect()
     }
 }
 
 /// Round ticks (steps of 1, 2, 2.5 or 5 times a power of ten) within `low..=high`, at most `count` of them (at least 2 are allowed for).
-pub(super) fn ticks(low: f64, high: f64, count: usize) -> Ticks {
+pub(crate) fn ticks(low: f64, high: f64, count: usize) -> Ticks {
     let span = high - low;
     if !((1e-200..1e200).contains(&span) && low.is_finite()) || span < 1e-13 * low.abs().max(high.abs()) {
         let value = if low.is_finite() { low } else { 0.0 };
@@ -107,7 +107,7 @@ pub(super) fn ticks(low: f64, high: f64, count: usize) -> Ticks {
 }
 
 /// `value` with the decimals that `step` needs.
-pub(super) fn number(value: f64, step: f64) -> String {
+pub(crate) fn number(value: f64, step: f64) -> String {
     let plain = |text: String| text.replace('-', "−");
     let size = value.abs().max(step.abs());
     if value != 0.0 && !(1e-5..1e6).contains(&size) {
@@ -121,7 +121,7 @@ pub(super) fn number(value: f64, step: f64) -> String {
 }
 
 /// Decimals that show multiples of `step` apart: 0.25 needs two.
-pub(super) fn decimals(step: f64) -> usize {
+pub(crate) fn decimals(step: f64) -> usize {
     let step = step.abs();
     if !(step.is_finite() && step > 0.0) {
         return 0;

@@ -19,52 +19,52 @@ pub(crate) enum Spacing {
 
 /// An axis below one or several panels.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Abscissa {
-    pub(super) name: String,
-    pub(super) si: String,
-    pub(super) spacing: Spacing,
+pub(crate) struct Abscissa {
+    pub(crate) name: String,
+    pub(crate) si: String,
+    pub(crate) spacing: Spacing,
 }
 
 /// Panels over one axis.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Group {
-    pub(super) abscissa: Abscissa,
-    pub(super) panels: Vec<Panel>,
+pub(crate) struct Group {
+    pub(crate) abscissa: Abscissa,
+    pub(crate) panels: Vec<Panel>,
 }
 
 impl Group {
     /// Panels over time.
-    pub(super) fn over_time(panels: Vec<Panel>) -> Self {
+    pub(crate) fn over_time(panels: Vec<Panel>) -> Self {
         Self { abscissa: Abscissa { name: "time".into(), si: "s".into(), spacing: Spacing::Even }, panels }
     }
 }
 
 /// One curve.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Curve {
-    pub(super) name: String,
-    pub(super) colour: Rgb,
+pub(crate) struct Curve {
+    pub(crate) name: String,
+    pub(crate) colour: Rgb,
     /// Dash pattern; empty: drawn through.
-    pub(super) dashes: &'static str,
+    pub(crate) dashes: &'static str,
     /// Zero: no line.
-    pub(super) width: f64,
+    pub(crate) width: f64,
     /// Whether each point has a dot.
-    pub(super) dots: bool,
+    pub(crate) dots: bool,
     /// Time or input, and value, in SI; values that are not finite interrupt the curve.
-    pub(super) points: Vec<[f64; 2]>,
+    pub(crate) points: Vec<[f64; 2]>,
 }
 
 /// One plot with its own y axis.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Panel {
-    pub(super) name: String,
-    pub(super) si: &'static str,
+pub(crate) struct Panel {
+    pub(crate) name: String,
+    pub(crate) si: &'static str,
     /// Whether the y axis includes zero.
-    pub(super) from_zero: bool,
-    pub(super) height: f64,
-    pub(super) curves: Vec<Curve>,
+    pub(crate) from_zero: bool,
+    pub(crate) height: f64,
+    pub(crate) curves: Vec<Curve>,
     /// Small print below the panel's name, for example what was left out.
-    pub(super) remark: String,
+    pub(crate) remark: String,
 }
 
 /// Points of a drawn curve, at most.
@@ -73,10 +73,10 @@ const WIDTH: f64 = 900.0;
 const FONT: f64 = 13.0;
 /// Distance of names at the ends of curves.
 const LINE: f64 = 16.0;
-const FAMILY: &str = "system-ui, 'Segoe UI', Roboto, Helvetica, Arial, sans-serif";
+pub(crate) const FAMILY: &str = "system-ui, 'Segoe UI', Roboto, Helvetica, Arial, sans-serif";
 
 /// The chart as the text of an SVG file.
-pub(super) fn chart(title: &str, groups: &[Group]) -> String {
+pub(crate) fn chart(title: &str, groups: &[Group]) -> String {
     let panels = || groups.iter().flat_map(|group| &group.panels);
     let label_width = panels().flat_map(|p| &p.curves).map(|c| measured(&c.name)).fold(0.0, f64::max).min(190.0);
     let frames: Vec<Vec<Frame>> = groups.iter().map(|group| group.panels.iter().map(Frame::new).collect()).collect();
@@ -325,7 +325,7 @@ fn apart(wanted: &[f64], distance: f64, low: f64, high: f64) -> Vec<f64> {
 }
 
 /// At most `most` points that look the same: of each bucket the lowest and the highest in their order, first and last always; gaps stay.
-pub(super) fn thinned(points: &[[f64; 2]], most: usize) -> Vec<[f64; 2]> {
+pub(crate) fn thinned(points: &[[f64; 2]], most: usize) -> Vec<[f64; 2]> {
     if points.len() <= most {
         return points.to_vec();
     }
@@ -366,7 +366,7 @@ fn measured(line: &str) -> f64 {
     f64::from(text::width(line, FONT as f32, Weight::Regular))
 }
 
-fn hex(colour: Rgb) -> String {
+pub(crate) fn hex(colour: Rgb) -> String {
     format!("#{:02x}{:02x}{:02x}", colour[0], colour[1], colour[2])
 }
 
@@ -375,14 +375,14 @@ fn line(out: &mut String, from: [f64; 2], to: [f64; 2], colour: colour::Rgb) {
     let _ = writeln!(out, "<path d=\"M{x1:.1} {y1:.1}L{x2:.1} {y2:.1}\" stroke=\"{}\"/>", hex(colour));
 }
 
-fn write_text(out: &mut String, text: &str, at: [f64; 2], anchor: &str, colour: Rgb, more: &str) {
+pub(crate) fn write_text(out: &mut String, text: &str, at: [f64; 2], anchor: &str, colour: Rgb, more: &str) {
     let [x, y] = at;
     let _ =
         writeln!(out, "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\" fill=\"{}\"{more}>{}</text>", hex(colour), escape(text));
 }
 
 /// Text as XML holds it; characters that XML 1.0 forbids become spaces.
-pub(super) fn escape(text: &str) -> String {
+pub(crate) fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
         match c {

@@ -1,14 +1,16 @@
 //! The folder: refuses to mix two runs, and removes only files that embate makes.
 
-use super::{ResultsError, atomic::part_path};
+use super::ran::RAN;
+use super::{HASHES, ResultsError, atomic::part_path};
 use crate::checkpoint::{FOLDER, is_checkpoint};
+use crate::post_mortem;
 use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Files of a run that lie in the folder itself.
 const FILES: &[&str] =
-    &["summary.json", "history.csv", "fields.pvd", "obstacles.pvd", "animation.gif", "final.png", "energy.svg", "history.svg"];
+    &["summary.json", "history.csv", HASHES, RAN, "fields.pvd", "obstacles.pvd", "animation.gif", "final.png", "energy.svg", "history.svg"];
 /// Folder of the frames.
 const FRAMES: &str = "fields";
 /// Folder in which pictures are made before they are complete.
@@ -52,28 +54,31 @@ impl ResultFolder {
         } else {
             Self::refuse_existing(path)?;
         }
+        post_mortem::remove(path)?;
         let frames = path.join(FRAMES);
         fs::create_dir_all(&frames).map_err(ResultsError::file("create", &frames))?;
         Ok(Self { path: path.to_path_buf() })
     }
 
-    /// The folder of results that go on from a checkpoint of `step`, with so many `frames`: what came later is removed, and what only a run that has ended has.
+    /// The folder of results that go on from a checkpoint of `step`, with so many `frames`, and with `hashes` or not: what came later is removed, and what only a run that has ended has.
     ///
     /// # Errors
     /// What the system says.
-    pub(crate) fn reopen(path: &Path, frames: usize, step: u64) -> Result<Self, ResultsError> {
+    pub(crate) fn reopen(path: &Path, frames: usize, hashes: bool, step: u64) -> Result<Self, ResultsError> {
         let later = |name: &str| frame_number(name).is_some_and(|number| number >= frames) || name.ends_with(".part");
-        let is_history = |file: &Path| file == path.join("history.csv") || file == part_path(&path.join("history.csv"));
+        let is = |file: &Path, name: &str| file == path.join(name) || file == part_path(&path.join(name));
+        let is_table = |file: &Path| is(file, "history.csv") || (hashes && is(file, HASHES));
         let is_later = |file: &Path| match file.file_name().and_then(|name| name.to_str()) {
             Some(name) if file.parent() == Some(&path.join(FRAMES)) => later(name),
             Some(name) if file.parent() == Some(&path.join(FOLDER)) => is_checkpoint(name).is_none_or(|own| own > step),
-            // Collections are written anew; the history is cut.
-            Some(name) => !is_history(file) && name != "fields.pvd" && name != "obstacles.pvd",
+            // Collections and what ran are written anew; tables are cut.
+            Some(name) => !is_table(file) && !["fields.pvd", "obstacles.pvd", RAN].contains(&name),
             None => false,
         };
         for file in existing(path)?.into_iter().filter(|file| is_later(file)) {
             fs::remove_file(&file).map_err(ResultsError::file("remove", &file))?;
         }
+        post_mortem::remove(path)?;
         let folder = path.join(FRAMES);
         fs::create_dir_all(&folder).map_err(ResultsError::file("create", &folder))?;
         Ok(Self { path: path.to_path_buf() })
@@ -87,6 +92,7 @@ impl ResultFolder {
         for file in existing(path)? {
             fs::remove_file(&file).map_err(ResultsError::file("remove", &file))?;
         }
+        post_mortem::remove(path)?;
         for folder in [path.join(PICTURES), path.join(FRAMES), path.join(FOLDER), path.to_path_buf()] {
             // Stays if something foreign lies in it.
             let _ = fs::remove_dir(folder);

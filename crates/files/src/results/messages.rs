@@ -2,7 +2,8 @@
 
 use embate_solver::message::{Example, Message};
 
-pub(crate) static MESSAGES: &[&Message] = &[&EXISTS, &NOT_A_FOLDER, &REFUSED, &FRAME, &PICTURE, &BUG, &NO_PICTURES];
+pub(crate) static MESSAGES: &[&Message] =
+    &[&EXISTS, &NOT_A_FOLDER, &REFUSED, &FRAME, &PICTURE, &DAMAGED_LOG, &BUG, &NO_PICTURES, &NO_POST_MORTEM];
 
 /// Something is in the way.
 pub static EXISTS: Message = Message {
@@ -46,6 +47,15 @@ pub(crate) static PICTURE: Message = Message {
     cure: "Take a field that is recorded (`output.include`), or leave pictures out (`pictures = false`).",
 };
 
+/// A log is not as the run left it.
+pub(crate) static DAMAGED_LOG: Message = Message {
+    code: "E0721",
+    title: "a damaged record of a run",
+    example: Example::Words("A digit of a line in `hashes.csv` was changed, and the run is compared with another one."),
+    cause: "A line of `hashes.csv` is not the one that its check sum was made of, or `run.json` can't be read: the disk, a copy or another program changed the file.",
+    cure: "Put the file back from a copy, or run the model again. Without the file the end states are compared all the same.",
+};
+
 /// A bug.
 pub static BUG: Message = Message {
     code: "E0799",
@@ -62,4 +72,13 @@ pub static NO_PICTURES: Message = Message {
     example: Example::Shell("mkdir -p out/check.png\nembate check model.toml --out out\n"),
     cause: "A picture could not be made; all other results are there.",
     cure: "Draw the fields with ParaView, or choose another `picture_field`.",
+};
+
+/// The post-mortem is missing.
+pub static NO_POST_MORTEM: Message = Message {
+    code: "W0702",
+    title: "the post-mortem of a failed run is missing",
+    example: Example::Words("A run fails because the disk is full, and there is no room for the page either."),
+    cause: "The page or one of its pictures could not be written; the failure itself is told all the same.",
+    cure: "Free some space and run the model again; it fails in the same step.",
 };

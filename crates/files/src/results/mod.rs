@@ -1,16 +1,18 @@
 //! The result folder of a run: which files lie in it, how they get there, and who writes them.
 //!
 //! A [`Recorder`] listens to a simulation and hands frames and rows over (`handover`, `queue`) to the writer, which fills a [`ResultFolder`] while the run goes on:
-//! `history.csv` row by row, `fields/frame-*.vtu` and `fields.pvd`, the pictures, and last of all `summary.json`. Every file is written as `NAME.part` and renamed when it is
+//! `history.csv` row by row, `hashes.csv` likewise, `fields/frame-*.vtu` and `fields.pvd`, the pictures, and last of all `summary.json`. Every file is written as `NAME.part` and renamed when it is
 //! complete, so a file under its final name is never half-written, whatever happens to the run or the machine.
 
 mod atomic;
 mod csv;
 mod figures;
 mod folder;
+mod hashes;
 pub mod messages;
 mod handover;
 mod queue;
+mod ran;
 mod recorder;
 mod report;
 mod told;
@@ -21,6 +23,8 @@ pub use atomic::write_whole;
 pub(crate) use csv::{append_number, append_text};
 pub(crate) use figures::{read_figures, write_figures};
 pub use folder::ResultFolder;
+pub use hashes::HashTable;
+pub use ran::Ran;
 pub use recorder::{Checkpoints, OnProgress, Outcome, Recorder};
 pub use report::{MomentumDrift, Report, RunStatus};
 pub use told::Told;
@@ -30,10 +34,13 @@ use crate::checkpoint::CheckpointError;
 use crate::checkpoint::messages::{IN_USE, RESULTS_CHANGED};
 use crate::vtu::VtuError;
 use embate_solver::message::Message;
-use messages::{BUG, EXISTS, FRAME, NOT_A_FOLDER, REFUSED};
+use messages::{BUG, DAMAGED_LOG, EXISTS, FRAME, NOT_A_FOLDER, REFUSED};
 use std::io::ErrorKind;
 use std::path::PathBuf;
 use thiserror::Error;
+
+/// Name of the table of hashes.
+const HASHES: &str = "hashes.csv";
 
 /// Why results can't be written: what, where, and what to do.
 #[derive(Debug, Error)]
@@ -68,6 +75,16 @@ pub enum ResultsError {
         /// The file.
         path: PathBuf,
         /// What is not.
+        what: String,
+    },
+    /// A file that tells what a run was has changed since.
+    #[error("{}, line {line}: {what}; put the file back from a copy, or run the model again", .path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// Its line, from 1.
+        line: usize,
+        /// What gave it away.
         what: String,
     },
     /// Another run writes to a file.
@@ -107,6 +124,7 @@ impl ResultsError {
             Self::NotAFolder { .. } => &NOT_A_FOLDER,
             Self::File { .. } => &REFUSED,
             Self::Changed { .. } => &RESULTS_CHANGED,
+            Self::Damaged { .. } => &DAMAGED_LOG,
             Self::InUse { .. } => &IN_USE,
             Self::Checkpoint(error) => error.kind(),
             Self::Frame(_) => &FRAME,

@@ -11,8 +11,10 @@ use super::messages::NO_PICTURES;
 use super::report::{Report, RunStatus};
 use super::writer::{Job, Writer};
 use crate::checkpoint::{Checkpoint, Origin};
+use crate::post_mortem;
 use crate::threads::Threads;
 use embate_solver::error::Notice;
+use embate_solver::hashes::Hashes;
 use embate_solver::model::Model;
 use embate_solver::output::{Cells, Frame, Summary};
 use embate_solver::simulation::{Control, Observer, ObserverError, Progress, State};
@@ -36,8 +38,11 @@ pub struct Recorder<'a> {
     /// Numbers of a row.
     width: usize,
     rows: Vec<f64>,
+    hashes: Vec<Hashes>,
     handover: Handover,
     is_stopped: bool,
+    /// The page about the failure.
+    post_mortem: Option<String>,
     begin: Instant,
     /// Steps before it began.
     steps_before: u64,
@@ -97,7 +102,7 @@ impl<'a> Recorder<'a> {
         let (path, part_names) = (folder.path().to_path_buf(), cells.part_names.clone());
         let mut writer = Writer::new(folder, model, columns, cells, Threads::new(threads))?;
         if let Some(checkpoints) = &checkpoints {
-            writer.set_origin(checkpoints.origin.clone());
+            writer.set_origin(checkpoints.origin.clone(), &part_names)?;
         }
         Ok(Self::of(writer, path, (model, part_names), threads, checkpoints, on_progress))
     }
@@ -117,7 +122,7 @@ impl<'a> Recorder<'a> {
     ) -> Result<Self, ResultsError> {
         let part_names = cells.part_names.clone();
         let mut writer = Writer::reopen(path, (model, past), columns, (cells, frame), Threads::new(threads))?;
-        writer.set_origin(checkpoints.origin.clone());
+        writer.set_origin(checkpoints.origin.clone(), &part_names)?;
         let recorder = Self::of(writer, path.to_path_buf(), (model, part_names), threads, Some(checkpoints), on_progress);
         Ok(Self { steps_before: past.state.step, ..recorder })
     }
@@ -139,13 +144,25 @@ impl<'a> Recorder<'a> {
             on_progress,
             width: writer.width(),
             rows: Vec::new(),
+            hashes: Vec::new(),
             handover: Handover::new(writer, threads > 1),
             is_stopped: false,
+            post_mortem: None,
             begin: now,
             steps_before: 0,
             checkpoints,
             last_checkpoint: now,
         }
+    }
+
+    /// What was told since the last job.
+    fn job(&mut self) -> Job {
+        Job { rows: std::mem::take(&mut self.rows), hashes: std::mem::take(&mut self.hashes), ..Job::default() }
+    }
+
+    /// Lets the summary point to the page about the failure.
+    pub fn point_to_post_mortem(&mut self) {
+        self.post_mortem = Some(post_mortem::PAGE.into());
     }
 
     /// Completes all files. `error` is the message of a failed run, `user_cpu_seconds` tells the process's user CPU time.
@@ -157,7 +174,8 @@ impl<'a> Recorder<'a> {
         let element_steps = summary.elements as f64 * summary.steps.saturating_sub(self.steps_before) as f64;
         report.element_steps_per_second = (element_steps > 0.0 && steps_time > 0.0).then(|| element_steps / steps_time);
 
-        self.handover.give(Job { rows: std::mem::take(&mut self.rows), ..Job::default() });
+        let job = self.job();
+        self.handover.give(job);
         let end = self.handover.end();
         if let Some(message) = end.pictures_missing {
             report.warnings.push(Notice::new(&NO_PICTURES, format!("pictures are missing: {message}")));
@@ -171,6 +189,7 @@ impl<'a> Recorder<'a> {
             None if self.is_stopped || is_early => RunStatus::Stopped,
             None => RunStatus::Done,
         };
+        report.post_mortem = self.post_mortem;
         report.wall_seconds = self.begin.elapsed().as_secs_f64();
         report.user_cpu_seconds = user_cpu_seconds();
         report.output_seconds = end.worked.as_secs_f64();
@@ -186,8 +205,8 @@ impl Observer for Recorder<'_> {
     }
 
     fn frame(&mut self, frame: Frame<2>) -> Result<(), ObserverError> {
-        let rows = std::mem::take(&mut self.rows);
-        self.handover.give(Job { rows, frame: Some(frame), ..Job::default() });
+        let job = Job { frame: Some(frame), ..self.job() };
+        self.handover.give(job);
         Ok(self.handover.fault()?)
     }
 
@@ -197,8 +216,8 @@ impl Observer for Recorder<'_> {
         }
         self.rows.extend_from_slice(row);
         if self.rows.len() >= ROWS {
-            let rows = std::mem::take(&mut self.rows);
-            self.handover.give(Job { rows, ..Job::default() });
+            let job = self.job();
+            self.handover.give(job);
             self.handover.fault()?;
         }
         Ok(())
@@ -210,17 +229,31 @@ impl Observer for Recorder<'_> {
 
     fn state(&mut self, state: State) -> Result<(), ObserverError> {
         if self.checkpoints.is_some() {
-            let rows = std::mem::take(&mut self.rows);
-            self.handover.give(Job { rows, state: Some(Arc::new(state)), ..Job::default() });
+            let job = Job { state: Some(Arc::new(state)), ..self.job() };
+            self.handover.give(job);
             self.last_checkpoint = Instant::now();
         }
         Ok(self.handover.fault()?)
     }
 
+    fn keeps_hashes(&self) -> bool {
+        self.checkpoints.is_some()
+    }
+
+    fn hashes(&mut self, hashes: Hashes) -> Result<(), ObserverError> {
+        self.hashes.push(hashes);
+        if self.hashes.len() * self.part_names.len() >= ROWS {
+            let job = self.job();
+            self.handover.give(job);
+            self.handover.fault()?;
+        }
+        Ok(())
+    }
+
     fn failing(&mut self) {
         if self.checkpoints.is_some() {
-            let rows = std::mem::take(&mut self.rows);
-            self.handover.give(Job { rows, is_failing: true, ..Job::default() });
+            let job = Job { is_failing: true, ..self.job() };
+            self.handover.give(job);
         }
     }
 

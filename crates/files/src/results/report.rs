@@ -72,6 +72,9 @@ pub struct Report {
     pub status: RunStatus,
     /// The message of a failed run.
     pub error: Option<String>,
+    /// The page about the failure, relative to the folder; left out where there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub post_mortem: Option<String>,
     /// Model name.
     pub model: String,
     /// Version of embate.
@@ -148,6 +151,7 @@ impl Report {
         Self {
             status: RunStatus::Done,
             error: None,
+            post_mortem: None,
             model: model.to_string(),
             version: env!("CARGO_PKG_VERSION").to_string(),
             parts: parts.to_vec(),

@@ -11,6 +11,8 @@ use serde::{Deserialize, Serialize};
 pub struct Told {
     /// How far `history.csv` is.
     pub(super) history: Mark,
+    /// How far `hashes.csv` is, if there is one.
+    pub(super) hashes: Option<Mark>,
     /// Times of the frames, s.
     pub(super) frames: Vec<f64>,
     /// Step of the last one.

@@ -1,9 +1,11 @@
-//! What a run leaves behind while it goes on: history, field files, obstacles, film. Jobs come from `handover`; [`Writer::close`] completes the files.
+//! What a run leaves behind while it goes on: history, hashes, field files, obstacles, film. Jobs come from `handover`; [`Writer::close`] completes the files.
 
 use super::ResultsError;
 use super::atomic::{write_whole, write_whole_in_pieces};
 use super::csv::CsvStream;
 use super::folder::ResultFolder;
+use super::hashes::HashLog;
+use super::ran::Ran;
 use super::told::Told;
 use crate::checkpoint::{Checkpoint, Identity, Origin};
 use crate::outline::{Extent, LineReader};
@@ -11,6 +13,7 @@ use crate::picture::{self, Film, FilmSettings};
 use crate::threads::Threads;
 use crate::vtu::{self, VtuWriter};
 use embate_solver::archive::Section;
+use embate_solver::hashes::Hashes;
 use embate_solver::model::Model;
 use embate_solver::output::{Cells, Frame};
 use embate_solver::simulation::State;
@@ -28,6 +31,7 @@ const COLLECTION_PAUSE: Duration = Duration::from_millis(500);
 #[derive(Debug, Default)]
 pub(super) struct Job {
     pub(super) rows: Vec<f64>,
+    pub(super) hashes: Vec<Hashes>,
     pub(super) frame: Option<Frame<2>>,
     /// To be kept once all before it is written.
     pub(super) state: Option<Arc<State>>,
@@ -57,6 +61,7 @@ pub(super) struct Writer {
     include: Vec<String>,
     columns: Vec<String>,
     history: CsvStream,
+    hashes: Option<HashLog>,
     plot_rows: ThinnedRows,
     frames: Frames,
     film: Option<Film>,
@@ -88,6 +93,7 @@ impl Writer {
     ) -> Result<Self, ResultsError> {
         Ok(Self {
             history: CsvStream::create(&folder.path().join("history.csv"), &columns)?,
+            hashes: None,
             folder,
             title: picture_title(model),
             of_revolution: model.is_axisymmetric(),
@@ -117,7 +123,8 @@ impl Writer {
         let (history, rows) = CsvStream::reopen(&folder.join("history.csv"), &columns, told.history)?;
         let mut frames = Frames::new(&cells, &threads);
         frames.recall(told);
-        let folder = ResultFolder::reopen(folder, told.frames.len(), past.state.step)?;
+        let hashes = told.hashes.map(|mark| HashLog::reopen(folder, mark)).transpose()?;
+        let folder = ResultFolder::reopen(folder, told.frames.len(), hashes.is_some(), past.state.step)?;
         frames.write_collection(&folder)?;
         let mut plot_rows = ThinnedRows::default();
         let film = model.output.pictures.then(|| {
@@ -133,6 +140,7 @@ impl Writer {
             include,
             columns,
             history,
+            hashes,
             plot_rows,
             frames,
             film,
@@ -149,13 +157,20 @@ impl Writer {
         self.columns.len()
     }
 
-    /// Where the model came from, for checkpoints.
-    pub(super) fn set_origin(&mut self, origin: Origin) {
+    /// Where the model came from. From now on there is kept what ran, and its hashes if the model wants them; `parts` are its names.
+    pub(super) fn set_origin(&mut self, origin: Origin, parts: &[String]) -> Result<(), ResultsError> {
+        let folder = self.folder.path();
+        Ran::of(&self.model, &origin).write(folder)?;
+        if self.model.output.hash_steps.is_some() && self.hashes.is_none() {
+            self.hashes = Some(HashLog::create(folder, parts)?);
+        }
         self.origin = origin;
+        Ok(())
     }
 
     fn told_so_far(&mut self) -> Result<(Told, Vec<Section>), ResultsError> {
-        let told = Told { history: self.history.mark()?, ..self.frames.told() };
+        let hashes = self.hashes.as_mut().map(HashLog::mark).transpose()?;
+        let told = Told { history: self.history.mark()?, hashes, ..self.frames.told() };
         Ok((told, self.film.as_mut().map_or_else(Vec::new, Film::kept)))
     }
 
@@ -191,19 +206,23 @@ impl Writer {
                 self.plot_rows.add(row);
             }
         }
+        if let Some(log) = &mut self.hashes {
+            rows = rows.and(job.hashes.iter().try_for_each(|hashes| log.line(hashes)));
+        }
         let Some(frame) = &job.frame else { return rows };
         if self.frames.write(frame, &self.include, &self.folder, &self.threads)? {
             if let Some(film) = &mut self.film {
                 film.add(frame);
             }
-            rows = rows.and(self.history.flush());
+            rows = rows.and(self.history.flush()).and(self.hashes.as_mut().map_or(Ok(()), HashLog::flush));
         }
         rows
     }
 
     /// Completes the files. What can be written is written even when something else can't.
     pub(super) fn close(self) -> Closed {
-        let result = self.history.finish().and(self.frames.write_collection(&self.folder));
+        let result = self.history.finish().and(self.hashes.map_or(Ok(()), HashLog::finish));
+        let result = result.and(self.frames.write_collection(&self.folder));
         let made = self.film.map(|film| {
             self.folder.add_pictures(|side| {
                 film.finish(side, &self.threads).map_err(|e| e.to_string())?;

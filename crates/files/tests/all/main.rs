@@ -7,5 +7,6 @@ mod damaged_state;
 mod gmsh;
 mod model_file;
 mod picture;
+mod post_mortem;
 mod reach;
 mod results;

@@ -276,6 +276,15 @@ impl Contact {
         ends.map(moment).sum()
     }
 
+    /// Sum of the sizes of the forces of the last step's springs on some nodes (ascending), N/m.
+    #[must_use]
+    pub fn force_on(&self, nodes: &[u32], springs: &Springs) -> f64 {
+        let ends = springs.answers(self.found.clone()).flat_map(|answer| answer.ends().map(move |end| (answer, end)));
+        let forces =
+            ends.filter(|(_, end)| nodes.binary_search(&end.at).is_ok()).map(|(answer, end)| end.force(answer.spring, answer.solved));
+        forces.map(|[x, y]| (x * x + y * y).sqrt()).sum()
+    }
+
     /// Slave nodes that are inside in the last step, with their depth, m.
     pub fn penetrations<'a>(&'a self, springs: &'a Springs) -> impl Iterator<Item = (u32, f64)> + 'a {
         let inside = springs.list[self.found.clone()].iter().filter(|spring| spring.gap < 0.0);

@@ -337,6 +337,8 @@ pub struct Output {
     pub fields: Cadence,
     /// Rows of the history.
     pub history: Cadence,
+    /// Steps between two hashes of the state; `None`: none.
+    pub hash_steps: Option<u64>,
     /// Names of the fields to write; empty: all.
     pub include: Vec<String>,
     /// Pictures show the mirrored half at x = 0 (`[true, _]`) and at y = 0 (`[_, true]`).
@@ -363,6 +365,7 @@ impl Default for Output {
         Self {
             fields: Cadence::Count(100),
             history: Cadence::Count(1000),
+            hash_steps: Some(100),
             include: Vec::new(),
             mirror: [false, false],
             pictures: true,

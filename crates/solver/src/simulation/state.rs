@@ -21,7 +21,8 @@ impl Keep for Simulation {
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
         #[rustfmt::skip]
         let Self {
-            recorded: _, threads: _, model_warnings: _, warnings: _, history: _, fields: _, max_steps: _, state_steps: _, search_names: _, pool: _,
+            recorded: _, threads: _, model_warnings: _, warnings: _, history: _, fields: _, max_steps: _, state_steps: _, hash_steps: _, hashing: _, search_names: _, pool: _,
+            memory: _, tracer: _,
             system, momentum, shortest, watch, course,
         } = self;
         archive.section("run")?;

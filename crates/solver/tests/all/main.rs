@@ -34,6 +34,7 @@ mod orthotropy;
 mod pressed;
 mod prestress;
 mod plasticity;
+mod post_mortem;
 mod projectiles;
 mod projection;
 mod rayleigh;

@@ -212,6 +212,7 @@ fn output(record: &Record) -> Output {
     Output {
         fields: cadence("fields", Cadence::Count(1)),
         history: cadence("history", Cadence::Count(1)),
+        hash_steps: record.integer("hash_steps").filter(|&steps| steps > 0),
         include: record.texts("include"),
         mirror: ["x", "y"].map(|axis| mirror.iter().any(|it| it == axis)),
         pictures: if let Some(Datum::Flag(flag)) = record.datum("pictures") { *flag } else { default.pictures },

@@ -212,6 +212,12 @@ impl Shape {
         self.built_in().map_or(Vec::new(), |(shape, _)| shape.sides().into_iter().chain(shape.points()).collect())
     }
 
+    /// Path, from the part on, of what decides how many elements there are.
+    #[must_use]
+    pub fn size_path(&self) -> String {
+        self.built_in().map_or("mesh.group".to_string(), |(shape, key)| format!("{key}.{}", shape.size_key()))
+    }
+
     /// How large the mesh of a built-in shape will be; `None` for a group of an imported mesh.
     #[must_use]
     pub fn count(&self) -> Option<Count> {

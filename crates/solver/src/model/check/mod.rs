@@ -401,6 +401,9 @@ impl Check<'_> {
 
     fn output(&mut self) {
         let output = &self.model.output;
+        if output.hash_steps == Some(0) {
+            self.fault(&RANGE, "output.hash_steps", "`hash_steps` must be at least 1, but it is 0", "say `None` for none");
+        }
         for (path, cadence, most) in [("output.fields", output.fields, FRAMES_MAX), ("output.history", output.history, ROWS_MAX)] {
             let count = match cadence {
                 Cadence::Count(count) => count as f64,

@@ -336,7 +336,7 @@ impl Model {
 
 /// Path, from the part on, of what decides how many elements there are.
 fn size_key(shape: &Shape) -> String {
-    shape.built_in().map_or("mesh.group".to_string(), |(shape, key)| format!("{key}.{}", shape.size_key()))
+    shape.size_path()
 }
 
 /// Checks the values of a shape; paths are those of its table.

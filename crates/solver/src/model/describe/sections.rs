@@ -374,6 +374,12 @@ static OUTPUT: Section = Section {
     keys: &[
         key("fields", Kind::Cadence, Default("100"), "How often the fields are written: a count, or an interval such as `\"0.1 ms\"`."),
         key("history", Kind::Cadence, Default("1000"), "How often a row of the history is written: a count or an interval."),
+        key(
+            "hash_steps",
+            Integer(0),
+            Default("100"),
+            "Steps between two lines of `hashes.csv`, by which `embate diff` tells where two runs part; 0: none are written.",
+        ),
         key("include", Kind::Choices(fields), Optional("all"), "Fields to write."),
         key(
             "mirror",

@@ -1,0 +1,278 @@
+//! Where two simulations part: their states held against each other, value by value, after each step.
+//!
+//! Made for `embate diff`, which steps two simulations side by side. Compared are the values of which [`crate::hashes`] makes hashes. Parts correspond by their names and nodes by their places in
+//! them, whatever else the models have, and only where their meshes are the same.
+
+use crate::hash::mixed;
+use crate::hashes::{self, BODY, CONTACT};
+use crate::simulation::Simulation;
+use crate::step::System;
+
+/// Parts of two models that have the same mesh.
+#[derive(Clone, Debug)]
+pub struct Pairing {
+    parts: Vec<Pair>,
+    /// What has no counterpart, a line for each part.
+    pub left_out: Vec<String>,
+}
+
+#[derive(Clone, Debug)]
+struct Pair {
+    /// Its number in each model.
+    parts: [usize; 2],
+    /// The same node in each, in the order of the part.
+    nodes: Vec<[u32; 2]>,
+}
+
+/// Where two states are not the same.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parting {
+    /// Steps done.
+    pub step: u64,
+    /// Times, s.
+    pub time: Value,
+    /// Steps that lead to the next states, s, and who governs them.
+    pub time_step: Value,
+    /// Who governs them.
+    pub governors: [String; 2],
+    /// Parts of which something differs, in model order.
+    pub parts: Vec<PartParting>,
+    /// What differs of contacts and rigid bodies.
+    pub others: Vec<(String, Value)>,
+}
+
+/// What differs of a part.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PartParting {
+    /// Its name.
+    pub name: String,
+    /// Nodes that it has.
+    pub nodes: usize,
+    /// Nodes that differ.
+    pub differing: usize,
+    /// The first of them by its number in the part.
+    pub first: Option<NodeParting>,
+    /// That whose velocities are farthest apart, if there are several.
+    pub farthest: Option<NodeParting>,
+    /// Stored and dissipated energy where they differ, J/m.
+    pub energies: Vec<(&'static str, Value)>,
+}
+
+/// A node that differs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NodeParting {
+    /// Its number in the part, and among all nodes of the first model.
+    pub number: usize,
+    /// The number that field files and messages have.
+    pub user: u32,
+    /// Position, velocity at the half step that follows, and the forces that led to it (those that are zero in both left out), with their units.
+    pub values: Vec<(&'static str, Value)>,
+}
+
+/// A number of two states.
+#[derive(Clone, Copy, Debug)]
+pub struct Value(pub f64, pub f64);
+
+/// By bits: where not a number is in both, nothing differs.
+impl PartialEq for Value {
+    fn eq(&self, other: &Self) -> bool {
+        [self.0, self.1].map(f64::to_bits) == [other.0, other.1].map(f64::to_bits)
+    }
+}
+
+impl Value {
+    /// Whether the bits are not the same.
+    #[must_use]
+    pub fn differs(self) -> bool {
+        self.0.to_bits() != self.1.to_bits()
+    }
+
+    /// How many double-precision numbers lie from one to the other, the last one counted: 1 for neighbours, 0 for 0 and −0. `None`: one is not a number.
+    #[must_use]
+    pub fn ulps(self) -> Option<u64> {
+        if self.0.is_nan() || self.1.is_nan() {
+            return None;
+        }
+        // Bits of positive numbers ascend with them.
+        let place = |number: f64| {
+            let bits = (number.to_bits() & (u64::MAX >> 1)) as i64;
+            if number.is_sign_negative() { -bits } else { bits }
+        };
+        Some(place(self.0).abs_diff(place(self.1)))
+    }
+}
+
+/// Names of the values of a node.
+const NODE: [&str; 11] = [
+    "position x",
+    "position y",
+    "velocity x",
+    "velocity y",
+    "force of the elements x",
+    "force of the elements y",
+    "contact force x",
+    "contact force y",
+    "load x",
+    "load y",
+    "mass",
+];
+/// So many of them are told in any case.
+const ALWAYS: usize = 4;
+
+impl Pairing {
+    /// Finds the parts that correspond.
+    #[must_use]
+    pub fn new(a: &Simulation, b: &Simulation) -> Self {
+        let mut pairing = Self { parts: Vec::new(), left_out: Vec::new() };
+        let [own, others] = [a, b].map(|simulation| &simulation.system.mesh.parts);
+        for (index, part) in own.iter().enumerate() {
+            let name = &part.name;
+            let Some(other) = others.iter().position(|other| other.name == *name) else {
+                pairing.left_out.push(format!("part \"{name}\" is in the first run only"));
+                continue;
+            };
+            if part.nodes.len() != others[other].nodes.len() {
+                let [a, b] = [part, &others[other]].map(|part| part.nodes.len());
+                pairing.left_out.push(format!("part \"{name}\" has another mesh: {a} nodes, and {b}"));
+            } else if cells(&a.system, index) != cells(&b.system, other) {
+                pairing.left_out.push(format!("part \"{name}\" has another mesh: as many nodes, but other elements"));
+            } else {
+                let nodes = part.nodes.iter().zip(&others[other].nodes).map(|(&a, &b)| [a, b]).collect();
+                pairing.parts.push(Pair { parts: [index, other], nodes });
+            }
+        }
+        let is_new = |name: &&String| !own.iter().any(|part| part.name == **name);
+        let new = others.iter().map(|part| &part.name).filter(is_new);
+        pairing.left_out.extend(new.map(|name| format!("part \"{name}\" is in the second run only")));
+        pairing
+    }
+
+    /// Whether no part has a counterpart: then nothing can be compared.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.parts.is_empty()
+    }
+
+    /// What is not the same in two states; `None`: all is.
+    #[must_use]
+    pub fn parting(&self, a: &Simulation, b: &Simulation) -> Option<Parting> {
+        let systems = [&a.system, &b.system];
+        let parts: Vec<PartParting> = self.parts.iter().filter_map(|pair| pair.parting(systems)).collect();
+        let others = others(systems);
+        let time = Value(a.system.time, b.system.time);
+        let time_step = Value(a.system.time_step, b.system.time_step);
+        let differs = time.differs() || time_step.differs() || !parts.is_empty() || !others.is_empty();
+        let governors = || systems.map(|system| system.governor_name(system.governor));
+        differs.then(|| Parting { step: a.system.step, time, time_step, governors: governors(), parts, others })
+    }
+}
+
+impl Pair {
+    fn parting(&self, systems: [&System; 2]) -> Option<PartParting> {
+        let moved = |&[a, b]: &[u32; 2]| {
+            let of = |node: u32, system: &System| {
+                let ([x, y], [u, v]) = (system.positions[node as usize], system.velocities[node as usize]);
+                [x, y, u, v].map(f64::to_bits)
+            };
+            of(a, systems[0]) != of(b, systems[1])
+        };
+        let differing: Vec<usize> = (0..self.nodes.len()).filter(|&number| moved(&self.nodes[number])).collect();
+        let [a, b] = [0, 1].map(|k| hashes::energies(systems[k], self.parts[k]));
+        let energies = a.flatten().zip(b.flatten()).zip(["stored energy", "dissipated energy"].into_iter().cycle());
+        let energies: Vec<(&str, Value)> =
+            energies.map(|((a, b), name)| (name, Value(a, b))).filter(|(_, value)| value.differs()).collect();
+        if differing.is_empty() && energies.is_empty() {
+            return None;
+        }
+        let apart = |number: usize| {
+            let [a, b] = [0, 1].map(|k| systems[k].velocities[self.nodes[number][k] as usize]);
+            (a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2)
+        };
+        let farthest = differing.iter().copied().reduce(|far, number| if apart(number) > apart(far) { number } else { far });
+        Some(PartParting {
+            name: systems[0].mesh.parts[self.parts[0]].name.clone(),
+            nodes: self.nodes.len(),
+            differing: differing.len(),
+            first: differing.first().map(|&number| self.node(number, systems)),
+            farthest: farthest.filter(|_| differing.len() > 1).map(|number| self.node(number, systems)),
+            energies,
+        })
+    }
+
+    fn node(&self, number: usize, systems: [&System; 2]) -> NodeParting {
+        let values = [0, 1].map(|k| {
+            let (node, system) = (self.nodes[number][k] as usize, systems[k]);
+            let ([x, y], [u, v]) = (system.positions[node], system.velocities[node]);
+            let internal = system.assembly.force(node, &system.slots);
+            let contact = if system.contacts.is_empty() { [0.0; 2] } else { system.contact_forces.of(node) };
+            let load = system.forces.now().get(node).copied().unwrap_or_default();
+            [x, y, u, v, internal[0], internal[1], contact[0], contact[1], load[0], load[1], system.mass[node]]
+        });
+        let values = (0..NODE.len()).map(|k| (NODE[k], Value(values[0][k], values[1][k])));
+        let is_told = |(k, (name, value)): &(usize, (&str, Value))| {
+            *k < ALWAYS || value.differs() || (*name != "mass" && (value.0 != 0.0 || value.1 != 0.0))
+        };
+        let told = values.enumerate().filter(is_told).map(|(_, value)| value).collect();
+        NodeParting { number, user: systems[0].mesh.user_nodes[self.nodes[number][0] as usize], values: told }
+    }
+}
+
+/// What differs of contacts and rigid bodies that are in both; what is in one alone and acts differs by what it does to parts, or by its hash.
+fn others(systems: [&System; 2]) -> Vec<(String, Value)> {
+    let mut found = Vec::new();
+    let mut hold = |what: &str, name: &str, names: &[&str], a: &[f64], b: &[f64]| {
+        let values = names.iter().zip(a.iter().zip(b)).map(|(value, (&a, &b))| (format!("{value} of {what} \"{name}\""), Value(a, b)));
+        found.extend(values.filter(|(_, value)| value.differs()));
+    };
+    let nothing = [0.0; CONTACT.len()];
+    for contact in &systems[0].contacts {
+        let other = systems[1].contacts.iter().find(|other| other.name == contact.name);
+        let other = other.map_or(nothing, hashes::of_contact);
+        hold(contact.kind.name(), &contact.name, &CONTACT, &hashes::of_contact(contact), &other);
+    }
+    for contact in systems[1].contacts.iter().filter(|contact| !systems[0].contacts.iter().any(|other| other.name == contact.name)) {
+        hold(contact.kind.name(), &contact.name, &CONTACT, &nothing, &hashes::of_contact(contact));
+    }
+    for (name, body) in hashes::bodies(systems[0]) {
+        if let Some((_, other)) = hashes::bodies(systems[1]).find(|(other, _)| *other == name) {
+            hold("rigid body", name, &BODY, &body, &other);
+        }
+    }
+    found
+}
+
+/// What the elements of a part join, whatever the order in which they and their nodes are stored.
+fn cells(system: &System, part: usize) -> u64 {
+    let mut place = vec![0_u32; system.mesh.positions.len()];
+    for (&node, number) in system.mesh.parts[part].nodes.iter().zip(0..) {
+        place[node as usize] = number;
+    }
+    let of_cell = |(&user, cell): (&u32, &[u32])| {
+        let mut places: Vec<u32> = cell.iter().map(|&node| place[node as usize]).collect();
+        // Elements are stored from whichever of their corners came first.
+        let lowest = (0..places.len()).min_by_key(|&corner| places[corner]).unwrap_or(0);
+        places.rotate_left(lowest);
+        places.iter().fold(mixed(0, user.into()), |hash, &place| mixed(hash, place.into()))
+    };
+    let groups = system.mesh.groups_of(part);
+    groups.flat_map(|group| group.user_elements.iter().zip(group.cells())).map(of_cell).fold(0, u64::wrapping_add)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ulps_count_the_numbers_between() {
+        let ulps = |a: f64, b: f64| Value(a, b).ulps();
+        assert_eq!(ulps(1.0, 1.0 + f64::EPSILON), Some(1));
+        assert_eq!(ulps(1.0 - f64::EPSILON / 2.0, 1.0), Some(1));
+        assert_eq!(ulps(0.0, -0.0), Some(0));
+        assert!(Value(0.0, -0.0).differs());
+        assert_eq!(ulps(-5e-324, 5e-324), Some(2));
+        assert_eq!(ulps(f64::NAN, 1.0), None);
+        assert!(!Value(f64::NAN, f64::NAN).differs());
+        assert_eq!(ulps(1.0, 2.0), Some(1 << 52));
+        assert!(ulps(f64::NEG_INFINITY, f64::INFINITY).is_some());
+    }
+}

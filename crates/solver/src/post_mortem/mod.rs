@@ -1,0 +1,241 @@
+//! What a failed run knows of its failure: the culprit, its neighbourhood, and what became of both over the last steps.
+//!
+//! After a failure [`Simulation::suspect`] names the culprit as the state of the failure shows it. A second simulation of the same model, set out from a state before, goes to the failure once more and
+//! [follows](Simulation::follow) the culprit step by step (`trace.rs`); the steps are the same to the last bit. Values only: who writes a page of them is not known here.
+
+mod acting;
+mod mass;
+mod neighbourhood;
+mod trace;
+
+pub use acting::Acting;
+pub use mass::{Heavy, MassNeeded, PartNeeds};
+pub use neighbourhood::{NearCell, Neighbourhood, RINGS};
+pub use trace::{Jump, Moment, Trace, Vitals};
+
+pub(crate) use neighbourhood::Near;
+pub(crate) use trace::Tracer;
+
+use crate::error::Error;
+use crate::simulation::Simulation;
+use crate::step::System;
+use std::fmt;
+
+/// Who is to blame for a failure, by the user's names and numbers.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Culprit {
+    /// An element.
+    Element {
+        /// Its part.
+        part: String,
+        /// Its number in the part.
+        element: usize,
+        /// Mean of its nodes, m.
+        at: [f64; 2],
+    },
+    /// A node.
+    Node {
+        /// The first part that it belongs to; empty: it is a point of an obstacle.
+        part: String,
+        /// Its number in results.
+        node: usize,
+        /// Where it is, m.
+        at: [f64; 2],
+    },
+    /// A contact or obstacle, at a node.
+    Contact {
+        /// `contact` or `obstacle`.
+        kind: &'static str,
+        /// Its name.
+        name: String,
+        /// The first part that the node belongs to.
+        part: String,
+        /// Number of the node in results.
+        node: usize,
+        /// Where the node is, m.
+        at: [f64; 2],
+    },
+    /// Nothing that has a place.
+    #[default]
+    Nobody,
+}
+
+impl Culprit {
+    /// Where it is, m.
+    #[must_use]
+    pub fn at(&self) -> Option<[f64; 2]> {
+        match self {
+            Self::Element { at, .. } | Self::Node { at, .. } | Self::Contact { at, .. } => Some(*at),
+            Self::Nobody => None,
+        }
+    }
+
+    /// Its part; empty: none.
+    #[must_use]
+    pub fn part(&self) -> &str {
+        match self {
+            Self::Element { part, .. } | Self::Node { part, .. } | Self::Contact { part, .. } => part,
+            Self::Nobody => "",
+        }
+    }
+}
+
+impl fmt::Display for Culprit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let of = |part: &str| if part.is_empty() { String::new() } else { format!(" of part \"{part}\"") };
+        match self {
+            Self::Element { part, element, .. } => write!(f, "element {element}{}", of(part)),
+            Self::Node { part, node, .. } => write!(f, "node {node}{}", of(part)),
+            Self::Contact { kind, name, part, node, .. } => write!(f, "{kind} \"{name}\" at node {node}{}", of(part)),
+            Self::Nobody => f.write_str("no element, node or contact alone"),
+        }
+    }
+}
+
+/// A culprit by the numbers of the solver: the same in every simulation of a model.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Suspect {
+    /// Place in the list of contacts and obstacles.
+    pub(crate) contact: Option<usize>,
+    pub(crate) node: Option<usize>,
+    /// Group and element in it; where a node is to blame, that of its elements which is worst off.
+    pub(crate) element: Option<(usize, usize)>,
+}
+
+impl Suspect {
+    /// Whether there is nobody to follow.
+    #[must_use]
+    pub fn is_nobody(&self) -> bool {
+        self.node.is_none() && self.element.is_none()
+    }
+}
+
+impl System {
+    /// Who is to blame for a failure, as the state shows it now.
+    fn suspect(&self, error: &Error) -> Suspect {
+        match error {
+            Error::Inverted { .. } => self.suspect_element(self.most_inverted()),
+            Error::Collapsed { .. } => {
+                let squared = self.joined_reports().time_step_squared;
+                self.governing_element(squared)
+                    .or_else(|| self.shortest_element())
+                    .map_or(Suspect::default(), |it| self.suspect_element(it))
+            }
+            Error::NotFinite { .. } => match (self.element_not_finite(), self.node_not_finite()) {
+                (Some(element), _) => self.suspect_element(element),
+                (None, Some(node)) => self.suspect_node(node),
+                (None, None) => self.fastest_node().map_or(Suspect::default(), |node| self.suspect_node(node)),
+            },
+            Error::TooDeep { .. } => {
+                let contact = self.contacts.iter().position(|contact| contact.penetration > self.limits.penetration);
+                let deepest = contact.and_then(|contact| self.deepest(&self.contacts[contact]));
+                deepest.map_or(Suspect::default(), |(node, _)| Suspect { contact, ..self.suspect_node(node) })
+            }
+            Error::Runaway { .. } => self.fastest_node().map_or(Suspect::default(), |node| self.suspect_node(node)),
+            _ => Suspect::default(),
+        }
+    }
+
+    pub(crate) fn suspect_element(&self, element: (usize, usize)) -> Suspect {
+        Suspect { element: Some(element), ..Suspect::default() }
+    }
+
+    pub(crate) fn suspect_node(&self, node: usize) -> Suspect {
+        Suspect { node: Some(node), element: self.worst_element_at(node), contact: None }
+    }
+
+    /// Of the elements at a node the one with the shortest step.
+    fn worst_element_at(&self, node: usize) -> Option<(usize, usize)> {
+        let mut worst: Option<((usize, usize), f64)> = None;
+        for (g, (group, block)) in self.mesh.groups.iter().zip(&self.blocks).enumerate() {
+            for (element, _) in
+                group.cells().enumerate().filter(|(element, cell)| cell.contains(&(node as u32)) && group.is_alive(*element))
+            {
+                let squared = block.time_step_squared(element);
+                if worst.is_none_or(|(_, least)| !(squared >= least)) {
+                    worst = Some(((g, element), squared));
+                }
+            }
+        }
+        worst.map(|(element, _)| element)
+    }
+
+    /// The element with the shortest step, springs left aside.
+    fn shortest_element(&self) -> Option<(usize, usize)> {
+        let groups = self.mesh.groups.iter().zip(&self.blocks).enumerate().filter(|(g, _)| !self.rigid[*g]);
+        let all = groups.flat_map(|(g, (group, block))| {
+            (0..group.elements())
+                .filter(|&element| group.is_alive(element))
+                .map(move |element| ((g, element), block.time_step_squared(element)))
+        });
+        all.min_by(|(_, a), (_, b)| a.total_cmp(b)).map(|(element, _)| element)
+    }
+
+    /// The first element whose stress or energy is no number.
+    fn element_not_finite(&self) -> Option<(usize, usize)> {
+        self.mesh.groups.iter().zip(&self.blocks).enumerate().filter(|(g, _)| !self.rigid[*g]).find_map(|(g, (group, block))| {
+            let is_bad = |&element: &usize| {
+                let state = block.state(element);
+                group.is_alive(element) && !state.stress.iter().chain([&state.energy_density]).all(|value| value.is_finite())
+            };
+            (0..group.elements()).find(is_bad).map(|element| (g, element))
+        })
+    }
+
+    /// The node whose kinetic energy changed most in the last update, and the contact that pressed most on it.
+    fn hottest(&self) -> Suspect {
+        let change = |node: usize| {
+            let [[a, b], [c, d]] = [self.velocities_old[node], self.velocities[node]];
+            (self.mass[node] * (c * c + d * d - a * a - b * b)).abs()
+        };
+        let nodes = 0..self.mesh.user_nodes.len();
+        let Some(node) = nodes.max_by(|&a, &b| change(a).total_cmp(&change(b))) else { return Suspect::default() };
+        let force = |contact: usize| self.contacts[contact].force_on(&[node as u32], &self.springs);
+        let pressing = (0..self.contacts.len()).filter(|&contact| force(contact) > 0.0);
+        let contact = pressing.max_by(|&a, &b| force(a).total_cmp(&force(b)));
+        Suspect { contact, ..self.suspect_node(node) }
+    }
+
+    fn part_of_node(&self, node: usize) -> String {
+        let is_in = |nodes: &[u32]| nodes.contains(&(node as u32));
+        self.mesh.parts.iter().find(|part| is_in(&part.nodes)).map_or(String::new(), |part| part.name.clone())
+    }
+
+    /// A suspect by the user's names.
+    fn culprit(&self, suspect: &Suspect) -> Culprit {
+        let user = |node: usize| self.mesh.user_nodes.get(node).map_or(node, |&user| user as usize);
+        // What is no number any more is shown where it was.
+        let place = |node: usize| {
+            let now = self.positions[node];
+            if now.iter().all(|x| x.is_finite()) { now } else { self.positions_old[node] }
+        };
+        match *suspect {
+            Suspect { contact: Some(contact), node: Some(node), .. } => {
+                let it = &self.contacts[contact];
+                let (part, at) = (self.part_of_node(node), place(node));
+                Culprit::Contact { kind: it.kind.name(), name: it.name.clone(), part, node: user(node), at }
+            }
+            Suspect { node: Some(node), .. } => Culprit::Node { part: self.part_of_node(node), node: user(node), at: place(node) },
+            Suspect { element: Some((g, element)), .. } => {
+                let group = &self.mesh.groups[g];
+                let part = self.mesh.parts[group.part].name.clone();
+                Culprit::Element { part, element: group.user_elements[element] as usize, at: self.centre(group.cell(element)) }
+            }
+            _ => Culprit::Nobody,
+        }
+    }
+}
+
+impl Simulation {
+    /// Who is to blame for the failure that ended the run.
+    #[must_use]
+    pub fn suspect(&self, error: &Error) -> Suspect {
+        self.system.suspect(error)
+    }
+
+    /// A suspect by the user's names and numbers.
+    #[must_use]
+    pub fn culprit(&self, suspect: &Suspect) -> Culprit {
+        self.system.culprit(suspect)
+    }
+}

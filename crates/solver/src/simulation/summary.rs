@@ -1,0 +1,126 @@
+//! What a run has to say of itself: its figures, what was checked in its contacts, and what the user should know.
+
+use super::{ContactSearch, Simulation};
+use crate::contact::Contact;
+use crate::contact::messages::{MISSED, NO_FORCE, TIES_BROKE, UNSOLVED};
+use crate::contact::tracker::Certificate;
+use crate::error::{ERODED, Notice, RELAXED};
+use crate::mesh::PartMesh;
+use crate::output::{Eroded, Erosion, Summary};
+use crate::record::Momentum;
+
+impl Simulation {
+    fn warnings(&self) -> Vec<Notice> {
+        let mut warnings: Vec<Notice> = self.model_warnings.iter().map(Notice::from).chain(self.warnings.iter().cloned()).collect();
+        warnings.extend(self.watch.notices());
+        let mut tell = |kind, text: String| warnings.push(Notice::new(kind, text));
+        for contact in &self.system.contacts {
+            let Some(ties) = contact.ties() else { continue };
+            let all = ties.nodes.len() + ties.broken;
+            if ties.broken > 0 {
+                tell(&TIES_BROKE, format!("contact \"{}\": {} of {all} ties broke", contact.name, ties.broken));
+            } else if all == 0 {
+                tell(&TIES_BROKE, format!("contact \"{}\": its ties bound no node", contact.name));
+            }
+        }
+        if let Some(Erosion { elements, first: Eroded { part, element, at: [x, y], time, criterion }, .. }) = self.erosion() {
+            let all: Vec<String> = elements.iter().map(|(part, count)| format!("{count} of part \"{part}\"")).collect();
+            tell(
+                &ERODED,
+                format!(
+                    "elements were eroded: {}; the first was element {element} of part \"{part}\" at ({x:.6e}, {y:.6e}) m, at {time:.6e} s by `{criterion}`",
+                    all.join(", ")
+                ),
+            );
+        }
+        if let Some(relaxation) = &self.system.relaxation {
+            tell(
+                &RELAXED,
+                match relaxation.rest {
+                    Some(time) => format!(
+                        "relaxation: at rest at {time:.6e} s, where the run ended; kinetic over internal energy {:.3e}",
+                        relaxation.ratio
+                    ),
+                    None => format!("relaxation: not at rest; kinetic over internal energy {:.3e}", relaxation.ratio),
+                },
+            );
+        }
+        let unsolved = self.system.springs.unsolved;
+        if unsolved > 0 {
+            tell(
+                &UNSOLVED,
+                format!("in {unsolved} step(s) the contact forces were not solved to the last digit: lower the contact penalties"),
+            );
+        }
+        let unverified = self.certificate().unverified;
+        if unverified > 0 {
+            tell(
+                &MISSED,
+                format!(
+                    "{unverified} time(s) a node was inside a body without being in contact with it: a contact was missed, or a body went through itself"
+                ),
+            );
+        }
+        for contact in self.system.contacts.iter().filter(|contact| self.system.step > 0 && !contact.has_pressed) {
+            tell(&NO_FORCE, format!("{} \"{}\" transmitted nothing in the whole run", contact.kind.name(), contact.name));
+        }
+        warnings
+    }
+
+    /// What erosion has done so far.
+    fn erosion(&self) -> Option<Erosion> {
+        let system = &self.system;
+        let erosion = system.erosion.as_ref()?;
+        let first = erosion.first.clone()?;
+        let of_part = |(part, &count): (&PartMesh, &usize)| (part.name.clone(), count);
+        let elements = system.mesh.parts.iter().zip(&erosion.by_part).filter(|(_, count)| **count > 0).map(of_part).collect();
+        Some(Erosion { elements, mass_loose: system.mass_loose(), first })
+    }
+
+    /// What was checked in all contacts so far.
+    fn certificate(&self) -> Certificate {
+        let mut sum = Certificate::default();
+        for contact in &self.system.contacts {
+            sum += contact.certificate();
+        }
+        sum
+    }
+
+    /// What the global search of each contact between surfaces did so far.
+    #[must_use]
+    pub fn searches(&self) -> Vec<ContactSearch> {
+        let of = |contact: &Contact| {
+            let report = contact.search_report()?;
+            let search = self.search_names.get(&contact.name).cloned().unwrap_or_default();
+            Some(ContactSearch { contact: contact.name.clone(), search, report, pairs_swept: contact.certificate().pairs_swept })
+        };
+        self.system.contacts.iter().filter_map(of).collect()
+    }
+
+    /// Figures of the run so far (valid after a failure too).
+    #[must_use]
+    pub fn summary(&self) -> Summary {
+        let system = &self.system;
+        Summary {
+            elements: self.elements(),
+            nodes: system.mesh.positions.len(),
+            steps: system.step,
+            time_end: system.time,
+            rest: self.system.relaxation.as_ref().and_then(|relaxation| relaxation.rest),
+            stable_time_step_min: self.shortest.time_step,
+            stable_time_step_governor: self.shortest.governor.clone(),
+            energy_drift: system.ledger.drift(),
+            ledger_residual: system.ledger.residual(),
+            momentum_drift_linear: self.momentum.as_ref().map(Momentum::linear),
+            momentum_drift_angular: self.momentum.as_ref().and_then(Momentum::angular),
+            penetration_max: system.penetration_max,
+            contact: self.certificate(),
+            erosion: self.erosion(),
+            mass_added: system.mass_added[0],
+            state_hash: crate::record::state_hash(system),
+            threads: self.threads,
+            simd: system.level.name().to_string(),
+            warnings: self.warnings(),
+        }
+    }
+}

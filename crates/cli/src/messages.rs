@@ -51,7 +51,9 @@ pub(crate) static NO_RESULTS: Message = Message {
 pub(crate) static NOTHING_IN_COMMON: Message = Message {
     code: "E0812",
     title: "two runs that can't be compared",
-    example: Example::Words("`embate diff` gets a run of a coarse mesh and one of a fine mesh of the same part."),
+    example: Example::Shell(
+        "embate run model.toml --out coarse --quiet\nsed 's/\\[2, 2\\]/[3, 3]/; s/\\[2, 4\\]/[3, 6]/' model.toml > fine.toml\nembate run fine.toml --out fine --quiet\nembate diff coarse fine\n",
+    ),
     cause: "Nodes are held against each other by part and number; here no part of one run has its name and its elements in the other.",
     cure: "Compare runs of one mesh; for others compare histories and fields.",
 };
@@ -59,7 +61,9 @@ pub(crate) static NOTHING_IN_COMMON: Message = Message {
 pub(crate) static NOT_AGAIN: Message = Message {
     code: "W0811",
     title: "runs that can't be gone over once more",
-    example: Example::Words("The model file of a run has been changed since, and the run is compared with another one by `embate diff`."),
+    example: Example::Shell(
+        "embate run model.toml --out before --quiet\nsed -i 's/7800/7900/' model.toml\nembate run model.toml --out after --quiet\nembate diff before after || true\n",
+    ),
     cause: "The step and the node at which two runs part are found by going over both once more, and that needs the models that ran; what is told without is known from the logs.",
     cure: "Put the model back as it was, or name the one that ran with --model-a or --model-b.",
 };

@@ -51,7 +51,9 @@ pub(crate) static PICTURE: Message = Message {
 pub(crate) static DAMAGED_LOG: Message = Message {
     code: "E0721",
     title: "a damaged record of a run",
-    example: Example::Words("A digit of a line in `hashes.csv` was changed, and the run is compared with another one."),
+    example: Example::Shell(
+        "embate run model.toml --out one --quiet --set output.hash_steps=2\nembate run model.toml --out two --quiet --set output.hash_steps=2\nsed -i '2s/1/2/' two/hashes.csv\nembate diff one two\n",
+    ),
     cause: "A line of `hashes.csv` is not the one that its check sum was made of, or `run.json` can't be read: the disk, a copy or another program changed the file.",
     cure: "Put the file back from a copy, or run the model again. Without the file the end states are compared all the same.",
 };

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod abaqus;
+mod damaged_state;
 mod gmsh;
 mod model_file;
 mod picture;

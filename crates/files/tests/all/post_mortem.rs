@@ -1,5 +1,6 @@
 //! Post-mortems without the program: a search that is stopped, and where keys stand.
 
+use embate_files::Reach;
 use embate_files::model_file::{self, KeyPlace};
 use embate_files::post_mortem::{Failed, PAGE};
 use embate_solver::output::Frame;
@@ -27,7 +28,7 @@ fn a_search_that_is_stopped_leaves_a_page_of_the_failure_alone() {
     let results = Path::new(env!("CARGO_TARGET_TMPDIR")).join("post-mortem-stopped");
     let _ = fs::remove_dir_all(&results);
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../failures/inverted-element");
-    let loaded = model_file::load_with_places(&path, &[], embate_files::Reach::Folder).unwrap();
+    let loaded = model_file::load_with_places(&path, &[], Reach::Folder).unwrap();
     let options = Options { threads: 1, simd: None };
     let mut simulation = Simulation::new(&loaded.model, &options).unwrap();
     let error = simulation.run(&mut Deaf).unwrap_err();

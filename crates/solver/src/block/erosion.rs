@@ -183,6 +183,13 @@ where
 
     /// Makes all lanes of eroded elements copies again, when the state was filled from outside: of their initial geometry too.
     pub(super) fn fill_all_up(&mut self) -> Kept {
+        let is_possible = |lane: usize| {
+            let live = self.elements[lane / BATCH].live.0[lane % BATCH];
+            live == 0.0 || (live == 1.0 && lane < self.count)
+        };
+        if !(0..self.elements.len() * BATCH).all(is_possible) {
+            return Err(Misfit::new("an element is neither there nor gone, or one too many is there"));
+        }
         let sources = std::mem::take(&mut self.eroded.sources);
         for (&chunk, &source) in &sources {
             let end = chunk.saturating_add(1).saturating_mul(CHUNK).min(self.elements.len()) * BATCH;

@@ -14,8 +14,8 @@ const GENERATIONS: usize = 2;
 pub(super) struct Memory {
     /// Bytes for all generations together; zero: none are kept.
     room: usize,
-    /// Step of the last one, or that at which the run began.
-    last: Option<u64>,
+    /// Step from which on the next one is due.
+    next: Option<u64>,
     states: Vec<State>,
 }
 
@@ -29,8 +29,7 @@ impl Memory {
         if self.room == 0 {
             return false;
         }
-        let last = *self.last.get_or_insert(if step == 0 { 0 } else { step.saturating_sub(EVERY) });
-        step >= last + EVERY
+        step >= *self.next.get_or_insert(if step == 0 { EVERY } else { step })
     }
 
     /// Takes a state; one that is too large is the last.
@@ -40,7 +39,7 @@ impl Memory {
             *self = Self::default();
             return;
         }
-        self.last = Some(state.step);
+        self.next = Some(state.step + EVERY);
         self.states.truncate(GENERATIONS - 1);
         self.states.insert(0, state);
     }

@@ -7,12 +7,10 @@ mod again;
 pub use again::{Again, Found, in_step};
 
 use crate::checkpoint::{Checkpoint, Identity, Origin, newest};
-use crate::results::{HashTable, Ran, ResultsError};
+use crate::results::{HashTable, Ran, ResultsError, read_json};
 use crate::threads::Threads;
 use embate_solver::hashes::Hashes;
 use serde::Deserialize;
-use std::fs;
-use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// What a run left.
@@ -55,7 +53,7 @@ impl RunLeft {
     /// # Errors
     /// Files that are damaged or can't be read.
     pub fn read(folder: &Path) -> Result<Option<Self>, ResultsError> {
-        let (ran, end, hashes) = (Ran::read(folder)?, end(folder)?, HashTable::read(folder)?);
+        let (ran, end, hashes) = (Ran::read(folder)?, read_json::<End>(&folder.join("summary.json"))?, HashTable::read(folder)?);
         if end.is_none() && hashes.is_none() {
             return Ok(None);
         }
@@ -79,19 +77,6 @@ impl RunLeft {
     #[must_use]
     pub fn hashes_at(&self, step: u64) -> Option<&Hashes> {
         self.hashes.as_ref()?.lines.get(&step)
-    }
-}
-
-fn end(folder: &Path) -> Result<Option<End>, ResultsError> {
-    let path = folder.join("summary.json");
-    match fs::read(&path) {
-        Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
-        Err(error) => Err(ResultsError::file("read", &path)(error)),
-        Ok(bytes) => serde_json::from_slice(&bytes).map(Some).map_err(|error| ResultsError::Damaged {
-            path,
-            line: error.line(),
-            what: error.to_string(),
-        }),
     }
 }
 

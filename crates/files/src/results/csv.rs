@@ -1,56 +1,49 @@
 //! `history.csv`: one line of column names, then one line per history row.
 //!
-//! Rows come from the simulation through the recorder; they are collected and written in pieces of whole lines, so that the
-//! growing `history.csv.part` can be followed while a run goes on.
+//! Rows come from the simulation through the recorder, and go to the file by way of [`Lines`].
 
 use super::ResultsError;
-use super::atomic::{Mark, PartFile};
+use super::atomic::Mark;
+use super::lines::Lines;
 use std::fmt::Write as _;
 use std::path::Path;
-
-/// Bytes that are collected before they are written.
-const PIECE: usize = 1 << 16;
 
 /// A table that is written row by row.
 #[derive(Debug)]
 pub(super) struct CsvStream {
-    file: PartFile,
+    lines: Lines,
     columns: usize,
-    pending: String,
 }
 
 impl CsvStream {
     /// Starts the table `path` with its line of names.
     pub(super) fn create(path: &Path, columns: &[String]) -> Result<Self, ResultsError> {
-        let mut pending = String::new();
+        let mut names = String::new();
         for (index, name) in columns.iter().enumerate() {
             if index > 0 {
-                pending.push(',');
+                names.push(',');
             }
-            append_text(&mut pending, name);
+            append_text(&mut names, name);
         }
-        pending.push('\n');
-        let mut table = Self { file: PartFile::create(path)?, columns: columns.len(), pending };
-        table.flush()?;
-        Ok(table)
+        names.push('\n');
+        Ok(Self { lines: Lines::create(path, names)?, columns: columns.len() })
     }
 
     /// Goes on with the table `path` from where it was marked. With it come the rows that are there.
     pub(super) fn reopen(path: &Path, columns: &[String], mark: Mark) -> Result<(Self, Vec<Vec<f64>>), ResultsError> {
-        let (file, bytes) = PartFile::reopen(path, mark)?;
+        let (lines, bytes) = Lines::reopen(path, mark)?;
         let text = String::from_utf8_lossy(&bytes);
         let row = |line: &str| -> Option<Vec<f64>> { line.split(',').map(|value| value.parse().ok()).collect() };
         let rows: Option<Vec<Vec<f64>>> = text.lines().skip(1).map(row).collect();
         match rows.filter(|rows| rows.iter().all(|row| row.len() == columns.len())) {
-            Some(rows) => Ok((Self { file, columns: columns.len(), pending: String::new() }, rows)),
+            Some(rows) => Ok((Self { lines, columns: columns.len() }, rows)),
             None => Err(ResultsError::Changed { path: path.into(), what: "its rows have other columns".into() }),
         }
     }
 
     /// How far it is, once that is on the disk.
     pub(super) fn mark(&mut self) -> Result<Mark, ResultsError> {
-        self.flush()?;
-        self.file.mark()
+        self.lines.mark()
     }
 
     /// Adds a row: one value per column.
@@ -58,28 +51,25 @@ impl CsvStream {
         if values.len() != self.columns {
             return Err(ResultsError::RowLength { found: values.len(), expected: self.columns });
         }
-        for (index, &value) in values.iter().enumerate() {
-            if index > 0 {
-                self.pending.push(',');
+        self.lines.line(|text| {
+            for (index, &value) in values.iter().enumerate() {
+                if index > 0 {
+                    text.push(',');
+                }
+                append_number(text, value);
             }
-            append_number(&mut self.pending, value);
-        }
-        self.pending.push('\n');
-        if self.pending.len() >= PIECE { self.flush() } else { Ok(()) }
+            text.push('\n');
+        })
     }
 
     /// Writes what was collected.
     pub(super) fn flush(&mut self) -> Result<(), ResultsError> {
-        let written = self.file.append(self.pending.as_bytes());
-        self.pending.clear();
-        written
+        self.lines.flush()
     }
 
     /// Writes the rest and gives the table its final name, even when the rest can't be written.
-    pub(super) fn finish(mut self) -> Result<(), ResultsError> {
-        let written = self.flush();
-        self.file.finish()?;
-        written
+    pub(super) fn finish(self) -> Result<(), ResultsError> {
+        self.lines.finish()
     }
 }
 

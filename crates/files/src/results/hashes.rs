@@ -3,7 +3,7 @@
 //! Lines come from the simulation through the recorder, and grow as those of the history. Each ends with a check sum of what stands before it: a line that was changed is told from a run that was
 //! another. [`HashTable::read`] gives them to `embate diff`, also those of a run that was killed.
 
-use super::atomic::{Mark, PartFile, part_path};
+use super::atomic::part_path;
 use super::csv::{append_number, append_text};
 use super::{HASHES, ResultsError};
 use embate_solver::hashes::Hashes;
@@ -14,8 +14,6 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
 
-/// Bytes that are collected before they are written.
-const PIECE: usize = 1 << 16;
 /// Columns before those of the hashes.
 const FIRST: [&str; 3] = ["step", "time", "time_step"];
 /// Columns of hashes before those of the parts.
@@ -23,69 +21,31 @@ const HASHED: [&str; 3] = ["state", "contacts", "bodies"];
 /// The last column: CRC32 of the text of its line until there.
 const CHECK: &str = "check";
 
-/// The table that is written line by line.
-#[derive(Debug)]
-pub(super) struct HashLog {
-    file: PartFile,
-    pending: String,
+/// The line of names of the table with these parts.
+pub(super) fn names(parts: &[String]) -> String {
+    let mut names = FIRST.iter().chain(&HASHED).map(|name| format!("{name},")).collect::<String>();
+    for name in parts {
+        append_text(&mut names, &format!("part[{name}]"));
+        names.push(',');
+    }
+    names.push_str(CHECK);
+    names.push('\n');
+    names
 }
 
-impl HashLog {
-    /// Starts the table of a folder with its line of names.
-    pub(super) fn create(folder: &Path, parts: &[String]) -> Result<Self, ResultsError> {
-        let mut pending = FIRST.iter().chain(&HASHED).map(|name| format!("{name},")).collect::<String>();
-        for name in parts {
-            append_text(&mut pending, &format!("part[{name}]"));
-            pending.push(',');
-        }
-        pending.push_str(CHECK);
-        pending.push('\n');
-        let mut log = Self { file: PartFile::create(&folder.join(HASHES))?, pending };
-        log.flush()?;
-        Ok(log)
+/// Appends the line of a state.
+pub(super) fn append_line(text: &mut String, hashes: &Hashes) {
+    let Hashes { step, time, time_step, state, contacts, bodies, parts } = hashes;
+    let mut line = format!("{step},");
+    for number in [*time, *time_step] {
+        append_number(&mut line, number);
+        line.push(',');
     }
-
-    /// Goes on with the table of a folder from where it was marked.
-    pub(super) fn reopen(folder: &Path, mark: Mark) -> Result<Self, ResultsError> {
-        let (file, _) = PartFile::reopen(&folder.join(HASHES), mark)?;
-        Ok(Self { file, pending: String::new() })
+    for hash in [state, contacts, bodies].into_iter().chain(parts) {
+        // Writing to a string can't fail.
+        let _ = write!(line, "{hash:016x},");
     }
-
-    /// How far it is, once that is on the disk.
-    pub(super) fn mark(&mut self) -> Result<Mark, ResultsError> {
-        self.flush()?;
-        self.file.mark()
-    }
-
-    /// Adds a line.
-    pub(super) fn line(&mut self, hashes: &Hashes) -> Result<(), ResultsError> {
-        let Hashes { step, time, time_step, state, contacts, bodies, parts } = hashes;
-        let mut line = format!("{step},");
-        for number in [*time, *time_step] {
-            append_number(&mut line, number);
-            line.push(',');
-        }
-        for hash in [state, contacts, bodies].into_iter().chain(parts) {
-            // Writing to a string can't fail.
-            let _ = write!(line, "{hash:016x},");
-        }
-        let _ = writeln!(self.pending, "{line}{:08x}", sum(&line));
-        if self.pending.len() >= PIECE { self.flush() } else { Ok(()) }
-    }
-
-    /// Writes what was collected.
-    pub(super) fn flush(&mut self) -> Result<(), ResultsError> {
-        let written = self.file.append(self.pending.as_bytes());
-        self.pending.clear();
-        written
-    }
-
-    /// Writes the rest and gives the table its final name, even when the rest can't be written.
-    pub(super) fn finish(mut self) -> Result<(), ResultsError> {
-        let written = self.flush();
-        self.file.finish()?;
-        written
-    }
+    let _ = writeln!(text, "{line}{:08x}", sum(&line));
 }
 
 fn sum(line: &str) -> u32 {

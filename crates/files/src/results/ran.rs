@@ -4,7 +4,7 @@
 
 use super::{ResultsError, write_whole};
 use crate::checkpoint::{Identity, Origin};
-use embate_solver::model::Model;
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::fs;
 use std::io::ErrorKind;
@@ -27,9 +27,10 @@ pub struct Ran {
 }
 
 impl Ran {
-    pub(super) fn of(model: &Model, origin: &Origin) -> Self {
+    /// What a model is and where it came from.
+    pub(super) fn of(keys: Identity, origin: &Origin) -> Self {
         let path = origin.path.to_string_lossy().into_owned();
-        Self { version: env!("CARGO_PKG_VERSION").into(), model: path, set: origin.set.clone(), keys: Identity::of(model) }
+        Self { version: env!("CARGO_PKG_VERSION").into(), model: path, set: origin.set.clone(), keys }
     }
 
     pub(super) fn write(&self, folder: &Path) -> Result<(), ResultsError> {
@@ -42,21 +43,28 @@ impl Ran {
     /// # Errors
     /// [`ResultsError::Damaged`]; what the system says.
     pub fn read(folder: &Path) -> Result<Option<Self>, ResultsError> {
-        let path = folder.join(RAN);
-        match fs::read(&path) {
-            Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
-            Err(error) => Err(ResultsError::file("read", &path)(error)),
-            Ok(bytes) => serde_json::from_slice(&bytes).map(Some).map_err(|error| ResultsError::Damaged {
-                path,
-                line: error.line(),
-                what: error.to_string(),
-            }),
-        }
+        read_json(&folder.join(RAN))
     }
 
     /// Where the model came from.
     #[must_use]
     pub fn origin(&self) -> Origin {
         Origin { path: self.model.clone().into(), set: self.set.clone() }
+    }
+}
+
+/// A JSON file that may be missing.
+///
+/// # Errors
+/// [`ResultsError::Damaged`]; what the system says.
+pub(crate) fn read_json<T: DeserializeOwned>(path: &Path) -> Result<Option<T>, ResultsError> {
+    match fs::read(path) {
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(ResultsError::file("read", path)(error)),
+        Ok(bytes) => serde_json::from_slice(&bytes).map(Some).map_err(|error| ResultsError::Damaged {
+            path: path.into(),
+            line: error.line(),
+            what: error.to_string(),
+        }),
     }
 }

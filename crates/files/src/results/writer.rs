@@ -1,12 +1,13 @@
 //! What a run leaves behind while it goes on: history, hashes, field files, obstacles, film. Jobs come from `handover`; [`Writer::close`] completes the files.
 
-use super::ResultsError;
 use super::atomic::{write_whole, write_whole_in_pieces};
 use super::csv::CsvStream;
 use super::folder::ResultFolder;
-use super::hashes::HashLog;
+use super::hashes;
+use super::lines::Lines;
 use super::ran::Ran;
 use super::told::Told;
+use super::{HASHES, ResultsError};
 use crate::checkpoint::{Checkpoint, Identity, Origin};
 use crate::outline::{Extent, LineReader};
 use crate::picture::{self, Film, FilmSettings};
@@ -61,12 +62,12 @@ pub(super) struct Writer {
     include: Vec<String>,
     columns: Vec<String>,
     history: CsvStream,
-    hashes: Option<HashLog>,
+    hashes: Option<Lines>,
     plot_rows: ThinnedRows,
     frames: Frames,
     film: Option<Film>,
     threads: Threads,
-    /// For checkpoints: what the model is, looked at when the first one is written.
+    /// For checkpoints and `run.json`: what the model is, looked at once.
     model: Model,
     identity: OnceCell<Identity>,
     origin: Origin,
@@ -123,7 +124,7 @@ impl Writer {
         let (history, rows) = CsvStream::reopen(&folder.join("history.csv"), &columns, told.history)?;
         let mut frames = Frames::new(&cells, &threads);
         frames.recall(told);
-        let hashes = told.hashes.map(|mark| HashLog::reopen(folder, mark)).transpose()?;
+        let hashes = told.hashes.map(|mark| Lines::reopen(&folder.join(HASHES), mark)).transpose()?.map(|(lines, _)| lines);
         let folder = ResultFolder::reopen(folder, told.frames.len(), hashes.is_some(), past.state.step)?;
         frames.write_collection(&folder)?;
         let mut plot_rows = ThinnedRows::default();
@@ -160,16 +161,20 @@ impl Writer {
     /// Where the model came from. From now on there is kept what ran, and its hashes if the model wants them; `parts` are its names.
     pub(super) fn set_origin(&mut self, origin: Origin, parts: &[String]) -> Result<(), ResultsError> {
         let folder = self.folder.path();
-        Ran::of(&self.model, &origin).write(folder)?;
+        Ran::of(self.identity().clone(), &origin).write(folder)?;
         if self.model.output.hash_steps.is_some() && self.hashes.is_none() {
-            self.hashes = Some(HashLog::create(folder, parts)?);
+            self.hashes = Some(Lines::create(&folder.join(HASHES), hashes::names(parts))?);
         }
         self.origin = origin;
         Ok(())
     }
 
+    fn identity(&self) -> &Identity {
+        self.identity.get_or_init(|| Identity::of(&self.model))
+    }
+
     fn told_so_far(&mut self) -> Result<(Told, Vec<Section>), ResultsError> {
-        let hashes = self.hashes.as_mut().map(HashLog::mark).transpose()?;
+        let hashes = self.hashes.as_mut().map(Lines::mark).transpose()?;
         let told = Told { history: self.history.mark()?, hashes, ..self.frames.told() };
         Ok((told, self.film.as_mut().map_or_else(Vec::new, Film::kept)))
     }
@@ -180,7 +185,7 @@ impl Writer {
             Some(before) => before,
             None => self.told_so_far()?,
         };
-        let identity = self.identity.get_or_init(|| Identity::of(&self.model)).clone();
+        let identity = self.identity().clone();
         let checkpoint = Checkpoint { state: state.clone(), origin: self.origin.clone(), identity, told, film };
         Ok(checkpoint.write(self.folder.path(), &self.threads)?)
     }
@@ -207,21 +212,21 @@ impl Writer {
             }
         }
         if let Some(log) = &mut self.hashes {
-            rows = rows.and(job.hashes.iter().try_for_each(|hashes| log.line(hashes)));
+            rows = rows.and(job.hashes.iter().try_for_each(|hashes| log.line(|text| hashes::append_line(text, hashes))));
         }
         let Some(frame) = &job.frame else { return rows };
         if self.frames.write(frame, &self.include, &self.folder, &self.threads)? {
             if let Some(film) = &mut self.film {
                 film.add(frame);
             }
-            rows = rows.and(self.history.flush()).and(self.hashes.as_mut().map_or(Ok(()), HashLog::flush));
+            rows = rows.and(self.history.flush()).and(self.hashes.as_mut().map_or(Ok(()), Lines::flush));
         }
         rows
     }
 
     /// Completes the files. What can be written is written even when something else can't.
     pub(super) fn close(self) -> Closed {
-        let result = self.history.finish().and(self.hashes.map_or(Ok(()), HashLog::finish));
+        let result = self.history.finish().and(self.hashes.map_or(Ok(()), Lines::finish));
         let result = result.and(self.frames.write_collection(&self.folder));
         let made = self.film.map(|film| {
             self.folder.add_pictures(|side| {

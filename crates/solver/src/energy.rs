@@ -197,6 +197,8 @@ impl Ledger {
         let lost = &entry.lost;
         let works = [entry.works.external(), lost.friction, lost.damping, -entry.works.damping];
         let olds = [entry.external_old, lost.old[0], lost.old[1], -entry.damping_old];
+        // What let go on the way here is gone at n.
+        self.halves[2] += lost.let_go;
         let mut wholes = [0.0; 4];
         for (k, whole) in wholes.iter_mut().enumerate() {
             *whole = self.halves[k] + entry.before * olds[k];
@@ -237,5 +239,27 @@ impl Ledger {
 
     fn fraction(&self, value: f64) -> f64 {
         if self.largest > 0.0 { value / self.largest } else { 0.0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_springs_let_go_is_gone_in_the_step_that_misses_it() {
+        let entry = |contact: f64, let_go: f64| Entry {
+            kinetic_half: 3.0,
+            before: 0.5,
+            stores: Stores { kinetic: 3.0, contact, ..Stores::default() },
+            lost: Lost { let_go, ..Lost::default() },
+            ..Entry::default()
+        };
+        let mut ledger = Ledger::new(3.0, 0.0);
+        for (contact, let_go) in [(2.0, 0.0), (2.0, 0.0), (0.5, 1.5), (0.5, 0.0)] {
+            ledger.enter(&entry(contact, let_go));
+            assert_eq!(ledger.stores.contact + ledger.stores.contact_damping, 2.0);
+        }
+        assert_eq!(ledger.drift(), 0.0);
     }
 }

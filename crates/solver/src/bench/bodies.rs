@@ -1,5 +1,6 @@
 //! Bodies to measure with: a patch in a given motion for the kernels alone, a spinning block for whole steps, a stack of strips for contact.
 
+use crate::material;
 use crate::model::{Material, Model, Output, Part, Rectangle, Run, Shape};
 
 /// Parameters of any law: steel that flows at once and hardens strongly; rubbers and orthotropic bodies of its stiffness.
@@ -48,11 +49,13 @@ const LISTS: &[(&str, &[f64])] = &[
     ("relaxation_time", &[1e-3, 1e-6]),
 ];
 
-/// A material of this law with parameters of this list: names that the law does not have are not read.
+/// A material of this law with the parameters that it has.
 #[must_use]
 pub fn material(law: &str) -> Material {
-    let parameters = NUMBERS.iter().map(|(name, value)| ((*name).to_string(), *value)).collect();
-    let lists = LISTS.iter().map(|(name, list)| ((*name).to_string(), list.to_vec())).collect();
+    let kind = material::registry().into_iter().find(|kind| kind.name == law);
+    let knows = |name: &str| kind.is_some_and(|kind| kind.parameters.iter().any(|parameter| parameter.name == name));
+    let parameters = NUMBERS.iter().filter(|(name, _)| knows(name)).map(|(name, value)| ((*name).to_string(), *value)).collect();
+    let lists = LISTS.iter().filter(|(name, _)| knows(name)).map(|(name, list)| ((*name).to_string(), list.to_vec())).collect();
     Material { law: law.into(), parameters, lists, ..Material::default() }
 }
 

@@ -280,7 +280,8 @@ where
         for p in 0..P {
             let mut weighted = stress[p].times(weight[p]);
             let share = L::splat(E::WEIGHTS[p]);
-            let share = if S::PLANE_STRESS || S::AXISYMMETRIC { share * depth[p] } else { share };
+            // In plane stress nothing is averaged, and the pressure of the bulk viscosity has the thickness.
+            let share = if S::AXISYMMETRIC { share * depth[p] } else { share };
             if averages::<E, S, D, N, P>() {
                 let own = stress[p].trace() * third * weight[p];
                 weighted = weighted.plus_isotropic(mean * share - own);
@@ -307,6 +308,9 @@ where
     }
 
     /// Pressure of the bulk viscosity, and the square of the stable step without it over that with it; books its work.
+    ///
+    /// Of a sheet in plane stress the pressure acts in the plane alone, and what it takes is −p t dA: so it follows the rate of the area, not of the volume, and comes as p t with
+    /// the mean thickness t.
     #[inline(always)]
     fn viscous<L: Lane>(
         &mut self,
@@ -320,22 +324,24 @@ where
         let (zero, one) = (L::splat(0.0), L::splat(1.0));
         let element = &mut self.resistance[batch];
         let (old, live) = (L::load(&element.volume, at), L::load(&self.elements[batch].live, at));
-        let change = geometry.volume - old;
+        let (size, depth) = if S::PLANE_STRESS { (geometry.area, geometry.volume / geometry.area) } else { (geometry.volume, one) };
+        let change = size - old;
         let shrinks = change.less(zero);
         let density = L::load(&element.mass, at) / geometry.volume;
         let length = geometry.area.sqrt();
         let speed = (modulus / density).sqrt();
         let dt = L::splat(if self.time_step > 0.0 { self.time_step } else { f64::INFINITY });
-        let rate = (change / ((geometry.volume + old) * L::splat(0.5) * dt)).abs();
+        let rate = (change / ((size + old) * L::splat(0.5) * dt)).abs();
         let [linear, growing] = [L::splat(linear), L::splat(quadratic * quadratic) * length * rate / speed];
         let pressure = L::select(shrinks, density * length * speed * rate * (linear + growing), zero);
+        let pressure = if S::PLANE_STRESS { pressure * depth } else { pressure };
         let damping = (linear + growing + growing) * length * (thickness_squared[1] / thickness_squared[0]).sqrt();
         let damping = L::select(shrinks, damping, zero);
         let stiffening = (one + damping * damping).sqrt() + damping;
         // Trapezoidal rule, as the nodal works of the ledger.
         let work = -(change * (pressure + L::load(&element.viscous_pressure, at)) * L::splat(0.5)) * live;
         pressure.store(&mut element.viscous_pressure, at);
-        geometry.volume.store(&mut element.volume, at);
+        size.store(&mut element.volume, at);
         work.store(&mut element.viscous_step, at);
         (L::load(&element.viscous, at) + work).store(&mut element.viscous, at);
         (pressure, stiffening * stiffening)

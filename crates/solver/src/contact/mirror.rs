@@ -93,6 +93,10 @@ impl Formulation for Mirrored {
         self.contact.freed()
     }
 
+    fn let_go(&self) -> f64 {
+        self.contact.let_go()
+    }
+
     fn ties(&self) -> Option<Ties> {
         self.contact.ties()
     }

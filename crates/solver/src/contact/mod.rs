@@ -60,6 +60,12 @@ pub trait Formulation: Any + Send {
         0.0
     }
 
+    /// Energy of springs that were closed in the step before and were not found by the last [`Formulation::detect`], because what they pushed on has left the surface, J/m. What
+    /// goes with surfaces that are no more is not among it.
+    fn let_go(&self) -> f64 {
+        0.0
+    }
+
     /// Its ties, if it has such.
     fn ties(&self) -> Option<Ties> {
         None
@@ -149,6 +155,8 @@ pub struct Contact {
     active: [f64; 2],
     /// Time of the last detection, s.
     time: f64,
+    /// Energy of closed springs that the last detection did not find again, J/m.
+    let_go: f64,
     /// Where its springs of this step lie in the list of all.
     found: Range<usize>,
 }
@@ -169,6 +177,7 @@ impl Contact {
             terms,
             active,
             time: 0.0,
+            let_go: 0.0,
             found: 0..0,
         }
     }
@@ -181,9 +190,9 @@ impl Contact {
         #[rustfmt::skip]
         let Self {
             name: _, kind: _, terms: _, active: _,
-            totals, penetration, has_pressed, friction_work, formulation, checked, time, found,
+            totals, penetration, has_pressed, friction_work, formulation, checked, time, let_go, found,
         } = self;
-        keep_each!(archive; totals, penetration, has_pressed, friction_work, checked, time, &mut found.start, &mut found.end);
+        keep_each!(archive; totals, penetration, has_pressed, friction_work, checked, time, let_go, &mut found.start, &mut found.end);
         archive.check(found.start <= found.end && found.end <= springs, "a contact has springs that are not there")?;
         formulation.keep(archive)
     }
@@ -196,9 +205,11 @@ impl Contact {
     pub fn detect(&mut self, scene: &Scene<'_>, springs: &mut Springs) {
         let first = springs.list.len();
         self.time = scene.time;
-        if self.acts_at(scene.time) {
+        let acts = self.acts_at(scene.time);
+        if acts {
             self.formulation.detect(scene, springs);
         }
+        self.let_go = if acts { self.formulation.let_go() } else { 0.0 };
         self.found = first..springs.list.len();
         springs.close_group(self.terms);
         self.penetration = springs.list[self.found.clone()].iter().fold(0.0, |deepest, spring| f64::max(deepest, -spring.gap));
@@ -211,6 +222,7 @@ impl Contact {
         self.has_pressed |= self.totals.pressing > 0.0;
         self.friction_work += self.totals.lost.friction;
         self.formulation.remember(answers.clone());
+        self.totals.lost.let_go = self.let_go;
         let ends = self.acts_at(self.time) && !self.acts_at(self.time + time_step);
         self.totals.lost.freed = if ends { answers.flat_map(|answer| answer.books().stored).sum() } else { self.formulation.freed() };
     }

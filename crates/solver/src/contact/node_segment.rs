@@ -8,7 +8,7 @@ use super::projection::node_segment::{Projection, Target};
 use super::springs::{Answers, End, Spring, Springs, tangent};
 use super::tracker::{Certificate, Memory, SearchReport, Touch, Tracker, is_facing};
 use super::{Formulation, Scene, Sweep, Vector};
-use crate::archive::{Archive, Keep, Kept};
+use crate::archive::{Archive, Kept, keep_all, keep_each};
 use crate::mesh::surface::NONE;
 use crate::model;
 use std::any::Any;
@@ -48,6 +48,33 @@ pub struct NodeSegment {
     has_begun: bool,
     /// The touches of this step that made springs.
     used: Vec<u32>,
+    /// Energy of the springs of the last step, and of those that were not found again, J/m.
+    closed: Closed,
+    let_go: f64,
+}
+
+/// How many springs are closed, and their energy, J/m.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Closed {
+    count: u32,
+    energy: f64,
+}
+
+keep_all!(Closed { count, energy });
+
+impl Closed {
+    /// Adds a spring.
+    pub(super) fn add(&mut self, stored: f64) {
+        if stored > 0.0 {
+            self.count += 1;
+            self.energy += stored;
+        }
+    }
+
+    /// What is missing in `now`, J/m: where nothing is, sums that were added up in another order differ by round-off.
+    pub(super) fn less(&self, now: &Self) -> f64 {
+        if self.count > now.count { (self.energy - now.energy).max(0.0) } else { 0.0 }
+    }
 }
 
 /// What a pass knows of its nodes and segments.
@@ -125,7 +152,19 @@ impl NodeSegment {
         let initial = if thickness + reach > 0.0 { setup.positions.to_vec() } else { Vec::new() };
         let (ignores_start, stores) = (setup.ignores_start(), is_stored(&setup.contact.interface));
         let tracker = setup.tracker();
-        Self { tracker, passes: inputs, thickness, reach, stores, ignores_start, initial, has_begun: false, used: Vec::new() }
+        Self {
+            tracker,
+            passes: inputs,
+            thickness,
+            reach,
+            stores,
+            ignores_start,
+            initial,
+            has_begun: false,
+            used: Vec::new(),
+            closed: Closed::default(),
+            let_go: 0.0,
+        }
     }
 
     /// For the passes of `tracker` with slaves whose stiffness is known; `reach` of the law, m.
@@ -134,7 +173,19 @@ impl NodeSegment {
         let passes = slaves.into_iter().map(|slaves| PassInput { slaves, ..PassInput::default() }).collect();
         let (ignores_start, stores) = (is_ignored(interface), is_stored(interface));
         let (thickness, initial, used) = (interface.thickness, Vec::new(), Vec::new());
-        Self { tracker, passes, thickness, reach, stores, ignores_start, initial, has_begun: false, used }
+        Self {
+            tracker,
+            passes,
+            thickness,
+            reach,
+            stores,
+            ignores_start,
+            initial,
+            has_begun: false,
+            used,
+            closed: Closed::default(),
+            let_go: 0.0,
+        }
     }
 
     /// Gap less the thickness. A surface keeps no more distance from itself than half of what it had: neighbours along a surface are near, and stay so.
@@ -182,6 +233,7 @@ impl NodeSegment {
     pub(super) fn detect_free(&mut self, bound: &[bool], scene: &Scene<'_>, springs: &mut Springs) {
         let count = self.tracker.track(scene.sweep, self.thickness + self.reach).len();
         self.used.clear();
+        let mut again = Closed::default();
         for index in 0..count {
             let touch = self.tracker.touches()[index];
             let slave = touch.slave as usize;
@@ -189,6 +241,7 @@ impl NodeSegment {
                 continue;
             }
             let memory = *self.tracker.kept(&touch);
+            again.add(memory.stored);
             let pass = &self.passes[touch.pass as usize];
             let target = self.tracker.target(touch.pass);
             let mut ends = ends(touch.node, &touch.projection, target, scene.sweep.new);
@@ -203,9 +256,10 @@ impl NodeSegment {
             let carried = if self.stores { carried(&memory, normal, gap, &ends, self.reach, scene.sweep, self.has_begun) } else { 0.0 };
             let (side, slip, gap) = (self.tracker.side(touch.pass), memory.slip, gap + carried);
             springs.push(Spring { normal, gap, stiffness, area, side, slip, ..Spring::default() }, &ends);
-            *self.tracker.kept_mut(&touch) = Memory { offset, faces, carried, normal, ..memory };
+            *self.tracker.kept_mut(&touch) = Memory { offset, faces, carried, normal, stored: 0.0, ..memory };
             self.used.push(index as u32);
         }
+        self.let_go = self.closed.less(&again);
         self.has_begun = true;
     }
 }
@@ -216,10 +270,15 @@ impl Formulation for NodeSegment {
     }
 
     fn remember(&mut self, solved: Answers<'_>) {
+        self.closed = Closed::default();
         for (&index, answer) in self.used.iter().zip(solved) {
             let touch = self.tracker.touches()[index as usize];
             let memory = self.tracker.kept_mut(&touch);
             (memory.slip, memory.half) = (answer.solved.slip_new, answer.gap_new());
+            if self.stores && memory.half < self.reach {
+                memory.stored = answer.stored_new();
+                self.closed.add(memory.stored);
+            }
         }
     }
 
@@ -227,17 +286,23 @@ impl Formulation for NodeSegment {
         #[rustfmt::skip]
         let Self {
             passes: _, thickness: _, reach: _, stores: _, ignores_start: _, initial: _, used: _,
-            tracker, has_begun,
+            tracker, has_begun, closed, let_go,
         } = self;
         tracker.keep(archive)?;
-        has_begun.keep(archive)
+        keep_each!(archive; has_begun, closed, let_go);
+        Ok(())
     }
 
     fn inherit(&mut self, old: Box<dyn Any>) {
         if let Ok(old) = old.downcast::<Self>() {
+            // What is not found again went with its surface.
             self.tracker.inherit(&old.tracker);
             self.has_begun = old.has_begun;
         }
+    }
+
+    fn let_go(&self) -> f64 {
+        self.let_go
     }
 
     fn certificate(&self) -> Certificate {
@@ -250,7 +315,7 @@ impl Formulation for NodeSegment {
 }
 
 /// Whether springs of an interface store energy.
-fn is_stored(interface: &model::Interface) -> bool {
+pub(super) fn is_stored(interface: &model::Interface) -> bool {
     interface.law != model::ContactLaw::Multiplier
 }
 

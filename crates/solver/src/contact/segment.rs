@@ -11,18 +11,22 @@
 //! Which pairs there are comes from the [`Tracker`], nodes of each surface against the other: the two segments at a node that touches, with the segment it touches and its neighbours.
 //! So nothing is paired with the back side of a thin body.
 
+mod common;
+
 use super::formulation::{FormulationKind, Setup, both_passes};
 use super::initial::kept;
 use super::law::{Law, penalty};
-use super::springs::{Answers, End, Spring, Springs};
+use super::node_segment::is_stored;
+use super::springs::{Answers, Spring, Springs};
 use super::tracker::{Certificate, SearchReport, Tracker};
-use super::{Formulation, Scene, Vector};
+use super::{Formulation, Scene, Sweep, Vector};
 use crate::archive::{Archive, Kept, keep_all, keep_each};
 use crate::load::tributary::Depth;
 use crate::mesh::surface::{NONE, Surface};
 use crate::model::{ContactLaw, Penalty};
 use crate::rows::Rows;
 use crate::vector::{dot, minus};
+use common::Common;
 use std::any::Any;
 
 /// Registry entry.
@@ -40,9 +44,15 @@ const TWO: Rule = &[[0.211_324_865_405_187_13, 0.5], [0.788_675_134_594_812_9, 0
 const ONE: Rule = &[[0.5, 1.0]];
 /// Common parts shorter than this fraction of a segment are round-off.
 const SLIVER: f64 = 1e-9;
+/// Ends that lie together within this fraction of a common part belong to both segments.
+const FLUSH: f64 = 1e-6;
 /// A pair may be deeper than its nodes by this factor. Normals of segments that face each other differ from the common one by less than 45 degrees, 1/cos 45° = 1.41;
 /// what is deeper by more belongs to another side of a corner.
 const DEEPER: f64 = 2.0;
+
+/// A new pair that had more than this fraction of its shorter segment in common at the beginning of the step already has not slid or turned in: it was not seen before. What its
+/// springs would store nobody put in, so that their gaps count as zero until the surfaces part.
+const AT_ONCE: f64 = 0.05;
 
 /// The formulation.
 pub struct Segment {
@@ -57,6 +67,8 @@ pub struct Segment {
     thickness: f64,
     /// Largest gap at which the law pushes, m.
     reach: f64,
+    /// Whether springs store energy: multipliers do not.
+    stores: bool,
     start: Start,
     /// Pairs of this step, ascending.
     pairs: Vec<[u32; 2]>,
@@ -65,9 +77,14 @@ pub struct Segment {
     /// Nodes that pairs join, as a forest by index of the first surface's nodes, then of the second's; and the least energy per area at ends in each tree, J/m².
     tree: Vec<u32>,
     least: Vec<f64>,
+    /// Of each node whether common parts of the first (1) or second segment (2) of a pair end there and do not go on, and of each tree of which surfaces its free ends are.
+    free_ends: Vec<u8>,
+    owners: Vec<u8>,
     /// Pairs with springs in this step, and in the last one.
     facing: Vec<Facing>,
     before: Vec<Facing>,
+    /// Energy of springs that were not found again, J/m.
+    let_go: f64,
 }
 
 /// What is known of the beginning.
@@ -114,9 +131,11 @@ struct Facing {
     slips: [f64; 2],
     /// Gaps that count as zero, m; not positive.
     offsets: [f64; 2],
+    /// Energy of its springs at n − ½, J/m.
+    stored: f64,
 }
 
-keep_all!(Facing { pair, length, slips, offsets });
+keep_all!(Facing { pair, length, slips, offsets, stored });
 
 impl Chain {
     fn new(surface: &Surface, stiffness: Vec<f64>) -> Self {
@@ -148,6 +167,7 @@ impl Segment {
             bodies: if at_a_distance { setup.bodies.to_vec() } else { Vec::new() },
             has_begun: false,
         };
+        let stores = is_stored(&setup.contact.interface);
         let tracker = setup.tracker();
         Self {
             tracker,
@@ -158,13 +178,17 @@ impl Segment {
             depth,
             thickness,
             reach,
+            stores,
             start,
             pairs: Vec::new(),
             commons: Vec::new(),
             tree: vec![0; count],
             least: vec![0.0; count],
+            free_ends: vec![0; count],
+            owners: vec![0; count],
             facing: Vec::new(),
             before: Vec::new(),
+            let_go: 0.0,
         }
     }
 
@@ -203,7 +227,8 @@ impl Segment {
         self.pairs.dedup();
     }
 
-    /// What two segments have in common; `None` where they don't face each other.
+    /// What two segments have in common; `None` where they don't face each other. Those that had springs in the last step keep them, however deep they are: a pair that
+    /// came and went would give its energy and take it away.
     fn common(&self, pair: [u32; 2], positions: &[Vector]) -> Option<Common> {
         let surfaces = self.surfaces();
         let nodes = [0, 1].map(|k| self.tracker.targets()[surfaces[k]].surface.segments[pair[k] as usize]);
@@ -211,6 +236,9 @@ impl Segment {
             return None;
         }
         let common = Common::new(nodes, positions)?;
+        if self.facing.binary_search_by_key(&pair, |facing| facing.pair).is_ok() {
+            return Some(common);
+        }
         let depth = |k: usize, end: usize| {
             let chain = &self.chains[surfaces[k]];
             chain.depth[chain.local[pair[k] as usize][end] as usize]
@@ -224,10 +252,10 @@ impl Segment {
         Some(common)
     }
 
-    /// Elastic slips and offsets of the points of a pair: what they had, or what its first segment had in the mean.
-    fn kept(&self, pair: [u32; 2], length: f64) -> Facing {
+    /// Elastic slips and offsets of the points of a pair: what they had, or what its first segment had in the mean; and whether the pair is new.
+    fn kept(&self, pair: [u32; 2], length: f64) -> (Facing, bool) {
         if let Ok(at) = self.before.binary_search_by_key(&pair, |facing| facing.pair) {
-            return Facing { length, ..self.before[at] };
+            return (Facing { length, ..self.before[at] }, false);
         }
         let first = self.before.partition_point(|facing| facing.pair[0] < pair[0]);
         let same = self.before[first..].iter().take_while(|facing| facing.pair[0] == pair[0]);
@@ -240,7 +268,7 @@ impl Segment {
             whole += facing.length;
         }
         let [slip, offset] = if whole > 0.0 { sums.map(|sum| sum / whole) } else { [0.0; 2] };
-        Facing { pair, length, slips: [slip; 2], offsets: [offset; 2] }
+        (Facing { pair, length, slips: [slip; 2], offsets: [offset; 2], stored: 0.0 }, true)
     }
 
     /// Distance that two segments keep, m. A body keeps no more distance from itself than half of what it had: neighbours along a surface are near, and stay so.
@@ -279,15 +307,22 @@ impl Segment {
     }
 
     /// Adds the springs of a pair.
-    fn connect(&mut self, Meeting { pair, common, pressure, distance }: Meeting, springs: &mut Springs) {
+    fn connect(&mut self, Meeting { pair, common, pressure, distance }: Meeting, sweep: Sweep<'_>, springs: &mut Springs) {
         let at = self.root(pair);
         let least = self.least[at as usize];
-        let mut facing = self.kept(pair, common.length);
+        let (mut facing, is_new) = self.kept(pair, common.length);
+        let at_once =
+            is_new && self.start.has_begun && self.stores && Common::new(common.nodes, sweep.old).is_some_and(|before| before.is_long());
+        let moved = if at_once { common.moved(sweep) } else { 0.0 };
         for (k, &[place, weight]) in self.rule.iter().enumerate() {
             let (gap, mut ends) = common.point(place);
             let gap = gap - distance;
-            let offset = kept(self.start.has_begun, facing.offsets[k], gap);
-            facing.offsets[k] = if self.start.ignored { offset } else { 0.0 };
+            let offset = if at_once && gap < self.reach - moved {
+                gap - self.reach - 0.5 * common.way(&ends, sweep).max(0.0)
+            } else {
+                kept(self.start.has_begun, facing.offsets[k], gap)
+            };
+            facing.offsets[k] = if self.start.ignored || self.start.has_begun { offset } else { 0.0 };
             let gap = gap - facing.offsets[k];
             let [energy, push] = self.density(gap, pressure);
             let around = self.depth.at(common.middle(place).map(|x| x.max(0.0)));
@@ -306,12 +341,28 @@ impl Segment {
         self.facing.push(facing);
     }
 
+    /// Energy of the pairs that had springs in the last step, have none now, and yet have much in common: what runs out as surfaces slide goes on in its neighbours.
+    fn missing(&self, positions: &[Vector]) -> f64 {
+        let (mut now, mut sum) = (self.facing.iter().map(|facing| facing.pair).peekable(), 0.0);
+        for before in &self.before {
+            while now.next_if(|&pair| pair < before.pair).is_some() {}
+            if now.peek() != Some(&before.pair) && before.stored > 0.0 {
+                let surfaces = self.surfaces();
+                let nodes = [0, 1].map(|k| self.tracker.targets()[surfaces[k]].surface.segments[before.pair[k] as usize]);
+                sum += if Common::new(nodes, positions).is_some_and(|common| common.is_long()) { before.stored } else { 0.0 };
+            }
+        }
+        sum
+    }
+
     /// Joins the pairs that share nodes to regions, and finds the least energy per area at ends of common parts in each.
     fn join(&mut self) {
         for (i, root) in self.tree.iter_mut().enumerate() {
             *root = i as u32;
         }
         self.least.fill(f64::INFINITY);
+        self.free_ends.fill(0);
+        self.owners.fill(0);
         for index in 0..self.commons.len() {
             let pair = self.commons[index].pair;
             let first = self.root(pair);
@@ -325,8 +376,24 @@ impl Segment {
         for index in 0..self.commons.len() {
             let Meeting { pair, common, pressure, distance } = self.commons[index];
             let at = self.root(pair) as usize;
-            for [gap, ..] in common.ends {
+            for [gap, whose, end] in common.ends {
                 self.least[at] = self.least[at].min(self.density(gap - distance, pressure)[0]);
+                let node = self.place(pair, whose as usize, end as usize);
+                self.free_ends[node as usize] ^= 1 << whose as usize;
+            }
+        }
+        // Where both pairs at a node end with it neither is an end of the region. Where one surface overhangs here and the other there the region's length is that of neither.
+        for index in 0..self.commons.len() {
+            let Meeting { pair, common, .. } = self.commons[index];
+            let at = self.root(pair) as usize;
+            for ([_, whose, end], other) in common.ends.into_iter().zip(common.beyond()) {
+                let node = self.place(pair, whose as usize, end as usize);
+                if other > FLUSH * common.length {
+                    self.owners[at] |= self.free_ends[node as usize];
+                }
+            }
+            if self.owners[at] == 3 {
+                self.least[at] = 0.0;
             }
         }
     }
@@ -357,19 +424,20 @@ impl Formulation for Segment {
         std::mem::swap(&mut self.facing, &mut self.before);
         self.facing.clear();
         for index in 0..self.commons.len() {
-            self.connect(self.commons[index], springs);
+            self.connect(self.commons[index], scene.sweep, springs);
         }
+        self.let_go = self.missing(scene.sweep.new);
         self.start.has_begun = true;
     }
 
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
         #[rustfmt::skip]
         let Self {
-            chains: _, law: _, penalty: _, rule: _, depth: _, thickness: _, reach: _, pairs: _, commons: _, tree: _, least: _, before: _,
-            tracker, start: Start { ignored: _, positions: _, bodies: _, has_begun }, facing,
+            chains: _, law: _, penalty: _, rule: _, depth: _, thickness: _, reach: _, stores: _, pairs: _, commons: _, tree: _, least: _, free_ends: _, owners: _, before: _,
+            tracker, start: Start { ignored: _, positions: _, bodies: _, has_begun }, facing, let_go,
         } = self;
         tracker.keep(archive)?;
-        keep_each!(archive; has_begun, facing);
+        keep_each!(archive; has_begun, facing, let_go);
         let segments = self.surfaces().map(|surface| self.tracker.targets()[surface].surface.segments.len());
         let is_there = |facing: &Facing| (0..2).all(|k| (facing.pair[k] as usize) < segments[k]);
         archive.check(self.facing.iter().all(is_there), "a segment is not there")
@@ -402,6 +470,10 @@ impl Formulation for Segment {
         self.facing.sort_by_key(|facing| facing.pair);
     }
 
+    fn let_go(&self) -> f64 {
+        self.let_go
+    }
+
     fn certificate(&self) -> Certificate {
         self.tracker.certificate()
     }
@@ -413,172 +485,10 @@ impl Formulation for Segment {
     fn remember(&mut self, solved: Answers<'_>) {
         let count = self.rule.len();
         for (index, facing) in self.facing.iter_mut().enumerate() {
+            facing.stored = 0.0;
             for (slip, answer) in facing.slips.iter_mut().zip(solved.part(index * count, (index + 1) * count)) {
                 *slip = answer.solved.slip_new;
-            }
-        }
-    }
-}
-
-/// The common part of two segments.
-#[derive(Clone, Copy, Debug)]
-struct Common {
-    nodes: [[u32; 2]; 2],
-    positions: [[Vector; 2]; 2],
-    /// Points from the second segment to the first.
-    normal: Vector,
-    /// Coordinates along t of the nodes of both segments.
-    along: [[f64; 2]; 2],
-    /// Where the common part begins, and its length, m.
-    begin: f64,
-    length: f64,
-    /// Length times −t_a·t_b, m: segments that turn away from each other fade out instead of being dropped at a right angle.
-    area: f64,
-    /// Gap at the beginning and the end, and whose node is there: segment (0, 1) and its end (0, 1).
-    ends: [[f64; 3]; 2],
-}
-
-impl Common {
-    fn new(nodes: [[u32; 2]; 2], positions: &[Vector]) -> Option<Self> {
-        let positions = nodes.map(|nodes| nodes.map(|node| positions[node as usize]));
-        let [ta, tb] = positions.map(|[begin, end]| {
-            let along = minus(end, begin);
-            let length = dot(along, along).sqrt();
-            ([along[0] / length, along[1] / length], length)
-        });
-        let facing = -dot(ta.0, tb.0);
-        // NaN (a segment without length) fails the comparison too
-        if !(facing > 0.0) {
-            return None;
-        }
-        let sum = minus(ta.0, tb.0);
-        let size = dot(sum, sum).sqrt();
-        let t = [sum[0] / size, sum[1] / size];
-        let origin = positions[0][0];
-        let along = positions.map(|ends| ends.map(|x| dot(minus(x, origin), t)));
-        let [[a0, a1], [b0, b1]] = along;
-        // The first runs along t, the second against it.
-        let (begin, first) = if a0 >= b1 { (a0, [0.0, 0.0]) } else { (b1, [1.0, 1.0]) };
-        let (end, last) = if a1 <= b0 { (a1, [0.0, 1.0]) } else { (b0, [1.0, 0.0]) };
-        let length = end - begin;
-        if !(length > SLIVER * ta.1.min(tb.1)) {
-            return None;
-        }
-        let mut common = Self { nodes, positions, normal: [t[1], -t[0]], along, begin, length, area: length * facing, ends: [[0.0; 3]; 2] };
-        common.ends = [first, last].map(|[whose, end]| [0.0, whose, end]);
-        common.ends = [0.0, 1.0].map(|place| [common.point(place).0, common.ends[place as usize][1], common.ends[place as usize][2]]);
-        Some(common)
-    }
-
-    /// Gap at a place q (0 to 1) of the common part, and the ends of a spring there. The row of the gap is its whole derivative.
-    ///
-    /// The point of segment a is at ξ_a = (s − s_a0)/(s_a1 − s_a0) with s = (1 − q) s_begin + q s_end, of the nodes where the common part begins and ends;
-    /// coordinates change by ds_k = t·dx_k + h_k dφ (h_k: height of node k above t), where t turns by dφ = ½ (dφ_a + dφ_b). So
-    ///
-    /// dg = n·(Σ N dx_a − Σ M dx_b) + n·d_a dξ_a − n·d_b dξ_b        with d = x_1 − x_0 of a segment:
-    ///
-    /// where segments are inclined to each other, points that slide along them open or close the gap. (n turns too, but x_a − x_b is parallel to it.)
-    ///
-    /// Friction acts along t at both points, which are the gap apart; its couple is taken by forces across both segments, half of it each. So the slip rate
-    /// ṡ = t·(v_a − v_b) + ½ g (θ̇_a + θ̇_b) does not see rotations of both together, and friction keeps the angular momentum.
-    fn point(&self, place: f64) -> (f64, [End; 4]) {
-        let n = self.normal;
-        let [xa, xb] = self.points(place);
-        let gap = dot(minus(xa, xb), n);
-        let (weights, slid) = (self.weights(place), self.slides(place, [n, [-n[0], -n[1]]]));
-        let end = |k: usize, i: usize| {
-            let share = if k == 0 { weights[k][i] } else { -weights[k][i] };
-            End { at: self.nodes[k][i], share, lean: slid[k][i], turn: self.half_angle(k, i).map(|half| gap * half), ..End::default() }
-        };
-        (gap, [end(0, 0), end(0, 1), end(1, 0), end(1, 1)])
-    }
-
-    /// What each node has of the points x_a and x_b at a place.
-    fn weights(&self, place: f64) -> [[f64; 2]; 2] {
-        let s = self.begin + place * self.length;
-        self.along.map(|[begin, end]| {
-            let share = (s - begin) / (end - begin);
-            [1.0 - share, share]
-        })
-    }
-
-    /// x_a and x_b at a place, m.
-    fn points(&self, place: f64) -> [Vector; 2] {
-        let weights = self.weights(place);
-        [0, 1].map(|k| [0, 1].map(|d| weights[k][0] * self.positions[k][0][d] + weights[k][1] * self.positions[k][1][d]))
-    }
-
-    /// Half way between x_a and x_b, m.
-    fn middle(&self, place: f64) -> Vector {
-        let [xa, xb] = self.points(place);
-        [0, 1].map(|d| 0.5 * (xa[d] + xb[d]))
-    }
-
-    /// Derivative of c_a·x_a + c_b·x_b by the position of each node, as far as it comes from the points' sliding along their segments.
-    fn slides(&self, place: f64, by: [Vector; 2]) -> [[Vector; 2]; 2] {
-        let (n, origin) = (self.normal, self.positions[0][0]);
-        let t = [-n[1], n[0]];
-        let weights = self.weights(place);
-        let chord = self.positions.map(|[begin, end]| minus(end, begin));
-        // By the coordinate of each node along t: by s at the nodes of the ends, by the segments' own nodes.
-        let slopes = [0, 1].map(|k| dot(by[k], chord[k]) / (self.along[k][1] - self.along[k][0]));
-        let mut by_place = [0, 1].map(|k| weights[k].map(|weight| -slopes[k] * weight));
-        for ([_, whose, end], part) in self.ends.into_iter().zip([1.0 - place, place]) {
-            by_place[whose as usize][end as usize] += part * (slopes[0] + slopes[1]);
-        }
-        let height = |x: Vector| -dot(minus(x, origin), n);
-        let by_angle: f64 = (0..4).map(|i| by_place[i / 2][i % 2] * height(self.positions[i / 2][i % 2])).sum();
-        [0, 1].map(|k| {
-            [0, 1].map(|i| {
-                let half = self.half_angle(k, i);
-                [0, 1].map(|d| by_place[k][i] * t[d] + by_angle * half[d])
-            })
-        })
-    }
-
-    /// ½ dφ_k of segment k by the position of its end i.
-    fn half_angle(&self, k: usize, i: usize) -> Vector {
-        let chord = minus(self.positions[k][1], self.positions[k][0]);
-        let per_length = (i as f64 - 0.5) / dot(chord, chord);
-        [-chord[1] * per_length, chord[0] * per_length]
-    }
-
-    /// Adds `factor` times the derivative of ln(r) to the rows of the gap, with the radius r half way between both points at a place.
-    fn vary_radius(&self, ends: &mut [End; 4], place: f64, factor: f64) {
-        let radius = self.middle(place)[0];
-        if !(radius > 0.0) {
-            return;
-        }
-        let (weights, slid) = (self.weights(place), self.slides(place, [[0.5, 0.0]; 2]));
-        for (index, end) in ends.iter_mut().enumerate() {
-            let (k, i) = (index / 2, index % 2);
-            let own = [0.5 * weights[k][i], 0.0];
-            end.lean = [0, 1].map(|d| end.lean[d] + factor / radius * (own[d] + slid[k][i][d]));
-        }
-    }
-
-    /// Adds `factor` times the derivative of ln(area) to the rows of the gap.
-    ///
-    /// d area / area = dℓ/ℓ − tan θ (dφ_a − dφ_b) with the angle θ between the segments, dℓ = t·(dx_end − dx_begin) + (h_end − h_begin) dφ.
-    fn vary_area(&self, ends: &mut [End; 4], factor: f64) {
-        let (n, per_length) = (self.normal, factor / self.length);
-        let t = [-n[1], n[0]];
-        let [da, db] = self.positions.map(|[begin, end]| minus(end, begin));
-        let tangent = (da[0] * db[1] - da[1] * db[0]) / -dot(da, db);
-        let mut rise = 0.0;
-        for ([_, whose, end], sign) in self.ends.into_iter().zip([-1.0, 1.0]) {
-            let (k, i) = (whose as usize, end as usize);
-            rise -= sign * dot(minus(self.positions[k][i], self.positions[0][0]), n);
-            for d in 0..2 {
-                ends[2 * k + i].lean[d] += sign * per_length * t[d];
-            }
-        }
-        for (index, end) in ends.iter_mut().enumerate() {
-            let (k, i) = (index / 2, index % 2);
-            let half = self.half_angle(k, i);
-            let turned = per_length * rise - 2.0 * factor * tangent * if k == 0 { 1.0 } else { -1.0 };
-            for d in 0..2 {
-                end.lean[d] += turned * half[d];
+                facing.stored += if self.stores { answer.stored_new() } else { 0.0 };
             }
         }
     }

@@ -16,7 +16,9 @@ const ZZ: usize = 2;
 /// Largest |σ_zz| over the stiffness K + 4µ/3.
 const TOLERANCE: f64 = 1e-12;
 /// Calls of the law; perfectly plastic points with a secant need about ten.
-const CALLS: usize = 40;
+const CALLS: usize = 80;
+/// Calls until the search no longer relies on slopes alone.
+const PATIENCE: usize = 12;
 
 /// A law without load across.
 pub(super) struct Unloaded {
@@ -50,6 +52,23 @@ impl Unloaded {
         if self.uniaxial { 2.0 * bulk + 2.0 / 3.0 * shear } else { bulk + 4.0 / 3.0 * shear }
     }
 
+    /// The next unknowns of a point's eight searches; whether all are found.
+    fn improve(&self, searches: &mut [Batch], residual: &Batch, [bulk, shear]: [&Batch; 2], call: usize) -> bool {
+        let mut found = true;
+        for k in 0..BATCH {
+            let (wave, f) = (bulk.0[k] + 4.0 / 3.0 * shear.0[k], residual.0[k]);
+            if f.abs() <= TOLERANCE * wave {
+                continue;
+            }
+            found = false;
+            let mut search = Search::load(searches, k);
+            let scale = if self.law.family() == Family::Hyperelastic { search.unknown } else { 1.0 };
+            search.next(f, [wave, self.slope(bulk.0[k], shear.0[k])], scale, call);
+            search.store(searches, k);
+        }
+        found
+    }
+
     /// Thickness or cross-section over that at the start, with the unknown.
     fn ratio_new(&self, old: f64, unknown: f64) -> f64 {
         match (self.law.family(), self.uniaxial) {
@@ -65,33 +84,55 @@ impl Unloaded {
     }
 }
 
-/// One point's search.
-#[derive(Clone, Copy, Default)]
+/// One point's search: unknowns between `low` and `high`, where σ_zz is negative and positive.
+#[derive(Clone, Copy)]
 struct Search {
-    unknown: Batch,
-    unknown_old: Batch,
-    residual_old: Batch,
+    unknown: f64,
+    unknown_old: f64,
+    residual_old: f64,
+    low: f64,
+    high: f64,
 }
 
 impl Search {
-    /// The next unknown from the residual σ_zz; whether all eight are found.
-    fn next(&mut self, law: &Unloaded, residual: &Batch, [bulk, shear]: [&Batch; 2], first: bool) -> bool {
-        let mut found = true;
-        for k in 0..BATCH {
-            let (wave, f) = (bulk.0[k] + 4.0 / 3.0 * shear.0[k], residual.0[k]);
-            if f.abs() <= TOLERANCE * wave {
-                continue;
-            }
-            found = false;
-            let elastic = law.slope(bulk.0[k], shear.0[k]);
-            let (step, change) = (self.unknown.0[k] - self.unknown_old.0[k], f - self.residual_old.0[k]);
-            let secant = change / step;
-            // Cords in rubber are a ten-thousandth as stiff across as along.
-            let slope = if !first && secant > 1e-6 * wave && secant < 4.0 * wave { secant } else { elastic };
-            (self.unknown_old.0[k], self.residual_old.0[k]) = (self.unknown.0[k], f);
-            self.unknown.0[k] -= f / slope;
+    /// Batches of a search.
+    const WIDTH: usize = 5;
+
+    /// Around the first guess. An increment of two would turn a body inside out, and a ratio is positive.
+    fn begin(batches: &mut [Batch], guess: Batch, family: Family) {
+        let [low, high] = if family == Family::Hyperelastic { [0.0, f64::INFINITY] } else { [-1.9, 1.9] };
+        batches.copy_from_slice(&[guess, Batch::default(), Batch::default(), Batch::splat(low), Batch::splat(high)]);
+    }
+
+    fn load(batches: &[Batch], k: usize) -> Self {
+        let [unknown, unknown_old, residual_old, low, high] = std::array::from_fn(|i| batches[i].0[k]);
+        Self { unknown, unknown_old, residual_old, low, high }
+    }
+
+    fn store(self, batches: &mut [Batch], k: usize) {
+        for (batch, value) in batches.iter_mut().zip([self.unknown, self.unknown_old, self.residual_old, self.low, self.high]) {
+            batch.0[k] = value;
         }
-        found
+    }
+
+    /// The next unknown after the residual f = σ_zz at this one, with the stiffnesses there. `scale` is the unknown's change by unit of logarithmic strain.
+    ///
+    /// The secant where it is one of a stable law, else the elastic slope; half way between what is too little and what is too much where that leaves the bracket, and from
+    /// [`PATIENCE`] on at every other call: σ_zz grows with the strain across, so the answer is always between both.
+    fn next(&mut self, f: f64, [wave, elastic]: [f64; 2], scale: f64, call: usize) {
+        let secant = scale * (f - self.residual_old) / (self.unknown - self.unknown_old);
+        // Cords in rubber are a ten-thousandth as stiff across as along.
+        let slope = if call > 0 && secant > 1e-6 * wave && secant < 4.0 * wave { secant } else { elastic };
+        if f > 0.0 {
+            self.high = self.unknown;
+        } else {
+            self.low = self.unknown;
+        }
+        (self.unknown_old, self.residual_old) = (self.unknown, f);
+        let next = self.unknown - scale * (f / slope);
+        let slow = call >= PATIENCE && call % 2 == 0;
+        let high = self.high.min(4.0 * self.unknown.abs().max(1.0));
+        self.unknown = if self.low < next && next < self.high && !slow { next } else { 0.5 * (self.low + high) };
     }
 }
 
@@ -134,21 +175,21 @@ impl PointLaw for Unloaded {
         let (inner, count) = (self.law.state_width(), strain.len() / PLANE);
         let width = inner + 1;
         let hyperelastic = self.law.family() == Family::Hyperelastic;
-        // Strain, stress, state and ratio of the trial; then the three batches of each point's search.
-        let (room, nested) = room.split(count * (2 * PLANE + inner + 1 + 3));
+        // Strain, stress, state and ratio of the trial; then each point's search.
+        let (room, nested) = room.split(count * (2 * PLANE + inner + 1 + Search::WIDTH));
         let (trial_strain, rest) = room.split_at_mut(count * PLANE);
         let (trial_stress, rest) = rest.split_at_mut(count * PLANE);
         let (trial_state, rest) = rest.split_at_mut(count * inner);
         let (trial_ratio, searches) = rest.split_at_mut(count);
         for p in 0..count {
             let guess = self.guess(&strain[p * PLANE..][..PLANE], &stress[p * PLANE..][..PLANE], &state[p * width + inner]);
-            searches[3 * p] = guess;
+            Search::begin(&mut searches[p * Search::WIDTH..][..Search::WIDTH], guess, self.law.family());
         }
         for call in 0..CALLS {
             trial_strain.copy_from_slice(strain);
             trial_stress.copy_from_slice(stress);
             for p in 0..count {
-                let (unknown, thickness) = (searches[3 * p], state[p * width + inner]);
+                let (unknown, thickness) = (searches[p * Search::WIDTH], state[p * width + inner]);
                 for k in 0..BATCH {
                     let u = unknown.0[k];
                     let across = if hyperelastic { u * u } else { u };
@@ -177,10 +218,9 @@ impl PointLaw for Unloaded {
             );
             let mut found = true;
             for p in 0..count {
-                let mut search = Search { unknown: searches[3 * p], unknown_old: searches[3 * p + 1], residual_old: searches[3 * p + 2] };
                 let out = &response[p * RESPONSE..];
-                found &= search.next(self, &trial_stress[p * PLANE + ZZ], [&out[2], &out[3]], call == 0);
-                [searches[3 * p], searches[3 * p + 1], searches[3 * p + 2]] = [search.unknown, search.unknown_old, search.residual_old];
+                let search = &mut searches[p * Search::WIDTH..][..Search::WIDTH];
+                found &= self.improve(search, &trial_stress[p * PLANE + ZZ], [&out[2], &out[3]], call);
             }
             if found {
                 break;
@@ -189,7 +229,7 @@ impl PointLaw for Unloaded {
         stress.copy_from_slice(trial_stress);
         for p in 0..count {
             state[p * width..p * width + inner].copy_from_slice(&trial_state[p * inner..(p + 1) * inner]);
-            let (unknown, thickness) = (searches[3 * p], state[p * width + inner]);
+            let (unknown, thickness) = (searches[p * Search::WIDTH], state[p * width + inner]);
             for k in 0..BATCH {
                 let new = self.ratio_new(thickness.0[k], unknown.0[k]);
                 state[p * width + inner].0[k] = new;

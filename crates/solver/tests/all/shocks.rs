@@ -1,7 +1,10 @@
 //! Shocks in gases and metals against Rankine and Hugoniot; bulk viscosity: no ringing, its work in the books, its stable step.
 
 use crate::bodies::{add, faults, model, rectangle};
-use embate_solver::model::{Constraint, Material, Model};
+use embate_solver::bench;
+use embate_solver::block::stress_state::STRESS_STATES;
+use embate_solver::material::points;
+use embate_solver::model::{Constraint, Material, Model, Obstacle, ObstacleShape};
 use embate_solver::simulation::{Options, Simulation};
 
 fn fluid(eos: &str, values: &[(&str, f64)]) -> Material {
@@ -97,6 +100,31 @@ fn tall_elements_have_a_stable_step_under_viscosity() {
     let largest = found.iter().copied().fold(0.0f64, f64::max);
     println!("{largest} {}", simulation.ledger().drift());
     assert!(largest < 1.02 * 6.7705 && found[30..80].iter().all(|p| (p / 6.7705 - 1.0).abs() < 0.01), "{largest}");
+}
+
+#[test]
+fn what_the_viscosity_books_is_what_it_takes_in_every_stress_state() {
+    for state in STRESS_STATES {
+        for law in ["elastic", "neo_hookean", "crushable_foam"] {
+            let material = bench::material(law);
+            let [bulk, shear] = points::plane(&material).unwrap().stiffness();
+            let sound = ((bulk + 4.0 / 3.0 * shear) / material.parameters["density"]).sqrt();
+            // Thrown on the floor, its waves go through it some forty times.
+            let mut model = model(4.0 / sound);
+            model.run.safety = 0.3;
+            model.run.bulk_viscosity = [0.06, 1.2];
+            model.materials.insert("soft".into(), material);
+            add(&mut model, "block", rectangle([0.01, 0.0], [0.1, 0.1], [8, 8]), [0.0, -0.05 * sound]);
+            model.parts[0].stress_state = state.name.into();
+            let floor = ObstacleShape::Plane { point: [0.0; 2], normal: [0.0, 1.0], length: None };
+            model.obstacles.push(Obstacle::fixed("floor", floor));
+            let mut simulation = Simulation::new(&model, &Options { threads: 1, simd: None }).unwrap();
+            simulation.advance(f64::INFINITY, u64::MAX).unwrap();
+            let (ledger, taken) = (simulation.ledger(), simulation.ledger().stores.bulk_viscosity / simulation.ledger().largest);
+            println!("{} {law}: {taken:.3} of the energy taken, drift {:.1e}", state.name, ledger.drift());
+            assert!(taken > 0.05 && ledger.drift() < 1e-3, "{} {law}: {taken} {}", state.name, ledger.drift());
+        }
+    }
 }
 
 #[test]

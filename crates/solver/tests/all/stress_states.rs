@@ -2,10 +2,11 @@
 //! and plane stress against closed forms.
 
 use crate::patches::*;
+use embate_solver::bench;
 use embate_solver::block::BlockInput;
 use embate_solver::block::stress_state::STRESS_STATES;
 use embate_solver::element::ELEMENTS;
-use embate_solver::material::Variable;
+use embate_solver::material::{self, Variable};
 
 /// Calls `check(element, stress state, law)` for all that can meet.
 fn every_state(mut check: impl FnMut(&'static str, &'static str, &'static str)) {
@@ -149,6 +150,24 @@ fn plane_stress_keeps_its_faces_free_and_its_thickness_true() {
         let [expected, _] = sides(low);
         let stress = rubber.block.state(0).stress;
         assert!((stress[0] / expected - 1.0).abs() < 1e-9 && stress[2].abs() < 1e-9 * YOUNG, "{stretch}: {stress:?} for {expected}");
+    }
+}
+
+#[test]
+fn the_thickness_is_found_however_far_a_sheet_is_stretched_or_crushed_in_a_step() {
+    let square = patch("quad4", 1, 0.0);
+    for kind in material::registry().into_iter().filter(|kind| kind.name != "null") {
+        let material = bench::material(kind.name);
+        for [x, y] in [[0.2, 0.95], [0.6, 1.3], [4.0, 0.5], [1.8, 1.8]] {
+            let input =
+                BlockInput { stress_state: "plane_stress", ..BlockInput::new("quad4", &material, &square.connectivity, &square.positions) };
+            let mut body = Body::made(&input);
+            body.map(|[u, v]| [u * x, v * y + 0.1 * u]);
+            let stress = body.block.state(0).stress;
+            let scale = stress.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
+            println!("{} {x} {y}: {:.1e}", kind.name, stress[2] / scale);
+            assert!(scale.is_finite() && stress[2].abs() <= 1e-6 * scale, "{} {x} {y}: {stress:?}", kind.name);
+        }
     }
 }
 

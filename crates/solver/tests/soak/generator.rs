@@ -131,8 +131,6 @@ fn material_of(dice: &mut Dice, softness: f64) -> Material {
     let kind = dice.choice(&laws);
     let mut material = bench::material(kind.name);
     let known = |name: &String| kind.parameters.iter().find(|parameter| parameter.name == name);
-    material.parameters.retain(|name, _| known(name).is_some());
-    material.lists.retain(|name, _| known(name).is_some());
     for (name, value) in &mut material.parameters {
         if known(name).is_some_and(|parameter| parameter.dimension == Dimension::PRESSURE) {
             *value *= softness;

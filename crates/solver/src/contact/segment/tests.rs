@@ -2,6 +2,7 @@ use super::*;
 use crate::contact::formulation::Side;
 use crate::contact::projection::node_segment::Target;
 use crate::contact::search;
+use crate::contact::springs::End;
 use crate::contact::{Sweep, law};
 use crate::model;
 use crate::rigid::Bodies;
@@ -37,6 +38,17 @@ fn even(count: usize) -> Vec<f64> {
 
 /// Springs of the formulation at rest, with what acts in it.
 fn springs_of(model: &Facing2, penalty: Penalty, depth: Depth) -> Springs {
+    let mut springs = Springs::new(model.positions.len(), 0, Vec::new());
+    detect(&mut *formulation_of(model, penalty, depth), model, &mut springs);
+    springs
+}
+
+fn detect(formulation: &mut dyn Formulation, model: &Facing2, springs: &mut Springs) {
+    let sweep = Sweep::between(&model.positions, &model.positions);
+    formulation.detect(&Scene { sweep, bodies: &Bodies::default(), time: 0.0 }, springs);
+}
+
+fn formulation_of(model: &Facing2, penalty: Penalty, depth: Depth) -> Box<dyn Formulation> {
     let contact = model::Contact { formulation: model::Formulation::Segment, interface: penalty.into(), ..model::Contact::default() };
     let side = |surface: &Surface| Side {
         segments: vec![1.0; surface.segments.len()],
@@ -59,11 +71,7 @@ fn springs_of(model: &Facing2, penalty: Penalty, depth: Depth) -> Springs {
         bodies: &bodies,
         passes: both_passes(&contact),
     };
-    let mut formulation = (KIND.make)(setup).unwrap();
-    let mut springs = Springs::new(model.positions.len(), 0, Vec::new());
-    let sweep = Sweep::between(&model.positions, &model.positions);
-    formulation.detect(&Scene { sweep, bodies: &Bodies::default(), time: 0.0 }, &mut springs);
-    springs
+    (KIND.make)(setup).unwrap()
 }
 
 /// Forces F = −k g at the nodes.
@@ -135,6 +143,72 @@ fn only_the_common_part_carries() {
     let springs = springs_of(&model, Penalty::Pressure(1.0), Depth::Plane);
     let length: f64 = springs.list.iter().map(|spring| spring.area).sum();
     assert!((length - 0.5).abs() < 1e-14, "{length}");
+}
+
+#[test]
+fn where_each_surface_overhangs_forces_are_the_slope_of_all_the_energy() {
+    let penalty = Penalty::Pressure(3e5);
+    for angle in [0.0, 0.7] {
+        let model = facing(&[0.0, 0.4, 1.0, 2.0], &[0.7, 1.6, 2.5], -1e-2, angle);
+        let springs = springs_of(&model, penalty, Depth::Plane);
+        let found = forces(&model, &springs);
+        let energy = |positions: Vec<Vector>| -> f64 {
+            let moved = Facing2 { positions, surfaces: model.surfaces.clone() };
+            springs_of(&moved, penalty, Depth::Plane).list.iter().map(|spring| 0.5 * spring.stiffness * spring.gap * spring.gap).sum()
+        };
+        let scale = found.iter().flatten().fold(0.0, |largest, force| f64::max(largest, force.abs()));
+        for node in 0..model.positions.len() {
+            for d in 0..2 {
+                let [above, below] = [1e-6, -1e-6].map(|h| {
+                    let mut positions = model.positions.clone();
+                    positions[node][d] += h;
+                    energy(positions)
+                });
+                let slope = (above - below) / 2e-6;
+                assert!((found[node][d] + slope).abs() < 1e-6 * scale, "{angle} node {node} {d}: {} {slope}", found[node][d]);
+            }
+        }
+    }
+}
+
+/// The next step of a formulation whose springs hold 2 J/m a pair.
+fn go_on(formulation: &mut dyn Formulation, positions: &[Vector], springs: &mut Springs) -> Vec<[u32; 2]> {
+    let segments: &mut Segment = (formulation as &mut dyn Any).downcast_mut().unwrap();
+    segments.facing.iter_mut().for_each(|facing| facing.stored = 2.0);
+    springs.clear();
+    segments.detect(&Scene { sweep: Sweep::between(positions, positions), bodies: &Bodies::default(), time: 0.0 }, springs);
+    segments.facing.iter().map(|facing| facing.pair).collect()
+}
+
+#[test]
+fn a_pair_that_was_there_unseen_begins_without_energy() {
+    let model = facing(&even(4), &even(5), -1e-3, 0.0);
+    let mut formulation = formulation_of(&model, Penalty::Pressure(3e5), Depth::Plane);
+    let mut springs = Springs::new(model.positions.len(), 0, Vec::new());
+    detect(&mut *formulation, &model, &mut springs);
+    assert!(springs.list.iter().all(|spring| (spring.gap + 1e-3).abs() < 1e-12), "the model has them");
+    let segments: &mut Segment = (&mut *formulation as &mut dyn Any).downcast_mut().unwrap();
+    let unseen = segments.facing.remove(2).pair;
+    let pairs = go_on(&mut *formulation, &model.positions, &mut springs);
+    for (&pair, two) in pairs.iter().zip(springs.list.chunks(2)) {
+        let expected = if pair == unseen { 0.0 } else { -1e-3 };
+        assert!(two.iter().all(|spring| (spring.gap - expected).abs() < 1e-12), "{pair:?} {two:?}");
+    }
+    assert_eq!(formulation.let_go(), 0.0);
+}
+
+#[test]
+fn pairs_that_are_not_found_again_let_go_unless_they_ran_out() {
+    let model = facing(&even(4), &even(5), -1e-3, 0.0);
+    for (by, lets_go) in [([0.0, 0.5], true), ([5.0, 0.0], false)] {
+        let mut formulation = formulation_of(&model, Penalty::Pressure(3e5), Depth::Plane);
+        let mut springs = Springs::new(model.positions.len(), 0, Vec::new());
+        let pairs = go_on(&mut *formulation, &model.positions, &mut springs).len();
+        let mut apart = model.positions.clone();
+        apart[5..].iter_mut().for_each(|x| *x = [x[0] + by[0], x[1] + by[1]]);
+        assert!(go_on(&mut *formulation, &apart, &mut springs).is_empty());
+        assert_eq!(formulation.let_go(), if lets_go { 2.0 * pairs as f64 } else { 0.0 }, "{by:?}");
+    }
 }
 
 /// Each node at the end of a common part once from each segment.

@@ -75,6 +75,12 @@ impl<'a> Answer<'a> {
         self.spring.gap + 0.5 * self.time_steps()[1] * self.solved.rates[1]
     }
 
+    /// Energy of the gap at n + ½, J/m.
+    #[must_use]
+    pub fn stored_new(&self) -> f64 {
+        self.terms().law.stored(self.spring, self.gap_new())
+    }
+
     /// Adds its force to what is at the ends, and to the resultant.
     fn push(&self, forces: &mut ContactForces, bodies: &mut Bodies, totals: &mut Totals) {
         let (spring, solved) = (self.spring, self.solved);

@@ -5,7 +5,7 @@
 use super::{End, Lost, Solved, Spring, Springs, Totals};
 use crate::archive::{Archive, Keep, Kept, keep_all, keep_each};
 
-keep_all!(Lost { friction, damping, old, freed });
+keep_all!(Lost { friction, damping, old, freed, let_go });
 keep_all!(Totals { resultant, pressing, energy, slip_energy, work, lost });
 keep_all!(Solved { force, friction, slip_new, slides, rates, slip_rates });
 keep_all!(End { at, share, lean, turn, point, image });

@@ -97,6 +97,8 @@ pub struct Lost {
     pub old: [f64; 2],
     /// Energy at n + ½ of springs that are no more at n + 1: ties that broke, contacts that end.
     pub freed: f64,
+    /// Energy at n − ½ of springs that were closed and are no more at n: their node or segment has left the surface.
+    pub let_go: f64,
 }
 
 impl std::ops::AddAssign for Lost {
@@ -106,6 +108,7 @@ impl std::ops::AddAssign for Lost {
         self.old[0] += other.old[0];
         self.old[1] += other.old[1];
         self.freed += other.freed;
+        self.let_go += other.let_go;
     }
 }
 

@@ -64,11 +64,13 @@ pub struct Memory {
     pub normal: Vector,
     /// What the gap had to be moved by so that it went on from face to face, m.
     pub carried: f64,
+    /// Energy of its spring at n − ½, J/m.
+    pub stored: f64,
     /// Which of the segments at the slave node stand for it: 1 that which ends there, 2 that which begins there, 3 both; 0 not known.
     pub faces: u8,
 }
 
-keep_all!(Memory { slip, offset, half, normal, carried, faces });
+keep_all!(Memory { slip, offset, half, normal, carried, stored, faces });
 
 /// Follows the nodes of surfaces along the bodies of other surfaces, or of their own.
 pub struct Tracker {

@@ -17,7 +17,7 @@ use std::io::{self, Write};
 /// The first bytes of a checkpoint; the line ends are there to find a copy that was made as text.
 const MAGIC: &[u8; 8] = b"embate\r\n";
 /// Format of the file and of what the solver keeps; another one can't be read.
-const FORMAT: u32 = 1;
+const FORMAT: u32 = 2;
 
 /// A block to write.
 pub(super) struct Block<'a> {

@@ -186,9 +186,16 @@ impl Checkpoint {
     /// # Errors
     /// [`CheckpointError::Damaged`] where not every byte is as it was written, [`CheckpointError::Version`] where another program wrote it.
     pub fn read(path: &Path, threads: &Threads) -> Result<Self, CheckpointError> {
+        Self::parse(&fs::read(path).map_err(CheckpointError::file("read", path))?, path, threads)
+    }
+
+    /// Reads the bytes of the file `path`.
+    ///
+    /// # Errors
+    /// As [`Checkpoint::read`].
+    pub fn parse(bytes: &[u8], path: &Path, threads: &Threads) -> Result<Self, CheckpointError> {
         let damaged = |what: String| CheckpointError::Damaged { path: path.into(), what };
-        let bytes = fs::read(path).map_err(CheckpointError::file("read", path))?;
-        let (head, rest) = container::head(&bytes).map_err(damaged)?;
+        let (head, rest) = container::head(bytes).map_err(damaged)?;
         // Before all else: only what this version wrote has its shape.
         #[derive(Deserialize)]
         struct Version {

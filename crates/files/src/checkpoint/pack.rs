@@ -46,11 +46,8 @@ pub(super) fn unpack(packed: &[u8], length: usize, threads: &Threads) -> Option<
         return None;
     }
     let plain = threads.map(&pieces, &Rooms::default(), Room::default, |room, (piece, length)| room.unpack(piece, *length));
-    let mut bytes = Vec::with_capacity(length);
-    for piece in plain {
-        bytes.extend(piece?);
-    }
-    Some(bytes)
+    // Room for the whole only once every piece is there: its length is a number of the file.
+    plain.into_iter().collect::<Option<Vec<_>>>().map(|pieces| pieces.concat())
 }
 
 /// What a thread packs with.
@@ -195,6 +192,13 @@ mod tests {
         assert!(pack(bytes, &Threads::new(3)).pieces.concat() == packed, "threads change no byte");
         assert!(unpack(&packed, bytes.len(), &one).as_deref() == Some(bytes));
         packed.len()
+    }
+
+    #[test]
+    fn pieces_that_are_not_there_get_no_room() {
+        // A megabyte of pieces without a byte, which would be 64 GiB.
+        let count = 1 << 18;
+        assert_eq!(unpack(&vec![0; 4 * count], count * PIECE, &Threads::one()), None);
     }
 
     #[test]

@@ -2,6 +2,8 @@
 #![allow(clippy::unwrap_used)] // inputs are those of the source
 #![allow(missing_docs, unreachable_pub)] // another crate has it as a file of its own
 
+use embate_files::checkpoint::{self, Checkpoint};
+use embate_files::threads::Threads;
 use embate_files::{abaqus, gmsh, model_file};
 use embate_solver::archive::Section;
 use embate_solver::model::Model;
@@ -82,12 +84,60 @@ obstacle = [{ name = "wall", plane = { point = [0.0201, 0], normal = [-1, 0] } }
 output.pictures = false
 "#;
 
+/// The meeting after some steps.
+fn met() -> (Model, Simulation) {
+    let model: Model = model_file::load_text("model.toml", MEETING, Path::new("."), &[]).unwrap_or_else(|told| panic!("{}", told.rendered));
+    let mut simulation = Simulation::new(&model, &ALONE).unwrap();
+    simulation.advance(f64::INFINITY, 30).unwrap();
+    (model, simulation)
+}
+
+const ALONE: Options = Options { threads: 1, simd: None };
+
+/// Files of checkpoints. Who damages one may make its check sums anew: they are set right where the reader looks for them.
+pub fn checkpoint() -> Target {
+    let (model, mut simulation) = met();
+    let folder = std::env::temp_dir().join(format!("embate-fuzz-{}", std::process::id()));
+    let threads = Threads::one();
+    Checkpoint::of(simulation.state().unwrap(), &model).write(&folder, &threads).unwrap();
+    let seeds = vec![fs::read(&checkpoint::generations(&folder)[0].path).unwrap()];
+    fs::remove_dir_all(&folder).unwrap();
+    let read = move |bytes: &[u8]| {
+        let mut bytes = bytes.to_vec();
+        let _ = sign(&mut bytes);
+        let _ = Checkpoint::parse(&bytes, Path::new("c"), &threads);
+    };
+    Target { name: "checkpoint", seeds, read: Box::new(read) }
+}
+
+/// Sets the check sums of a file of a checkpoint right, as far as its lengths lead.
+fn sign(bytes: &mut [u8]) -> Option<()> {
+    let number = |bytes: &[u8], at: usize| Some(u64::from_le_bytes(bytes.get(at..at.checked_add(8)?)?.try_into().ok()?));
+    let short = |bytes: &[u8], at: usize| Some(u32::from_le_bytes(bytes.get(at..at.checked_add(4)?)?.try_into().ok()?) as usize);
+    let sum = |bytes: &mut [u8], of: std::ops::Range<usize>, at: usize| {
+        let mut crc = flate2::Crc::new();
+        crc.update(bytes.get(of)?);
+        bytes.get_mut(at..at.checked_add(4)?)?.copy_from_slice(&crc.sum().to_le_bytes());
+        Some(())
+    };
+    let mut at = 16usize.checked_add(short(bytes, 12)?)?;
+    sum(bytes, 0..at, at)?;
+    at += 4;
+    while at < bytes.len() {
+        let lead = at;
+        let name = at.checked_add(4)?.checked_add(short(bytes, at)?)?;
+        let packed = usize::try_from(number(bytes, name.checked_add(8)?)?).ok()?;
+        let begin = name.checked_add(24)?;
+        at = begin.checked_add(packed)?;
+        sum(bytes, begin..at.min(bytes.len()), begin - 8)?;
+        sum(bytes, lead..begin - 4, begin - 4)?;
+    }
+    Some(())
+}
+
 /// States behind their check sums: who damages those, too, gets an error or another run, but no panic.
 pub fn state() -> Target {
-    let model: Model = model_file::load_text("model.toml", MEETING, Path::new("."), &[]).unwrap_or_else(|told| panic!("{}", told.rendered));
-    let options = Options { threads: 1, simd: None };
-    let mut simulation = Simulation::new(&model, &options).unwrap();
-    simulation.advance(f64::INFINITY, 30).unwrap();
+    let (model, mut simulation) = met();
     let sections = simulation.state().unwrap().sections;
     let seeds = vec![sections.iter().flat_map(|section| section.bytes.clone()).collect()];
     let read = move |bytes: &[u8]| {
@@ -100,7 +150,7 @@ pub fn state() -> Target {
             Section { name: section.name.clone(), bytes: own.to_vec() }
         };
         let damaged: Vec<Section> = sections.iter().enumerate().map(cut).collect();
-        if let Ok(mut simulation) = Simulation::resumed(&model, &options, &damaged) {
+        if let Ok(mut simulation) = Simulation::resumed(&model, &ALONE, &damaged) {
             let _ = simulation.advance(f64::INFINITY, 3);
             let _ = simulation.summary();
         }

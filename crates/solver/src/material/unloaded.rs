@@ -130,7 +130,7 @@ impl Search {
         }
         (self.unknown_old, self.residual_old) = (self.unknown, f);
         let next = self.unknown - scale * (f / slope);
-        let slow = call >= PATIENCE && call % 2 == 0;
+        let slow = call >= PATIENCE && call.is_multiple_of(2);
         let high = self.high.min(4.0 * self.unknown.abs().max(1.0));
         self.unknown = if self.low < next && next < self.high && !slow { next } else { 0.5 * (self.low + high) };
     }

@@ -55,7 +55,7 @@ pub struct NodeSegment {
 
 /// How many springs are closed, and their energy, J/m.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Closed {
+struct Closed {
     count: u32,
     energy: f64,
 }
@@ -64,7 +64,7 @@ keep_all!(Closed { count, energy });
 
 impl Closed {
     /// Adds a spring.
-    pub(super) fn add(&mut self, stored: f64) {
+    fn add(&mut self, stored: f64) {
         if stored > 0.0 {
             self.count += 1;
             self.energy += stored;
@@ -72,7 +72,7 @@ impl Closed {
     }
 
     /// What is missing in `now`, J/m: where nothing is, sums that were added up in another order differ by round-off.
-    pub(super) fn less(&self, now: &Self) -> f64 {
+    fn less(&self, now: &Self) -> f64 {
         if self.count > now.count { (self.energy - now.energy).max(0.0) } else { 0.0 }
     }
 }
@@ -148,41 +148,25 @@ impl NodeSegment {
             faces: setup.faces(slave),
         };
         let inputs = passes.iter().map(pass).collect();
-        let (thickness, reach) = (setup.contact.interface.thickness, (setup.law)().reach());
-        let initial = if thickness + reach > 0.0 { setup.positions.to_vec() } else { Vec::new() };
-        let (ignores_start, stores) = (setup.ignores_start(), is_stored(&setup.contact.interface));
-        let tracker = setup.tracker();
-        Self {
-            tracker,
-            passes: inputs,
-            thickness,
-            reach,
-            stores,
-            ignores_start,
-            initial,
-            has_begun: false,
-            used: Vec::new(),
-            closed: Closed::default(),
-            let_go: 0.0,
-        }
+        let (interface, reach) = (&setup.contact.interface, (setup.law)().reach());
+        let initial = if interface.thickness + reach > 0.0 { setup.positions.to_vec() } else { Vec::new() };
+        Self { passes: inputs, initial, ..Self::new(setup.tracker(), Vec::new(), interface, reach) }
     }
 
     /// For the passes of `tracker` with slaves whose stiffness is known; `reach` of the law, m.
     #[must_use]
     pub fn new(tracker: Tracker, slaves: Vec<Vec<Slave>>, interface: &model::Interface, reach: f64) -> Self {
         let passes = slaves.into_iter().map(|slaves| PassInput { slaves, ..PassInput::default() }).collect();
-        let (ignores_start, stores) = (is_ignored(interface), is_stored(interface));
-        let (thickness, initial, used) = (interface.thickness, Vec::new(), Vec::new());
         Self {
             tracker,
             passes,
-            thickness,
+            thickness: interface.thickness,
             reach,
-            stores,
-            ignores_start,
-            initial,
+            stores: is_stored(interface),
+            ignores_start: is_ignored(interface),
+            initial: Vec::new(),
             has_begun: false,
-            used,
+            used: Vec::new(),
             closed: Closed::default(),
             let_go: 0.0,
         }

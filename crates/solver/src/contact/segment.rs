@@ -311,8 +311,8 @@ impl Segment {
         let at = self.root(pair);
         let least = self.least[at as usize];
         let (mut facing, is_new) = self.kept(pair, common.length);
-        let at_once =
-            is_new && self.start.has_begun && self.stores && Common::new(common.nodes, sweep.old).is_some_and(|before| before.is_long());
+        let begun = self.start.has_begun;
+        let at_once = is_new && begun && self.stores && Common::new(common.nodes, sweep.old).is_some_and(|before| before.is_long());
         let moved = if at_once { common.moved(sweep) } else { 0.0 };
         for (k, &[place, weight]) in self.rule.iter().enumerate() {
             let (gap, mut ends) = common.point(place);
@@ -320,9 +320,9 @@ impl Segment {
             let offset = if at_once && gap < self.reach - moved {
                 gap - self.reach - 0.5 * common.way(&ends, sweep).max(0.0)
             } else {
-                kept(self.start.has_begun, facing.offsets[k], gap)
+                kept(begun, facing.offsets[k], if begun { gap - self.reach } else { gap })
             };
-            facing.offsets[k] = if self.start.ignored || self.start.has_begun { offset } else { 0.0 };
+            facing.offsets[k] = if self.start.ignored || begun { offset } else { 0.0 };
             let gap = gap - facing.offsets[k];
             let [energy, push] = self.density(gap, pressure);
             let around = self.depth.at(common.middle(place).map(|x| x.max(0.0)));
@@ -464,7 +464,8 @@ impl Formulation for Segment {
             if surfaces[0] == surfaces[1] {
                 pair.sort_unstable();
             }
-            Some(Facing { pair, ..*facing })
+            // What is not found again went with its surface.
+            Some(Facing { pair, stored: 0.0, ..*facing })
         };
         self.facing = before.iter().filter_map(now).collect();
         self.facing.sort_by_key(|facing| facing.pair);

@@ -247,6 +247,10 @@ impl Formulation for Tied {
         self.freed
     }
 
+    fn let_go(&self) -> f64 {
+        self.loose.let_go()
+    }
+
     fn ties(&self) -> Option<Ties> {
         Some(Ties { nodes: self.ties.iter().map(|tie| tie.node).collect(), broken: self.broken })
     }

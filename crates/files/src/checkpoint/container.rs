@@ -77,8 +77,26 @@ impl<'a> Rest<'a> {
     }
 }
 
-/// The header of a file, and what follows it.
-pub(super) fn head(bytes: &[u8]) -> Result<(&[u8], &[u8]), String> {
+/// What a file begins with.
+pub(super) struct Head<'a> {
+    format: u64,
+    pub(super) header: &'a [u8],
+    rest: &'a [u8],
+}
+
+impl<'a> Head<'a> {
+    /// What follows; only this format can be read.
+    pub(super) fn rest(&self) -> Result<&'a [u8], String> {
+        if self.format == u64::from(FORMAT) {
+            Ok(self.rest)
+        } else {
+            Err(format!("its format is {}, and this program reads {FORMAT}", self.format))
+        }
+    }
+}
+
+/// The head of a file, of whatever format.
+pub(super) fn head(bytes: &[u8]) -> Result<Head<'_>, String> {
     let mut rest = Rest(bytes);
     if rest.take(MAGIC.len())? != MAGIC {
         return Err("it does not begin as a checkpoint does".into());
@@ -90,10 +108,7 @@ pub(super) fn head(bytes: &[u8]) -> Result<(&[u8], &[u8]), String> {
     if rest.number::<4>()? != u64::from(crc(&[&bytes[..end]])) {
         return Err("the check sum of its head is wrong".into());
     }
-    if format != u64::from(FORMAT) {
-        return Err(format!("its format is {format}, and this program reads {FORMAT}"));
-    }
-    Ok((header, rest.0))
+    Ok(Head { format, header, rest: rest.0 })
 }
 
 /// The blocks that follow the head.

@@ -195,18 +195,19 @@ impl Checkpoint {
     /// As [`Checkpoint::read`].
     pub fn parse(bytes: &[u8], path: &Path, threads: &Threads) -> Result<Self, CheckpointError> {
         let damaged = |what: String| CheckpointError::Damaged { path: path.into(), what };
-        let (head, rest) = container::head(bytes).map_err(damaged)?;
+        let head = container::head(bytes).map_err(damaged)?;
         // Before all else: only what this version wrote has its shape.
         #[derive(Deserialize)]
         struct Version {
             version: String,
         }
-        let Version { version } = serde_json::from_slice(head).map_err(|error| damaged(error.to_string()))?;
+        let Version { version } = serde_json::from_slice(head.header).map_err(|error| damaged(error.to_string()))?;
         let own = env!("CARGO_PKG_VERSION").to_string();
         if version != own {
             return Err(CheckpointError::Version { path: path.into(), found: version, own });
         }
-        let header: Header = serde_json::from_slice(head).map_err(|error| damaged(error.to_string()))?;
+        let rest = head.rest().map_err(damaged)?;
+        let header: Header = serde_json::from_slice(head.header).map_err(|error| damaged(error.to_string()))?;
         let mut sections = container::blocks(rest, header.blocks, threads).map_err(damaged)?.into_iter();
         let model = sections.next().filter(|section| section.name == MODEL).ok_or_else(|| damaged("it has no model".into()))?;
         let identity = Identity::of_text(&String::from_utf8_lossy(&model.bytes));

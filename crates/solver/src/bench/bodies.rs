@@ -91,15 +91,6 @@ const SPEED: f64 = 300.0;
 /// A block of `n` × `n` elements of 1 mm that spins and touches nothing.
 #[must_use]
 pub fn spinning_block(element: &str, law: &str, n: usize) -> Model {
-    let parameters =
-        crate::material::registry().into_iter().find(|kind| kind.name == law).map_or(Vec::new(), |kind| kind.parameters.to_vec());
-    let all = material(law);
-    let own = |name: &String| parameters.iter().any(|parameter| parameter.name == name);
-    let material = Material {
-        parameters: all.parameters.into_iter().filter(|(name, _)| own(name)).collect(),
-        lists: all.lists.into_iter().filter(|(name, _)| own(name)).collect(),
-        ..all
-    };
     let size = n as f64 * 1e-3;
     let shape = Shape::Rectangle(Rectangle { corner: [-0.5 * size; 2], size: [size; 2], elements: [n, n], ..Rectangle::default() });
     let part = Part {
@@ -113,7 +104,7 @@ pub fn spinning_block(element: &str, law: &str, n: usize) -> Model {
     Model {
         name: "spinning block".into(),
         run: Run { end: 1.0, ..Run::default() },
-        materials: [("block".to_string(), material)].into(),
+        materials: [("block".to_string(), material(law))].into(),
         parts: vec![part],
         output: Output { pictures: false, ..Output::default() },
         ..Model::default()

@@ -155,8 +155,6 @@ pub struct Contact {
     active: [f64; 2],
     /// Time of the last detection, s.
     time: f64,
-    /// Energy of closed springs that the last detection did not find again, J/m.
-    let_go: f64,
     /// Where its springs of this step lie in the list of all.
     found: Range<usize>,
 }
@@ -177,7 +175,6 @@ impl Contact {
             terms,
             active,
             time: 0.0,
-            let_go: 0.0,
             found: 0..0,
         }
     }
@@ -190,9 +187,9 @@ impl Contact {
         #[rustfmt::skip]
         let Self {
             name: _, kind: _, terms: _, active: _,
-            totals, penetration, has_pressed, friction_work, formulation, checked, time, let_go, found,
+            totals, penetration, has_pressed, friction_work, formulation, checked, time, found,
         } = self;
-        keep_each!(archive; totals, penetration, has_pressed, friction_work, checked, time, let_go, &mut found.start, &mut found.end);
+        keep_each!(archive; totals, penetration, has_pressed, friction_work, checked, time, &mut found.start, &mut found.end);
         archive.check(found.start <= found.end && found.end <= springs, "a contact has springs that are not there")?;
         formulation.keep(archive)
     }
@@ -205,11 +202,9 @@ impl Contact {
     pub fn detect(&mut self, scene: &Scene<'_>, springs: &mut Springs) {
         let first = springs.list.len();
         self.time = scene.time;
-        let acts = self.acts_at(scene.time);
-        if acts {
+        if self.acts_at(scene.time) {
             self.formulation.detect(scene, springs);
         }
-        self.let_go = if acts { self.formulation.let_go() } else { 0.0 };
         self.found = first..springs.list.len();
         springs.close_group(self.terms);
         self.penetration = springs.list[self.found.clone()].iter().fold(0.0, |deepest, spring| f64::max(deepest, -spring.gap));
@@ -222,8 +217,9 @@ impl Contact {
         self.has_pressed |= self.totals.pressing > 0.0;
         self.friction_work += self.totals.lost.friction;
         self.formulation.remember(answers.clone());
-        self.totals.lost.let_go = self.let_go;
-        let ends = self.acts_at(self.time) && !self.acts_at(self.time + time_step);
+        let acts = self.acts_at(self.time);
+        self.totals.lost.let_go = if acts { self.formulation.let_go() } else { 0.0 };
+        let ends = acts && !self.acts_at(self.time + time_step);
         self.totals.lost.freed = if ends { answers.flat_map(|answer| answer.books().stored).sum() } else { self.formulation.freed() };
     }
 

@@ -269,11 +269,11 @@ impl Formulation for NodeSegment {
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
         #[rustfmt::skip]
         let Self {
-            passes: _, thickness: _, reach: _, stores: _, ignores_start: _, initial: _, used: _,
-            tracker, has_begun, closed, let_go,
+            passes: _, thickness: _, reach: _, stores: _, ignores_start: _, initial: _, used: _, let_go: _,
+            tracker, has_begun, closed,
         } = self;
         tracker.keep(archive)?;
-        keep_each!(archive; has_begun, closed, let_go);
+        keep_each!(archive; has_begun, closed);
         Ok(())
     }
 
@@ -299,7 +299,7 @@ impl Formulation for NodeSegment {
 }
 
 /// Whether springs of an interface store energy.
-pub(super) fn is_stored(interface: &model::Interface) -> bool {
+fn is_stored(interface: &model::Interface) -> bool {
     interface.law != model::ContactLaw::Multiplier
 }
 

@@ -16,7 +16,6 @@ mod common;
 use super::formulation::{FormulationKind, Setup, both_passes};
 use super::initial::kept;
 use super::law::{Law, penalty};
-use super::node_segment::is_stored;
 use super::springs::{Answers, Spring, Springs};
 use super::tracker::{Certificate, SearchReport, Tracker};
 use super::{Formulation, Scene, Sweep, Vector};
@@ -67,8 +66,6 @@ pub struct Segment {
     thickness: f64,
     /// Largest gap at which the law pushes, m.
     reach: f64,
-    /// Whether springs store energy: multipliers do not.
-    stores: bool,
     start: Start,
     /// Pairs of this step, ascending.
     pairs: Vec<[u32; 2]>,
@@ -167,7 +164,6 @@ impl Segment {
             bodies: if at_a_distance { setup.bodies.to_vec() } else { Vec::new() },
             has_begun: false,
         };
-        let stores = is_stored(&setup.contact.interface);
         let tracker = setup.tracker();
         Self {
             tracker,
@@ -178,7 +174,6 @@ impl Segment {
             depth,
             thickness,
             reach,
-            stores,
             start,
             pairs: Vec::new(),
             commons: Vec::new(),
@@ -195,6 +190,12 @@ impl Segment {
     /// Surfaces of the segments of a pair.
     fn surfaces(&self) -> [usize; 2] {
         [0, self.chains.len() - 1]
+    }
+
+    /// Nodes of the segments of a pair.
+    fn nodes(&self, pair: [u32; 2]) -> [[u32; 2]; 2] {
+        let surfaces = self.surfaces();
+        [0, 1].map(|k| self.tracker.targets()[surfaces[k]].surface.segments[pair[k] as usize])
     }
 
     /// The pairs that touching nodes lead to.
@@ -230,8 +231,7 @@ impl Segment {
     /// What two segments have in common; `None` where they don't face each other. Those that had springs in the last step keep them, however deep they are: a pair that
     /// came and went would give its energy and take it away.
     fn common(&self, pair: [u32; 2], positions: &[Vector]) -> Option<Common> {
-        let surfaces = self.surfaces();
-        let nodes = [0, 1].map(|k| self.tracker.targets()[surfaces[k]].surface.segments[pair[k] as usize]);
+        let (surfaces, nodes) = (self.surfaces(), self.nodes(pair));
         if nodes[0].iter().any(|node| nodes[1].contains(node)) {
             return None;
         }
@@ -312,7 +312,8 @@ impl Segment {
         let least = self.least[at as usize];
         let (mut facing, is_new) = self.kept(pair, common.length);
         let begun = self.start.has_begun;
-        let at_once = is_new && begun && self.stores && Common::new(common.nodes, sweep.old).is_some_and(|before| before.is_long());
+        let at_once =
+            is_new && begun && self.law.is_elastic() && Common::new(common.nodes, sweep.old).is_some_and(|before| before.is_long());
         let moved = if at_once { common.moved(sweep) } else { 0.0 };
         for (k, &[place, weight]) in self.rule.iter().enumerate() {
             let (gap, mut ends) = common.point(place);
@@ -347,9 +348,11 @@ impl Segment {
         for before in &self.before {
             while now.next_if(|&pair| pair < before.pair).is_some() {}
             if now.peek() != Some(&before.pair) && before.stored > 0.0 {
-                let surfaces = self.surfaces();
-                let nodes = [0, 1].map(|k| self.tracker.targets()[surfaces[k]].surface.segments[before.pair[k] as usize]);
-                sum += if Common::new(nodes, positions).is_some_and(|common| common.is_long()) { before.stored } else { 0.0 };
+                sum += if Common::new(self.nodes(before.pair), positions).is_some_and(|common| common.is_long()) {
+                    before.stored
+                } else {
+                    0.0
+                };
             }
         }
         sum
@@ -433,11 +436,11 @@ impl Formulation for Segment {
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
         #[rustfmt::skip]
         let Self {
-            chains: _, law: _, penalty: _, rule: _, depth: _, thickness: _, reach: _, stores: _, pairs: _, commons: _, tree: _, least: _, free_ends: _, owners: _, before: _,
-            tracker, start: Start { ignored: _, positions: _, bodies: _, has_begun }, facing, let_go,
+            chains: _, law: _, penalty: _, rule: _, depth: _, thickness: _, reach: _, pairs: _, commons: _, tree: _, least: _, free_ends: _, owners: _, before: _, let_go: _,
+            tracker, start: Start { ignored: _, positions: _, bodies: _, has_begun }, facing,
         } = self;
         tracker.keep(archive)?;
-        keep_each!(archive; has_begun, facing, let_go);
+        keep_each!(archive; has_begun, facing);
         let segments = self.surfaces().map(|surface| self.tracker.targets()[surface].surface.segments.len());
         let is_there = |facing: &Facing| (0..2).all(|k| (facing.pair[k] as usize) < segments[k]);
         archive.check(self.facing.iter().all(is_there), "a segment is not there")
@@ -489,7 +492,7 @@ impl Formulation for Segment {
             facing.stored = 0.0;
             for (slip, answer) in facing.slips.iter_mut().zip(solved.part(index * count, (index + 1) * count)) {
                 *slip = answer.solved.slip_new;
-                facing.stored += if self.stores { answer.stored_new() } else { 0.0 };
+                facing.stored += answer.stored_new();
             }
         }
     }

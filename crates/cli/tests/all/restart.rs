@@ -330,22 +330,21 @@ fn a_hangup_stops_a_run_unless_it_was_started_to_live_through_it() {
     }
 }
 
-/// Everything under its final name is whole.
-fn nothing_is_torn(out: &Path) {
+/// Everything under its final name is whole, and tables hold the first lines of those of the run that was never stopped.
+fn nothing_is_torn(out: &Path, whole: &Path) {
     for (path, bytes) in files(out) {
         let (name, text) = (path.to_str().unwrap(), String::from_utf8_lossy(&bytes));
         let is_whole = match path.extension().and_then(|ending| ending.to_str()) {
             Some("part") => true,
             Some("vtu" | "pvd") => text.trim_end().ends_with("</VTKFile>"),
-            Some("csv") => text.ends_with('\n') && out.join("summary.json").exists(),
+            Some("csv") => text.ends_with('\n') && fs::read(whole.join(&path)).unwrap().starts_with(&bytes),
             Some("svg") => text.trim_end().ends_with("</svg>"),
             Some("gif") => bytes.last() == Some(&0x3b),
             Some("png") => bytes.ends_with(b"IEND\xaeB`\x82"),
             Some("json") => true, // parsed by `files`
             _ => false,
         };
-        // The plots and the history come before the summary.
-        assert!(is_whole || (name == "history.csv" && text.ends_with('\n')), "{name} is torn");
+        assert!(is_whole, "{name} is torn");
     }
     let collection = fs::read_to_string(out.join("fields.pvd")).unwrap_or_default();
     for name in collection.split("file=\"").skip(1).map(|rest| rest.split('"').next().unwrap()) {
@@ -379,7 +378,7 @@ fn killed(name: &str, times: usize, longest: u64) {
                 kills += 1;
                 let _ = running.0.wait();
                 if out.exists() {
-                    nothing_is_torn(&out);
+                    nothing_is_torn(&out, &whole);
                 }
             }
             Some(status) => {
@@ -431,7 +430,7 @@ fn a_full_disk_is_told_the_state_is_kept_and_with_room_the_run_goes_on() {
     assert_eq!(code, Some(1), "{told}");
     assert!(told.contains("can't write") && told.contains("out/"), "{told}");
     assert!(!checkpoints(&folder.join("out")).is_empty());
-    nothing_is_torn(&folder.join("out"));
+    nothing_is_torn(&folder.join("out"), &whole);
     // Still none.
     let (code, told) = limited(60, "resume out --quiet");
     assert!(code != Some(0) && told.contains("can't write"), "{told}");
@@ -461,7 +460,7 @@ fn a_small_disk_that_is_full_says_so_where_the_system_lets_one_be_made() {
         return;
     }
     assert!(told.contains("No space left on device") && told.contains("free some space"), "{told}");
-    nothing_is_torn(&folder.join("out"));
+    nothing_is_torn(&folder.join("out"), &whole);
     let answer = embate(&folder, ["resume", "out", "--quiet"]);
     assert_eq!(answer.code, Some(0), "{}", answer.err);
     is_the_same(&whole, &folder.join("out"));

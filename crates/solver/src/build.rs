@@ -53,6 +53,7 @@ use crate::step::erosion::Erosion;
 use crate::step::free::Groups;
 use crate::step::relaxation::Relaxation;
 use crate::step::{CHUNK, Governor, System};
+use crate::vector::first;
 use embate_lanes::{Level, Team};
 use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
@@ -226,7 +227,7 @@ fn with_axis(model: &Model, mesh: &Mesh<2>) -> Result<Option<Model>, Vec<Fault>>
         return Err(vec![Fault::new(&NEGATIVE_RADIUS, "part", message, "x is the radius: move the part to the right of the axis x = 0")]);
     }
     let touches = mesh.positions.iter().any(|x| x[0] <= ON_AXIS * size);
-    let axis = Symmetry { normal: [1.0, 0.0], ..Symmetry::default() };
+    let axis = Symmetry { normal: [1.0, 0.0, 0.0], ..Symmetry::default() };
     let is_there = |symmetry: &Symmetry| symmetry.parts.is_empty() && symmetry.point[0] == 0.0 && symmetry.normal[1] == 0.0;
     if !touches || model.symmetries.iter().any(is_there) {
         return Ok(None);
@@ -519,17 +520,17 @@ impl Builder<'_> {
     fn mirror_lines(&self) -> impl Iterator<Item = (usize, [f64; 2], [f64; 2])> {
         let tolerance = contact::initial::TOLERANCE * contact::initial::size(&self.mesh.positions);
         self.model.symmetries.iter().enumerate().filter_map(move |(number, symmetry)| {
-            let normal = unit(symmetry.normal)?;
+            let (normal, point) = (unit(first(symmetry.normal))?, first(symmetry.point));
             let parts = self.mesh.parts.iter().filter(|part| symmetry.parts.is_empty() || symmetry.parts.contains(&part.name));
             let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
             for &node in parts.flat_map(|part| &part.nodes) {
-                let distance = height(self.mesh.positions[node as usize], symmetry.point, normal);
+                let distance = height(self.mesh.positions[node as usize], point, normal);
                 (low, high) = (low.min(distance), high.max(distance));
             }
             if low >= -tolerance {
-                Some((number, symmetry.point, normal))
+                Some((number, point, normal))
             } else {
-                (high <= tolerance).then_some((number, symmetry.point, normal.map(|n| -n)))
+                (high <= tolerance).then_some((number, point, normal.map(|n| -n)))
             }
         })
     }

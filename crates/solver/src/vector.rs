@@ -1,25 +1,46 @@
-//! Vectors of the plane, of numbers or of lanes: the same text, and so the same bits, for both.
+//! Vectors of the plane and of space, of numbers or of lanes: the same text, and so the same bits, for both.
+//!
+//! Sums run from the first component to the last.
 
 use embate_lanes::Lane;
 
-#[inline(always)]
-pub(crate) fn plus<L: Lane>(a: [L; 2], b: [L; 2]) -> [L; 2] {
-    [a[0] + b[0], a[1] + b[1]]
+/// The first components of a vector of the model, which has three: all of them in space, x and y in the plane.
+#[must_use]
+pub(crate) fn first<const D: usize>(of: [f64; 3]) -> [f64; D] {
+    std::array::from_fn(|d| of[d])
 }
 
 #[inline(always)]
-pub(crate) fn minus<L: Lane>(a: [L; 2], b: [L; 2]) -> [L; 2] {
-    [a[0] - b[0], a[1] - b[1]]
+pub(crate) fn plus<L: Lane, const D: usize>(mut a: [L; D], b: [L; D]) -> [L; D] {
+    for d in 0..D {
+        a[d] += b[d];
+    }
+    a
 }
 
 #[inline(always)]
-pub(crate) fn times<L: Lane>(factor: L, a: [L; 2]) -> [L; 2] {
-    [factor * a[0], factor * a[1]]
+pub(crate) fn minus<L: Lane, const D: usize>(mut a: [L; D], b: [L; D]) -> [L; D] {
+    for d in 0..D {
+        a[d] = a[d] - b[d];
+    }
+    a
 }
 
 #[inline(always)]
-pub(crate) fn dot<L: Lane>(a: [L; 2], b: [L; 2]) -> L {
-    a[0] * b[0] + a[1] * b[1]
+pub(crate) fn times<L: Lane, const D: usize>(factor: L, mut a: [L; D]) -> [L; D] {
+    for d in 0..D {
+        a[d] = factor * a[d];
+    }
+    a
+}
+
+#[inline(always)]
+pub(crate) fn dot<L: Lane, const D: usize>(a: [L; D], b: [L; D]) -> L {
+    let mut sum = a[0] * b[0];
+    for d in 1..D {
+        sum += a[d] * b[d];
+    }
+    sum
 }
 
 #[inline(always)]

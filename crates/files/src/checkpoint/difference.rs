@@ -218,7 +218,7 @@ mod tests {
         let parameters = [("young".to_string(), 1e9)].into();
         model.materials.insert("steel".into(), Material { law: "elastic".into(), parameters, ..Material::default() });
         let shape = Shape::Rectangle(Rectangle { size: [1.0, 2.0], elements: [3, 4], ..Rectangle::default() });
-        model.parts.push(Part { name: "a: b = {".into(), shape, velocity: [1.0, -2.0], ..Part::default() });
+        model.parts.push(Part { name: "a: b = {".into(), shape, velocity: [1.0, -2.0, 0.0], ..Part::default() });
         model
     }
 

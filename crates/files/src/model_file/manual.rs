@@ -140,7 +140,7 @@ since they are no part of the summary that it leaves out; `summary.json` lists t
 
 ";
 
-const MOTION: &str = "`{ x, y, rotation }`: each a velocity, m/s (rad/s), the name of a curve, or `\"free\"`";
+const MOTION: &str = "`{ x, y, z, rotation }`: each a velocity, m/s (rad/s), the name of a curve, or `\"free\"`";
 
 fn words(key: &Key) -> String {
     let of = |dimension: Dimension| match dimension {
@@ -156,6 +156,7 @@ fn words(key: &Key) -> String {
         Kind::Angle(Dimension::RATE, _) => "angular velocity, rad/s".to_string(),
         Kind::Angle(..) => "angle, rad".to_string(),
         Kind::Vector(dimension, range) => format!("`[x, y]`: {}{}", of(dimension), within(range)),
+        Kind::Spatial(dimension, range) => format!("`[x, y]`, in space `[x, y, z]`: {}{}", of(dimension), within(range)),
         Kind::Quantities(dimension, range, least) => format!("list of {least} or more: {}{}", of(dimension), within(range)),
         Kind::Value => "number, or quantity of any dimension".to_string(),
         Kind::Values => "list of 1 or more: numbers, or quantities of one dimension".to_string(),
@@ -163,7 +164,9 @@ fn words(key: &Key) -> String {
         Kind::Points(least) => format!("list of {least} or more `[x, y]`: {}", of(Dimension::LENGTH)),
         Kind::Drive(Dimension::RATE) => "angular velocity, rad/s, or the name of a curve".to_string(),
         Kind::Drive(dimension) => format!("{}, or the name of a curve", of(dimension)),
-        Kind::Components(dimension) => format!("`{{ x, y }}`: each a {}, or the name of a curve", of(dimension)).replace("a acc", "an acc"),
+        Kind::Components(dimension) => {
+            format!("`{{ x, y, z }}`: each a {}, or the name of a curve", of(dimension)).replace("a acc", "an acc")
+        }
         Kind::Motion => MOTION.to_string(),
         Kind::Rigid => format!("true, false, or {MOTION}"),
         Kind::Integer(least) => format!("whole number from {least}"),

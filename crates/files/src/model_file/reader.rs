@@ -128,6 +128,10 @@ impl Record {
         if let Some(Datum::Vector(value)) = self.datum(name) { *value } else { [f64::NAN; 2] }
     }
 
+    pub(crate) fn spatial(&self, name: &str) -> [f64; 3] {
+        if let Some(Datum::Spatial(value)) = self.datum(name) { *value } else { [f64::NAN; 3] }
+    }
+
     pub(super) fn integer(&self, name: &str) -> Option<u64> {
         if let Some(Datum::Integer(value)) = self.datum(name) { Some(*value) } else { None }
     }
@@ -255,6 +259,7 @@ fn all_around(key: &Key) -> Key {
     let kind = match key.kind {
         Kind::Quantity(dimension, range) => Kind::Quantity(whole(dimension), range),
         Kind::Vector(dimension, range) => Kind::Vector(whole(dimension), range),
+        Kind::Spatial(dimension, range) => Kind::Spatial(whole(dimension), range),
         other => other,
     };
     Key { kind, ..*key }

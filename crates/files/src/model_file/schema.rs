@@ -222,15 +222,18 @@ fn of_key(key: &Key) -> Json {
             any([number(range), object([("type", text("string")), ("examples", texts([example]))])])
         }
         Kind::Vector(dimension, range) => list(quantity(dimension, range), Some(2)),
+        Kind::Spatial(dimension, range) => between(object([("type", text("array")), ("items", quantity(dimension, range))]), [2, 3]),
         Kind::Quantities(dimension, range, least) => at_least(quantity(dimension, range), least),
         Kind::Value => quantity(Dimension::VELOCITY, Range::Finite),
         Kind::Values => at_least(quantity(Dimension::VELOCITY, Range::Finite), 1),
         Kind::Points(least) => points(least),
         Kind::Outlines(least) => at_least(points(least), 1),
         Kind::Drive(dimension) => drive(&example_of(dimension), &["ramp"]),
-        Kind::Components(dimension) => courses(&["x", "y"], dimension, &["ramp"]),
-        Kind::Motion => courses(&["x", "y", "rotation"], Dimension::VELOCITY, &["free", "ramp"]),
-        Kind::Rigid => any([object([("type", text("boolean"))]), courses(&["x", "y", "rotation"], Dimension::VELOCITY, &["free", "ramp"])]),
+        Kind::Components(dimension) => courses(&["x", "y", "z"], dimension, &["ramp"]),
+        Kind::Motion => courses(&["x", "y", "z", "rotation"], Dimension::VELOCITY, &["free", "ramp"]),
+        Kind::Rigid => {
+            any([object([("type", text("boolean"))]), courses(&["x", "y", "z", "rotation"], Dimension::VELOCITY, &["free", "ramp"])])
+        }
         Kind::Stiffness(range) => {
             any([number(range), object([("type", text("string")), ("examples", texts(["3.5e11 N/m/m", "1e14 Pa/m"]))])])
         }
@@ -267,11 +270,15 @@ fn choice(known: &[&str]) -> Json {
 
 fn list(items: Json, count: Option<usize>) -> Json {
     let json = object([("type", text("array")), ("items", items)]);
-    let count = count.map(|count| Json::Number(count as f64));
     match count {
-        Some(count) => json.with("minItems", count.clone()).with("maxItems", count),
+        Some(count) => between(json, [count; 2]),
         None => json.with("minItems", Json::Number(1.0)),
     }
+}
+
+/// A list of at least and at most so many items.
+fn between(list: Json, [least, most]: [usize; 2]) -> Json {
+    list.with("minItems", Json::Number(least as f64)).with("maxItems", Json::Number(most as f64))
 }
 
 fn points(least: usize) -> Json {

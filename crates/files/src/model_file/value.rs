@@ -19,6 +19,7 @@ use embate_solver::quantity::{Dimension, Range};
 pub(super) enum Datum {
     Number(f64),
     Vector([f64; 2]),
+    Spatial([f64; 3]),
     Numbers(Vec<f64>),
     /// Numbers of one dimension; `None` where none has a unit.
     Values(Vec<f64>, Option<Dimension>),
@@ -26,8 +27,8 @@ pub(super) enum Datum {
     Outlines(Vec<Vec<[f64; 2]>>),
     /// A number or the name of a curve.
     Drive(Drive),
-    /// Prescribed motion along x and y and around.
-    Courses([Option<Course>; 3]),
+    /// Prescribed motion along x, y and z and around.
+    Courses([Option<Course>; 4]),
     Integer(u64),
     Integers(Vec<u64>),
     Flag(bool),
@@ -197,6 +198,17 @@ impl<'a> At<'a> {
         }
     }
 
+    /// Two or three numbers; a third that is left out is zero.
+    fn spatial(&self, dimension: Dimension, range: Range) -> Read<[f64; 3]> {
+        match &self.node.value {
+            Value::List(items) if matches!(items.len(), 2 | 3) => {
+                let values = self.each(items, |at| at.number(&[dimension], range, false))?;
+                Ok(std::array::from_fn(|index| values.get(index).map_or(0.0, |value| value.0)))
+            }
+            _ => self.unlike(),
+        }
+    }
+
     /// The items of a list that has at least so many.
     fn list(&self, least: usize) -> Read<&'a [Node]> {
         let Value::List(items) = &self.node.value else { return self.unlike() };
@@ -235,10 +247,10 @@ impl<'a> At<'a> {
     /// A table of courses, one for each degree of freedom; along x and y of this dimension.
     fn courses(&self, axes: &[&str], straight: Dimension, free: bool) -> Read<Datum> {
         let Value::Table(entries) = &self.node.value else { return self.unlike() };
-        let mut courses = [None, None, None];
+        let mut courses = [None, None, None, None];
         let mut wrongs = Vec::new();
         let quoted: Vec<String> = axes.iter().map(|axis| format!("`{axis}`")).collect();
-        let help = format!("give {}, or {}", quoted.join(", "), if axes.len() == 2 { "both" } else { "some of them" });
+        let help = format!("give {}, or some of them", quoted.join(", "));
         for entry in entries {
             let path = format!("{}.{}", self.path, entry.key);
             let Some(axis) = axes.iter().position(|axis| *axis == entry.key) else {
@@ -246,7 +258,7 @@ impl<'a> At<'a> {
                 wrongs.push(Wrong { kind: &UNKNOWN_KEY, path, place: entry.place, texts });
                 continue;
             };
-            let dimension = if axis == 2 { Dimension::RATE } else { straight };
+            let dimension = if axis == 3 { Dimension::RATE } else { straight };
             match (At { kind: Kind::Drive(dimension), ..self.on(&entry.node, &path) }).course(dimension, free) {
                 Ok(course) => courses[axis] = Some(course),
                 Err(wrong) => wrongs.extend(wrong),
@@ -272,6 +284,7 @@ pub(super) fn read(key: &Key, node: &Node, path: &str) -> Read<Datum> {
         Kind::Quantity(dimension, range) => Datum::Number(at.number(&[dimension], range, false)?.0),
         Kind::Angle(dimension, range) => Datum::Number(at.number(&[dimension], range, true)?.0),
         Kind::Vector(dimension, range) => Datum::Vector(at.vector(dimension, range)?),
+        Kind::Spatial(dimension, range) => Datum::Spatial(at.spatial(dimension, range)?),
         Kind::Quantities(dimension, range, least) => {
             let values = at.each(at.list(least)?, |at| at.number(&[dimension], range, false))?;
             Datum::Numbers(values.into_iter().map(|(value, _)| value).collect())
@@ -283,11 +296,11 @@ pub(super) fn read(key: &Key, node: &Node, path: &str) -> Read<Datum> {
         Kind::Values => at.values(at.list(1)?)?,
         Kind::Points(least) => Datum::Points(at.points(least)?),
         Kind::Outlines(least) => Datum::Outlines(at.each(at.list(1)?, |at| at.points(least))?),
-        Kind::Components(dimension) => at.courses(&["x", "y"], dimension, false)?,
-        Kind::Motion => at.courses(&["x", "y", "rotation"], Dimension::VELOCITY, true)?,
+        Kind::Components(dimension) => at.courses(&["x", "y", "z"], dimension, false)?,
+        Kind::Motion => at.courses(&["x", "y", "z", "rotation"], Dimension::VELOCITY, true)?,
         Kind::Rigid => match node.value {
             Value::Flag(flag) => Datum::Flag(flag),
-            _ => at.courses(&["x", "y", "rotation"], Dimension::VELOCITY, true)?,
+            _ => at.courses(&["x", "y", "z", "rotation"], Dimension::VELOCITY, true)?,
         },
         Kind::Drive(dimension) => match at.course(dimension, false)? {
             Course::Driven(drive) => Datum::Drive(drive),
@@ -331,7 +344,9 @@ pub(super) fn read(key: &Key, node: &Node, path: &str) -> Read<Datum> {
 /// The kind of the items of a list or table.
 fn item(kind: Kind) -> Kind {
     match kind {
-        Kind::Vector(dimension, range) | Kind::Quantities(dimension, range, _) => Kind::Quantity(dimension, range),
+        Kind::Vector(dimension, range) | Kind::Spatial(dimension, range) | Kind::Quantities(dimension, range, _) => {
+            Kind::Quantity(dimension, range)
+        }
         Kind::Values => Kind::Quantity(Dimension::NONE, Range::Finite),
         Kind::Points(_) => Kind::Vector(Dimension::LENGTH, Range::Finite),
         Kind::Outlines(least) => Kind::Points(least),
@@ -354,6 +369,8 @@ pub(super) fn words(kind: Kind) -> String {
         Kind::Angle(..) => "an angle".to_string(),
         Kind::Vector(Dimension::NONE, _) => "a list of 2 numbers".to_string(),
         Kind::Vector(dimension, _) => format!("a list of 2 numbers with a unit of {}", units::quantity(dimension)),
+        Kind::Spatial(Dimension::NONE, _) => "a list of 2 numbers (3 in space)".to_string(),
+        Kind::Spatial(dimension, _) => format!("a list of 2 numbers (3 in space) with a unit of {}", units::quantity(dimension)),
         Kind::Quantities(dimension, _, 1) => format!("a list of numbers with a unit of {}", units::quantity(dimension)),
         Kind::Quantities(dimension, _, least) => {
             format!("a list of at least {least} numbers with a unit of {}", units::quantity(dimension))
@@ -368,9 +385,9 @@ pub(super) fn words(kind: Kind) -> String {
             let article = if quantity.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
             format!("{article} {quantity} or the name of a curve")
         }
-        Kind::Components(_) => "a table with x, y or both".to_string(),
-        Kind::Motion => "a table with x, y, rotation or some of them".to_string(),
-        Kind::Rigid => "true, false, or a table with x, y, rotation or some of them".to_string(),
+        Kind::Components(_) => "a table with x, y, z or some of them".to_string(),
+        Kind::Motion => "a table with x, y, z, rotation or some of them".to_string(),
+        Kind::Rigid => "true, false, or a table with x, y, z, rotation or some of them".to_string(),
         Kind::Stiffness(_) => "a stiffness".to_string(),
         Kind::Integer(_) => "a whole number".to_string(),
         Kind::Integers(count, _) => format!("a list of {count} whole numbers"),
@@ -394,8 +411,8 @@ pub(super) fn example(key: &Key) -> String {
         Kind::Quantity(dimension, _) => number(dimension),
         Kind::Angle(Dimension::RATE, _) => "\"30 rad/s\"".to_string(),
         Kind::Angle(..) => "\"30 deg\"".to_string(),
-        Kind::Vector(Dimension::NONE, _) => "[1, 0]".to_string(),
-        Kind::Vector(dimension, _) => format!("[0, {}]", number(dimension)),
+        Kind::Vector(Dimension::NONE, _) | Kind::Spatial(Dimension::NONE, _) => "[1, 0]".to_string(),
+        Kind::Vector(dimension, _) | Kind::Spatial(dimension, _) => format!("[0, {}]", number(dimension)),
         Kind::Quantities(dimension, _, least) => format!("[{}]", vec![number(dimension); least].join(", ")),
         Kind::Value => "\"5 m/s\"".to_string(),
         Kind::Values => "[0, \"5 m/s\"]".to_string(),

@@ -332,7 +332,7 @@ impl<'a> Case<'a> {
     /// The key of a constraint or load that has the value.
     fn driven_key(&self, path: &str) -> String {
         let key = if let Some(it) = number(path, "constraint").and_then(|at| self.model().constraints.get(at)) {
-            let is_moved = |components: &[Option<Drive>; 2]| components.iter().flatten().next().is_some();
+            let is_moved = |components: &[Option<Drive>; 3]| components.iter().flatten().next().is_some();
             [
                 ("velocity", is_moved(&it.velocity)),
                 ("displacement", is_moved(&it.displacement)),
@@ -357,7 +357,7 @@ impl<'a> Case<'a> {
 
     /// What was thrown at the start.
     fn thrown(&self, all: &mut Vec<Advice>) {
-        if let Some(index) = self.part().filter(|&index| self.model().parts[index].velocity != [0.0; 2]) {
+        if let Some(index) = self.part().filter(|&index| self.model().parts[index].velocity != [0.0; 3]) {
             all.push(Advice::new(format!("part[{index}].velocity"), "look at the speed at the start and its unit"));
         }
     }

@@ -129,7 +129,7 @@ pub fn strips(elements: usize, speed: f64) -> Model {
     for strip in 0..strips {
         let y = strip as f64 * (THROUGH as f64 * SIZE + GAP);
         let size = [along as f64 * SIZE, THROUGH as f64 * SIZE];
-        let velocity = [0.0, if strip % 2 == 0 { speed } else { -speed }];
+        let velocity = [0.0, if strip % 2 == 0 { speed } else { -speed }, 0.0];
         let shape = Shape::Rectangle(Rectangle {
             corner: [0.3 * SIZE * (strip % 2) as f64, y],
             size,

@@ -129,7 +129,7 @@ impl Builder<'_> {
 
     /// What prescribes the velocities of a body. A body of revolution moves along its axis only.
     pub(super) fn drives(&self, motion: &Motion) -> [Option<Speed>; 3] {
-        let [x, y] = &motion.velocity;
+        let [x, y, _] = &motion.velocity;
         let [x, y, spin] = [x, y, &motion.spin].map(|drive| drive.as_ref().and_then(|drive| self.curves.speed(drive)));
         if !self.model.is_axisymmetric() {
             return [x, y, spin];

@@ -17,6 +17,7 @@ use crate::mesh::surface::{NONE, Surface};
 use crate::model::messages::NO_DIRECTION;
 use crate::model::{Obstacle, ObstacleShape};
 use crate::rigid::{Body, Member};
+use crate::vector::first;
 use std::f64::consts::TAU;
 
 /// The outside of the bodies that an obstacle stops.
@@ -83,8 +84,8 @@ impl Builder<'_> {
     /// The body of an obstacle, and what makes springs at it.
     fn obstacle(&mut self, obstacle: &Obstacle, met: Met) -> Result<(usize, Box<dyn Formulation>), Fault> {
         match &obstacle.shape {
-            ObstacleShape::Plane { point, normal, length } => self.plane(obstacle, met, *point, *normal, *length),
-            ObstacleShape::Circle { centre, radius, hollow } => self.circle(obstacle, met, *centre, *radius, *hollow),
+            ObstacleShape::Plane { point, normal, length } => self.plane(obstacle, met, first(*point), first(*normal), *length),
+            ObstacleShape::Circle { centre, radius, hollow } => self.circle(obstacle, met, first(*centre), *radius, *hollow),
             ObstacleShape::Polyline { points } => Ok(self.polyline(obstacle, met, points)),
         }
     }
@@ -97,7 +98,7 @@ impl Builder<'_> {
         normal: [f64; 2],
         length: Option<f64>,
     ) -> Result<(usize, Box<dyn Formulation>), Fault> {
-        let reference = obstacle.reference.unwrap_or(point);
+        let reference = obstacle.reference.map_or(point, first);
         let shape = plane(seen(point, reference), normal, length, obstacle.interface.thickness, met.mean.length)?;
         // Beyond every picture of the model.
         let far = shape.half.min(20.0 * initial::size(&self.mesh.positions));
@@ -129,7 +130,7 @@ impl Builder<'_> {
         radius: f64,
         hollow: bool,
     ) -> Result<(usize, Box<dyn Formulation>), Fault> {
-        let reference = obstacle.reference.unwrap_or(centre);
+        let reference = obstacle.reference.map_or(centre, first);
         let shape = circle(seen(centre, reference), radius, hollow, obstacle.interface.thickness)?;
         let Circle { middle, radius: pushed, .. } = shape;
         // The solid is on the right: outside of a hollow circle, inside of another.
@@ -155,7 +156,7 @@ impl Builder<'_> {
     fn polyline(&mut self, obstacle: &Obstacle, met: Met, points: &[[f64; 2]]) -> (usize, Box<dyn Formulation>) {
         let (own, closed) = distinct(points);
         let mean = [0, 1].map(|d| own.iter().map(|x| x[d]).sum::<f64>() / own.len() as f64);
-        let reference = obstacle.reference.unwrap_or(mean);
+        let reference = obstacle.reference.map_or(mean, first);
         let arm = |x: &[f64; 2]| [x[0] - reference[0], x[1] - reference[1]];
         let places = own.iter().map(|x| (arm(x), *x)).collect();
         let (body, nodes) = self.register(obstacle, reference, places, points.iter().map(arm).collect());
@@ -231,7 +232,7 @@ impl Builder<'_> {
         let drives = self.drives(&obstacle.motion);
         let [mass, inertia] = [obstacle.mass, obstacle.inertia].map(|mass| mass.unwrap_or(0.0));
         let mass: [f64; 3] = std::array::from_fn(|k| if drives[k].is_none() { [mass, mass, inertia][k] } else { 0.0 });
-        let [vx, vy] = obstacle.velocity;
+        let [vx, vy] = first(obstacle.velocity);
         Body { centre: reference, velocity: [vx, vy, obstacle.spin], mass, drives, ..Body::default() }
     }
 }

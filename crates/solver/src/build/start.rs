@@ -13,6 +13,7 @@ use crate::error::Fault;
 use crate::load::constraint::unit;
 use crate::mesh::surface::Surface;
 use crate::model::{InitialPenetration, Interface, Obstacle, ObstacleShape};
+use crate::vector::first;
 
 /// Rounds over all contacts and obstacles: what is pushed out of one may come into another.
 const ROUNDS: usize = 20;
@@ -123,7 +124,7 @@ impl Builder<'_> {
 
     /// Nodes of a surface that an obstacle may have springs for.
     fn nodes_met(&self, obstacle: &Obstacle, surface: &Surface) -> Vec<u32> {
-        let along = if let ObstacleShape::Plane { normal, .. } = obstacle.shape { unit(normal) } else { None };
+        let along = if let ObstacleShape::Plane { normal, .. } = obstacle.shape { unit(first(normal)) } else { None };
         let is_met = |node: &u32| along.is_none_or(|normal| !self.is_held_along(*node, normal));
         surface.nodes.iter().copied().filter(is_met).collect()
     }
@@ -132,13 +133,13 @@ impl Builder<'_> {
     fn meeting(&self, obstacle: &Obstacle, outline: Outlined) -> Option<Meeting> {
         let thickness = obstacle.interface.thickness;
         let (points, closed, radius) = match &obstacle.shape {
-            ObstacleShape::Circle { centre, radius, hollow: false } => (vec![*centre], None, *radius),
+            ObstacleShape::Circle { centre, radius, hollow: false } => (vec![first(*centre)], None, *radius),
             ObstacleShape::Polyline { points } => {
                 let (own, closed) = distinct(points);
                 (own.to_vec(), Some(closed), 0.0)
             }
             ObstacleShape::Plane { point, normal, length } => {
-                let ends = plane(*point, *normal, *length, thickness, 0.0).ok()?.ends()?.into_iter();
+                let ends = plane(first(*point), first(*normal), *length, thickness, 0.0).ok()?.ends()?.into_iter();
                 (ends.filter(|&x| !self.is_beyond_mirrors(x, &obstacle.parts)).collect(), None, 0.0)
             }
             ObstacleShape::Circle { hollow: true, .. } => return None,
@@ -167,9 +168,9 @@ fn behind(obstacle: &Obstacle, surface: &Surface, positions: &[Vector]) -> Optio
     let shape: Box<dyn Shape> = match &obstacle.shape {
         ObstacleShape::Plane { point, normal, length: wide } => {
             let lengths: f64 = surface.segments.iter().map(|&segment| length(segment, positions)).sum();
-            Box::new(plane(*point, *normal, *wide, thickness, lengths / surface.nodes.len().max(1) as f64).ok()?)
+            Box::new(plane(first(*point), first(*normal), *wide, thickness, lengths / surface.nodes.len().max(1) as f64).ok()?)
         }
-        ObstacleShape::Circle { centre, radius, hollow } => Box::new(circle(*centre, *radius, *hollow, thickness).ok()?),
+        ObstacleShape::Circle { centre, radius, hollow } => Box::new(circle(first(*centre), *radius, *hollow, thickness).ok()?),
         ObstacleShape::Polyline { points } => {
             let (own, closed) = distinct(points);
             let surface = chain((0..own.len() as u32).collect(), closed);

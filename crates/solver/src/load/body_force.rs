@@ -9,6 +9,7 @@
 use super::curve::Curves;
 use crate::mesh::Mesh;
 use crate::model::{Load, Model};
+use crate::vector::first;
 
 type Vector = [f64; 2];
 
@@ -63,7 +64,7 @@ impl BodyForces {
     pub fn new(model: &Model, mesh: &Mesh<2>, curves: &Curves, mass: &[f64], part_mass: &[Vec<(u32, f64)>]) -> Self {
         let load = |load: &Load| {
             let (parts, curve, field) = match load {
-                Load::Gravity { parts, acceleration, curve } => (parts, curve, Field::Uniform(*acceleration)),
+                Load::Gravity { parts, acceleration, curve } => (parts, curve, Field::Uniform(first(*acceleration))),
                 Load::Centrifugal { parts, speed, curve, .. } if model.is_axisymmetric() => (parts, curve, Field::Axial { speed: *speed }),
                 Load::Centrifugal { parts, centre, speed, curve } => (parts, curve, Field::Centrifugal { centre: *centre, speed: *speed }),
                 Load::Damping { .. } | Load::StiffnessDamping { .. } | Load::Force { .. } | Load::Pressure { .. } => return None,

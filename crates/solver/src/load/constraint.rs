@@ -10,6 +10,7 @@ use crate::mesh::Mesh;
 use crate::model::messages::UNKNOWN_NAME;
 use crate::model::{Constraint, Model, Symmetry};
 use crate::rigid::chord;
+use crate::vector::{dot, first};
 
 /// Prescribed directions of one node, orthonormal.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -190,7 +191,7 @@ impl Constraints<2> {
     fn mirror(&mut self, i: usize, symmetry: &Symmetry, place: Place<'_>, faults: &mut Vec<Fault>) {
         let mut found = Telling::new(format!("symmetry[{i}]"));
         self.conditions.push(format!("symmetry[{i}]"));
-        let Some(normal) = unit(symmetry.normal) else { return };
+        let Some(normal) = unit(first(symmetry.normal)) else { return };
         let nodes = on_line(symmetry, normal, place.mesh);
         if nodes.is_empty() {
             faults.push(Fault::new(
@@ -469,7 +470,7 @@ fn without(mobility: Matrix, direction: [f64; 2]) -> Matrix {
 
 /// Unit vector; `None` for a vector without direction.
 #[must_use]
-pub fn unit(v: [f64; 2]) -> Option<[f64; 2]> {
-    let length = (v[0] * v[0] + v[1] * v[1]).sqrt();
-    (length > 0.0 && length.is_finite()).then(|| [v[0] / length, v[1] / length])
+pub fn unit<const D: usize>(v: [f64; D]) -> Option<[f64; D]> {
+    let length = dot(v, v).sqrt();
+    (length > 0.0 && length.is_finite()).then(|| v.map(|component| component / length))
 }

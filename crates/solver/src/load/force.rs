@@ -11,6 +11,7 @@ use crate::error::Fault;
 use crate::mesh::Mesh;
 use crate::model::messages::UNKNOWN_NAME;
 use crate::model::{Load, Model};
+use crate::vector::first;
 
 type Vector = [f64; 2];
 
@@ -46,7 +47,7 @@ impl Forces {
         let (mut loads, mut faults, depth) = (Vec::new(), Vec::new(), Depth::of(model));
         for (i, load) in model.loads.iter().enumerate() {
             let (what, curve) = match load {
-                Load::Force { on, force, curve } => (given(mesh, on, *force, depth, &is_mirror), curve),
+                Load::Force { on, force, curve } => (given(mesh, on, first(*force), depth, &is_mirror), curve),
                 Load::Pressure { on, pressure, curve } => {
                     (mesh.surface(on, &is_mirror).map(|surface| What::Pressure(surface.segments, *pressure)), curve)
                 }

@@ -2,6 +2,7 @@
 //!
 //! Values come from the model file, checked by [`super::check`]; contacts are made of them by [`crate::build`].
 
+use super::in_space;
 use super::motion::Motion;
 
 /// What a contact makes of its surfaces.
@@ -208,16 +209,16 @@ pub enum ObstacleShape {
     /// A straight line.
     Plane {
         /// A point of the line, m; its middle where it has a length.
-        point: [f64; 2],
+        point: [f64; 3],
         /// Normal that points to the free side; any length.
-        normal: [f64; 2],
+        normal: [f64; 3],
         /// Length, m; infinite without.
         length: Option<f64>,
     },
     /// A circle.
     Circle {
         /// Centre, m.
-        centre: [f64; 2],
+        centre: [f64; 3],
         /// Radius, m.
         radius: f64,
         /// Whether bodies are inside of it.
@@ -242,13 +243,13 @@ pub struct Obstacle {
     /// How it moves.
     pub motion: Motion,
     /// Reference point of rotation and moments, m; `None`: the plane's point, the circle's centre, the mean of the polyline's points.
-    pub reference: Option<[f64; 2]>,
+    pub reference: Option<[f64; 3]>,
     /// Mass per metre of depth, kg/m; needed where it is free to move.
     pub mass: Option<f64>,
     /// Moment of inertia about the reference point per metre of depth, kg m; needed where it is free to turn.
     pub inertia: Option<f64>,
     /// Initial velocity where it is free, m/s.
-    pub velocity: [f64; 2],
+    pub velocity: [f64; 3],
     /// Initial spin where it is free, rad/s.
     pub spin: f64,
     /// Law, friction and so on.
@@ -256,10 +257,10 @@ pub struct Obstacle {
 }
 
 impl Obstacle {
-    /// A fixed plane without end that stops all parts; `normal` points to the free side.
+    /// A fixed plane without end that stops all parts; `normal` points to the free side. Vectors have two or three components.
     #[must_use]
-    pub fn wall(name: &str, point: [f64; 2], normal: [f64; 2]) -> Self {
-        Self::fixed(name, ObstacleShape::Plane { point, normal, length: None })
+    pub fn wall<const D: usize>(name: &str, point: [f64; D], normal: [f64; D]) -> Self {
+        Self::fixed(name, ObstacleShape::Plane { point: in_space(point), normal: in_space(normal), length: None })
     }
 
     /// A fixed obstacle that stops all parts.
@@ -273,7 +274,7 @@ impl Obstacle {
             reference: None,
             mass: None,
             inertia: None,
-            velocity: [0.0; 2],
+            velocity: [0.0; 3],
             spin: 0.0,
             interface: Interface::default(),
         }

@@ -1,18 +1,19 @@
-//! What holds, moves and loads bodies from outside, as plain data: symmetry, constraints, loads, boundaries that reflect nothing, joins.
+//! What holds, moves and loads bodies from outside, as plain data: symmetry, constraints, loads, boundaries that reflect nothing, joins. Vectors have three components; in the
+//! plane the third is zero.
 //!
 //! Part of the [`Model`](super::Model); curves and rigid motion are in `mod.rs`.
 
 use super::Drive;
 
-/// `[[symmetry]]`: nodes that lie on a line at the start stay on it.
+/// `[[symmetry]]`: nodes that lie on a line (in space: on a plane) at the start stay on it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Symmetry {
     /// Parts; empty: all.
     pub parts: Vec<String>,
-    /// A point of the line, m.
-    pub point: [f64; 2],
-    /// Normal of the line; any length.
-    pub normal: [f64; 2],
+    /// A point of the line (in space: of the plane), m.
+    pub point: [f64; 3],
+    /// Its normal; any length.
+    pub normal: [f64; 3],
 }
 
 /// `[[constraint]]`: prescribed motion of a set of nodes, by component, or around a point.
@@ -21,11 +22,11 @@ pub struct Constraint {
     /// A part, `part.side`, or a group of a mesh file.
     pub on: String,
     /// Prescribed velocity per component, m/s, zero is fixed; `None`: free, or prescribed in another way.
-    pub velocity: [Option<Drive>; 2],
+    pub velocity: [Option<Drive>; 3],
     /// Prescribed displacement from the initial position per component, m: curves that begin with zero.
-    pub displacement: [Option<Drive>; 2],
+    pub displacement: [Option<Drive>; 3],
     /// Prescribed acceleration per component, m/s²: the velocity begins with the initial one.
-    pub acceleration: [Option<Drive>; 2],
+    pub acceleration: [Option<Drive>; 3],
     /// Prescribed rotation about a point: then nothing else.
     pub rotation: Option<Rotation>,
 }
@@ -47,7 +48,7 @@ pub enum Load {
         /// Parts; empty: all.
         parts: Vec<String>,
         /// Acceleration, m/s².
-        acceleration: [f64; 2],
+        acceleration: [f64; 3],
         /// Key of [`super::Model::curves`]: a factor.
         curve: Option<String>,
     },
@@ -67,7 +68,7 @@ pub enum Load {
         /// A side as `part.side`, or a group of a mesh file.
         on: String,
         /// The whole force, N/m; of an axisymmetric model N.
-        force: [f64; 2],
+        force: [f64; 3],
         /// Key of [`super::Model::curves`]: a factor.
         curve: Option<String>,
     },

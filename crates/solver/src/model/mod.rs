@@ -28,6 +28,13 @@ pub use crate::mesh::shapes::{Disk, Edge, Path, Polygon, Quadrilateral, Rectangl
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+/// A vector of the plane or of space as the model keeps it: with three components, of which those that it lacks are zero (nothing, where they are prescribed).
+#[must_use]
+pub fn in_space<T: Default, const D: usize>(vector: [T; D]) -> [T; 3] {
+    let mut components = vector.into_iter();
+    std::array::from_fn(|_| components.next().unwrap_or_default())
+}
+
 /// A model: bodies, their materials, what acts on them, and what is recorded.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Model {
@@ -198,8 +205,8 @@ pub struct Part {
     /// Where the body of a built-in shape goes.
     pub placement: Placement,
     /// Initial velocity of the centre of mass, m/s.
-    pub velocity: [f64; 2],
-    /// Initial spin about the centre of mass, rad/s, counter-clockwise.
+    pub velocity: [f64; 3],
+    /// Initial spin about the centre of mass, rad/s, counter-clockwise (in space: about the direction of z).
     pub spin: f64,
     /// Stress at the start; `None`: none.
     pub stress_initial: Option<InitialStress>,
@@ -224,7 +231,7 @@ impl Default for Part {
             stress_state: String::new(),
             shape: Shape::Group { mesh: usize::MAX, group: String::new() },
             placement: Placement::default(),
-            velocity: [0.0; 2],
+            velocity: [0.0; 3],
             spin: 0.0,
             stress_initial: None,
             temperature_initial: None,
@@ -305,7 +312,7 @@ pub enum ProbeAt {
         /// Part name.
         part: String,
         /// Initial position, m.
-        point: [f64; 2],
+        point: [f64; 3],
     },
     /// Node number `node` (from 0) of `part`.
     Node {

@@ -9,7 +9,7 @@ use crate::quantity::Dimension;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Motion {
     /// Velocity of its centre of mass (of an obstacle: of its reference point), m/s.
-    pub velocity: [Option<Drive>; 2],
+    pub velocity: [Option<Drive>; 3],
     /// Angular velocity, rad/s, counter-clockwise.
     pub spin: Option<Drive>,
 }
@@ -18,7 +18,7 @@ impl Motion {
     /// No motion at all.
     #[must_use]
     pub fn fixed() -> Self {
-        Self { velocity: [Some(Drive::Constant(0.0)), Some(Drive::Constant(0.0))], spin: Some(Drive::Constant(0.0)) }
+        Self { velocity: [0; 3].map(|_| Some(Drive::Constant(0.0))), spin: Some(Drive::Constant(0.0)) }
     }
 }
 

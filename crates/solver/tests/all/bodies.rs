@@ -58,12 +58,18 @@ pub(crate) fn mapped_rectangle() -> Shape {
 
 /// Adds a body with a probe of its mean position and velocity.
 pub(crate) fn add(model: &mut Model, name: &str, shape: Shape, velocity: [f64; 2]) {
-    model.parts.push(Part { name: name.into(), material: "soft".into(), shape, velocity, ..Part::default() });
+    model.parts.push(Part {
+        name: name.into(),
+        material: "soft".into(),
+        shape,
+        velocity: embate_solver::model::in_space(velocity),
+        ..Part::default()
+    });
     model.probes.push(Probe { name: name.into(), at: ProbeAt::Set { set: name.into() } });
 }
 
 pub(crate) fn probe(model: &mut Model, name: &str, part: &str, point: [f64; 2]) {
-    model.probes.push(Probe { name: name.into(), at: ProbeAt::Point { part: part.into(), point } });
+    model.probes.push(Probe { name: name.into(), at: ProbeAt::Point { part: part.into(), point: embate_solver::model::in_space(point) } });
 }
 
 pub(crate) fn touch(model: &mut Model, first: &str, second: &str) {
@@ -116,7 +122,7 @@ pub(crate) fn rough(coefficient: f64) -> Interface {
 }
 
 pub(crate) fn gravity(model: &mut Model, acceleration: [f64; 2]) {
-    model.loads.push(Load::Gravity { parts: vec![], acceleration, curve: None });
+    model.loads.push(Load::Gravity { parts: vec![], acceleration: embate_solver::model::in_space(acceleration), curve: None });
 }
 
 /// Makes a part rigid; it may move as `motion` says.
@@ -126,7 +132,7 @@ pub(crate) fn stiffen(model: &mut Model, part: &str, motion: Motion) {
 
 /// Motion as told; free where nothing is.
 pub(crate) fn driven(velocity: [Option<f64>; 2], spin: Option<f64>) -> Motion {
-    Motion { velocity: velocity.map(|v| v.map(Drive::from)), spin: spin.map(Drive::from) }
+    Motion { velocity: embate_solver::model::in_space(velocity.map(|v| v.map(Drive::from))), spin: spin.map(Drive::from) }
 }
 
 /// A value of the history now.

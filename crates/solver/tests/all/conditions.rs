@@ -7,7 +7,7 @@ use embate_solver::model::{Constraint, Curve, CurveShape, Drive, Load, Model, Ob
 fn fix(model: &mut Model, on: &str, velocity: [Option<f64>; 2]) {
     model.constraints.push(Constraint {
         on: on.into(),
-        velocity: velocity.map(|velocity| velocity.map(Into::into)),
+        velocity: embate_solver::model::in_space(velocity.map(|velocity| velocity.map(Into::into))),
         ..Constraint::default()
     });
 }
@@ -18,7 +18,7 @@ fn nodes_on_a_symmetry_line_stay_exactly_on_it() {
     add(&mut model, "block", rectangle([0.0, 0.0], [0.1, 0.06], [6, 4]), [0.0, -15.0]);
     add(&mut model, "floor", rectangle([0.0, -0.051], [0.2, 0.05], [10, 3]), [0.0, 0.0]);
     touch(&mut model, "block", "floor");
-    model.symmetries.push(Symmetry { normal: [3.0, 0.0], ..Symmetry::default() });
+    model.symmetries.push(Symmetry { normal: [3.0, 0.0, 0.0], ..Symmetry::default() });
     let mut simulation = simulation(&model);
     let start = simulation.frame().positions;
     simulation.advance(f64::INFINITY, u64::MAX).unwrap();
@@ -40,7 +40,7 @@ fn a_skew_symmetry_line_is_as_good_as_a_straight_one() {
         let mut model = model(8e-4);
         let mesh = mapped([6, 4], |u, v| turn([0.08 * u, v * (0.03 + 0.02 * u)]));
         add_mesh(&mut model, "wedge", mesh, turn([-20.0, 0.0]));
-        model.symmetries.push(Symmetry { normal: turn([0.0, 1.0]), ..Symmetry::default() });
+        model.symmetries.push(Symmetry { normal: embate_solver::model::in_space(turn([0.0, 1.0])), ..Symmetry::default() });
         model.obstacles.push(Obstacle::wall("end", turn([-0.001, 0.0]), turn([1.0, 0.0])));
         let mut simulation = simulation(&model);
         let on_line: Vec<usize> = (0..35).filter(|&i| across(simulation.frame().positions[i], angle).abs() < 1e-15).collect();
@@ -68,7 +68,7 @@ fn two_symmetry_lines_with_one_normal_do_not_swallow_what_lies_between() {
         add(&mut model, name, rectangle([x, 0.0], [0.1, 0.01], [20, 1]), [speed, 0.0]);
     }
     for y in [0.0, 0.01] {
-        model.symmetries.push(Symmetry { point: [0.0, y], normal: [0.0, 1.0], ..Symmetry::default() });
+        model.symmetries.push(Symmetry { point: [0.0, y, 0.0], normal: [0.0, 1.0, 0.0], ..Symmetry::default() });
     }
     touch(&mut model, "left", "right");
     let (simulation, history) = run(&model);
@@ -115,13 +115,13 @@ fn contradictions_are_told_with_condition_and_place() {
         assert!(told[0].contains(word), "{word}: {told:?}");
     }
     // The same velocity twice is no contradiction, nor is another direction.
-    model.constraints[1].velocity = [Some(1.0.into()), Some(0.0.into())];
+    model.constraints[1].velocity = [Some(1.0.into()), Some(0.0.into()), None];
     assert_eq!(faults(&model), Vec::<String>::new());
     // A symmetry line and a drive across it; where nothing lies on a line; a name of nothing.
-    model.symmetries.push(Symmetry { normal: [1.0, 0.0], ..Symmetry::default() });
+    model.symmetries.push(Symmetry { normal: [1.0, 0.0, 0.0], ..Symmetry::default() });
     let told = faults(&model);
     assert!(told.iter().any(|fault| fault.contains("constraint[0]") && fault.contains("(0.000000e0, 0.000000e0)")), "{told:?}");
-    model.symmetries[0].point = [0.03, 0.0];
+    model.symmetries[0].point = [0.03, 0.0, 0.0];
     assert!(faults(&model)[0].contains("no node lies on this symmetry line"), "{:?}", faults(&model));
 }
 
@@ -129,7 +129,7 @@ fn contradictions_are_told_with_condition_and_place() {
 fn of_many_contradictions_twenty_are_told_and_the_others_counted() {
     let mut model = model(1e-3);
     add(&mut model, "block", rectangle([0.0, 0.0], [0.1, 0.05], [2, 30]), [0.0, 0.0]);
-    model.symmetries.push(Symmetry { normal: [1.0, 0.0], ..Symmetry::default() });
+    model.symmetries.push(Symmetry { normal: [1.0, 0.0, 0.0], ..Symmetry::default() });
     fix(&mut model, "block.left", [Some(1.0), None]);
     let told = faults(&model);
     assert_eq!(told.len(), 21);
@@ -173,7 +173,7 @@ fn displacements_and_accelerations_lead_nodes_where_they_say() {
     let smooth = CurveShape::Table { times: vec![0.2e-3, 0.7e-3], values: vec![0.0, 3e-3], smooth: true };
     model.constraints[0].displacement[1] = curve(&mut model, "smooth", smooth);
     model.constraints[1].displacement[0] = curve(&mut model, "formula", CurveShape::Expression("1e-3*sin(pi*t/2e-3)".into()));
-    model.constraints[2].acceleration = [Some(5e3.into()), Some((-8e3).into())];
+    model.constraints[2].acceleration = [Some(5e3.into()), Some((-8e3).into()), None];
     let push = curve(&mut model, "pushed", CurveShape::Table { times: vec![0.0, end], values: vec![0.0, 6e3], smooth: false });
     model.constraints[3].acceleration[1] = push;
     let mut simulation = simulation(&model);
@@ -243,7 +243,7 @@ fn round_off_of_a_skew_line_is_no_contradiction() {
     let mut model = model(1e-5);
     add(&mut model, "block", rectangle([0.0, 0.0], [0.1, 0.05], [2, 1]), [0.0, 0.0]);
     // As cos(90°) comes out of a program.
-    model.symmetries.push(Symmetry { normal: [6.123_233_995_736_766e-17, 1.0], ..Symmetry::default() });
+    model.symmetries.push(Symmetry { normal: [6.123_233_995_736_766e-17, 1.0, 0.0], ..Symmetry::default() });
     fix(&mut model, "block.bottom", [Some(1.0), Some(0.0)]);
     assert_eq!(faults(&model), Vec::<String>::new());
 }
@@ -262,7 +262,7 @@ fn gravity_acts_on_the_parts_it_names_and_on_their_share_of_common_nodes() {
     add_groups(&mut model, mesh, &["left", "right"], [0.0, 0.0]);
     let gravity =
         |parts: &[&str], acceleration| Load::Gravity { parts: parts.iter().map(|p| (*p).to_string()).collect(), acceleration, curve: None };
-    model.loads = vec![gravity(&["apple", "left"], [0.0, -10.0]), gravity(&["apple"], [2.0, 0.0])];
+    model.loads = vec![gravity(&["apple", "left"], [0.0, -10.0, 0.0]), gravity(&["apple"], [2.0, 0.0, 0.0])];
     let steps = every_step(&model);
     let velocity = |name: &str| ["vx", "vy"].map(|v| *steps.column(&format!("{name}.{v}")).last().unwrap());
     let time = model.run.end;
@@ -273,7 +273,7 @@ fn gravity_acts_on_the_parts_it_names_and_on_their_share_of_common_nodes() {
     let mut model = model.clone();
     model.parts.drain(..2);
     model.probes.clear();
-    model.loads = vec![gravity(&["left"], [0.0, -10.0])];
+    model.loads = vec![gravity(&["left"], [0.0, -10.0, 0.0])];
     let mut simulation = simulation(&model);
     simulation.advance(f64::INFINITY, u64::MAX).unwrap();
     let frame = simulation.frame();
@@ -324,7 +324,7 @@ fn a_body_that_falls_far_faster_than_its_waves_is_told_with_node_and_speed() {
     // From v0, under gravity g, the first step with v > limit is known: the block is at rest inside.
     let mut model = model(1e-3);
     add(&mut model, "block", rectangle([0.0, 0.0], [0.1, 0.1], [2, 2]), [3.0, 0.0]);
-    model.loads.push(Load::Gravity { parts: vec![], acceleration: [0.0, -1e9], curve: None });
+    model.loads.push(Load::Gravity { parts: vec![], acceleration: [0.0, -1e9, 0.0], curve: None });
     let fall = |model: &Model| simulation(model).advance(f64::INFINITY, u64::MAX).unwrap_err();
     let Error::Runaway { place, speed, limit, time, .. } = fall(&model) else { panic!("it runs away") };
     assert!(place.starts_with("node ") && place.contains("\"block\""), "{place}");

@@ -280,7 +280,7 @@ fn a_half_model_is_half_of_the_whole() {
                 probe(&mut model, name, part, point);
             }
             if half {
-                model.symmetries.push(Symmetry { normal: [-1.0, 0.0], ..Symmetry::default() });
+                model.symmetries.push(Symmetry { normal: [-1.0, 0.0, 0.0], ..Symmetry::default() });
             }
             run(&model)
         });

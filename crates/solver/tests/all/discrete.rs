@@ -15,9 +15,9 @@ fn model(spring: Spring, velocity: f64) -> Model {
         model.parts.push(Part { name: name.into(), material: "m".into(), shape, ..Part::default() });
     }
     let still = Some(Drive::Constant(0.0));
-    model.constraints.push(Constraint { on: "left".into(), velocity: [still.clone(), still], ..Constraint::default() });
+    model.constraints.push(Constraint { on: "left".into(), velocity: [still.clone(), still, None], ..Constraint::default() });
     model.parts[1].rigid = Some(Motion::default());
-    model.parts[1].velocity = [velocity, 0.0];
+    model.parts[1].velocity = [velocity, 0.0, 0.0];
     model.springs.push(Spring { between: ["left.right".into(), "right.left".into()], ..spring });
     model.output.pictures = false;
     model
@@ -60,7 +60,7 @@ fn a_point_mass_makes_a_body_slower_and_heavier() {
     // Gravity pulls on it too.
     let mut falling = model.clone();
     falling.springs.clear();
-    falling.loads.push(Load::Gravity { parts: Vec::new(), acceleration: [2.0, 0.0], curve: None });
+    falling.loads.push(Load::Gravity { parts: Vec::new(), acceleration: [2.0, 0.0, 0.0], curve: None });
     let mut at = 0.0;
     run(&falling, 0.5, |_, u| at = u);
     assert!((at - (0.05 + 0.25)).abs() < 2e-3, "{at}");

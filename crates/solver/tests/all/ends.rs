@@ -98,7 +98,7 @@ fn on_a_corner(x: f64, velocity: [f64; 2]) -> Model {
     touch(&mut model, "lower", "upper.bottom");
     model.constraints.push(Constraint {
         on: "lower.bottom".into(),
-        velocity: [Some(0.0.into()), Some(0.0.into())],
+        velocity: [Some(0.0.into()), Some(0.0.into()), None],
         ..Constraint::default()
     });
     model

@@ -29,7 +29,7 @@ pub(crate) fn torn_bar(failure: &[(&str, f64)]) -> Model {
     mesh.groups = vec![group("left", 2, between(0, 10)), group("middle", 2, between(10, 12)), group("right", 2, between(12, 22))];
     add_groups(&mut model, mesh, &["left", "middle", "right"], [0.0, 0.0]);
     for (part, (material, velocity)) in model.parts.iter_mut().zip([("strong", -120.0), ("weak", 0.0), ("strong", 120.0)]) {
-        (part.material, part.velocity) = (material.into(), [velocity, 0.0]);
+        (part.material, part.velocity) = (material.into(), [velocity, 0.0, 0.0]);
     }
     model
 }

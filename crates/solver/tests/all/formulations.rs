@@ -195,10 +195,10 @@ fn a_block_that_slides_is_braked_by_the_coefficient_times_what_presses() {
             add(&mut model, "block", rectangle([0.02, 0.02], [0.05, 0.03], [5, 3]), [8.0, 0.0]);
             model.constraints.push(Constraint {
                 on: "slab.bottom".into(),
-                velocity: [Some(0.0.into()), Some(0.0.into())],
+                velocity: [Some(0.0.into()), Some(0.0.into()), None],
                 ..Constraint::default()
             });
-            model.loads.push(Load::Gravity { parts: vec!["block".into()], acceleration: [0.0, -1000.0], curve: None });
+            model.loads.push(Load::Gravity { parts: vec!["block".into()], acceleration: [0.0, -1000.0, 0.0], curve: None });
             let interface =
                 Interface { law: law.clone(), friction: Some(FRICTION), damping: damping_of(&law, 0.3), ..Interface::default() };
             model.contacts.push(Contact { formulation, interface, ..Contact::between("slide", "slab.top", "block.bottom") });
@@ -220,7 +220,11 @@ fn a_soft_layer_takes_the_energy_that_its_table_says() {
         let mut model = slender(6e-3, 1e11, density);
         add(&mut model, "block", rectangle([0.0, 1e-3], [0.1, height], [4, 2]), [0.0, -speed]);
         add(&mut model, "plate", rectangle([0.0, -0.02], [0.1, 0.02], [7, 1]), [0.0; 2]);
-        model.constraints.push(Constraint { on: "plate".into(), velocity: [Some(0.0.into()), Some(0.0.into())], ..Constraint::default() });
+        model.constraints.push(Constraint {
+            on: "plate".into(),
+            velocity: [Some(0.0.into()), Some(0.0.into()), None],
+            ..Constraint::default()
+        });
         let law = ContactLaw::PressureGap { gaps: vec![-2e-3, 0.0, 5e-4], pressures: vec![1e5, 2e4, 0.0] };
         let interface = Interface { law, ..Interface::default() };
         model.contacts.push(Contact { formulation, interface, ..Contact::between("layer", "plate.top", "block.bottom") });
@@ -331,10 +335,14 @@ fn patch_error(formulation: Formulation, penalty: Penalty, meshes: [usize; 2], a
     let velocity = [Some(Drive::Curve("along_x".into())), Some(Drive::Curve("along_y".into()))];
     model.constraints.push(Constraint {
         on: "lower-bottom".into(),
-        velocity: [Some(0.0.into()), Some(0.0.into())],
+        velocity: [Some(0.0.into()), Some(0.0.into()), None],
         ..Constraint::default()
     });
-    model.constraints.push(Constraint { on: "upper-top".into(), velocity, ..Constraint::default() });
+    model.constraints.push(Constraint {
+        on: "upper-top".into(),
+        velocity: embate_solver::model::in_space(velocity),
+        ..Constraint::default()
+    });
     model.loads.push(Load::Damping { parts: vec![], rate: 150.0, active: [0.0, f64::INFINITY] });
     model.contacts.push(Contact { formulation, interface: penalty.into(), ..Contact::between("seam", "lower-top", "upper-bottom") });
     let mut simulation = simulation(&model);
@@ -387,7 +395,7 @@ fn a_body_alone_feels_itself_in_no_formulation() {
     for formulation in [Formulation::Segment, Formulation::Pinball] {
         for thickness in [0.0, 1e-3] {
             for (name, mut model) in alone() {
-                model.parts[0].velocity = [10.0, 0.0];
+                model.parts[0].velocity = [10.0, 0.0, 0.0];
                 model.parts[0].spin = 300.0;
                 (model.run.energy_limit, model.run.max_steps) = (1.0, Some(300));
                 all(&mut model);

@@ -53,7 +53,7 @@ fn bar_of_parts(law: &str, size: [f64; 2], elements: [usize; 2], end: f64, veloc
             name: format!("part{k}"),
             material: "m".into(),
             shape: Shape::Group { mesh: 0, group: name },
-            velocity,
+            velocity: embate_solver::model::in_space(velocity),
             ..Part::default()
         });
     }
@@ -64,13 +64,13 @@ fn bar_of_parts(law: &str, size: [f64; 2], elements: [usize; 2], end: f64, veloc
 fn hold(model: &mut Model, on: &str, velocity: [Option<f64>; 2]) {
     model.constraints.push(Constraint {
         on: on.into(),
-        velocity: velocity.map(|velocity| velocity.map(Into::into)),
+        velocity: embate_solver::model::in_space(velocity.map(|velocity| velocity.map(Into::into))),
         ..Constraint::default()
     });
 }
 
 fn gravity(model: &mut Model) {
-    model.loads.push(Load::Gravity { parts: Vec::new(), acceleration: [0.0, -GRAVITY], curve: None });
+    model.loads.push(Load::Gravity { parts: Vec::new(), acceleration: [0.0, -GRAVITY, 0.0], curve: None });
 }
 
 fn simulation(model: &Model) -> Simulation {
@@ -291,7 +291,7 @@ fn cantilever(law: &str, safety: f64) -> f64 {
     model.materials.values_mut().for_each(stay_elastic);
     model.run.safety = safety;
     model.run.energy_limit = 0.5;
-    model.parts[0].velocity = [0.0, 3.0];
+    model.parts[0].velocity = [0.0, 3.0, 0.0];
     hold(&mut model, "bar.left", [Some(0.0), Some(0.0)]);
     let simulation = finished(&model);
     assert!(simulation.ledger().residual() < 1e-12, "{law}");
@@ -333,7 +333,7 @@ fn any_number_of_threads_and_every_instruction_set_give_the_same_state() {
     for law in solids() {
         let mut model = bar("quad4", law.name, [1.0, 1.0], [70, 65], 1.0);
         model.run.max_steps = Some(25);
-        model.parts[0].velocity = [-3.0, 0.5];
+        model.parts[0].velocity = [-3.0, 0.5, 0.0];
         gravity(&mut model);
         hold(&mut model, "bar.left", [Some(0.0), None]);
         hold(&mut model, "bar.bottom", [None, Some(0.0)]);

@@ -172,7 +172,7 @@ fn a_block_on_a_rough_floor_stops_after_the_way_that_its_energy_lasts() {
     let mut model = model(0.2);
     let (speed, friction, gravity) = (0.5, 0.4, 9.81);
     add(&mut model, "block", rectangle([0.0, 0.0], [0.1, 0.02], [5, 1]), [speed, 0.0]);
-    model.loads.push(embate_solver::model::Load::Gravity { parts: vec![], acceleration: [0.0, -gravity], curve: None });
+    model.loads.push(embate_solver::model::Load::Gravity { parts: vec![], acceleration: [0.0, -gravity, 0.0], curve: None });
     let floor = Obstacle::wall("floor", [0.0; 2], [0.0, 1.0]);
     let rough = Friction { coefficient: friction, ..ROUGH };
     model.obstacles.push(Obstacle { interface: Interface { friction: Some(rough), damping: 0.2, ..Interface::default() }, ..floor });

@@ -73,7 +73,7 @@ fn a_half_model_knows_what_is_inside() {
             touch(&mut model, "block", "other");
             let mut normal = [0.0; 2];
             normal[axis] = 1.0;
-            model.symmetries.push(Symmetry { normal, ..Symmetry::default() });
+            model.symmetries.push(Symmetry { normal: embate_solver::model::in_space(normal), ..Symmetry::default() });
             model_faults(&model).len()
         };
         assert_eq!(scene(0.2), 0);
@@ -92,14 +92,14 @@ fn ignored_penetrations_are_the_zero_until_the_surfaces_part() {
     assert!(told.iter().any(|line| line.contains("1.400e-2 m inside") && line.contains("counts as zero")), "{told:?}");
     // Pressed together, they push from there on.
     let mut model = overlapping(InitialPenetration::Ignore);
-    model.parts[1].velocity = [0.0, -10.0];
+    model.parts[1].velocity = [0.0, -10.0, 0.0];
     let (simulation, history) = run(&model);
     assert!(history.largest("energy.contact") > 1.0 && history.last("upper.vy") > 0.0, "{}", history.last("upper.vy"));
     assert!(simulation.summary().penetration_max < 2e-3);
     assert!(simulation.summary().energy_drift < 0.01);
     // Apart and back again, they meet at the surface.
     let mut model = overlapping(InitialPenetration::Ignore);
-    model.parts[1].velocity = [0.0, 20.0];
+    model.parts[1].velocity = [0.0, 20.0, 0.0];
     model.run.end = 2.4e-3;
     model.obstacles.push(Obstacle::wall("ceiling", [0.0, 0.15], [0.0, -1.0]));
     model.obstacles[0].parts = vec!["upper".into()];
@@ -160,7 +160,7 @@ fn nodes_that_are_pushed_out_stay_on_their_symmetry_line() {
     add(&mut model, "plate", rectangle([0.0, -0.02], [0.1, 0.0225], [15, 4]), [0.0, 0.0]);
     touch(&mut model, "disk", "plate");
     model.contacts[0].interface.initial_penetration = InitialPenetration::PushOut;
-    model.symmetries.push(Symmetry { normal: [1.0, 0.0], ..Symmetry::default() });
+    model.symmetries.push(Symmetry { normal: [1.0, 0.0, 0.0], ..Symmetry::default() });
     let simulation = simulation(&model);
     let on_line = simulation.frame().positions.iter().filter(|x| x[0].abs() < 1e-15).count();
     assert_eq!(on_line, 4 + 4 + 5);
@@ -200,11 +200,11 @@ fn with_obstacles() -> Vec<(&'static str, Model, Gap)> {
         model
     };
     let away = |centre: [f64; 2]| move |x: [f64; 2]| (x[0] - centre[0]).hypot(x[1] - centre[1]);
-    let plane = ObstacleShape::Plane { point: [0.0, 0.001], normal: [0.1, 1.0], length: None };
-    let plate = ObstacleShape::Plane { point: [0.05, 0.0008], normal: [0.0, 1.0], length: Some(0.2) };
-    let big = ObstacleShape::Circle { centre: [0.05, -0.299], radius: 0.3, hollow: false };
-    let small = ObstacleShape::Circle { centre: [0.052, -0.003], radius: 0.004, hollow: false };
-    let hollow = ObstacleShape::Circle { centre: [0.05, 0.05], radius: 0.0702, hollow: true };
+    let plane = ObstacleShape::Plane { point: [0.0, 0.001, 0.0], normal: [0.1, 1.0, 0.0], length: None };
+    let plate = ObstacleShape::Plane { point: [0.05, 0.0008, 0.0], normal: [0.0, 1.0, 0.0], length: Some(0.2) };
+    let big = ObstacleShape::Circle { centre: [0.05, -0.299, 0.0], radius: 0.3, hollow: false };
+    let small = ObstacleShape::Circle { centre: [0.052, -0.003, 0.0], radius: 0.004, hollow: false };
+    let hollow = ObstacleShape::Circle { centre: [0.05, 0.05, 0.0], radius: 0.0702, hollow: true };
     let tip = ObstacleShape::Polyline { points: vec![[-0.2, -0.1], [0.049, 0.001], [0.2, -0.1], [-0.2, -0.1]] };
     vec![
         ("plane", with(plane), Box::new(|x| (0.1 * x[0] + x[1] - 0.001) / 1.01_f64.sqrt())),
@@ -265,7 +265,7 @@ fn the_side_of_a_hole_knows_what_is_inside_as_the_whole_body_does() {
     // A half on its symmetry line, whose sides end there.
     let half = |sides: bool, radius: f64| {
         let mut model = press_fit(sides, 0.5 * TAU, radius);
-        model.symmetries.push(Symmetry { normal: [0.0, 1.0], ..Symmetry::default() });
+        model.symmetries.push(Symmetry { normal: [0.0, 1.0, 0.0], ..Symmetry::default() });
         model
     };
     assert_eq!(told(&half(true, 0.01005)), told(&half(false, 0.01005)));
@@ -277,7 +277,7 @@ fn levels_are_right_in_a_hole_whatever_was_inside_at_the_start() {
     for what in [InitialPenetration::Ignore, InitialPenetration::PushOut] {
         let mut model = press_fit(true, TAU, 0.01005);
         model.contacts[0].interface.initial_penetration = what;
-        model.parts[0].velocity = [40.0, 15.0];
+        model.parts[0].velocity = [40.0, 15.0, 0.0];
         let (simulation, history) = run(&model);
         let summary = simulation.summary();
         assert!(history.largest("energy.contact") > 0.0 && summary.contact.unverified == 0, "{summary:?}");

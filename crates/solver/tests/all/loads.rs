@@ -57,7 +57,7 @@ fn the_impulse_of_a_force_is_the_integral_of_its_curve_whatever_the_steps() {
         add(&mut model, "block", rectangle([0.0, 0.0], [0.1, 0.05], [8, steps]), [0.0, 0.0]);
         let shape = CurveShape::Table { times: vec![1e-5, 1.3e-5, 2e-5, 6.1e-5], values: vec![0.0, 2.0, 1.0, 0.0], smooth: false };
         model.curves.insert("hit".into(), Curve { shape, dimension: None });
-        model.loads.push(Load::Force { on: "block.top".into(), force: [3e3, -8e3], curve: Some("hit".into()) });
+        model.loads.push(Load::Force { on: "block.top".into(), force: [3e3, -8e3, 0.0], curve: Some("hit".into()) });
         let (simulation, history) = run(&model);
         let impulse = 0.3e-5 + 0.5 * 3.0 * 0.7e-5 + 0.5 * 4.1e-5;
         for (component, force) in [("block.vx", 3e3), ("block.vy", -8e3)] {
@@ -77,7 +77,7 @@ fn gravity_follows_a_curve_and_so_does_what_is_rigid() {
     add(&mut model, "hard", rectangle([1.0, 0.0], [0.1, 0.1], [3, 3]), [0.0, 0.0]);
     model.parts[1].rigid = Some(Motion::default());
     let factor = curve(&mut model, "c", "1 + sin(2*pi*t/1e-3)");
-    model.loads.push(Load::Gravity { parts: vec![], acceleration: [0.0, -10.0], curve: factor });
+    model.loads.push(Load::Gravity { parts: vec![], acceleration: [0.0, -10.0, 0.0], curve: factor });
     let (simulation, history) = run(&model);
     for name in ["soft", "hard"] {
         let (velocity, fallen) = (history.last(&format!("{name}.vy")), history.last(&format!("{name}.y")) - 0.05);
@@ -140,7 +140,11 @@ fn a_rod_in_a_turning_frame_grows_as_the_closed_form_says() {
     let (length, speed, end) = (0.2, 700.0, 6e-3);
     let mut model = slender(end, 1e9, 1e3);
     add(&mut model, "rod", rectangle([0.3, 0.0], [length, 0.01], [40, 1]), [0.0, 0.0]);
-    model.constraints.push(Constraint { on: "rod.left".into(), velocity: [Some(0.0.into()), Some(0.0.into())], ..Constraint::default() });
+    model.constraints.push(Constraint {
+        on: "rod.left".into(),
+        velocity: [Some(0.0.into()), Some(0.0.into()), None],
+        ..Constraint::default()
+    });
     let shape = CurveShape::Table { times: vec![0.0, 2e-3], values: vec![0.0, 1.0], smooth: true };
     model.curves.insert("up".into(), Curve { shape, dimension: None });
     model.loads.push(Load::Centrifugal { parts: vec![], centre: [0.3, 0.005], speed, curve: Some("up".into()) });
@@ -199,11 +203,15 @@ fn bar(angle: f64, height: f64, poisson: f64, shear: bool) -> (Simulation, f64, 
     model.run.end = 0.16 / speed;
     let curve = pulse(&mut model, 0.04 / speed);
     if shear {
-        model.constraints.push(Constraint { on: "bar".into(), velocity: [Some(0.0.into()), None], ..Constraint::default() });
-        model.loads.push(Load::Force { on: "start".into(), force: [0.0, 1e5 * height], curve });
+        model.constraints.push(Constraint { on: "bar".into(), velocity: [Some(0.0.into()), None, None], ..Constraint::default() });
+        model.loads.push(Load::Force { on: "start".into(), force: [0.0, 1e5 * height, 0.0], curve });
     } else {
         for y in [0.0, height] {
-            model.symmetries.push(Symmetry { point: turn([0.0, y]), normal: turn([0.0, 1.0]), ..Symmetry::default() });
+            model.symmetries.push(Symmetry {
+                point: embate_solver::model::in_space(turn([0.0, y])),
+                normal: embate_solver::model::in_space(turn([0.0, 1.0])),
+                ..Symmetry::default()
+            });
         }
         model.loads.push(Load::Pressure { on: "start".into(), pressure: 1e5, curve });
     }
@@ -247,7 +255,7 @@ fn two_blocks_that_are_tied_bounce_like_one() {
         } else {
             add(&mut model, "whole", rectangle([0.0, 0.001], [0.1, 0.05], [6, 3]), [0.0, -10.0]);
         }
-        model.loads.push(Load::Gravity { parts: vec![], acceleration: [5.0, -9.81], curve: None });
+        model.loads.push(Load::Gravity { parts: vec![], acceleration: [5.0, -9.81, 0.0], curve: None });
         let top: &[&str] = if cut { &["left.top", "right.top"] } else { &["whole.top"] };
         model.loads.extend(top.iter().map(|on| Load::Pressure { on: (*on).into(), pressure: 1e5, curve: None }));
         model.loads.push(Load::Damping { parts: vec![], rate: 100.0, active: [0.0, f64::INFINITY] });
@@ -281,8 +289,8 @@ fn tied_blocks_in_flight_move_exactly_like_one_and_keep_their_momentum() {
             let (left, right): (Vec<_>, Vec<_>) = cells.into_iter().enumerate().partition(|(i, _)| i % 6 < 3);
             mesh.groups = [("a", left), ("b", right)].map(|(name, cells)| group(name, 2, cells.into_iter().map(|(_, cell)| cell))).into();
             add_groups(&mut model, mesh, &["a", "b"], [0.0, 0.0]);
-            model.parts[0].velocity = [0.0, 40.0];
-            model.parts[1].velocity = [0.0, -40.0];
+            model.parts[0].velocity = [0.0, 40.0, 0.0];
+            model.parts[1].velocity = [0.0, -40.0, 0.0];
         }
         moved(&model)
     };
@@ -327,7 +335,7 @@ fn a_quarter_moves_like_the_whole_that_spins() {
     let flying = |model: &mut Model, centre: [f64; 2]| {
         let part = model.parts.last_mut().unwrap();
         part.spin = spin;
-        part.velocity = [-spin * centre[1], spin * centre[0]];
+        part.velocity = [-spin * centre[1], spin * centre[0], 0.0];
     };
     let turned = Image::Turned { centre: [0.0; 2], angle: FRAC_PI_2 };
     let square = |quarter: bool| {
@@ -361,7 +369,7 @@ fn a_quarter_moves_like_the_whole_that_spins() {
         model.loads.push(Load::Pressure { on: "ring.inner".into(), pressure: 1e7, curve: None });
         model.non_reflecting.push(NonReflecting { on: "ring.outer".into() });
         model.obstacles.push(Obstacle {
-            shape: embate_solver::model::ObstacleShape::Circle { centre: [0.0; 2], radius: 0.0502, hollow: true },
+            shape: embate_solver::model::ObstacleShape::Circle { centre: [0.0; 3], radius: 0.0502, hollow: true },
             ..Obstacle::wall("around", [0.0; 2], [1.0, 0.0])
         });
         if quarter {
@@ -397,7 +405,8 @@ fn joins_that_do_not_fit_and_motions_that_tear_them_are_told() {
     // Two ends of one period that shall move differently; the message names both conditions.
     model.joins.clear();
     join(&mut model, ["a.left", "a.right"], Image::Translated([0.1, 0.0]));
-    let hold = |on: &str, velocity: f64| Constraint { on: on.into(), velocity: [Some(velocity.into()), None], ..Constraint::default() };
+    let hold =
+        |on: &str, velocity: f64| Constraint { on: on.into(), velocity: [Some(velocity.into()), None, None], ..Constraint::default() };
     model.constraints = vec![hold("a.left", 0.0), hold("a.right", 2.0)];
     let told = faults(&model);
     assert!(told.len() == 3 && told[0].contains("constraint[0] on \"a.left\" already moves it at 0 m/s"), "{told:?}");

@@ -100,9 +100,9 @@ fn a_mixed_part_has_the_energies_of_all_its_elements_and_the_same_bits_for_any_t
         return;
     }
     let mut model = block(4, cells(4));
-    model.parts[0].velocity = [0.0, -1.0];
-    model.symmetries.push(Symmetry { normal: [0.0, 1.0], ..Symmetry::default() });
-    model.loads.push(Load::Gravity { parts: vec![], acceleration: [0.0, -9.81], curve: None });
+    model.parts[0].velocity = [0.0, -1.0, 0.0];
+    model.symmetries.push(Symmetry { normal: [0.0, 1.0, 0.0], ..Symmetry::default() });
+    model.loads.push(Load::Gravity { parts: vec![], acceleration: [0.0, -9.81, 0.0], curve: None });
     let mut hashes = Vec::new();
     for threads in [1, 3] {
         let mut simulation = Simulation::new(&model, &Options { threads, ..Options::default() }).unwrap();

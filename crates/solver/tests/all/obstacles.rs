@@ -15,7 +15,7 @@ fn a_free_plane_that_is_hit_keeps_both_momenta_and_the_energy() {
         inertia: Some(0.02),
         spin: 2.0,
         interface: rough(0.2),
-        ..Obstacle::fixed("plate", ObstacleShape::Plane { point: [0.0, -0.031], normal: [0.0, 1.0], length: Some(0.2) })
+        ..Obstacle::fixed("plate", ObstacleShape::Plane { point: [0.0, -0.031, 0.0], normal: [0.0, 1.0, 0.0], length: Some(0.2) })
     });
     let simulation = to_end(&model);
     let summary = simulation.summary();
@@ -30,7 +30,7 @@ fn a_driven_plane_gives_a_block_the_energy_that_is_found_in_it() {
     add(&mut model, "block", rectangle([0.0, 0.0], [0.1, 0.05], [8, 4]), [0.0, 0.0]);
     model.constraints.push(Constraint {
         on: "block.bottom".into(),
-        velocity: [Some(0.0.into()), Some(0.0.into())],
+        velocity: [Some(0.0.into()), Some(0.0.into()), None],
         ..Constraint::default()
     });
     model.curves.insert("press".into(), Curve::table(vec![0.0, 1e-3], vec![0.0, -2.0]));
@@ -62,14 +62,14 @@ fn a_circle_is_pressed_into_a_block_and_comes_out_again_with_nothing_lost() {
         add(&mut model, "block", rectangle([-0.06, -0.05], [0.12, 0.05], elements), [0.0, 0.0]);
         model.constraints.push(Constraint {
             on: "block.bottom".into(),
-            velocity: [Some(0.0.into()), Some(0.0.into())],
+            velocity: [Some(0.0.into()), Some(0.0.into()), None],
             ..Constraint::default()
         });
         model.obstacles.push(Obstacle {
-            motion: Motion { velocity: [Some(0.0.into()), None], spin: Some(0.0.into()) },
+            motion: Motion { velocity: [Some(0.0.into()), None, None], spin: Some(0.0.into()) },
             mass: Some(10.0),
-            velocity: [0.0, -4.0],
-            ..Obstacle::fixed("ball", ObstacleShape::Circle { centre: [0.0, radius + 1e-4], radius, hollow: false })
+            velocity: [0.0, -4.0, 0.0],
+            ..Obstacle::fixed("ball", ObstacleShape::Circle { centre: [0.0, radius + 1e-4, 0.0], radius, hollow: false })
         });
         let (simulation, history) = run(&model);
         let deepest = history.column("obstacle.y[ball]").into_iter().fold(f64::INFINITY, f64::min) - radius;
@@ -94,8 +94,8 @@ fn a_free_circle_in_a_hollow_one_keeps_momenta_and_energy() {
         interface: rough(0.3),
         ..Obstacle::fixed(name, shape)
     };
-    model.obstacles.push(free("drum", ObstacleShape::Circle { centre: [0.0, 0.0], radius: 0.08, hollow: true }, 5.0));
-    model.obstacles.push(free("pin", ObstacleShape::Circle { centre: [0.05, 0.05], radius: 0.005, hollow: false }, 0.5));
+    model.obstacles.push(free("drum", ObstacleShape::Circle { centre: [0.0, 0.0, 0.0], radius: 0.08, hollow: true }, 5.0));
+    model.obstacles.push(free("pin", ObstacleShape::Circle { centre: [0.05, 0.05, 0.0], radius: 0.005, hollow: false }, 0.5));
     model.obstacles[1].spin = 300.0;
     let (simulation, history) = run(&model);
     let summary = simulation.summary();
@@ -117,15 +117,15 @@ fn a_free_circle_without_friction_gets_no_spin() {
         add(&mut model, "block", rectangle([-0.06, -0.05], [0.12, 0.05], [9, 4]), [3.0, 0.0]);
         model.parts[0].spin = 10.0;
         let shape = if radius > 0.0 {
-            ObstacleShape::Circle { centre: [0.0123, radius + 1e-4], radius, hollow: false }
+            ObstacleShape::Circle { centre: [0.0123, radius + 1e-4, 0.0], radius, hollow: false }
         } else {
-            ObstacleShape::Circle { centre: [0.0, 0.05], radius: -radius, hollow: true }
+            ObstacleShape::Circle { centre: [0.0, 0.05, 0.0], radius: -radius, hollow: true }
         };
         model.obstacles.push(Obstacle {
             motion: Motion::default(),
             mass: Some(2.0),
             inertia: Some(1e-3),
-            velocity: [0.0, if radius > 0.0 { -4.0 } else { 8.0 }],
+            velocity: [0.0, if radius > 0.0 { -4.0 } else { 8.0 }, 0.0],
             interface: Penalty::automatic(scale).into(),
             ..Obstacle::fixed("ball", shape)
         });
@@ -162,7 +162,7 @@ fn a_polyline_has_convex_and_concave_corners() {
 #[test]
 fn the_end_of_a_plane_stops_a_segment_between_its_nodes() {
     // A plate on edge under the middle of the only segment of a block: no node of the block comes near its plane. Fixed, and free with friction and a thickness.
-    let plate = ObstacleShape::Plane { point: [0.0, -0.101], normal: [1.0, 0.0], length: Some(0.2) };
+    let plate = ObstacleShape::Plane { point: [0.0, -0.101, 0.0], normal: [1.0, 0.0, 0.0], length: Some(0.2) };
     for (free, friction, thickness) in [(false, 0.0, 0.0), (true, 0.0, 0.0), (true, 0.3, 0.0), (false, 0.0, 5e-4)] {
         let mut model = model(3e-3);
         add(&mut model, "block", rectangle([-0.051, 0.0], [0.1, 0.1], [1, 1]), [0.0, -5.0]);
@@ -187,7 +187,7 @@ fn the_end_of_a_plane_stops_a_segment_between_its_nodes() {
         let told = faults(&model);
         assert!(told.len() == 1 && told[0].contains("obstacle[0]") && told[0].contains("inside"), "{told:?}");
         model.obstacles[0].interface.initial_penetration = InitialPenetration::PushOut;
-        model.parts[0].velocity = [0.0; 2];
+        model.parts[0].velocity = [0.0; 3];
         let moved = to_end(&model);
         assert!(moved.summary().penetration_max < 1e-9 && moved.ledger().stores.total() < 1e-6, "{:?}", moved.summary());
     }
@@ -196,14 +196,17 @@ fn the_end_of_a_plane_stops_a_segment_between_its_nodes() {
 #[test]
 fn a_plane_that_ends_at_or_beyond_a_symmetry_line_goes_on_there() {
     // Half of a block on half of a plate, and on a whole one, as a whole block on a whole plate.
-    let plate =
-        |from: f64, to: f64| ObstacleShape::Plane { point: [0.5 * (from + to), -1e-4], normal: [0.0, 1.0], length: Some(to - from) };
+    let plate = |from: f64, to: f64| ObstacleShape::Plane {
+        point: [0.5 * (from + to), -1e-4, 0.0],
+        normal: [0.0, 1.0, 0.0],
+        length: Some(to - from),
+    };
     let outcome = |from: f64, shape: ObstacleShape| {
         let mut model = model(1e-3);
         let elements = if from < 0.0 { 12 } else { 6 };
         add(&mut model, "block", rectangle([from, 0.0], [0.06 - from, 0.05], [elements, 5]), [0.0, -5.0]);
         if from == 0.0 {
-            model.symmetries.push(Symmetry { normal: [1.0, 0.0], ..Symmetry::default() });
+            model.symmetries.push(Symmetry { normal: [1.0, 0.0, 0.0], ..Symmetry::default() });
         }
         model.obstacles.push(Obstacle { interface: Penalty::PerNode(1e9).into(), ..Obstacle::fixed("plate", shape) });
         let (simulation, history) = run(&model);
@@ -258,8 +261,9 @@ fn nothing_goes_through_a_thin_obstacle_at_any_speed() {
         model
     };
     let hard = |name: &str, shape| Obstacle { interface: Penalty::automatic(100.0).into(), ..Obstacle::fixed(name, shape) };
-    let pin = |x: f64, y: f64| hard("pin", ObstacleShape::Circle { centre: [x, y], radius: 2e-3, hollow: false });
-    let plate = |length: f64| hard("plate", ObstacleShape::Plane { point: [0.1, 0.0], normal: [-1.0, 0.0], length: Some(length) });
+    let pin = |x: f64, y: f64| hard("pin", ObstacleShape::Circle { centre: [x, y, 0.0], radius: 2e-3, hollow: false });
+    let plate =
+        |length: f64| hard("plate", ObstacleShape::Plane { point: [0.1, 0.0, 0.0], normal: [-1.0, 0.0, 0.0], length: Some(length) });
     let dt = simulation(&speck([0.0; 2])).time_step();
     for speed in [1e3, 2.5e3, 5e3, 1e4, 1e5, 3e5] {
         assert!(speed < 5e4 || speed * dt > 0.025, "{dt}");
@@ -280,7 +284,10 @@ fn nothing_goes_through_a_thin_obstacle_at_any_speed() {
         // Beside the plate and beside the pin there is nothing; ends of a plate are seen ahead by the way of a step.
         let beside = 0.02 + speed * dt;
         for obstacle in [
-            Obstacle { shape: ObstacleShape::Plane { point: [0.1, beside], normal: [-1.0, 0.0], length: Some(0.03) }, ..plate(0.0) },
+            Obstacle {
+                shape: ObstacleShape::Plane { point: [0.1, beside, 0.0], normal: [-1.0, 0.0, 0.0], length: Some(0.03) },
+                ..plate(0.0)
+            },
             pin(0.1, 3e-3),
         ] {
             model.obstacles = vec![obstacle];
@@ -289,10 +296,12 @@ fn nothing_goes_through_a_thin_obstacle_at_any_speed() {
             assert!((after - speed).abs() < 1e-9 * speed, "{speed} {name}: {after}");
         }
         // Nor is there from behind a plate; and what moves may be the obstacle.
-        model.obstacles =
-            vec![Obstacle { shape: ObstacleShape::Plane { point: [0.1, 0.0], normal: [1.0, 0.0], length: Some(0.05) }, ..plate(0.0) }];
+        model.obstacles = vec![Obstacle {
+            shape: ObstacleShape::Plane { point: [0.1, 0.0, 0.0], normal: [1.0, 0.0, 0.0], length: Some(0.05) },
+            ..plate(0.0)
+        }];
         assert_eq!(run(&model).1.last("speck.vx"), speed);
-        model.parts[0].velocity = [0.0; 2];
+        model.parts[0].velocity = [0.0; 3];
         for obstacle in [plate(0.05), pin(0.1, 1e-3)] {
             model.obstacles = vec![Obstacle { motion: driven([Some(-speed), Some(0.0)], Some(0.0)), ..obstacle }];
             let (_, history) = run(&model);
@@ -304,10 +313,10 @@ fn nothing_goes_through_a_thin_obstacle_at_any_speed() {
 #[test]
 fn what_is_behind_an_obstacle_at_the_start_is_refused_ignored_or_pushed_out() {
     let shapes = [
-        ObstacleShape::Plane { point: [0.0, 0.002], normal: [0.0, 1.0], length: None },
-        ObstacleShape::Plane { point: [0.05, 0.002], normal: [0.0, 1.0], length: Some(0.2) },
-        ObstacleShape::Circle { centre: [0.05, -0.1], radius: 0.102, hollow: false },
-        ObstacleShape::Circle { centre: [0.05, 0.1], radius: 0.105, hollow: true },
+        ObstacleShape::Plane { point: [0.0, 0.002, 0.0], normal: [0.0, 1.0, 0.0], length: None },
+        ObstacleShape::Plane { point: [0.05, 0.002, 0.0], normal: [0.0, 1.0, 0.0], length: Some(0.2) },
+        ObstacleShape::Circle { centre: [0.05, -0.1, 0.0], radius: 0.102, hollow: false },
+        ObstacleShape::Circle { centre: [0.05, 0.1, 0.0], radius: 0.105, hollow: true },
         ObstacleShape::Polyline { points: vec![[-0.1, 0.002], [0.2, 0.002]] },
     ];
     for shape in shapes {
@@ -325,11 +334,11 @@ fn what_is_behind_an_obstacle_at_the_start_is_refused_ignored_or_pushed_out() {
         assert!(!ignored.overview().initial_penetrations.is_empty());
         assert_eq!((value(&ignored, "block.vy"), ignored.ledger().stores.contact), (0.0, 0.0), "{shape:?}");
         // What is pressed further is resisted.
-        model.parts[0].velocity = [0.0, -2.0];
+        model.parts[0].velocity = [0.0, -2.0, 0.0];
         let pressed = to_end(&model);
         assert!(value(&pressed, "block.vy") > -1.8 && pressed.summary().energy_drift < 0.02, "{shape:?}: {}", value(&pressed, "block.vy"));
 
-        model.parts[0].velocity = [0.0; 2];
+        model.parts[0].velocity = [0.0; 3];
         model.obstacles[0].interface.initial_penetration = InitialPenetration::PushOut;
         let moved = to_end(&model);
         let told = moved.overview().initial_penetrations;

@@ -29,8 +29,8 @@ fn punched() -> Model {
     let mut model = slender(0.2 / speed, young, density);
     add(&mut model, "block", rectangle([0.0, 0.0], [0.1, 0.1], [6, 6]), [0.0, 0.0]);
     model.obstacles.push(Obstacle::wall("floor", [0.0, 0.0], [0.0, 1.0]));
-    let mut punch = Obstacle::fixed("punch", ObstacleShape::Circle { centre: [0.05, 0.13], radius: 0.03, hollow: false });
-    punch.motion.velocity = [Some(0.0.into()), Some((-speed).into())];
+    let mut punch = Obstacle::fixed("punch", ObstacleShape::Circle { centre: [0.05, 0.13, 0.0], radius: 0.03, hollow: false });
+    punch.motion.velocity = [Some(0.0.into()), Some((-speed).into()), None];
     model.obstacles.push(punch);
     // Nothing else stops it before.
     (model.run.energy_limit, model.run.penetration_limit) = (10.0, Some(1.0));

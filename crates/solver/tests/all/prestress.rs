@@ -76,8 +76,8 @@ fn soil_under_its_own_weight_and_the_stress_that_bears_it_stays_at_rest() {
         gravity(&mut model, [0.0, -gravity_]);
         let still = || Some(Drive::Constant(0.0));
         let hold = |on: &str, velocity| Constraint { on: on.into(), velocity, ..Constraint::default() };
-        model.constraints.push(hold("soil.bottom", [still(), still()]));
-        model.constraints.extend(["soil.left", "soil.right"].map(|on| hold(on, [still(), None])));
+        model.constraints.push(hold("soil.bottom", [still(), still(), None]));
+        model.constraints.extend(["soil.left", "soil.right"].map(|on| hold(on, [still(), None, None])));
         let (_, moved) = farthest(&model);
         // Without it the soil would sink by ρ g h²/2M, 1e-8 m.
         assert!(moved < 1e-19, "{}: {moved:e}", kind.name);
@@ -92,7 +92,11 @@ fn a_bar_that_is_let_go_has_the_waves_of_the_closed_form() {
     let mut model = slender(1.5 * length / c, young, density);
     add(&mut model, "bar", rectangle([0.0, 0.0], [length, 1e-3], [200, 1]), [0.0; 2]);
     model.parts[0].stress_initial = Some(InitialStress::uniform([stress, 0.0, 0.0, 0.0]));
-    model.constraints.push(Constraint { on: "bar.left".into(), velocity: [Some(Drive::Constant(0.0)), None], ..Constraint::default() });
+    model.constraints.push(Constraint {
+        on: "bar.left".into(),
+        velocity: [Some(Drive::Constant(0.0)), None, None],
+        ..Constraint::default()
+    });
     probe(&mut model, "end", "bar", [length, 0.0]);
     probe(&mut model, "middle", "bar", [0.5 * length, 0.0]);
     let mut simulation = simulation(&model);

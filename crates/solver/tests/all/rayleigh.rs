@@ -21,7 +21,7 @@ fn damp(model: &mut Model, rate: f64, time: f64) {
 
 fn hold(model: &mut Model, on: &str, held: [bool; 2]) {
     let velocity = held.map(|held| held.then_some(Drive::Constant(0.0)));
-    model.constraints.push(Constraint { on: on.into(), velocity, ..Constraint::default() });
+    model.constraints.push(Constraint { on: on.into(), velocity: embate_solver::model::in_space(velocity), ..Constraint::default() });
 }
 
 /// Elements of these lengths, each held on the left and free to swing along x on the right: ω² = 2 c²/L². The last one is a bar.
@@ -221,7 +221,7 @@ fn eroded_triangles_leave_what_they_dissipated() {
     model.materials.insert("soft".into(), metal);
     let outline = vec![[0.0, 0.0], [0.1, 0.0], [0.1, 0.03], [0.0, 0.03]];
     add(&mut model, "strip", Shape::Polygon(Polygon { outline, size: 0.01, ..Polygon::default() }), [0.0; 2]);
-    model.parts[0] = Part { element_triangles: "tri3_anp".into(), velocity: [0.0, 60.0], ..model.parts[0].clone() };
+    model.parts[0] = Part { element_triangles: "tri3_anp".into(), velocity: [0.0, 60.0, 0.0], ..model.parts[0].clone() };
     model.obstacles.push(embate_solver::model::Obstacle::wall("wall", [0.0, 0.031], [0.0, -1.0]));
     let steps = every_step(&model);
     let plastic = steps.column("energy.plastic");

@@ -234,7 +234,7 @@ fn runs_of_bars_springs_and_point_masses_go_on() {
             element: bar.name.into(),
             area: Some(0.1),
             shape,
-            velocity: [0.0, 3.0],
+            velocity: [0.0, 3.0, 0.0],
             ..Part::default()
         };
         model.parts.push(part);
@@ -336,11 +336,11 @@ fn runs_of_ties_that_break_and_contacts_that_begin_later_go_on() {
 #[test]
 fn runs_against_every_obstacle_go_on() {
     let shapes = [
-        ObstacleShape::Plane { point: [0.05, -0.006], normal: [0.1, 1.0], length: None },
-        ObstacleShape::Plane { point: [0.05, -0.0008], normal: [0.0, 1.0], length: Some(0.12) },
-        ObstacleShape::Circle { centre: [0.05, -0.301], radius: 0.3, hollow: false },
-        ObstacleShape::Circle { centre: [0.052, -0.0045], radius: 0.004, hollow: false },
-        ObstacleShape::Circle { centre: [0.05, 0.05], radius: 0.0712, hollow: true },
+        ObstacleShape::Plane { point: [0.05, -0.006, 0.0], normal: [0.1, 1.0, 0.0], length: None },
+        ObstacleShape::Plane { point: [0.05, -0.0008, 0.0], normal: [0.0, 1.0, 0.0], length: Some(0.12) },
+        ObstacleShape::Circle { centre: [0.05, -0.301, 0.0], radius: 0.3, hollow: false },
+        ObstacleShape::Circle { centre: [0.052, -0.0045, 0.0], radius: 0.004, hollow: false },
+        ObstacleShape::Circle { centre: [0.05, 0.05, 0.0], radius: 0.0712, hollow: true },
         ObstacleShape::Polyline { points: vec![[-0.2, -0.1], [0.049, -0.001], [0.2, -0.1], [-0.2, -0.1]] },
     ];
     for (number, shape) in shapes.into_iter().enumerate() {
@@ -370,13 +370,13 @@ fn runs_with_loads_rigid_parts_joins_and_relaxation_go_on() {
     model.joins.push(Join { between: ["block.top".into(), "rider.bottom".into()], ..Join::default() });
     model.curves.insert("wave".into(), Curve { shape: CurveShape::Expression("sin(3000*t)".into()), dimension: None });
     let wave = || Some("wave".to_string());
-    model.loads.push(Load::Gravity { parts: vec![], acceleration: [0.0, -200.0], curve: wave() });
+    model.loads.push(Load::Gravity { parts: vec![], acceleration: [0.0, -200.0, 0.0], curve: wave() });
     model.loads.push(Load::Damping { parts: vec!["rider".into()], rate: 300.0, active: [2e-4, 6e-4] });
-    model.loads.push(Load::Force { on: "rider.right".into(), force: [-2e3, 0.0], curve: wave() });
+    model.loads.push(Load::Force { on: "rider.right".into(), force: [-2e3, 0.0, 0.0], curve: wave() });
     model.loads.push(Load::Pressure { on: "rider.top".into(), pressure: 1e5, curve: wave() });
     model.constraints.push(Constraint {
         on: "rider.left".into(),
-        acceleration: [Some(Drive::Curve("wave".into())), None],
+        acceleration: [Some(Drive::Curve("wave".into())), None, None],
         ..Constraint::default()
     });
     model.non_reflecting.push(NonReflecting { on: "block.left".into() });
@@ -392,7 +392,7 @@ fn runs_in_a_plane_of_symmetry_go_on() {
     let mut model = model(2e-3);
     add(&mut model, "block", rectangle([0.0, 0.0], [0.1, 0.02], [10, 3]), [0.0, 4.0]);
     add(&mut model, "ball", Shape::Disk(Disk { centre: [0.05, 0.051], radius: 0.03, elements: 3 }), [-30.0, -12.0]);
-    model.symmetries.push(Symmetry { normal: [1.0, 0.0], ..Symmetry::default() });
+    model.symmetries.push(Symmetry { normal: [1.0, 0.0, 0.0], ..Symmetry::default() });
     all(&mut model);
     goes_on("mirror", &model, 400);
 }

@@ -158,7 +158,7 @@ fn friction_has_the_limit_of_the_area_all_around() {
     let interface = Interface { friction: Some(friction), ..Interface::default() };
     let wall = Obstacle::wall("tube", [RADIUS, 0.0], [-1.0, 0.0]);
     model.obstacles.push(Obstacle { interface: Interface { law: ContactLaw::Multiplier, ..interface }, ..wall });
-    model.loads.push(Load::Force { on: "rod.right".into(), force: [2.0 * PI * RADIUS * LENGTH * 1e5, 0.0], curve: None });
+    model.loads.push(Load::Force { on: "rod.right".into(), force: [2.0 * PI * RADIUS * LENGTH * 1e5, 0.0, 0.0], curve: None });
     revolve(&mut model);
     let (simulation, history) = run(&model);
     let lost = 1e3 * 2.0 * PI * RADIUS * LENGTH * 3e-4 / (DENSITY * PI * RADIUS * RADIUS * LENGTH);
@@ -236,11 +236,11 @@ fn what_a_body_of_revolution_cannot_do_is_told() {
     assert!(build(&|_| {}).is_empty());
     let obstacle = |motion: Motion| Obstacle {
         motion,
-        ..Obstacle::fixed("ball", ObstacleShape::Circle { centre: [0.0, 0.5], radius: 0.1, hollow: false })
+        ..Obstacle::fixed("ball", ObstacleShape::Circle { centre: [0.0, 0.5, 0.0], radius: 0.1, hollow: false })
     };
     type Change<'a> = &'a dyn Fn(&mut Model);
     let cases: [(&str, Change<'_>); 8] = [
-        ("load[0].gravity[0]", &|m| m.loads.push(Load::Gravity { parts: vec![], acceleration: [1.0, 0.0], curve: None })),
+        ("load[0].gravity[0]", &|m| m.loads.push(Load::Gravity { parts: vec![], acceleration: [1.0, 0.0, 0.0], curve: None })),
         ("part[0].spin", &|m| m.parts[0].spin = 1.0),
         ("contact[0].formulation", &|m| m.contacts[0].formulation = Formulation::Pinball),
         ("obstacle[0].motion.x", &|m| m.obstacles.push(obstacle(driven([Some(1.0), Some(0.0)], Some(0.0))))),

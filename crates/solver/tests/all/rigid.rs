@@ -86,10 +86,10 @@ fn what_follows_a_curve_is_where_its_integral_says() {
     model.curves.insert("way".into(), Curve::table(vec![0.0, 2e-4, 7e-4], vec![0.0, 3.0, -1.0]));
     model.curves.insert("turn".into(), Curve::table(vec![0.0, 2e-4, 7e-4], vec![0.0, 300.0, -100.0]));
     let way = || Some(Drive::Curve("way".into()));
-    model.constraints.push(Constraint { on: "block.left".into(), velocity: [way(), Some(0.0.into())], ..Constraint::default() });
-    stiffen(&mut model, "die", Motion { velocity: [None, way()], spin: Some(Drive::Curve("turn".into())) });
-    let motion = Motion { velocity: [Some(0.5.into()), way()], spin: Some(Drive::Curve("turn".into())) };
-    model.obstacles.push(Obstacle { motion, reference: Some([3.0, 1.0]), ..Obstacle::wall("far", [5.0, 0.0], [-1.0, 0.0]) });
+    model.constraints.push(Constraint { on: "block.left".into(), velocity: [way(), Some(0.0.into()), None], ..Constraint::default() });
+    stiffen(&mut model, "die", Motion { velocity: [None, way(), None], spin: Some(Drive::Curve("turn".into())) });
+    let motion = Motion { velocity: [Some(0.5.into()), way(), None], spin: Some(Drive::Curve("turn".into())) };
+    model.obstacles.push(Obstacle { motion, reference: Some([3.0, 1.0, 0.0]), ..Obstacle::wall("far", [5.0, 0.0], [-1.0, 0.0]) });
     probe(&mut model, "corner", "block", [0.0, 0.0]);
     let simulation = to_end(&model);
     let near = |column: &str, wanted: f64| {
@@ -119,8 +119,8 @@ fn what_pulls_on_a_driven_part_that_shares_nodes_costs_its_drive_work() {
     let free = {
         let mut model = model.clone();
         stiffen(&mut model, "right", Motion::default());
-        model.parts.iter_mut().for_each(|part| part.velocity = [4.0, 0.0]);
-        model.parts[0].velocity = [-2.0, 1.0];
+        model.parts.iter_mut().for_each(|part| part.velocity = [4.0, 0.0, 0.0]);
+        model.parts[0].velocity = [-2.0, 1.0, 0.0];
         model
     };
     let simulation = to_end(&free);
@@ -171,7 +171,7 @@ fn damping_begins_and_ends_and_goes_with_contact_and_constraints() {
     let mut model = model(3e-3);
     add(&mut model, "block", rectangle([0.0, 0.001], [0.05, 0.05], [4, 4]), [0.0, -5.0]);
     model.obstacles.push(Obstacle { interface: rough(0.3), ..Obstacle::wall("floor", [0.0, 0.0], [0.2, 1.0]) });
-    model.constraints.push(Constraint { on: "block.left".into(), velocity: [Some(0.0.into()), None], ..Constraint::default() });
+    model.constraints.push(Constraint { on: "block.left".into(), velocity: [Some(0.0.into()), None, None], ..Constraint::default() });
     for (rate, active) in [(300.0, [1e-3, 2e-3]), (200.0, [1.5e-3, 2.5e-3])] {
         model.loads.push(Load::Damping { parts: vec![], rate, active });
     }
@@ -189,7 +189,7 @@ fn rigid_parts_that_something_else_holds_or_shares_are_faults() {
     let mut model = model(1e-3);
     add(&mut model, "block", rectangle([0.0, 0.0], [0.1, 0.05], [2, 1]), [0.0, 0.0]);
     stiffen(&mut model, "block", Motion::default());
-    model.symmetries.push(Symmetry { normal: [1.0, 0.0], ..Symmetry::default() });
+    model.symmetries.push(Symmetry { normal: [1.0, 0.0, 0.0], ..Symmetry::default() });
     let told = faults(&model);
     for word in ["part[0].rigid", "block", "(0.000000e0, ", "symmetry"] {
         assert!(told.len() == 1 && told[0].contains(word), "{word}: {told:?}");

@@ -48,7 +48,11 @@ fn a_hanging_bar_relaxes_to_its_closed_form_and_the_run_ends() {
     let (young, density, length) = (1e7, 1e3, 0.1);
     let mut model = slender(1.0, young, density);
     add(&mut model, "bar", rectangle([0.0, 0.0], [0.02, length], [2, 20]), [0.0, 0.0]);
-    model.constraints.push(Constraint { on: "bar.top".into(), velocity: [Some(0.0.into()), Some(0.0.into())], ..Constraint::default() });
+    model.constraints.push(Constraint {
+        on: "bar.top".into(),
+        velocity: [Some(0.0.into()), Some(0.0.into()), None],
+        ..Constraint::default()
+    });
     probe(&mut model, "foot", "bar", [0.0, 0.0]);
     gravity(&mut model, [0.0, -10.0]);
     model.run.relaxation = Some(Relaxation { tolerance: 1e-8, from: 0.0 });

@@ -80,7 +80,7 @@ fn a_body_alone_does_not_feel_itself() {
     for (name, base) in alone() {
         for (kind, velocity, spin) in [("at rest", [0.0, 0.0], 0.0), ("fast", [900.0, -400.0], 0.0), ("spinning", [10.0, 0.0], 300.0)] {
             let mut plain = base.clone();
-            plain.parts[0].velocity = velocity;
+            plain.parts[0].velocity = embate_solver::model::in_space(velocity);
             plain.parts[0].spin = spin;
             plain.run.energy_limit = 1.0;
             plain.run.max_steps = Some(300);
@@ -291,7 +291,7 @@ fn a_half_ring_meets_its_image_as_the_whole_ring_meets_itself() {
     half.parts[0].shape =
         Shape::Ring(Ring { centre: [0.0, 0.0], inner: 0.046, outer: 0.05, from: 0.0, to: PI, elements: [2, 36], ..Ring::default() });
     half.probes.retain(|probe| probe.name != "below" && probe.name != "bottom" && probe.name != "ring");
-    half.symmetries.push(Symmetry { normal: [0.0, 1.0], ..Symmetry::default() });
+    half.symmetries.push(Symmetry { normal: [0.0, 1.0, 0.0], ..Symmetry::default() });
     let thick = |model: &Model, thickness: f64| {
         let mut model = model.clone();
         model.contacts[0].interface.thickness = thickness;

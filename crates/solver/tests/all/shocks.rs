@@ -31,7 +31,7 @@ fn piston(material: Material, size: [f64; 2], elements: usize, speed: f64, end: 
         ("tube.top", [None, Some(0.0)]),
     ] {
         let velocity = velocity.map(|velocity| velocity.map(Into::into));
-        model.constraints.push(Constraint { on: side.into(), velocity, ..Constraint::default() });
+        model.constraints.push(Constraint { on: side.into(), velocity: embate_solver::model::in_space(velocity), ..Constraint::default() });
     }
     model
 }
@@ -116,7 +116,7 @@ fn what_the_viscosity_books_is_what_it_takes_in_every_stress_state() {
             model.materials.insert("soft".into(), material);
             add(&mut model, "block", rectangle([0.01, 0.0], [0.1, 0.1], [8, 8]), [0.0, -0.05 * sound]);
             model.parts[0].stress_state = state.name.into();
-            let floor = ObstacleShape::Plane { point: [0.0; 2], normal: [0.0, 1.0], length: None };
+            let floor = ObstacleShape::Plane { point: [0.0; 3], normal: [0.0, 1.0, 0.0], length: None };
             model.obstacles.push(Obstacle::fixed("floor", floor));
             let mut simulation = Simulation::new(&model, &Options { threads: 1, simd: None }).unwrap();
             simulation.advance(f64::INFINITY, u64::MAX).unwrap();
@@ -154,10 +154,10 @@ fn the_viscosity_of_a_fluid_takes_the_power_of_its_shear() {
     add(&mut model, "water", rectangle([0.0; 2], [1.0, 1.0], [8, 8]), [0.0; 2]);
     for (side, velocity) in [("water.bottom", [Some(0.0), Some(0.0)]), ("water.top", [Some(speed), Some(0.0)])] {
         let velocity = velocity.map(|velocity| velocity.map(Into::into));
-        model.constraints.push(Constraint { on: side.into(), velocity, ..Constraint::default() });
+        model.constraints.push(Constraint { on: side.into(), velocity: embate_solver::model::in_space(velocity), ..Constraint::default() });
     }
     for side in ["water.left", "water.right"] {
-        model.constraints.push(Constraint { on: side.into(), velocity: [None, Some(0.0.into())], ..Constraint::default() });
+        model.constraints.push(Constraint { on: side.into(), velocity: [None, Some(0.0.into()), None], ..Constraint::default() });
     }
     let mut simulation = Simulation::new(&model, &Options { threads: 1, simd: None }).unwrap();
     simulation.advance(12.0, u64::MAX).unwrap();

@@ -250,7 +250,7 @@ fn bar(count: usize, law: &[(&str, f64)]) -> Model {
         model.joins.push(embate_solver::model::Join { between: between.map(Into::into), ..Default::default() });
     }
     for (on, speed) in [("left.left", -0.05), ("right.right", 0.05)] {
-        model.constraints.push(Constraint { on: on.into(), velocity: [Some(speed.into()), None], ..Constraint::default() });
+        model.constraints.push(Constraint { on: on.into(), velocity: [Some(speed.into()), None, None], ..Constraint::default() });
     }
     model.run.end = 8e-3;
     model

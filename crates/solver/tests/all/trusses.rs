@@ -162,7 +162,7 @@ fn see(model: &mut Model, name: &str, set: &str) {
 
 fn hold(model: &mut Model, on: &str, held: [bool; 2]) {
     let velocity = held.map(|held| held.then_some(Drive::Constant(0.0)));
-    model.constraints.push(Constraint { on: on.into(), velocity, ..Constraint::default() });
+    model.constraints.push(Constraint { on: on.into(), velocity: embate_solver::model::in_space(velocity), ..Constraint::default() });
 }
 
 #[test]
@@ -174,7 +174,7 @@ fn waves_in_a_bar_run_with_the_root_of_young_over_density_whatever_poisson_is() 
         let length = 1.0;
         model.run.end = 0.6 * length / c;
         truss(&mut model, "rod", vec![vec![[0.0, 0.0], [0.6 * length, 0.8 * length]]], 400);
-        model.parts[0].velocity = [-0.6, -0.8];
+        model.parts[0].velocity = [-0.6, -0.8, 0.0];
         hold(&mut model, "rod.point0", [true, true]);
         see(&mut model, "mean", "rod");
         let simulation = to_end(&model);
@@ -211,7 +211,11 @@ fn a_von_mises_truss_has_the_energy_of_the_closed_form_through_its_snap() {
     let shape = CurveShape::Table { times: vec![0.0, 1e-2], values: vec![0.0, -0.25], smooth: true };
     model.curves.insert("down".into(), Curve { shape, dimension: None });
     let displacement = [None, Some(Drive::Curve("down".into()))];
-    model.constraints.push(Constraint { on: "truss.point1".into(), displacement, ..Constraint::default() });
+    model.constraints.push(Constraint {
+        on: "truss.point1".into(),
+        displacement: embate_solver::model::in_space(displacement),
+        ..Constraint::default()
+    });
     see(&mut model, "apex", "truss.point1");
     let (rest, steps) = (1.01f64.sqrt(), every_step(&model));
     let (heights, elastic) = (steps.column("apex.y"), steps.column("energy.internal"));
@@ -239,7 +243,11 @@ fn a_von_mises_truss_snaps_at_its_limit_load() {
         let shape = CurveShape::Table { times: vec![0.0, 0.3], values: vec![0.0, 1.0], smooth: true };
         model.curves.insert("slowly".into(), Curve { shape, dimension: None });
         let force = [0.0, -share * limit];
-        model.loads.push(Load::Force { on: "truss.point1".into(), force, curve: Some("slowly".into()) });
+        model.loads.push(Load::Force {
+            on: "truss.point1".into(),
+            force: embate_solver::model::in_space(force),
+            curve: Some("slowly".into()),
+        });
         model.loads.push(Load::Damping { parts: vec![], rate: 200.0, active: [0.0, f64::INFINITY] });
         see(&mut model, "apex", "truss.point1");
         let simulation = to_end(&model);
@@ -348,7 +356,7 @@ fn a_net_that_is_thrown_keeps_momentum_and_energy_and_its_bits() {
         let columns = (0..=n).map(|i| (0..=n).map(|j| place(i, j)).collect());
         truss(&mut model, "net", rows.chain(columns).collect(), 2);
         model.parts[0].spin = 40.0;
-        model.parts[0].velocity = [3.0, 1.0];
+        model.parts[0].velocity = [3.0, 1.0, 0.0];
         let options = embate_solver::simulation::Options { threads, simd: simd.map(String::from) };
         let mut simulation = embate_solver::simulation::Simulation::new(&model, &options).unwrap();
         simulation.advance(f64::INFINITY, u64::MAX).unwrap();
@@ -368,7 +376,7 @@ fn a_bar_that_breaks_gives_its_energy_to_the_eroded() {
     model.materials.get_mut("soft").unwrap().failure.insert("principal_stress".into(), 2e6);
     truss(&mut model, "chain", vec![vec![[0.0, 0.0], [1.0, 0.0]]], 10);
     hold(&mut model, "chain.point0", [true, true]);
-    model.parts[0].velocity = [3.0, 0.0];
+    model.parts[0].velocity = [3.0, 0.0, 0.0];
     let simulation = to_end(&model);
     let erosion = simulation.summary().erosion.unwrap();
     assert!(erosion.elements[0].1 >= 1, "{erosion:?}");

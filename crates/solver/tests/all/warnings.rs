@@ -113,7 +113,7 @@ fn a_drop_on_a_wall_folds_in_quad4_and_not_with_hourglass_control() {
         let disk = embate_solver::model::Disk { centre: [0.0, 0.0101], radius: 0.01, elements: 6 };
         model.parts[0].shape = Shape::Disk(disk);
         model.parts[0].element = element.into();
-        model.parts[0].velocity = [0.0, -20.0];
+        model.parts[0].velocity = [0.0, -20.0, 0.0];
         let it = model.materials.values_mut().next_back().unwrap();
         it.parameters.extend([("bulk_modulus".to_string(), 2.2e9), ("density".to_string(), 1000.0)]);
         model.obstacles = vec![Obstacle::wall("floor", [0.0, 0.0], [0.0, 1.0])];
@@ -132,7 +132,7 @@ fn a_part_that_nothing_can_reach_is_told() {
     add(&mut model, "ball", square(0.0), [1.0, 0.0]);
     add(&mut model, "target", square(2.0), [0.0; 2]);
     // Held, and forgotten in the contacts.
-    model.constraints.push(Constraint { on: "target.right".into(), velocity: [Some(0.0.into()), None], ..Constraint::default() });
+    model.constraints.push(Constraint { on: "target.right".into(), velocity: [Some(0.0.into()), None, None], ..Constraint::default() });
     let found = told(&model);
     assert!(found.len() == 1 && found[0].0 == "part[1]" && found[0].1.contains("`target`"), "{found:?}");
     let without = |change: &dyn Fn(&mut Model)| {
@@ -142,9 +142,9 @@ fn a_part_that_nothing_can_reach_is_told() {
     };
     assert!(without(&|model| model.contacts.push(Contact::between("hit", "ball", "target"))));
     assert!(without(&|model| gravity(model, [0.0, -10.0])));
-    assert!(without(&|model| model.parts[1].velocity = [0.0, 1.0]));
+    assert!(without(&|model| model.parts[1].velocity = [0.0, 1.0, 0.0]));
     assert!(without(&|model| model.obstacles = vec![Obstacle::wall("floor", [0.0, -1.0], [0.0, 1.0])]));
-    let pull = Constraint { on: "target.left".into(), velocity: [Some(1.0.into()), None], ..Constraint::default() };
+    let pull = Constraint { on: "target.left".into(), velocity: [Some(1.0.into()), None, None], ..Constraint::default() };
     assert!(without(&|model| model.constraints.push(pull.clone())));
     // What shares nodes with a part that moves is reached.
     let mut shared = slender(1e-3, 1e9, 1e3);
@@ -152,6 +152,6 @@ fn a_part_that_nothing_can_reach_is_told() {
     let groups =
         vec![group("one", 2, mesh.groups[0].cells[..2].iter().cloned()), group("two", 2, mesh.groups[0].cells[2..].iter().cloned())];
     add_groups(&mut shared, embate_solver::model::ImportedMesh { groups, ..mesh }, &["one", "two"], [0.0; 2]);
-    shared.parts[0].velocity = [1.0, 0.0];
+    shared.parts[0].velocity = [1.0, 0.0, 0.0];
     assert_eq!(told(&shared), []);
 }

@@ -78,7 +78,7 @@ pub(crate) fn model(seed: u64) -> Model {
             element_triangles: dice.choice(&elements(3)),
             stress_state: state.into(),
             shape: shape(dice, centre),
-            velocity: towards.map(|x| x * speed),
+            velocity: embate_solver::model::in_space(towards.map(|x| x * speed)),
             ..Part::default()
         };
         if is_round {
@@ -94,7 +94,7 @@ pub(crate) fn model(seed: u64) -> Model {
     obstacles(dice, &mut model, speed, is_round);
     if dice.chance(0.2) {
         let acceleration = [0.0, -speed * speed / CELL];
-        model.loads.push(Load::Gravity { parts: Vec::new(), acceleration, curve: None });
+        model.loads.push(Load::Gravity { parts: Vec::new(), acceleration: embate_solver::model::in_space(acceleration), curve: None });
     }
     let viscosity = if dice.chance(0.3) { [0.06, 1.2] } else { [0.0; 2] };
     model.run = Run { end: 4.0 * CELL / speed, max_steps: Some(dice.whole(200, 3000) as u64), bulk_viscosity: viscosity, ..Run::default() };
@@ -190,7 +190,7 @@ fn contacts(dice: &mut Dice, model: &mut Model, is_round: bool) {
 fn obstacles(dice: &mut Dice, model: &mut Model, speed: f64, is_round: bool) {
     let extent = 3.0 * CELL;
     if dice.chance(0.3) {
-        let plane = ObstacleShape::Plane { point: [0.0, -0.1 * CELL], normal: [0.0, 1.0], length: None };
+        let plane = ObstacleShape::Plane { point: [0.0, -0.1 * CELL, 0.0], normal: [0.0, 1.0, 0.0], length: None };
         model.obstacles.push(Obstacle { interface: interface(dice), ..Obstacle::fixed("floor", plane) });
     }
     if !is_round && dice.chance(0.15) {
@@ -200,7 +200,7 @@ fn obstacles(dice: &mut Dice, model: &mut Model, speed: f64, is_round: bool) {
     }
     if dice.chance(0.15) {
         let x = if is_round { 0.0 } else { dice.number(0.0, 2.0) * CELL };
-        let circle = ObstacleShape::Circle { centre: [x, -1.1 * CELL], radius: CELL, hollow: false };
+        let circle = ObstacleShape::Circle { centre: [x, -1.1 * CELL, 0.0], radius: CELL, hollow: false };
         let mut obstacle = Obstacle { interface: interface(dice), ..Obstacle::fixed("ball", circle) };
         obstacle.motion.velocity[1] = Some((dice.number(0.0, 0.5) * speed).into());
         model.obstacles.push(obstacle);

@@ -92,10 +92,10 @@ pub(super) fn obstacle(record: &Record, faults: &mut Faults) -> Obstacle {
         parts: record.texts("parts"),
         shape: shape(record, faults),
         motion: motion::fixed_but(record.datum("motion")),
-        reference: record.written("reference").map(|_| record.vector("reference")),
+        reference: record.written("reference").map(|_| record.spatial("reference")),
         mass: record.written("mass").map(|_| record.number("mass").unwrap_or(f64::NAN)),
         inertia: record.written("inertia").map(|_| record.number("inertia").unwrap_or(f64::NAN)),
-        velocity: record.vector("velocity"),
+        velocity: record.spatial("velocity"),
         spin: record.number("spin").unwrap_or(f64::NAN),
         interface: interface(record, faults),
     }
@@ -104,7 +104,7 @@ pub(super) fn obstacle(record: &Record, faults: &mut Faults) -> Obstacle {
 fn shape(record: &Record, faults: &mut Faults) -> ObstacleShape {
     if let Some(it) = record.table("circle") {
         let radius = it.number("radius").unwrap_or(f64::NAN);
-        return ObstacleShape::Circle { centre: it.vector("centre"), radius, hollow: it.is("hollow") };
+        return ObstacleShape::Circle { centre: it.spatial("centre"), radius, hollow: it.is("hollow") };
     }
     if let Some(it) = record.table("polyline") {
         let points = if let Some(Datum::Points(points)) = it.datum("points") { points.clone() } else { Vec::new() };
@@ -112,9 +112,9 @@ fn shape(record: &Record, faults: &mut Faults) -> ObstacleShape {
     }
     let Some(it) = record.table("plane") else {
         faults.cover(&record.key("plane"));
-        return ObstacleShape::Plane { point: [f64::NAN; 2], normal: [f64::NAN; 2], length: None };
+        return ObstacleShape::Plane { point: [f64::NAN; 3], normal: [f64::NAN; 3], length: None };
     };
-    ObstacleShape::Plane { point: it.vector("point"), normal: it.vector("normal"), length: it.number("length") }
+    ObstacleShape::Plane { point: it.spatial("point"), normal: it.spatial("normal"), length: it.number("length") }
 }
 
 /// The keys that contacts and obstacles share.

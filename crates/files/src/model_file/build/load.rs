@@ -16,7 +16,7 @@ pub(super) fn load(record: &Record, faults: &mut Faults) -> Load {
     }
     match kind {
         Some("centrifugal") => Load::Centrifugal { parts, centre: centre(record), speed: number("centrifugal"), curve },
-        Some("force") => Load::Force { on, force: record.vector("force"), curve },
+        Some("force") => Load::Force { on, force: record.spatial("force"), curve },
         Some("pressure") => Load::Pressure { on, pressure: number("pressure"), curve },
         Some("damping") => Load::Damping { parts, rate: number("damping"), active: motion::window(record, ["from", "until"], faults) },
         Some("damping_stiffness") => Load::StiffnessDamping { parts, time: number("damping_stiffness") },
@@ -24,7 +24,7 @@ pub(super) fn load(record: &Record, faults: &mut Faults) -> Load {
             if gravity.is_none() {
                 faults.cover(&record.key("gravity"));
             }
-            Load::Gravity { parts, acceleration: record.vector("gravity"), curve }
+            Load::Gravity { parts, acceleration: record.spatial("gravity"), curve }
         }
     }
 }

@@ -93,7 +93,7 @@ fn part(record: &Record, meshes: &mut Meshes<'_>, faults: &mut Faults) -> Part {
             .unwrap_or(Part::default().element_triangles),
         shape: shape(record, meshes, faults),
         placement: placement(record),
-        velocity: record.vector("velocity"),
+        velocity: record.spatial("velocity"),
         spin: record.number("spin").unwrap_or(f64::NAN),
         stress_initial: record.table("stress_initial").map(stress_initial),
         temperature_initial: record.number("temperature_initial"),
@@ -186,13 +186,13 @@ impl Meshes<'_> {
 }
 
 fn symmetry(record: &Record) -> Symmetry {
-    Symmetry { parts: record.texts("parts"), point: record.vector("point"), normal: record.vector("normal") }
+    Symmetry { parts: record.texts("parts"), point: record.spatial("point"), normal: record.spatial("normal") }
 }
 
 fn probe(record: &Record, faults: &mut Faults) -> Probe {
     let part = record.text("part");
     let at = if record.written("point").is_some() {
-        ProbeAt::Point { part, point: record.vector("point") }
+        ProbeAt::Point { part, point: record.spatial("point") }
     } else if record.written("node").is_some() {
         let node = record.integer("node").map_or(0, |node| usize::try_from(node).unwrap_or(usize::MAX));
         ProbeAt::Node { part, node }

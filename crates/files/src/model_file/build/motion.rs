@@ -23,13 +23,13 @@ pub(super) fn fixed_but(datum: Option<&Datum>) -> Motion {
     if let Some(Datum::Courses(courses)) = datum { motion(courses, &Motion::fixed()) } else { Motion::fixed() }
 }
 
-fn motion(courses: &[Option<Course>; 3], left_out: &Motion) -> Motion {
+fn motion(courses: &[Option<Course>; 4], left_out: &Motion) -> Motion {
     let drive = |axis: usize, left_out: &Option<Drive>| match &courses[axis] {
         None => left_out.clone(),
         Some(Course::Free) => None,
         Some(Course::Driven(drive)) => Some(drive.clone()),
     };
-    Motion { velocity: [0, 1].map(|axis| drive(axis, &left_out.velocity[axis])), spin: drive(2, &left_out.spin) }
+    Motion { velocity: [0, 1, 2].map(|axis| drive(axis, &left_out.velocity[axis])), spin: drive(3, &left_out.spin) }
 }
 
 pub(super) fn curve(record: &Record, faults: &mut Faults) -> Curve {
@@ -73,12 +73,12 @@ fn scalars(record: &Record, name: &str) -> (Vec<f64>, Option<Dimension>) {
 pub(super) fn constraint(record: &Record, faults: &mut Faults) -> Constraint {
     let components = |name| match record.datum(name) {
         Some(Datum::Courses(courses)) => motion(courses, &Motion::default()).velocity,
-        _ => [None, None],
+        _ => [None, None, None],
     };
     let mut velocity = components("velocity");
     let [displacement, acceleration] = ["displacement", "acceleration"].map(components);
     for axis in record.texts("fixed") {
-        let index = usize::from(axis == "y");
+        let index = ["x", "y", "z"].iter().position(|name| *name == axis).unwrap_or_default();
         let others = [("velocity", &velocity), ("displacement", &displacement), ("acceleration", &acceleration)];
         let other = others.iter().find(|(_, drives)| drives[index].is_some()).map(|(name, _)| *name);
         if let (Some(other), Some(place)) = (other, record.written("fixed")) {
@@ -97,9 +97,9 @@ pub(super) fn constraint(record: &Record, faults: &mut Faults) -> Constraint {
         // What else is given has its fault already.
         return Constraint { on: record.text("on"), rotation, ..Constraint::default() };
     }
-    if [&velocity, &displacement, &acceleration].iter().all(|drives| **drives == [None, None]) {
+    if [&velocity, &displacement, &acceleration].iter().all(|drives| **drives == [None, None, None]) {
         // Nothing sound was given: the reader has said so.
-        velocity = [Some(Drive::Constant(0.0)), None];
+        velocity = [Some(Drive::Constant(0.0)), None, None];
     }
     Constraint { on: record.text("on"), velocity, displacement, acceleration, rotation }
 }

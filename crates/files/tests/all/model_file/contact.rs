@@ -107,10 +107,10 @@ fn friction_ties_and_times_are_read() {
 #[test]
 fn obstacles_have_three_shapes() {
     let wall = obstacle("name = \"wall\"\nplane = { point = [0, 1], normal = [0, 2] }");
-    assert_eq!(wall, Obstacle::wall("wall", [0.0, 1.0], [0.0, 2.0]));
-    let plane = ObstacleShape::Plane { point: [0.0, 0.0], normal: [1.0, 0.0], length: Some(0.01) };
+    assert_eq!(wall, Obstacle::wall("wall", [0.0, 1.0, 0.0], [0.0, 2.0, 0.0]));
+    let plane = ObstacleShape::Plane { point: [0.0, 0.0, 0.0], normal: [1.0, 0.0, 0.0], length: Some(0.01) };
     assert_eq!(obstacle("plane = { normal = [1, 0], length = \"10 mm\" }").shape, plane);
-    let circle = |hollow| ObstacleShape::Circle { centre: [0.0, 1.0], radius: 0.5, hollow };
+    let circle = |hollow| ObstacleShape::Circle { centre: [0.0, 1.0, 0.0], radius: 0.5, hollow };
     assert_eq!(obstacle("circle = { centre = [0, 1], radius = \"50 cm\" }").shape, circle(false));
     assert_eq!(obstacle("circle = { centre = [0, 1], radius = 0.5, hollow = true }").shape, circle(true));
     let points = vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 0.0]];
@@ -121,20 +121,20 @@ fn obstacles_have_three_shapes() {
 fn obstacles_are_fixed_driven_or_free() {
     let circle = "circle = { centre = [0, 1], radius = 0.5 }";
     let moved = obstacle(&format!("{circle}\nmotion = {{ x = \"-5 m/s\", y = \"ramp\" }}\nreference = [0, 2]"));
-    let velocity = [Some(Drive::Constant(-5.0)), Some(Drive::Curve("ramp".into()))];
-    assert_eq!((moved.motion, moved.reference), (Motion { velocity, ..Motion::fixed() }, Some([0.0, 2.0])));
+    let velocity = [Some(Drive::Constant(-5.0)), Some(Drive::Curve("ramp".into())), Some(Drive::Constant(0.0))];
+    assert_eq!((moved.motion, moved.reference), (Motion { velocity, ..Motion::fixed() }, Some([0.0, 2.0, 0.0])));
     let free = obstacle(&format!(
         "{circle}\nmotion = {{ x = \"free\", rotation = \"free\" }}\nmass = \"2 kg/m\"\ninertia = \"30 kg m\"\nvelocity = [3, 0]\nspin = \"60 rpm\""
     ));
-    assert_eq!(free.motion, Motion { velocity: [None, Some(Drive::Constant(0.0))], spin: None });
-    assert_eq!((free.mass, free.inertia, free.velocity, free.spin), (Some(2.0), Some(30.0), [3.0, 0.0], std::f64::consts::TAU));
+    assert_eq!(free.motion, Motion { velocity: [None, Some(Drive::Constant(0.0)), Some(Drive::Constant(0.0))], spin: None });
+    assert_eq!((free.mass, free.inertia, free.velocity, free.spin), (Some(2.0), Some(30.0), [3.0, 0.0, 0.0], std::f64::consts::TAU));
 }
 
 #[test]
 fn rigid_parts_are_free_where_nothing_is_said() {
     let rigid = |line: &str| sound(&changed("name = \"ball\"\n", &format!("name = \"ball\"\n{line}\n"))).parts[2].rigid.clone();
     assert_eq!((rigid(""), rigid("rigid = false"), rigid("rigid = true")), (None, None, Some(Motion::default())));
-    let held = Motion { velocity: [Some(Drive::Constant(0.0)), None], spin: Some(Drive::Constant(30.0)) };
+    let held = Motion { velocity: [Some(Drive::Constant(0.0)), None, None], spin: Some(Drive::Constant(30.0)) };
     assert_eq!(rigid("rigid = { x = 0, y = \"free\", rotation = \"30 rad/s\" }"), Some(held));
     let spin = |text: &str| sound(&changed("name = \"ball\"\n", &format!("name = \"ball\"\nspin = {text}\n"))).parts[2].spin;
     assert_eq!((spin("-2"), spin("\"90 deg/s\""), spin("\"30 rpm\"")), (-2.0, std::f64::consts::FRAC_PI_2, std::f64::consts::PI));
@@ -143,7 +143,7 @@ fn rigid_parts_are_free_where_nothing_is_said() {
 #[test]
 fn curves_drive_constraints_and_keep_their_dimension() {
     let model = sound(&changed("fixed = \"x\"", "fixed = \"x\"\nvelocity.y = \"ramp\""));
-    assert_eq!(model.constraints[0].velocity, [Some(Drive::Constant(0.0)), Some(Drive::Curve("ramp".into()))]);
+    assert_eq!(model.constraints[0].velocity, [Some(Drive::Constant(0.0)), Some(Drive::Curve("ramp".into())), None]);
     let curve = |value: &str| sound(&changed("[0, \"5 m/s\"]", value)).curves["ramp"].clone();
     let ramp = |values, dimension| Curve { dimension, ..Curve::table(vec![0.0, 0.001], values) };
     assert_eq!(curve("[0, \"5 m/s\"]"), ramp(vec![0.0, 5.0], Some(Dimension::VELOCITY)));
@@ -184,8 +184,12 @@ fn constraints_move_nodes_in_every_way() {
     };
     let curve = || Some(Drive::Curve("c".into()));
     let empty = || Constraint { on: "plate.right".into(), ..Constraint::default() };
-    assert_eq!(constraint("displacement.y = \"c\""), Constraint { displacement: [None, curve()], ..empty() });
-    let both = Constraint { velocity: [None, Some(Drive::Constant(0.0))], acceleration: [Some(Drive::Constant(3.0)), None], ..empty() };
+    assert_eq!(constraint("displacement.y = \"c\""), Constraint { displacement: [None, curve(), None], ..empty() });
+    let both = Constraint {
+        velocity: [None, Some(Drive::Constant(0.0)), None],
+        acceleration: [Some(Drive::Constant(3.0)), None, None],
+        ..empty()
+    };
     assert_eq!(constraint("fixed = \"y\"\nacceleration = { x = \"3 m/s^2\" }"), both);
     let rotation = |centre, speed| Constraint { rotation: Some(Rotation { centre, speed }), ..empty() };
     assert_eq!(constraint("rotation = { speed = \"c\", centre = [1, \"2 mm\"] }"), rotation([1.0, 0.002], Drive::Curve("c".into())));
@@ -214,12 +218,12 @@ fn a_load_can_damp() {
 fn loads_boundaries_and_joins_are_read() {
     let load = |lines: &str| sound(&and(&format!("[[load]]\n{lines}\n[curve.c]\nexpression = \"t\""))).loads.pop().unwrap();
     let curve = || Some("c".to_string());
-    let gravity = Load::Gravity { parts: vec!["ball".into()], acceleration: [1.0, 2.0], curve: curve() };
+    let gravity = Load::Gravity { parts: vec!["ball".into()], acceleration: [1.0, 2.0, 0.0], curve: curve() };
     assert_eq!(load("gravity = [1, 2]\nparts = \"ball\"\ncurve = \"c\""), gravity);
     let spin = |centre, curve| Load::Centrifugal { parts: vec![], centre, speed: std::f64::consts::TAU, curve };
     assert_eq!(load("centrifugal = \"60 rpm\""), spin([0.0; 2], None));
     assert_eq!(load("centrifugal = \"60 rpm\"\ncentre = [1, 2]\ncurve = \"c\""), spin([1.0, 2.0], curve()));
-    let force = Load::Force { on: "plate.top".into(), force: [3.0, -2000.0], curve: None };
+    let force = Load::Force { on: "plate.top".into(), force: [3.0, -2000.0, 0.0], curve: None };
     assert_eq!(load("force = [3, \"-2 kN/m\"]\non = \"plate.top\""), force);
     assert_eq!(load("pressure = \"2 MPa\"\non = \"ball\""), Load::Pressure { on: "ball".into(), pressure: 2e6, curve: None });
     let model = sound(&and(&format!(
@@ -401,5 +405,5 @@ fn bodies_of_revolution_have_masses_and_forces_of_the_whole() {
     let around = around.replace("[[part]]\n", "[[part]]\nstress_state = \"axisymmetric\"\n");
     let model = read(&around).unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
     assert_eq!(model.obstacles.last().and_then(|die| die.mass), Some(0.03));
-    assert!(matches!(model.loads[1], Load::Force { force: [0.0, 2000.0], .. }), "{:?}", model.loads);
+    assert!(matches!(model.loads[1], Load::Force { force: [0.0, 2000.0, 0.0], .. }), "{:?}", model.loads);
 }

@@ -90,7 +90,7 @@ fn driven(axes: &[&'static str], says: &'static str) -> Vec<Bad> {
     all.extend([
         bad("{ x = \"no curve\" }", ".x", says),
         bad("{ x = \"rampp\" }", ".x", "there is no curve `rampp`"),
-        bad("{ z = 1 }", ".z", "has no component"),
+        bad("{ w = 1 }", ".w", "has no component"),
         bad("{}", "", "has no component"),
         bad("5", "", "must be"),
     ]);
@@ -105,6 +105,14 @@ fn values(kind: Kind) -> Vec<Bad> {
             let inside = |it: Bad| Bad { value: format!("[1.0, {}]", it.value), at: "[1]", ..it };
             let mut all: Vec<Bad> = scalar(range).into_iter().map(inside).collect();
             all.extend(["5", "[1]", "[1, 2, 3]", "\"1 m\"", "true"].map(|value| bad(value, "", "must be a list of 2 numbers")));
+            all
+        }
+        Kind::Spatial(_, range) => {
+            let inside = |it: Bad| Bad { value: format!("[1.0, {}, 0]", it.value), at: "[1]", ..it };
+            let mut all: Vec<Bad> = scalar(range).into_iter().map(inside).collect();
+            all.extend(
+                ["5", "[1]", "[1, 2, 3, 4]", "\"1 m\"", "true"].map(|value| bad(value, "", "must be a list of 2 numbers (3 in space)")),
+            );
             all
         }
         Kind::Quantities(_, range, least) => {

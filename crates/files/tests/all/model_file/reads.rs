@@ -38,21 +38,24 @@ fn the_tube_plate_example_has_exactly_the_values_that_it_shows() {
         elements: [1, 40],
         ..Ring::default()
     });
-    assert_eq!((tube.name.as_str(), tube.element.as_str(), &tube.shape, tube.velocity), ("tube", "quad4", &ring, [0.0, -50.0]));
+    assert_eq!((tube.name.as_str(), tube.element.as_str(), &tube.shape, tube.velocity), ("tube", "quad4", &ring, [0.0, -50.0, 0.0]));
     let rectangle = Shape::Rectangle(Rectangle { corner: [0.0, -0.003], size: [0.6, 0.003], elements: [120, 3], ..Rectangle::default() });
-    assert_eq!((plate.name.as_str(), &plate.shape, plate.velocity), ("plate", &rectangle, [0.0, 50.0]));
+    assert_eq!((plate.name.as_str(), &plate.shape, plate.velocity), ("plate", &rectangle, [0.0, 50.0, 0.0]));
     let contact = &model.contacts[0];
     assert_eq!(
         (contact.name.as_str(), contact.interface.law.clone(), contact.formulation),
         ("impact", ContactLaw::Penalty(Penalty::PerNode(3.5e11)), Formulation::DoublePass)
     );
     assert_eq!(contact.partners, Partners::Between(["tube".into(), "plate".into()]));
-    let wall = Obstacle { parts: vec!["plate".into()], ..Obstacle::wall("wall", [0.0; 2], [1.0, 0.0]) };
+    let wall = Obstacle { parts: vec!["plate".into()], ..Obstacle::wall("wall", [0.0; 3], [1.0, 0.0, 0.0]) };
     assert_eq!(model.obstacles, [wall]);
-    assert_eq!(model.symmetries, [Symmetry { parts: vec![], point: [0.0, 0.0], normal: [1.0, 0.0] }]);
+    assert_eq!(model.symmetries, [Symmetry { parts: vec![], point: [0.0, 0.0, 0.0], normal: [1.0, 0.0, 0.0] }]);
     let probes: Vec<_> = model.probes.iter().map(|probe| (probe.name.as_str(), probe.at.clone())).collect();
     let point = |part: &str, point| ProbeAt::Point { part: part.to_string(), point };
-    assert_eq!(probes, [("A", point("tube", [0.0, 0.0])), ("T", point("tube", [0.0, 0.2])), ("B", point("plate", [0.0, 0.0]))]);
+    assert_eq!(
+        probes,
+        [("A", point("tube", [0.0, 0.0, 0.0])), ("T", point("tube", [0.0, 0.2, 0.0])), ("B", point("plate", [0.0, 0.0, 0.0]))]
+    );
     assert_eq!(
         model.output,
         Output { fields: Cadence::Count(100), history: Cadence::Interval(1e-5), mirror: [true, false], ..Output::default() }
@@ -67,11 +70,11 @@ fn what_is_left_out_has_the_default_of_the_solver() {
     assert_eq!(sound(&changed("[output]\nfields = 10\n", "")).output, Output::default());
     let view = sound(&changed("fields = 10\n", "picture_view = { corner = [\"-2 mm\", 0], size = [1, \"5 cm\"] }\n")).output.picture_view;
     assert_eq!(view, Some(PictureView { corner: [-0.002, 0.0], size: [1.0, 0.05] }));
-    assert_eq!(model.parts[0].velocity, [0.0, 0.0]);
+    assert_eq!(model.parts[0].velocity, [0.0, 0.0, 0.0]);
     assert_eq!(model.contacts[0].interface, Interface::default());
     assert_eq!((model.contacts[0].name.as_str(), model.obstacles[0].name.as_str()), ("tube-plate", "obstacle"));
-    assert_eq!(model.constraints[0].velocity, [Some(0.0.into()), None]);
-    assert_eq!(model.loads, [Load::Gravity { parts: vec![], acceleration: [0.0, -9.81], curve: None }]);
+    assert_eq!(model.constraints[0].velocity, [Some(0.0.into()), None, None]);
+    assert_eq!(model.loads, [Load::Gravity { parts: vec![], acceleration: [0.0, -9.81, 0.0], curve: None }]);
     let full = sound(&changed("from = \"-90 deg\", to = \"90 deg\", ", ""));
     assert!(matches!(full.parts[0].shape, Shape::Ring(Ring { from: 0.0, to: TAU, .. })), "{:?}", full.parts[0].shape);
 }
@@ -108,9 +111,9 @@ fn a_contact_can_be_single_pass_with_a_scaled_or_a_pressure_penalty() {
 #[test]
 fn fixed_and_moving_components_are_joined() {
     let constraint = |lines: &str| sound(&changed("fixed = \"x\"", lines)).constraints[0].velocity.clone();
-    assert_eq!(constraint("fixed = [\"x\", \"y\"]"), [Some(0.0.into()), Some(0.0.into())]);
-    assert_eq!(constraint("fixed = \"x\"\nvelocity = { y = \"1 mm/s\" }"), [Some(0.0.into()), Some(0.001.into())]);
-    assert_eq!(constraint("velocity.x = -2"), [Some(Drive::Constant(-2.0)), None]);
+    assert_eq!(constraint("fixed = [\"x\", \"y\"]"), [Some(0.0.into()), Some(0.0.into()), None]);
+    assert_eq!(constraint("fixed = \"x\"\nvelocity = { y = \"1 mm/s\" }"), [Some(0.0.into()), Some(0.001.into()), None]);
+    assert_eq!(constraint("velocity.x = -2"), [Some(Drive::Constant(-2.0)), None, None]);
 }
 
 #[test]
@@ -128,8 +131,8 @@ fn overrides_replace_and_add_values() {
     };
     assert_eq!(set(&["run.end=5 ms"]).run.end, 0.005);
     assert_eq!(set(&["run.end = \"5 ms\""]).run.end, 0.005);
-    assert_eq!(set(&["part.tube.velocity=[0, \"-50 m/s\"]"]).parts[0].velocity, [0.0, -50.0]);
-    assert_eq!(set(&["part.1.velocity=[0, 7]", "part[1].velocity[0]=3"]).parts[1].velocity, [3.0, 7.0]);
+    assert_eq!(set(&["part.tube.velocity=[0, \"-50 m/s\"]"]).parts[0].velocity, [0.0, -50.0, 0.0]);
+    assert_eq!(set(&["part.1.velocity=[0, 7]", "part[1].velocity[0]=3"]).parts[1].velocity, [3.0, 7.0, 0.0]);
     assert_eq!(set(&["material.steel.hardening=1 GPa"]).materials["steel"].parameters["hardening"], 1e9);
     assert_eq!(set(&["part.tube.ring.elements=[2, 80]"]).parts[0].shape.sides().len(), 4);
     assert_eq!(set(&["title=a new one"]).title, "a new one");

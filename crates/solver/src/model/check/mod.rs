@@ -85,16 +85,16 @@ impl Check<'_> {
         }
     }
 
-    fn vector(&mut self, path: &str, value: [f64; 2]) {
+    fn vector<const N: usize>(&mut self, path: &str, value: [f64; N]) {
         for (index, component) in value.into_iter().enumerate() {
             self.number(&format!("{path}[{index}]"), component);
         }
     }
 
     /// A vector that must have a direction.
-    fn direction(&mut self, path: &str, value: [f64; 2]) {
+    fn direction<const N: usize>(&mut self, path: &str, value: [f64; N]) {
         self.vector(path, value);
-        if value == [0.0, 0.0] {
+        if value == [0.0; N] {
             self.fault(&NO_DIRECTION, path, "the normal is zero, so it has no direction", "give a vector such as [1, 0]");
         }
     }

@@ -16,6 +16,8 @@ use crate::quantity::{Dimension, Range};
 const SAMPLES: u32 = 1000;
 /// Names of the degrees of freedom.
 const AXES: [&str; 3] = ["x", "y", "rotation"];
+/// Components of a vector.
+const STRAIGHT: [&str; 3] = ["x", "y", "z"];
 
 impl Check<'_> {
     pub(super) fn curves(&mut self) {
@@ -133,7 +135,7 @@ impl Check<'_> {
     }
 
     /// How a rigid body moves, and how it begins where it is free.
-    fn motion(&mut self, body: &str, key: &str, motion: &Motion, velocity: [f64; 2], spin: f64) {
+    fn motion(&mut self, body: &str, key: &str, motion: &Motion, velocity: [f64; 3], spin: f64) {
         let drives = drives(motion);
         for ((axis, drive), dimension) in AXES.iter().zip(drives).zip([Dimension::VELOCITY, Dimension::VELOCITY, Dimension::RATE]) {
             if let Some(drive) = drive {
@@ -300,22 +302,22 @@ impl Check<'_> {
             ("acceleration", &constraint.acceleration, Dimension::ACCELERATION),
         ];
         for (key, drives, dimension) in kinds {
-            for (axis, drive) in AXES.iter().zip(drives) {
+            for (axis, drive) in STRAIGHT.iter().zip(drives) {
                 if let Some(drive) = drive {
                     self.drive(&format!("{path}.{key}.{axis}"), drive, dimension);
                 }
             }
         }
-        for (axis, drive) in AXES.iter().zip(&constraint.displacement) {
+        for (axis, drive) in STRAIGHT.iter().zip(&constraint.displacement) {
             if let Some(drive) = drive {
                 self.begins_with_zero(format!("{path}.displacement.{axis}"), drive);
             }
         }
-        for axis in 0..2 {
+        for axis in 0..3 {
             let several: Vec<&str> = kinds.iter().filter(|(_, drives, _)| drives[axis].is_some()).map(|(key, ..)| *key).collect();
             if let [first, second, ..] = several[..] {
-                let message = format!("`{}` is prescribed by both `{first}` and `{second}`", AXES[axis]);
-                self.fault(&PRESCRIBED_TWICE, format!("{path}.{second}.{}", AXES[axis]), message, "leave it out of one of the two");
+                let message = format!("`{}` is prescribed by both `{first}` and `{second}`", STRAIGHT[axis]);
+                self.fault(&PRESCRIBED_TWICE, format!("{path}.{second}.{}", STRAIGHT[axis]), message, "leave it out of one of the two");
             }
         }
         let straight = kinds.iter().any(|(_, drives, _)| drives.iter().any(Option::is_some));

@@ -34,13 +34,13 @@ fn sound() -> Model {
         .insert("steel".into(), Material { law: "elastic".into(), parameters: parameters.into_iter().collect(), ..Material::default() });
     model.parts = vec![part("ring", ring), part("block", Shape::Group { mesh: 0, group: "body".into() })];
     model.contacts = vec![Contact::between("hit", "ring.outer", "upper")];
-    model.obstacles = vec![Obstacle::wall("wall", [0.0; 2], [1.0, 0.0])];
+    model.obstacles = vec![Obstacle::wall("wall", [0.0; 3], [1.0, 0.0, 0.0])];
     let times = vec![0.0, 1.0];
     model.curves.insert("ramp".into(), Curve::table(times.clone(), times));
-    model.symmetries = vec![Symmetry { normal: [1.0, 0.0], ..Symmetry::default() }];
-    model.constraints = vec![Constraint { on: "upper".into(), velocity: [Some(0.0.into()), None], ..Constraint::default() }];
-    model.loads = vec![Load::Gravity { parts: vec![], acceleration: [0.0, -9.81], curve: None }];
-    model.probes = vec![Probe { name: "A".into(), at: ProbeAt::Point { part: "ring".into(), point: [0.0; 2] } }];
+    model.symmetries = vec![Symmetry { normal: [1.0, 0.0, 0.0], ..Symmetry::default() }];
+    model.constraints = vec![Constraint { on: "upper".into(), velocity: [Some(0.0.into()), None, None], ..Constraint::default() }];
+    model.loads = vec![Load::Gravity { parts: vec![], acceleration: [0.0, -9.81, 0.0], curve: None }];
+    model.probes = vec![Probe { name: "A".into(), at: ProbeAt::Point { part: "ring".into(), point: [0.0; 3] } }];
     model
 }
 
@@ -122,7 +122,7 @@ fn a_number_that_is_not_finite_is_found_wherever_it_is() {
             ObstacleShape::Plane { normal, .. } => &mut normal[0],
             _ => unreachable!("it is a plane"),
         }),
-        ("obstacle[0].reference[1]", |m| &mut m.obstacles[0].reference.insert([0.0; 2])[1]),
+        ("obstacle[0].reference[1]", |m| &mut m.obstacles[0].reference.insert([0.0; 3])[1]),
         ("obstacle[0].mass", |m| {
             m.obstacles[0].motion = Motion::default();
             m.obstacles[0].mass.insert(1.0)
@@ -173,7 +173,7 @@ fn faults_that_only_code_can_make_are_found() {
     assert_eq!(paths(|model| model.run.checkpoint_steps = Some(0)), ["run.checkpoint_steps"]);
     assert_eq!(paths(|model| model.output.fields = Cadence::Count(0)), ["output.fields"]);
     assert_eq!(paths(|model| model.contacts[0].formulation = Formulation::SinglePass { slave: 2 }), ["contact[0].slave"]);
-    assert_eq!(paths(|model| model.constraints[0].velocity = [None, None]), ["constraint[0]"]);
+    assert_eq!(paths(|model| model.constraints[0].velocity = [None, None, None]), ["constraint[0]"]);
     assert_eq!(paths(|model| model.parts[1].shape = Shape::Group { mesh: 3, group: "body".into() }), ["part[1].mesh"]);
     let mesh = |change: fn(&mut ImportedMesh)| paths(|model| change(Arc::make_mut(&mut model.meshes[0])));
     assert_eq!(mesh(|mesh| mesh.groups[0].cells[0] = vec![0, 1, 2, 9]), ["part[1].mesh.group"]);
@@ -212,8 +212,8 @@ fn faults_that_only_code_can_make_are_found() {
 fn loads_and_joins_that_make_no_sense_are_found() {
     let load = |load: Load| paths(|model| model.loads = vec![load]);
     let curve = |name: &str| Some(name.to_string());
-    assert_eq!(load(Load::Force { on: "upper".into(), force: [1.0, f64::NAN], curve: curve("ramp") }), ["load[0].force[1]"]);
-    assert_eq!(load(Load::Force { on: "ring".into(), force: [1.0, 0.0], curve: None }), ["load[0].on"]);
+    assert_eq!(load(Load::Force { on: "upper".into(), force: [1.0, f64::NAN, 0.0], curve: curve("ramp") }), ["load[0].force[1]"]);
+    assert_eq!(load(Load::Force { on: "ring".into(), force: [1.0, 0.0, 0.0], curve: None }), ["load[0].on"]);
     assert_eq!(load(Load::Pressure { on: "body".into(), pressure: 1.0, curve: curve("rmap") }), ["load[0].on", "load[0].curve"]);
     let spin = Load::Centrifugal { parts: vec![], centre: [f64::INFINITY, 0.0], speed: f64::NAN, curve: None };
     assert_eq!(load(spin), ["load[0].centre[0]", "load[0].centrifugal"]);

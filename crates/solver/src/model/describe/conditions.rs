@@ -1,6 +1,6 @@
 //! The sections of the model file about what holds nodes and what acts on them: symmetry, constraints, joins, loads.
 
-use super::Kind::{Angle, Quantity, Reference, References, Table, Vector};
+use super::Kind::{Angle, Quantity, Reference, References, Spatial, Table, Vector};
 use super::Need::{Default, Optional, Required};
 use super::{Form, Kind, Rule, Section, key};
 use crate::quantity::Dimension;
@@ -12,8 +12,8 @@ pub(super) static SYMMETRY: Section = Section {
     form: Form::Repeated,
     required: false,
     keys: &[
-        key("normal", Vector(Dimension::NONE, Finite), Required, "Normal of the line; any length but zero."),
-        key("point", Vector(Dimension::LENGTH, Finite), Default("[0, 0]"), "A point of the line."),
+        key("normal", Spatial(Dimension::NONE, Finite), Required, "Normal of the line; any length but zero."),
+        key("point", Spatial(Dimension::LENGTH, Finite), Default("[0, 0]"), "A point of the line."),
         key("parts", References(None), Optional("all parts"), "Parts that it holds."),
     ],
     ..Section::EMPTY
@@ -26,7 +26,7 @@ pub(super) static CONSTRAINT: Section = Section {
     required: false,
     keys: &[
         key("on", Reference, Required, "The set."),
-        key("fixed", Kind::Choices(|| vec!["x", "y"]), Optional("none"), "Components that don't move."),
+        key("fixed", Kind::Choices(|| vec!["x", "y", "z"]), Optional("none"), "Components that don't move."),
         key(
             "velocity",
             Kind::Components(Dimension::VELOCITY),
@@ -77,7 +77,7 @@ pub(super) static LOAD: Section = Section {
     keys: &[
         key(
             "gravity",
-            Vector(Dimension::ACCELERATION, Finite),
+            Spatial(Dimension::ACCELERATION, Finite),
             Optional("another load"),
             "Uniform acceleration of parts, such as `[0, \"-9.81 m/s^2\"]`; in an axisymmetric model along y.",
         ),
@@ -95,7 +95,7 @@ pub(super) static LOAD: Section = Section {
         ),
         key(
             "force",
-            Vector(Dimension::FORCE_PER_LENGTH, Finite),
+            Spatial(Dimension::FORCE_PER_LENGTH, Finite),
             Optional("another load"),
             "Force on a set in all, per metre of depth (of an axisymmetric model in N over the whole circumference): shared by length over a side or a line group on the outside, equally over other groups.",
         ),

@@ -1,6 +1,6 @@
 //! The sections of the model file that say what bodies meet: contacts, obstacles, and the keys that both share, described once.
 
-use super::Kind::{Angle, Choice, Flag, Name, Points, Quantities, Quantity, Reference, References, Stiffness, Table, Vector};
+use super::Kind::{Angle, Choice, Flag, Name, Points, Quantities, Quantity, Reference, References, Spatial, Stiffness, Table};
 use super::Need::{Default, Optional, Required};
 use super::{Form, Group, Kind, Rule, Section, key};
 use crate::contact::{formulation, law, search};
@@ -49,7 +49,7 @@ pub(super) static OBSTACLE: Section = Section {
         ),
         key(
             "reference",
-            Vector(Dimension::LENGTH, Finite),
+            Spatial(Dimension::LENGTH, Finite),
             Optional("the plane's point, the circle's centre, the mean of the polyline's points"),
             "Reference point of rotation and moments.",
         ),
@@ -65,7 +65,7 @@ pub(super) static OBSTACLE: Section = Section {
             Optional("needed where, and only where, `rotation` is free"),
             "Moment of inertia about the reference point per depth.",
         ),
-        key("velocity", Vector(Dimension::VELOCITY, Finite), Default("[0, 0]"), "Initial velocity where it is free."),
+        key("velocity", Spatial(Dimension::VELOCITY, Finite), Default("[0, 0]"), "Initial velocity where it is free."),
         key("spin", Angle(Dimension::RATE, Finite), Default("0"), "Initial angular velocity where it is free, counter-clockwise."),
     ],
     groups: &[&INTERFACE],
@@ -77,8 +77,8 @@ static PLANE: Section = Section {
     name: "plane",
     doc: "A straight line that bodies meet from the side of its normal.",
     keys: &[
-        key("point", Vector(Dimension::LENGTH, Finite), Default("[0, 0]"), "A point of the line; its middle where it has a length."),
-        key("normal", Vector(Dimension::NONE, Finite), Required, "Normal that points to the free side; any length but zero."),
+        key("point", Spatial(Dimension::LENGTH, Finite), Default("[0, 0]"), "A point of the line; its middle where it has a length."),
+        key("normal", Spatial(Dimension::NONE, Finite), Required, "Normal that points to the free side; any length but zero."),
         key("length", Quantity(Dimension::LENGTH, Positive), Optional("without end"), "Length."),
     ],
     ..Section::EMPTY
@@ -88,7 +88,7 @@ static CIRCLE: Section = Section {
     name: "circle",
     doc: "A circle.",
     keys: &[
-        key("centre", Vector(Dimension::LENGTH, Finite), Required, "Centre."),
+        key("centre", Spatial(Dimension::LENGTH, Finite), Required, "Centre."),
         key("radius", Quantity(Dimension::LENGTH, Positive), Required, "Radius."),
         key("hollow", Flag, Default("false"), "Whether the bodies are inside of it."),
     ],

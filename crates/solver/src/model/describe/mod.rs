@@ -102,6 +102,8 @@ pub enum Kind {
     Angle(Dimension, Range),
     /// Two quantities, x and y.
     Vector(Dimension, Range),
+    /// A vector of the space that the model lies in: x and y, of solids z too (zero where it is left out).
+    Spatial(Dimension, Range),
     /// A list of at least so many quantities.
     Quantities(Dimension, Range, usize),
     /// A quantity of whichever dimension.
@@ -114,9 +116,9 @@ pub enum Kind {
     Outlines(usize),
     /// A quantity (angular velocity where it is a rate) or the name of a curve; also part of the next three.
     Drive(Dimension),
-    /// A table with `x`, `y` or both: such quantities by component.
+    /// A table with `x`, `y`, `z` or some of them: such quantities by component.
     Components(Dimension),
-    /// A table with some of `x`, `y` and `rotation`: prescribed velocities, or `"free"`.
+    /// A table with some of `x`, `y`, `z` and `rotation`: prescribed velocities, or `"free"`.
     Motion,
     /// `true`, `false`, or such a table.
     Rigid,
@@ -233,6 +235,7 @@ impl Key {
             Kind::Quantity(dimension, range)
             | Kind::Angle(dimension, range)
             | Kind::Vector(dimension, range)
+            | Kind::Spatial(dimension, range)
             | Kind::Quantities(dimension, range, _) => Some((dimension, range)),
             Kind::Drive(dimension) | Kind::Components(dimension) => Some((dimension, Range::Finite)),
             Kind::Points(_) | Kind::Outlines(_) => Some((Dimension::LENGTH, Range::Finite)),

@@ -1,6 +1,6 @@
 //! The sections of the model file but those of contacts, obstacles and conditions: their keys, and where the names come from that a key chooses from.
 
-use super::Kind::{Angle, Choice, Flag, Integer, Name, Quantities, Quantity, Reference, Table, Text, Vector};
+use super::Kind::{Angle, Choice, Flag, Integer, Name, Quantities, Quantity, Reference, Spatial, Table, Text, Vector};
 use super::Need::{self, Default, Optional, Required};
 use super::conditions::{CONSTRAINT, JOIN, LOAD, NON_REFLECTING, SYMMETRY};
 use super::contact::{CONTACT, OBSTACLE};
@@ -219,7 +219,7 @@ static PART: Section = Section {
             Default("\"plane_strain\""),
             "What the plane stands for. In an axisymmetric part x is the radius and y the axis; forces, masses and energies are those of the whole circumference.",
         ),
-        key("velocity", Vector(Dimension::VELOCITY, Finite), Default("[0, 0]"), "Initial velocity."),
+        key("velocity", Spatial(Dimension::VELOCITY, Finite), Default("[0, 0]"), "Initial velocity."),
         key(
             "spin",
             Angle(Dimension::RATE, Finite),
@@ -353,7 +353,7 @@ static PROBE: Section = Section {
     keys: &[
         key("name", Name, Required, "Unique name."),
         key("part", Reference, Optional("only with `set`"), "Part of `point` or `node`."),
-        key("point", Vector(Dimension::LENGTH, Finite), Optional("`node` or `set`"), "Initial position; the nearest node is taken."),
+        key("point", Spatial(Dimension::LENGTH, Finite), Optional("`node` or `set`"), "Initial position; the nearest node is taken."),
         key("node", Integer(0), Optional("`point` or `set`"), "Number of the node in its part, from 0."),
         key("set", Reference, Optional("`point` or `node`"), "A part, a side such as `plate.top`, or a group of a mesh file."),
     ],

@@ -21,7 +21,7 @@ fn main() {
         let mut simulation =
             Simulation::new(&spinning_block("quad4", "j2", n), &Options { threads: 1, simd: None }).expect("the model is sound");
         let steps = (20_000 / (n * n)).clamp(2, 50);
-        let mut frames: Vec<Frame<2>> = Vec::new();
+        let mut frames: Vec<Frame> = Vec::new();
         let mut step = f64::INFINITY;
         for _ in 0..FRAMES {
             step = step.min(1e3 * shortest(1, || simulation.advance(f64::INFINITY, steps as u64).expect("it runs")) / steps as f64);
@@ -33,7 +33,7 @@ fn main() {
 
         let cells = simulation.cells();
         let last = &frames[FRAMES - 1];
-        let raw = 16 * last.positions.len() + 8 * last.fields.iter().map(|field| field.values.len()).sum::<usize>();
+        let raw = 16 * last.positions::<2>().len() + 8 * last.fields.iter().map(|field| field.values.len()).sum::<usize>();
         let mut single = 0.0;
         for count in [1, 2] {
             let threads = Threads::new(count);

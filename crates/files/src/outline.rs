@@ -88,15 +88,16 @@ pub(crate) struct LineReader {
 
 impl LineReader {
     /// Lines of a frame, in model order.
-    pub(crate) fn lines(&mut self, frame: &Frame<2>) -> Vec<Line> {
-        let largest = || frame.positions.iter().flatten().filter(|x| x.is_finite()).fold(0.0f64, |size, x| size.max(x.abs()));
+    pub(crate) fn lines(&mut self, frame: &Frame) -> Vec<Line> {
+        let largest = || frame.positions::<2>().iter().flatten().filter(|x| x.is_finite()).fold(0.0f64, |size, x| size.max(x.abs()));
         let far = *self.far.get_or_insert_with(|| ENDLESS * largest());
         frame.outlines.iter().map(|outline| line(&outline.points, far)).collect()
     }
 }
 
-fn line(points: &[[f64; 2]], far: f64) -> Line {
-    if let [a, b] = *points {
+fn line(points: &[[f64; 3]], far: f64) -> Line {
+    let points: Vec<[f64; 2]> = points.iter().map(|&[x, y, _]| [x, y]).collect();
+    if let [a, b] = points[..] {
         let along = [b[0] - a[0], b[1] - a[1]];
         if far > 0.0 && along[0].hypot(along[1]) > far {
             let ahead = along.map(|v| 0.5 * DRAWN_OUT * v);
@@ -105,7 +106,7 @@ fn line(points: &[[f64; 2]], far: f64) -> Line {
             return Line { points: ends.into(), is_endless: true };
         }
     }
-    Line { points: points.to_vec(), is_endless: false }
+    Line { points, is_endless: false }
 }
 
 #[cfg(test)]
@@ -114,8 +115,8 @@ mod tests {
     use embate_solver::output::Outline;
 
     fn lines(points: Vec<[f64; 2]>) -> Vec<Line> {
-        let outlines = vec![Outline { name: "o".into(), points }];
-        let frame = Frame { time: 0.0, step: 0, positions: vec![[-1.0, 0.0], [0.0, 2.0]], fields: vec![], outlines };
+        let outlines = vec![Outline::line("o", points)];
+        let frame = Frame { outlines, ..Frame::of(&[[-1.0, 0.0], [0.0, 2.0]]) };
         LineReader::default().lines(&frame)
     }
 

@@ -85,8 +85,8 @@ impl VtuWriter {
     ///
     /// # Errors
     /// [`VtuError`] when a field or a cell does not fit.
-    pub fn file<'a>(&'a self, frame: &'a Frame<2>, include: &[String]) -> Result<VtuFile<'a>, VtuError> {
-        let nodes = frame.positions.len();
+    pub fn file<'a>(&'a self, frame: &'a Frame, include: &[String]) -> Result<VtuFile<'a>, VtuError> {
+        let nodes = frame.nodes();
         if let Some(node) = self.node_last.filter(|&node| node as usize >= nodes) {
             return Err(VtuError::NodeMissing { node, nodes });
         }
@@ -102,7 +102,8 @@ impl VtuWriter {
             let types: Vec<u8> = alive.values.iter().map(|&alive| if alive == 0.0 { HIDDEN_CELL } else { 0 }).collect();
             of_cells.push(Content::Plain(plain("type=\"UInt8\" Name=\"vtkGhostType\"", Data::Bytes(types))));
         }
-        let points = plain(POINTS, Data::PlaneVectors(frame.positions.as_flattened()));
+        let points =
+            plain(POINTS, if frame.dimension == 3 { Data::Numbers(&frame.coordinates) } else { Data::PlaneVectors(&frame.coordinates) });
         let sections = vec![
             ("PointData", of_nodes),
             ("CellData", of_cells),
@@ -264,6 +265,9 @@ fn vtk_cell_type(kind: CellKind) -> u8 {
         CellKind::Line => 3,
         CellKind::Triangle => 5,
         CellKind::Quadrilateral => 9,
+        CellKind::Tetrahedron => 10,
+        CellKind::Hexahedron => 12,
+        CellKind::Wedge => 13,
     }
 }
 
@@ -315,18 +319,17 @@ mod tests {
         }
     }
 
-    fn frame() -> Frame<2> {
+    fn frame() -> Frame {
         let field = |name: &str, values: Vec<f64>| Field { kind: field_kind(name).unwrap(), values };
         Frame {
             time: 1.25e-5,
             step: 17,
-            positions: vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [2.0, 0.5]],
             fields: vec![
                 field("velocity", (0..10).map(f64::from).collect()),
                 field("stress", vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0]),
                 field("plastic_strain", vec![0.25, 0.5]),
             ],
-            outlines: vec![],
+            ..Frame::of(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [2.0, 0.5]])
         }
     }
 
@@ -355,7 +358,7 @@ mod tests {
     }
 
     /// What is written of a frame.
-    fn bytes(cells: &Cells, frame: &Frame<2>, include: &[String], threads: usize) -> Result<Vec<u8>, VtuError> {
+    fn bytes(cells: &Cells, frame: &Frame, include: &[String], threads: usize) -> Result<Vec<u8>, VtuError> {
         let threads = Threads::new(threads);
         let writer = VtuWriter::new(cells, &threads);
         let mut file = Cursor::new(Vec::new());
@@ -411,10 +414,10 @@ mod tests {
         };
         for nodes in [BLOCK / 24, BLOCK / 8, 40_000] {
             let positions: Vec<[f64; 2]> = (0..nodes).map(|_| [noise(), noise()]).collect();
-            let frame = Frame { time: 0.0, step: 0, positions, fields: vec![], outlines: vec![] };
+            let frame = Frame::of(&positions);
             let file = bytes(&Cells::default(), &frame, &[], 1).unwrap();
             let points = floats(&array(&file, "Points"));
-            assert!(points.chunks(3).map(|p| [p[0], p[1]]).eq(frame.positions.iter().copied()));
+            assert!(points.chunks(3).map(|p| [p[0], p[1]]).eq(frame.positions::<2>().iter().copied()));
         }
     }
 
@@ -439,7 +442,7 @@ mod tests {
             parts: vec![0; count],
             part_names: vec!["a".into()],
         };
-        let frame = Frame { time: 0.0, step: 0, positions: vec![[1.0, 2.0]; 3], fields, outlines: vec![] };
+        let frame = Frame { fields, ..Frame::of(&[[1.0, 2.0]; 3]) };
         let file = bytes(&cells, &frame, &[], 2).unwrap();
         for field in &frame.fields {
             assert!(floats(&array(&file, field.kind.name)) == field.values, "{}", field.kind.name);
@@ -452,10 +455,10 @@ mod tests {
     fn the_bytes_do_not_depend_on_the_number_of_threads() {
         let positions: Vec<[f64; 2]> = (0..60_000).map(f64::from).map(|k| [k.sin(), (0.01 * k).cos()]).collect();
         let velocity = Field { kind: field_kind("velocity").unwrap(), values: positions.as_flattened().to_vec() };
-        let frame = Frame { time: 0.0, step: 0, positions, fields: vec![velocity], outlines: vec![] };
+        let frame = Frame { fields: vec![velocity], ..Frame::of(&positions) };
         let file = |threads| bytes(&Cells::default(), &frame, &[], threads).unwrap();
         let alone = file(1);
-        assert!(floats(&array(&alone, "velocity")).chunks(3).zip(&frame.positions).all(|(v, x)| v == [x[0], x[1], 0.0]));
+        assert!(floats(&array(&alone, "velocity")).chunks(3).zip(frame.positions::<2>()).all(|(v, x)| v == [x[0], x[1], 0.0]));
         assert!([2, 3, 8].into_iter().all(|threads| file(threads) == alone));
     }
 
@@ -475,7 +478,7 @@ mod tests {
 
     #[test]
     fn no_cells_are_no_problem() {
-        let frame = Frame { time: 0.0, step: 0, positions: vec![], fields: vec![], outlines: vec![] };
+        let frame = Frame::default();
         let file = bytes(&Cells::default(), &frame, &[], 1).unwrap();
         assert!(array(&file, "connectivity").is_empty());
     }
@@ -487,7 +490,7 @@ mod tests {
         let error = bytes(&cells(), &frame, &[], 1).unwrap_err();
         assert_eq!(error, VtuError::FieldLength { name: "stress", found: 7, expected: 8 });
         frame.fields.clear();
-        frame.positions.truncate(4);
+        frame.coordinates.truncate(8);
         assert_eq!(bytes(&cells(), &frame, &[], 1).unwrap_err(), VtuError::NodeMissing { node: 4, nodes: 4 });
     }
 

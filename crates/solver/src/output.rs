@@ -14,6 +14,12 @@ pub enum CellKind {
     Triangle,
     /// Four-node quadrilateral, counter-clockwise.
     Quadrilateral,
+    /// Four-node tetrahedron; seen from the fourth node the first three run clockwise.
+    Tetrahedron,
+    /// Six-node wedge: two triangles.
+    Wedge,
+    /// Eight-node hexahedron: two quadrilaterals.
+    Hexahedron,
 }
 
 /// The cells of all parts; does not change during a run.
@@ -108,33 +114,78 @@ pub struct Field {
 }
 
 /// Where an obstacle is at one output time.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Outline<const D: usize> {
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Outline {
     /// Name of the obstacle.
     pub name: String,
-    /// Its surface from point to point, the solid on the right, m; a plane without end reaches far beyond the model, a closed line ends at its first point.
-    pub points: Vec<[f64; D]>,
+    /// Points of its surface, m. In the plane (z is zero) they follow each other, the solid on the right; what is without end reaches far beyond the model, a closed line ends at its
+    /// first point.
+    pub points: Vec<[f64; 3]>,
+    /// In space: facets of it, each by its points, outward by the right-hand rule; a triangle repeats its last point.
+    pub facets: Vec<[u32; 4]>,
+}
+
+impl Outline {
+    /// A line of the plane.
+    #[must_use]
+    pub fn line(name: &str, points: impl IntoIterator<Item = [f64; 2]>) -> Self {
+        Self { name: name.into(), points: points.into_iter().map(|[x, y]| [x, y, 0.0]).collect(), facets: Vec::new() }
+    }
 }
 
 /// The state at one output time.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Frame<const D: usize> {
+pub struct Frame {
     /// Time, s.
     pub time: f64,
     /// Step number.
     pub step: u64,
-    /// Current node positions, m.
-    pub positions: Vec<[f64; D]>,
+    /// Components of a position: 2 in the plane, 3 in space.
+    pub dimension: usize,
+    /// Current node positions, m, one after the other: see [`Frame::positions`].
+    pub coordinates: Vec<f64>,
     /// Fields in the order of [`FIELDS`].
     pub fields: Vec<Field>,
     /// Obstacles in model order.
-    pub outlines: Vec<Outline<D>>,
+    pub outlines: Vec<Outline>,
 }
 
-/// Components of a plane vector.
-const VECTOR: &[&str] = &["x", "y"];
-/// Components of a stress in the plane, out-of-plane normal stress included.
-const STRESS: &[&str] = &["xx", "yy", "zz", "xy"];
+impl Frame {
+    /// Nodes at these places (m), and nothing else.
+    #[must_use]
+    pub fn of<const D: usize>(positions: &[[f64; D]]) -> Self {
+        Self { dimension: D, coordinates: positions.as_flattened().to_vec(), ..Self::default() }
+    }
+
+    /// Current node positions, m; none where the frame has another dimension.
+    #[must_use]
+    pub fn positions<const D: usize>(&self) -> &[[f64; D]] {
+        if D == self.dimension { self.coordinates.as_chunks().0 } else { &[] }
+    }
+
+    /// How many nodes there are.
+    #[must_use]
+    pub fn nodes(&self) -> usize {
+        self.coordinates.len() / self.dimension.max(1)
+    }
+
+    /// Current position of a node in space, m; in the plane z is zero.
+    #[must_use]
+    pub fn place(&self, node: usize) -> [f64; 3] {
+        let own = &self.coordinates[node * self.dimension..][..self.dimension];
+        std::array::from_fn(|d| own.get(d).copied().unwrap_or(0.0))
+    }
+}
+
+/// What a dimension means for fields: the components of a vector and of a stress (in the plane with the normal stress out of it), and what contact forces are in.
+struct Forms {
+    vector: &'static [&'static str],
+    stress: &'static [&'static str],
+    force: &'static str,
+}
+
+const IN_THE_PLANE: Forms = Forms { vector: &["x", "y"], stress: &["xx", "yy", "zz", "xy"], force: "N/m" };
+const IN_SPACE: Forms = Forms { vector: &["x", "y", "z"], stress: &["xx", "yy", "zz", "xy", "yz", "zx"], force: "N" };
 
 /// A field at the nodes.
 const fn at_nodes(
@@ -158,63 +209,82 @@ const fn at_cells(
     FieldKind { name, location: Location::Cell, components, unit, needs, doc }
 }
 
-/// Every field that can be written.
-pub static FIELDS: &[FieldKind] = &[
-    at_nodes("displacement", VECTOR, "m", Needs::Nothing, "current minus initial position"),
-    at_nodes("velocity", VECTOR, "m/s", Needs::Nothing, "velocity at the frame's time"),
-    at_nodes(
-        "contact_force",
-        VECTOR,
-        "N/m",
-        Needs::Contact,
-        "sum of the contact and obstacle forces on the node, per metre of depth (of an axisymmetric model in N, all around)",
-    ),
-    at_nodes(
-        "contact_pressure",
-        &[],
-        "Pa",
-        Needs::Contact,
-        "normal part of the contact force over the node's current length (of an axisymmetric model area) of surface",
-    ),
-    at_nodes("contact_shear", &[], "Pa", Needs::Friction, "tangential part, along the surface with the body on its right"),
-    at_nodes(
-        "contact_gap",
-        &[],
-        "m",
-        Needs::Contact,
-        "distance from what is opposite, negative where it penetrates; not a number where nothing is near",
-    ),
-    at_nodes("contact_slip", &[], "m", Needs::Contact, "distance that the surfaces have slid on each other"),
-    at_nodes("contact_status", &[], "", Needs::Contact, "0 open, 1 stick, 2 slip (closed without friction counts as slip)"),
-    at_nodes("friction_heat", &[], "J/m^2", Needs::Friction, "friction work so far, half of it on either surface, per initial surface"),
-    at_cells("stress", STRESS, "Pa", Needs::Nothing, "Cauchy stress, mean over the element's points"),
-    at_cells("von_mises", &[], "Pa", Needs::Nothing, "equivalent stress √(3/2 s:s) of the mean stress"),
-    at_cells("pressure", &[], "Pa", Needs::Nothing, "minus a third of the stress trace"),
-    at_cells(
-        "plastic_strain",
-        &[],
-        "",
-        Needs::History(Variable::PlasticStrain),
-        "equivalent plastic strain, mean over the element's points",
-    ),
-    at_cells(
-        "temperature",
-        &[],
-        "K",
-        Needs::History(Variable::Temperature),
-        "temperature, mean over the element's points; 0 where the material has none",
-    ),
-    at_cells("damage", &[], "", Needs::History(Variable::Damage), "damage, 1 at failure, mean over the element's points"),
-    at_cells(
-        "alive",
-        &[],
-        "",
-        Needs::Failure,
-        "1 where the element is there, 0 where it was eroded: then its other values are those when it failed",
-    ),
-    at_cells("density", &[], "kg/m^3", Needs::History(Variable::Density), "density of materials with an equation of state, 0 for others"),
-    at_cells("energy_density", &[], "J/m^3", Needs::Nothing, "stored elastic energy per initial volume"),
-];
+/// Every field that can be written, of models of the plane.
+pub static FIELDS: &[FieldKind] = &fields(&IN_THE_PLANE);
+/// The same of models of space.
+pub static FIELDS_IN_SPACE: &[FieldKind] = &fields(&IN_SPACE);
+
+/// The fields of a dimension.
+#[must_use]
+pub fn fields_of(dimension: usize) -> &'static [FieldKind] {
+    if dimension == 3 { FIELDS_IN_SPACE } else { FIELDS }
+}
+
+const fn fields(forms: &Forms) -> [FieldKind; 18] {
+    let Forms { vector, stress, force } = *forms;
+    [
+        at_nodes("displacement", vector, "m", Needs::Nothing, "current minus initial position"),
+        at_nodes("velocity", vector, "m/s", Needs::Nothing, "velocity at the frame's time"),
+        at_nodes(
+            "contact_force",
+            vector,
+            force,
+            Needs::Contact,
+            "sum of the contact and obstacle forces on the node, per metre of depth (of an axisymmetric model in N, all around)",
+        ),
+        at_nodes(
+            "contact_pressure",
+            &[],
+            "Pa",
+            Needs::Contact,
+            "normal part of the contact force over the node's current length (of an axisymmetric model area) of surface",
+        ),
+        at_nodes("contact_shear", &[], "Pa", Needs::Friction, "tangential part, along the surface with the body on its right"),
+        at_nodes(
+            "contact_gap",
+            &[],
+            "m",
+            Needs::Contact,
+            "distance from what is opposite, negative where it penetrates; not a number where nothing is near",
+        ),
+        at_nodes("contact_slip", &[], "m", Needs::Contact, "distance that the surfaces have slid on each other"),
+        at_nodes("contact_status", &[], "", Needs::Contact, "0 open, 1 stick, 2 slip (closed without friction counts as slip)"),
+        at_nodes("friction_heat", &[], "J/m^2", Needs::Friction, "friction work so far, half of it on either surface, per initial surface"),
+        at_cells("stress", stress, "Pa", Needs::Nothing, "Cauchy stress, mean over the element's points"),
+        at_cells("von_mises", &[], "Pa", Needs::Nothing, "equivalent stress √(3/2 s:s) of the mean stress"),
+        at_cells("pressure", &[], "Pa", Needs::Nothing, "minus a third of the stress trace"),
+        at_cells(
+            "plastic_strain",
+            &[],
+            "",
+            Needs::History(Variable::PlasticStrain),
+            "equivalent plastic strain, mean over the element's points",
+        ),
+        at_cells(
+            "temperature",
+            &[],
+            "K",
+            Needs::History(Variable::Temperature),
+            "temperature, mean over the element's points; 0 where the material has none",
+        ),
+        at_cells("damage", &[], "", Needs::History(Variable::Damage), "damage, 1 at failure, mean over the element's points"),
+        at_cells(
+            "alive",
+            &[],
+            "",
+            Needs::Failure,
+            "1 where the element is there, 0 where it was eroded: then its other values are those when it failed",
+        ),
+        at_cells(
+            "density",
+            &[],
+            "kg/m^3",
+            Needs::History(Variable::Density),
+            "density of materials with an equation of state, 0 for others",
+        ),
+        at_cells("energy_density", &[], "J/m^3", Needs::Nothing, "stored elastic energy per initial volume"),
+    ]
+}
 
 /// Position of a field in [`FIELDS`] by name.
 #[must_use]

@@ -161,11 +161,13 @@ impl Recorded {
     }
 
     /// Puts the state of a system into a frame; what the frame held goes, its buffers serve again.
-    pub(crate) fn fill(&self, system: &System, frame: &mut Frame<2>) {
+    pub(crate) fn fill(&self, system: &System, frame: &mut Frame) {
         (frame.time, frame.step) = (system.time, system.step);
-        frame.positions.resize(system.mesh.user_nodes.len(), [0.0; 2]);
+        frame.dimension = 2;
+        frame.coordinates.resize(2 * system.mesh.user_nodes.len(), 0.0);
+        let (coordinates, _) = frame.coordinates.as_chunks_mut();
         for (x, &user) in system.positions.iter().zip(&system.mesh.user_nodes) {
-            frame.positions[user as usize] = *x;
+            coordinates[user as usize] = *x;
         }
         let mut spare = std::mem::take(&mut frame.fields).into_iter().map(|field| field.values);
         frame.fields = self.fields.iter().map(|&kind| Field { kind, values: spare.next().unwrap_or_default() }).collect();

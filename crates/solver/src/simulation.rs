@@ -94,14 +94,14 @@ pub type ObserverError = Box<dyn std::error::Error + Send + Sync>;
 /// Who listens to a run.
 pub trait Observer {
     /// A frame that the observer is done with: its buffers are filled for the next one. An empty frame will do.
-    fn spare(&mut self) -> Frame<2> {
+    fn spare(&mut self) -> Frame {
         Frame::default()
     }
     /// A frame at an output time; the first at time zero, the last at the end (also of a failed run).
     ///
     /// # Errors
     /// Whatever keeps the observer from taking it; it ends the run.
-    fn frame(&mut self, frame: Frame<2>) -> Result<(), ObserverError>;
+    fn frame(&mut self, frame: Frame) -> Result<(), ObserverError>;
     /// A row of the history, one value per column of [`Simulation::history_columns`].
     ///
     /// # Errors
@@ -532,7 +532,7 @@ impl Simulation {
 
     /// The state now.
     #[must_use]
-    pub fn frame(&self) -> Frame<2> {
+    pub fn frame(&self) -> Frame {
         let mut frame = Frame::default();
         self.recorded.fill(&self.system, &mut frame);
         frame

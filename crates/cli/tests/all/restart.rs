@@ -254,7 +254,7 @@ fn every_example_goes_on_from_its_state() {
         for _ in 0..2 {
             let seen = [&whole, &resumed].map(|simulation| {
                 let frame = simulation.frame();
-                let fields = frame.fields.iter().flat_map(|field| &field.values).chain(frame.positions.iter().flatten());
+                let fields = frame.fields.iter().flat_map(|field| &field.values).chain(frame.positions::<2>().iter().flatten());
                 let bits: Vec<u64> = fields.copied().chain(simulation.history_row()).map(f64::to_bits).collect();
                 (bits, Summary { threads: 0, simd: String::new(), ..simulation.summary() })
             });

@@ -13,7 +13,7 @@ pub(super) struct Scalar {
 
 impl Scalar {
     /// The scalar `name` of a frame: `von_mises`, `velocity` (its size) or `stress.xy`.
-    pub(super) fn named(frame: &Frame<2>, name: &str) -> Option<Self> {
+    pub(super) fn named(frame: &Frame, name: &str) -> Option<Self> {
         let (field, component) = match name.split_once('.') {
             Some((field, component)) => (field, Some(component)),
             None => (name, None),
@@ -27,7 +27,7 @@ impl Scalar {
     }
 
     /// The scalars that are shown when none was chosen, the best first: plastic strain, equivalent stress, else the frame's first field.
-    pub(super) fn defaults(frame: &Frame<2>) -> Vec<Self> {
+    pub(super) fn defaults(frame: &Frame) -> Vec<Self> {
         let mut found: Vec<Self> = ["plastic_strain", "von_mises"].iter().filter_map(|name| Self::named(frame, name)).collect();
         if found.is_empty() {
             found.extend(frame.fields.first().map(|f| Self { kind: f.kind, component: None }));
@@ -36,7 +36,7 @@ impl Scalar {
     }
 
     /// Values of a frame; empty if it does not hold the field.
-    pub(super) fn values(&self, frame: &Frame<2>) -> Vec<f32> {
+    pub(super) fn values(&self, frame: &Frame) -> Vec<f32> {
         let Some(field) = frame.fields.iter().find(|f| f.kind.name == self.kind.name) else { return Vec::new() };
         let width = self.kind.width();
         field.values.chunks_exact(width).map(|tuple| self.scalar(tuple) as f32).collect()
@@ -92,9 +92,9 @@ mod tests {
     use super::*;
     use embate_solver::output::field_kind;
 
-    fn frame(fields: &[(&str, &[f64])]) -> Frame<2> {
+    fn frame(fields: &[(&str, &[f64])]) -> Frame {
         let fields = fields.iter().map(|(name, values)| Field { kind: field_kind(name).unwrap(), values: values.to_vec() }).collect();
-        Frame { time: 0.0, step: 0, positions: vec![[0.0; 2]; 2], fields, outlines: vec![] }
+        Frame { fields, ..Frame::of(&[[0.0; 2]; 2]) }
     }
 
     #[test]

@@ -171,11 +171,11 @@ impl Film {
     }
 
     /// What was kept of a film, with this `frame` as the present one; an empty film where that was another one.
-    pub(crate) fn recalled(cells: Cells, settings: FilmSettings, kept: &[Section], frame: &Frame<2>) -> Self {
+    pub(crate) fn recalled(cells: Cells, settings: FilmSettings, kept: &[Section], frame: &Frame) -> Self {
         let mut film = Self::new(cells, settings);
         film.choose_scalars(frame);
         let mut archive = Archive::of(kept);
-        let sizes = [frame.positions.len(), film.cells.len()];
+        let sizes = [frame.positions::<2>().len(), film.cells.len()];
         if archive.section(SECTION).and_then(|()| film.keep(&mut archive)).is_ok() && archive.finish().is_ok() && film.is_sound(sizes) {
             return film;
         }
@@ -202,11 +202,11 @@ impl Film {
     }
 
     /// Adds a frame. Keeps positions and the shown scalar in single precision; drops every second kept frame when they get too many.
-    pub fn add(&mut self, frame: &Frame<2>) {
+    pub fn add(&mut self, frame: &Frame) {
         if self.added == 0 {
             self.choose_scalars(frame);
         }
-        let first = || frame.positions.iter().find(|p| p.iter().all(|v| v.is_finite())).copied();
+        let first = || frame.positions::<2>().iter().find(|p| p.iter().all(|v| v.is_finite())).copied();
         if self.origin.is_none() {
             self.origin = first();
         }
@@ -233,7 +233,7 @@ impl Film {
     }
 
     /// Values of a frame; not a number in elements of rigid parts.
-    fn values(&self, scalar: &Scalar, frame: &Frame<2>) -> Vec<f32> {
+    fn values(&self, scalar: &Scalar, frame: &Frame) -> Vec<f32> {
         let mut values = scalar.values(frame);
         if !scalar.at_nodes() && self.settings.rigid.contains(&true) {
             let is_rigid = |part: &u32| self.settings.rigid.get(*part as usize).is_some_and(|&rigid| rigid);
@@ -245,15 +245,15 @@ impl Film {
     }
 
     /// Positions of the nodes that have a cell; not a number for those whose cells are all `gone`, which fly anywhere.
-    fn shown<'a>(&self, frame: &'a Frame<2>, gone: &[u32]) -> impl Iterator<Item = [f64; 2]> + use<'a> {
-        let mut has_cell = vec![gone.is_empty(); frame.positions.len()];
+    fn shown<'a>(&self, frame: &'a Frame, gone: &[u32]) -> impl Iterator<Item = [f64; 2]> + use<'a> {
+        let mut has_cell = vec![gone.is_empty(); frame.positions::<2>().len()];
         if !gone.is_empty() {
             let there = (0..self.cells.len()).filter(|&cell| gone.binary_search(&(cell as u32)).is_err());
             for &node in there.flat_map(|cell| self.cells.cell(cell)) {
                 has_cell[node as usize] = true;
             }
         }
-        frame.positions.iter().zip(has_cell).map(|(p, has_cell)| if has_cell { *p } else { [f64::NAN; 2] })
+        frame.positions::<2>().iter().zip(has_cell).map(|(p, has_cell)| if has_cell { *p } else { [f64::NAN; 2] })
     }
 
     /// The cells of a frame, where some are gone.
@@ -261,7 +261,7 @@ impl Film {
         (!frame.gone.is_empty()).then(|| Mesh::without(&self.cells, &frame.gone))
     }
 
-    fn choose_scalars(&mut self, frame: &Frame<2>) {
+    fn choose_scalars(&mut self, frame: &Frame) {
         if self.settings.field.is_empty() {
             self.scalars = Scalar::defaults(frame);
         } else if let Some(scalar) = Scalar::named(frame, &self.settings.field) {
@@ -431,7 +431,7 @@ impl Film {
 }
 
 /// Cells that were eroded, ascending.
-fn gone(frame: &Frame<2>) -> Vec<u32> {
+fn gone(frame: &Frame) -> Vec<u32> {
     let Some(alive) = frame.fields.iter().find(|field| field.kind.name == "alive") else { return Vec::new() };
     (0..).zip(&alive.values).filter(|(_, alive)| **alive == 0.0).map(|(cell, _)| cell).collect()
 }
@@ -479,8 +479,8 @@ fn evenly(count: usize, most: usize) -> Vec<usize> {
 mod tests {
     use super::*;
 
-    fn frame(time: f64, x: f64) -> Frame<2> {
-        Frame { time, step: 0, positions: vec![[x, 0.0], [x + 1.0, 0.0], [x, 1.0]], fields: vec![], outlines: vec![] }
+    fn frame(time: f64, x: f64) -> Frame {
+        Frame { time, ..Frame::of(&[[x, 0.0], [x + 1.0, 0.0], [x, 1.0]]) }
     }
 
     #[test]
@@ -528,10 +528,9 @@ mod tests {
     fn a_node_thrown_away_does_not_shrink_the_picture() {
         let mut film = Film::new(Cells::default(), FilmSettings::default());
         let positions: Vec<[f64; 2]> = (0..1000).map(|k| [f64::from(k % 100), f64::from(k / 100)]).collect();
-        let mut frame = Frame { time: 0.0, step: 0, positions, fields: vec![], outlines: vec![] };
+        let mut frame = Frame::of(&positions);
         film.add(&frame);
-        frame.positions[7] = [1e9, -1e9];
-        frame.positions[8] = [f64::NAN, 0.0];
+        frame.coordinates[14..18].copy_from_slice(&[1e9, -1e9, f64::NAN, 0.0]);
         film.add(&frame);
         assert!(size(film.view([1.0; 2])) < 150.0, "{:?}", film.view([1.0; 2]));
     }

@@ -14,22 +14,22 @@ use std::path::Path;
 ///
 /// # Errors
 /// [`PictureError::Io`] and [`PictureError::Encode`] if the file can't be written.
-pub fn mesh_png(frame: &Frame<2>, cells: &Cells, settings: &FilmSettings, path: &Path) -> Result<(), PictureError> {
+pub fn mesh_png(frame: &Frame, cells: &Cells, settings: &FilmSettings, path: &Path) -> Result<(), PictureError> {
     let mesh = Mesh::new(cells);
-    let finite = || frame.positions.iter().filter(|p| p.iter().all(|v| v.is_finite()));
+    let finite = || frame.positions::<2>().iter().filter(|p| p.iter().all(|v| v.is_finite()));
     let origin = finite().next().copied().unwrap_or_default();
     let bodies = finite().fold(NOTHING, |view, p| joined(view, [*p, *p]));
     let obstacles = LineReader::default().lines(frame);
-    let nodes = frame.positions.iter().copied();
+    let nodes = frame.positions::<2>().iter().copied();
     let sides = view::sides(nodes.clone());
     let seen = view::obstacles(&obstacles, nodes, bodies, view::room(bodies, settings.mirror, sides));
     let view = mirrored(joined(bodies, seen), settings.mirror);
     let count = |number: usize, what: &str| format!("{number} {what}{}", if number == 1 { "" } else { "s" });
-    let note = format!("{}, {}", count(mesh.len(), "element"), count(frame.positions.len(), "node"));
+    let note = format!("{}, {}", count(mesh.len(), "element"), count(frame.positions::<2>().len(), "node"));
     let size = [settings.width, settings.height];
     let key = Key::Parts(cells.part_names.clone());
     let mut scene = Scene::new(&Plan { title: &settings.title, mirror: settings.mirror, sides, size, view, key, note: &note });
-    let positions: Vec<[f32; 2]> = frame.positions.iter().map(|p| [(p[0] - origin[0]) as f32, (p[1] - origin[1]) as f32]).collect();
+    let positions: Vec<[f32; 2]> = frame.positions::<2>().iter().map(|p| [(p[0] - origin[0]) as f32, (p[1] - origin[1]) as f32]).collect();
     let mut canvas = scene.still().clone();
     scene.draw(&mesh, &Moment { positions: &positions, origin, obstacles: &obstacles, values: Values::Parts, note: &note }, &mut canvas);
     write_png(&canvas, path)

@@ -17,7 +17,7 @@ const HEIGHT_MOST: f64 = 620.0;
 const AIR: f64 = 24.0;
 
 /// The picture as the text of an SVG file.
-pub(crate) fn place(title: &str, cells: &Cells, positions: &[[f64; 2]], outlines: &[Outline<2>], at: [f64; 2], mark: &str) -> String {
+pub(crate) fn place(title: &str, cells: &Cells, positions: &[[f64; 2]], outlines: &[Outline], at: [f64; 2], mark: &str) -> String {
     let points: Vec<[f32; 2]> = positions.iter().map(|x| x.map(|v| v as f32)).collect();
     // A few nodes that have flown away don't make all else small.
     let all = extent(points.iter(), 0.0);
@@ -45,7 +45,7 @@ pub(crate) fn place(title: &str, cells: &Cells, positions: &[[f64; 2]], outlines
         "<clipPath id=\"view\"><rect x=\"{left}\" y=\"{top}\" width=\"{frame}\" height=\"{high:.1}\"/></clipPath>\n<g clip-path=\"url(#view)\">"
     );
     for outline in outlines {
-        let points: Vec<[f64; 2]> = outline.points.iter().map(|x| spot(*x)).collect();
+        let points: Vec<[f64; 2]> = outline.points.iter().map(|&[x, y, _]| spot([x, y])).collect();
         let _ = writeln!(body, "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"4\"/>", path(&points, false), hex(BORDER));
     }
     for (part, loops) in loops(cells) {

@@ -176,7 +176,7 @@ struct Waiting<'a, F> {
 }
 
 impl<F: FnMut() -> bool> Observer for Waiting<'_, F> {
-    fn frame(&mut self, _: Frame<2>) -> Result<(), ObserverError> {
+    fn frame(&mut self, _: Frame) -> Result<(), ObserverError> {
         Ok(())
     }
     fn row(&mut self, _: &[f64]) -> Result<(), ObserverError> {

@@ -86,7 +86,7 @@ pub(super) fn of_run(failed: &Failed<'_>, findings: &Findings) -> Files {
     if let Some(at) = case.culprit.at().filter(|at| at.iter().all(|v| v.is_finite())) {
         let frame = simulation.frame();
         let title = format!("{name} – where: {}", point(at));
-        files.push(("place.svg", place(&title, &simulation.cells(), &frame.positions, &frame.outlines, at, &mark)));
+        files.push(("place.svg", place(&title, &simulation.cells(), frame.positions::<2>(), &frame.outlines, at, &mark)));
     }
     if !trace.near.cells.is_empty() {
         let title = format!("{name} – {} and the elements around it", case.culprit);

@@ -42,7 +42,7 @@ fn of_mass(loaded: &Loaded, fault: &Fault, needed: &MassNeeded) -> Files {
     if let (Some(worst), Some(moment)) = (needed.heaviest.first(), trace.moments.first()) {
         let frame = simulation.frame();
         let title = format!("{} – where most mass is needed: {}", model.name, point(worst.at));
-        files.push(("place.svg", place(&title, &simulation.cells(), &frame.positions, &frame.outlines, worst.at, &mark)));
+        files.push(("place.svg", place(&title, &simulation.cells(), frame.positions::<2>(), &frame.outlines, worst.at, &mark)));
         let title = format!("{} – element {} of part \"{}\" and the elements around it", model.name, worst.element, worst.part);
         let panel = Panel { title: "at the start".into(), remark: format!("its step is {}", shown(worst.time_step, "s")), moment };
         files.push(("neighbourhood.svg", neighbourhood(&title, &trace.near, &[panel], &mark, depth)));

@@ -61,7 +61,7 @@ pub(super) struct Handover {
     /// Memory of the last frame.
     frame_bytes: usize,
     /// Buffers of the last frame, in turn.
-    spare: Frame<2>,
+    spare: Frame,
 }
 
 /// How writing ended.
@@ -108,7 +108,7 @@ impl Handover {
     }
 
     /// Buffers for the next frame, once there is room for it.
-    pub(super) fn spare(&mut self) -> Frame<2> {
+    pub(super) fn spare(&mut self) -> Frame {
         match &self.place {
             Place::Beside { queue, .. } => {
                 self.waited += queue.make_room(self.frame_bytes);

@@ -115,7 +115,7 @@ impl<'a> Recorder<'a> {
         path: &Path,
         (model, past): (&Model, &Checkpoint),
         columns: Vec<String>,
-        (cells, frame): (Cells, &Frame<2>),
+        (cells, frame): (Cells, &Frame),
         threads: usize,
         checkpoints: Checkpoints,
         on_progress: OnProgress<'a>,
@@ -200,11 +200,11 @@ impl<'a> Recorder<'a> {
 }
 
 impl Observer for Recorder<'_> {
-    fn spare(&mut self) -> Frame<2> {
+    fn spare(&mut self) -> Frame {
         self.handover.spare()
     }
 
-    fn frame(&mut self, frame: Frame<2>) -> Result<(), ObserverError> {
+    fn frame(&mut self, frame: Frame) -> Result<(), ObserverError> {
         let job = Job { frame: Some(frame), ..self.job() };
         self.handover.give(job);
         Ok(self.handover.fault()?)

@@ -33,7 +33,7 @@ const COLLECTION_PAUSE: Duration = Duration::from_millis(500);
 pub(super) struct Job {
     pub(super) rows: Vec<f64>,
     pub(super) hashes: Vec<Hashes>,
-    pub(super) frame: Option<Frame<2>>,
+    pub(super) frame: Option<Frame>,
     /// To be kept once all before it is written.
     pub(super) state: Option<Arc<State>>,
     /// What follows shows a failure: a state that is kept later is of a step before it.
@@ -49,9 +49,9 @@ impl Job {
 }
 
 /// Memory of a frame.
-pub(super) fn bytes(frame: &Frame<2>) -> usize {
+pub(super) fn bytes(frame: &Frame) -> usize {
     let values: usize = frame.fields.iter().map(|field| field.values.len()).sum();
-    16 * frame.positions.len() + 8 * values + 16 * frame.outlines.iter().map(|outline| outline.points.len()).sum::<usize>()
+    16 * frame.positions::<2>().len() + 8 * values + 16 * frame.outlines.iter().map(|outline| outline.points.len()).sum::<usize>()
 }
 
 /// The files of a run that grow while it goes on.
@@ -116,7 +116,7 @@ impl Writer {
         folder: &Path,
         (model, past): (&Model, &Checkpoint),
         columns: Vec<String>,
-        (cells, frame): (Cells, &Frame<2>),
+        (cells, frame): (Cells, &Frame),
         threads: Threads,
     ) -> Result<Self, ResultsError> {
         let told = &past.told;
@@ -277,7 +277,7 @@ impl Frames {
     }
 
     /// Writes a frame; `false` when this step is there already, as when a run fails right at an output time.
-    fn write(&mut self, frame: &Frame<2>, include: &[String], folder: &ResultFolder, threads: &Threads) -> Result<bool, ResultsError> {
+    fn write(&mut self, frame: &Frame, include: &[String], folder: &ResultFolder, threads: &Threads) -> Result<bool, ResultsError> {
         if self.step_last == Some(frame.step) {
             return Ok(false);
         }
@@ -334,11 +334,11 @@ struct Obstacles {
 }
 
 impl Obstacles {
-    fn write(&mut self, frame: &Frame<2>, number: usize, folder: &ResultFolder) -> Result<(), ResultsError> {
+    fn write(&mut self, frame: &Frame, number: usize, folder: &ResultFolder) -> Result<(), ResultsError> {
         if frame.outlines.is_empty() {
             return Ok(());
         }
-        for p in frame.positions.iter().filter(|p| p.iter().all(|v| v.is_finite())) {
+        for p in frame.positions::<2>().iter().filter(|p| p.iter().all(|v| v.is_finite())) {
             let [low, high] = self.extent.unwrap_or([*p, *p]);
             self.extent = Some([[0, 1].map(|k| low[k].min(p[k])), [0, 1].map(|k| high[k].max(p[k]))]);
         }

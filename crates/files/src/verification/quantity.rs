@@ -18,9 +18,9 @@ pub(crate) struct Samples {
     pub(crate) rows: Vec<Vec<f64>>,
     cells: Cells,
     /// Frame at the start: positions by which nodes and elements are chosen.
-    start: Frame<2>,
+    start: Frame,
     /// Wanted times, and the frames nearest to them.
-    frames: Vec<(f64, Option<Frame<2>>)>,
+    frames: Vec<(f64, Option<Frame>)>,
     pub(crate) summary: serde_json::Value,
 }
 
@@ -44,14 +44,7 @@ impl Samples {
 
     /// Of a run that has been recorded: its history and its summary, without frames.
     pub(crate) fn recorded(columns: Vec<String>, rows: Vec<Vec<f64>>, summary: serde_json::Value) -> Self {
-        Self {
-            columns,
-            rows,
-            cells: Cells::default(),
-            start: Frame { time: 0.0, step: 0, positions: Vec::new(), fields: Vec::new(), outlines: Vec::new() },
-            frames: Vec::new(),
-            summary,
-        }
+        Self { columns, rows, cells: Cells::default(), start: Frame::default(), frames: Vec::new(), summary }
     }
 
     /// A text of the summary; `None` where the source is no text.
@@ -73,7 +66,7 @@ impl Samples {
     }
 
     /// Keeps the frame where it is nearer to a wanted time than what is there; of the time infinity, the last.
-    pub(super) fn note_frame(&mut self, frame: &Frame<2>) {
+    pub(super) fn note_frame(&mut self, frame: &Frame) {
         for (time, kept) in &mut self.frames {
             let nearer = kept.as_ref().is_none_or(|kept| time.is_infinite() || (frame.time - *time).abs() < (kept.time - *time).abs());
             if nearer {
@@ -189,7 +182,7 @@ impl Samples {
         Ok(std::iter::once(ends[0]).chain(inside).chain(std::iter::once(ends[1])).collect())
     }
 
-    fn frame(&self, at: Option<f64>) -> Result<&Frame<2>, String> {
+    fn frame(&self, at: Option<f64>) -> Result<&Frame, String> {
         let wanted = at.unwrap_or(f64::INFINITY);
         let kept = self.frames.iter().find(|(time, _)| *time == wanted).and_then(|(_, kept)| kept.as_ref());
         let frame = kept.ok_or_else(|| "there is no frame".to_string())?;
@@ -219,7 +212,7 @@ impl Samples {
                 let mut nodes: Vec<usize> = cells.flat_map(|cell| self.cells.cell(cell)).map(|node| *node as usize).collect();
                 nodes.sort_unstable();
                 nodes.dedup();
-                nodes.into_iter().map(|node| (node, self.start.positions[node])).collect()
+                nodes.into_iter().map(|node| (node, self.start.positions::<2>()[node])).collect()
             }
         };
         let chosen: Vec<usize> = match place {
@@ -240,12 +233,12 @@ impl Samples {
 
     fn centre(&self, cell: usize) -> [f64; 2] {
         let nodes = self.cells.cell(cell);
-        [0, 1].map(|d| nodes.iter().map(|node| self.start.positions[*node as usize][d]).sum::<f64>() / nodes.len() as f64)
+        [0, 1].map(|d| nodes.iter().map(|node| self.start.positions::<2>()[*node as usize][d]).sum::<f64>() / nodes.len() as f64)
     }
 }
 
 /// The field and the component that a name such as `stress.yy` means.
-fn field<'a>(frame: &'a Frame<2>, name: &str) -> Result<(&'a Field, usize), Missing> {
+fn field<'a>(frame: &'a Frame, name: &str) -> Result<(&'a Field, usize), Missing> {
     let (base, component) = name.split_once('.').map_or((name, None), |(base, component)| (base, Some(component)));
     let Some(field) = frame.fields.iter().find(|field| field.kind.name == base) else {
         let known: Vec<&str> = frame.fields.iter().map(|field| field.kind.name).collect();

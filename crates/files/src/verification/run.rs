@@ -134,11 +134,11 @@ pub(crate) struct Gathering<'a> {
 }
 
 impl Observer for Gathering<'_> {
-    fn spare(&mut self) -> Frame<2> {
+    fn spare(&mut self) -> Frame {
         self.recorder.as_mut().map(Recorder::spare).unwrap_or_default()
     }
 
-    fn frame(&mut self, frame: Frame<2>) -> Result<(), ObserverError> {
+    fn frame(&mut self, frame: Frame) -> Result<(), ObserverError> {
         self.samples.note_frame(&frame);
         self.recorder.as_mut().map_or(Ok(()), |recorder| recorder.frame(frame))
     }

@@ -43,7 +43,7 @@ fn cells() -> Cells {
 }
 
 /// The state at `t` from 0 to 1.
-fn state(t: f64) -> Frame<2> {
+fn state(t: f64) -> Frame {
     let mut positions = Vec::new();
     let sink = 0.06 * t;
     let squeeze = 1.0 - 0.25 * t;
@@ -77,7 +77,7 @@ fn state(t: f64) -> Frame<2> {
         Field { kind: field_kind("von_mises").unwrap(), values: vec![2e8; cells.len()] },
         Field { kind: field_kind("plastic_strain").unwrap(), values: strain.collect() },
     ];
-    Frame { time: 0.01 * t, step: 0, positions, fields, outlines: vec![] }
+    Frame { time: 0.01 * t, fields, ..Frame::of(&positions) }
 }
 
 fn settings() -> FilmSettings {
@@ -219,8 +219,8 @@ fn arc(centre: [f64; 2], radius: f64, start: f64, turn: f64, count: u32) -> Vec<
 }
 
 /// Obstacles at `t` from 0 to 1: a floor without end, a slope beside it, a rolling solid, a box that holds everything, an open channel, the rigid wall at x = 0.
-fn outlines(t: f64) -> Vec<Outline<2>> {
-    let named = |name: &str, points| Outline { name: name.into(), points };
+fn outlines(t: f64) -> Vec<Outline> {
+    let named = |name: &str, points: Vec<[f64; 2]>| Outline::line(name, points);
     let tight = vec![[0.20, 0.16], [0.23, 0.06], [0.24, 0.16], [0.27, 0.06], [0.31, 0.06], [0.31, 0.16]];
     vec![
         named("floor", vec![[-9.0, -0.1], [9.0, -0.1]]),
@@ -254,7 +254,7 @@ fn obstacles_are_seen_on_their_solid_side_in_film_and_picture() {
 fn a_floor_under_the_bodies_is_a_line_from_border_to_border() {
     let folder = folder("floor");
     let mut film = Film::new(cells(), settings());
-    let floor = Outline { name: "floor".into(), points: vec![[-1e4, -0.1], [1e4, -0.1]] };
+    let floor = Outline::line("floor", [[-1e4, -0.1], [1e4, -0.1]]);
     film.add(&Frame { outlines: vec![floor], ..state(0.0) });
     film.finish(&folder, &Threads::one()).unwrap();
     let picture = Picture::read(&folder.join("final.png"));
@@ -273,7 +273,8 @@ fn a_field_of_the_surface_is_seen_where_it_has_values() {
         let folder = folder(&format!("field-{field}"));
         let mut frame = state(1.0);
         let upper = |k: usize| k < 305 && k % 5 == 4;
-        let values = (0..frame.positions.len()).map(|k| if upper(k) { value * (1.0 + (k / 5) as f64 % 2.0) * 0.5 } else { f64::NAN });
+        let values =
+            (0..frame.positions::<2>().len()).map(|k| if upper(k) { value * (1.0 + (k / 5) as f64 % 2.0) * 0.5 } else { f64::NAN });
         frame.fields.push(Field { kind: field_kind(field).unwrap(), values: values.collect() });
         let mut film = Film::new(cells(), FilmSettings { field: field.into(), ..settings() });
         film.add(&frame);
@@ -304,17 +305,17 @@ fn rigid_parts_have_no_colour_of_elements_but_that_of_their_nodes() {
 
 #[test]
 fn strange_frames_give_a_picture_and_no_panic() {
-    let frame = |positions: Vec<[f64; 2]>| Frame { time: f64::NAN, step: 0, positions, fields: vec![], outlines: vec![] };
-    let full = state(0.5).positions.len();
+    let frame = |positions: Vec<[f64; 2]>| Frame { time: f64::NAN, ..Frame::of(&positions) };
+    let full = state(0.5).positions::<2>().len();
     let one_wrong = |value: f64| {
         let mut frame = state(0.5);
-        frame.positions[3] = [value, -value];
+        frame.coordinates[6..8].copy_from_slice(&[value, -value]);
         for field in &mut frame.fields {
             field.values[0] = value;
         }
         frame
     };
-    let odd = |points: Vec<[f64; 2]>| Frame { outlines: vec![Outline { name: "odd".into(), points }], ..state(0.5) };
+    let odd = |points: Vec<[f64; 2]>| Frame { outlines: vec![Outline::line("odd", points)], ..state(0.5) };
     let cases = [
         (
             "obstacles",

@@ -12,7 +12,7 @@ use std::path::Path;
 struct Deaf;
 
 impl Observer for Deaf {
-    fn frame(&mut self, _: Frame<2>) -> Result<(), ObserverError> {
+    fn frame(&mut self, _: Frame) -> Result<(), ObserverError> {
         Ok(())
     }
     fn row(&mut self, _: &[f64]) -> Result<(), ObserverError> {

@@ -39,7 +39,7 @@ fn cells() -> Cells {
 }
 
 /// Everything moves with 3 m/s along x and -1 m/s along y.
-fn frame(step: u64) -> Frame<2> {
+fn frame(step: u64) -> Frame {
     let time = step as f64 * 1e-4;
     let initial = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [2.0, 0.5]];
     let moved = [3.0 * time, -time];
@@ -51,7 +51,7 @@ fn frame(step: u64) -> Frame<2> {
         (_, Location::Cell) => vec![0.25; 2 * width],
     };
     let fields = FIELDS.iter().map(|kind| Field { kind, values: values(kind.name, kind.location, kind.width()) }).collect();
-    Frame { time, step, positions, fields, outlines: vec![] }
+    Frame { time, step, fields, ..Frame::of(&positions) }
 }
 
 fn summary(steps: u64) -> Summary {
@@ -397,12 +397,11 @@ fn a_real_run_leaves_the_same_bytes_for_any_number_of_threads() {
 }
 
 /// A frame with a floor without end, a circle that moves, and a field of the surface that has no value inside.
-fn frame_with_obstacles(step: u64) -> Frame<2> {
+fn frame_with_obstacles(step: u64) -> Frame {
     let mut frame = frame(step);
     let turned = |k: u32| -2.0 * std::f64::consts::PI * f64::from(k % 12) / 12.0;
-    let circle = (0..=12).map(|k| [3.0 + frame.time + turned(k).cos(), turned(k).sin()]).collect();
-    frame.outlines =
-        vec![Outline { name: "floor".into(), points: vec![[-1e3, -2.0], [1e3, -2.0]] }, Outline { name: "ball".into(), points: circle }];
+    let circle = (0..=12).map(|k| [3.0 + frame.time + turned(k).cos(), turned(k).sin()]);
+    frame.outlines = vec![Outline::line("floor", [[-1e3, -2.0], [1e3, -2.0]]), Outline::line("ball", circle)];
     let gap = frame.fields.iter_mut().find(|field| field.kind.name == "contact_gap").unwrap();
     gap.values[2] = f64::NAN;
     frame

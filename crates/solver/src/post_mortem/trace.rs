@@ -66,7 +66,7 @@ pub struct Moment {
     /// The field of each of [`Neighbourhood::cells`].
     pub values: Vec<f64>,
     /// Obstacles.
-    pub outlines: Vec<Outline<2>>,
+    pub outlines: Vec<Outline>,
 }
 
 /// The step in which the sum of all energies changed most, which it should not.

@@ -174,7 +174,7 @@ impl History {
 }
 
 impl Observer for History {
-    fn frame(&mut self, _: Frame<2>) -> Result<(), ObserverError> {
+    fn frame(&mut self, _: Frame) -> Result<(), ObserverError> {
         Ok(())
     }
     fn row(&mut self, row: &[f64]) -> Result<(), ObserverError> {

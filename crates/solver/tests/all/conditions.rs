@@ -20,9 +20,9 @@ fn nodes_on_a_symmetry_line_stay_exactly_on_it() {
     touch(&mut model, "block", "floor");
     model.symmetries.push(Symmetry { normal: [3.0, 0.0, 0.0], ..Symmetry::default() });
     let mut simulation = simulation(&model);
-    let start = simulation.frame().positions;
+    let start = simulation.frame().positions::<2>().to_vec();
     simulation.advance(f64::INFINITY, u64::MAX).unwrap();
-    let end = simulation.frame().positions;
+    let end = simulation.frame().positions::<2>().to_vec();
     let on_line: Vec<usize> = (0..start.len()).filter(|&i| start[i][0] == 0.0).collect();
     assert_eq!(on_line.len(), 5 + 4);
     assert!(on_line.iter().all(|&i| end[i][0] == 0.0));
@@ -43,10 +43,10 @@ fn a_skew_symmetry_line_is_as_good_as_a_straight_one() {
         model.symmetries.push(Symmetry { normal: embate_solver::model::in_space(turn([0.0, 1.0])), ..Symmetry::default() });
         model.obstacles.push(Obstacle::wall("end", turn([-0.001, 0.0]), turn([1.0, 0.0])));
         let mut simulation = simulation(&model);
-        let on_line: Vec<usize> = (0..35).filter(|&i| across(simulation.frame().positions[i], angle).abs() < 1e-15).collect();
+        let on_line: Vec<usize> = (0..35).filter(|&i| across(simulation.frame().positions::<2>()[i], angle).abs() < 1e-15).collect();
         assert_eq!(on_line.len(), 7);
         simulation.advance(f64::INFINITY, u64::MAX).unwrap();
-        let positions = simulation.frame().positions;
+        let positions = simulation.frame().positions::<2>().to_vec();
         assert!(on_line.iter().all(|&i| across(positions[i], angle).abs() < 1e-15));
         assert!(simulation.summary().penetration_max > 0.0);
         positions.into_iter().map(move |[x, y]| [c * x + s * y, c * y - s * x]).collect::<Vec<_>>()
@@ -83,9 +83,9 @@ fn fixed_sides_stay_and_driven_sides_move_as_told() {
     fix(&mut model, "block.left", [Some(0.0), Some(0.0)]);
     fix(&mut model, "block.right", [Some(3.0), None]);
     let mut simulation = simulation(&model);
-    let start = simulation.frame().positions;
+    let start = simulation.frame().positions::<2>().to_vec();
     simulation.advance(f64::INFINITY, u64::MAX).unwrap();
-    let end = simulation.frame().positions;
+    let end = simulation.frame().positions::<2>().to_vec();
     for (a, b) in start.iter().zip(&end) {
         if a[0] == 0.0 {
             assert_eq!(a, b);
@@ -177,9 +177,9 @@ fn displacements_and_accelerations_lead_nodes_where_they_say() {
     let push = curve(&mut model, "pushed", CurveShape::Table { times: vec![0.0, end], values: vec![0.0, 6e3], smooth: false });
     model.constraints[3].acceleration[1] = push;
     let mut simulation = simulation(&model);
-    let start = simulation.frame().positions;
+    let start = simulation.frame().positions::<2>().to_vec();
     simulation.advance(f64::INFINITY, u64::MAX).unwrap();
-    let now = simulation.frame().positions;
+    let now = simulation.frame().positions::<2>().to_vec();
     let expected = [
         [None, Some(3e-3)],
         [Some(1e-3), None],
@@ -222,10 +222,10 @@ fn nodes_that_are_led_around_a_point_turn_exactly() {
     let rotation = Some(Rotation { centre: [0.3, 0.1], speed: speed.into() });
     model.constraints.push(Constraint { on: "ring.inner".into(), rotation, ..Constraint::default() });
     let mut simulation = simulation(&model);
-    let start = simulation.frame().positions;
+    let start = simulation.frame().positions::<2>().to_vec();
     simulation.advance(f64::INFINITY, u64::MAX).unwrap();
     let mut inner = 0;
-    for (a, b) in start.iter().zip(&simulation.frame().positions) {
+    for (a, b) in start.iter().zip(simulation.frame().positions::<2>()) {
         let arm = [a[0] - 0.3, a[1] - 0.1];
         if arm[0].hypot(arm[1]) < 0.0201 {
             inner += 1;
@@ -280,9 +280,9 @@ fn gravity_acts_on_the_parts_it_names_and_on_their_share_of_common_nodes() {
     let velocities = &frame.fields.iter().find(|field| field.kind.name == "velocity").unwrap().values;
     let column = |x: f64| if (x - 2.0).abs() < 1e-6 || (x - 2.2).abs() < 1e-6 { 0.5 } else { 1.0 };
     let row = |y: f64| if (y - 0.05).abs() < 0.02 { 1.0 } else { 0.5 };
-    let weigh = |i: usize| column(frame.positions[i][0]) * row(frame.positions[i][1]);
+    let weigh = |i: usize| column(frame.positions::<2>()[i][0]) * row(frame.positions::<2>()[i][1]);
     let (mut mass, mut momentum) = (0.0, 0.0);
-    for i in 0..frame.positions.len() {
+    for i in 0..frame.positions::<2>().len() {
         mass += weigh(i);
         momentum += weigh(i) * velocities[2 * i + 1];
     }
@@ -308,7 +308,7 @@ fn a_wall_holds_the_nodes_of_bonded_parts_with_one_spring_each() {
         let mut simulation = simulation(&model);
         simulation.advance(f64::INFINITY, u64::MAX).unwrap();
         assert!(simulation.summary().penetration_max > 0.0);
-        let mut positions = simulation.frame().positions;
+        let mut positions = simulation.frame().positions::<2>().to_vec();
         positions.sort_by(|a, b| (a[0] + 1e-3 * a[1]).total_cmp(&(b[0] + 1e-3 * b[1])));
         positions
     };

@@ -361,7 +361,7 @@ fn a_projectile_that_moves_several_plate_thicknesses_in_a_step_does_not_pass() {
         let mut simulation = simulation(&model);
         assert!(speed * simulation.time_step() > 4.0 * 0.0005);
         simulation.advance(f64::INFINITY, u64::MAX).unwrap();
-        let positions = simulation.frame().positions;
+        let positions = simulation.frame().positions::<2>().to_vec();
         let foil = positions[..82].iter().map(|x| x[1]).fold(f64::NEG_INFINITY, f64::max);
         assert!(positions[82..].iter().all(|x| x[1] > foil + 0.01), "{height}: it is back above the foil");
     }

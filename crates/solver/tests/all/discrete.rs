@@ -27,7 +27,7 @@ fn run(model: &Model, time: f64, mut see: impl FnMut(&Simulation, f64)) -> Simul
     let mut simulation = Simulation::new(model, &Options { threads: 1, simd: None }).unwrap();
     while simulation.time() < time {
         simulation.advance(time, 1).unwrap();
-        let left = simulation.frame().positions.iter().map(|x| x[0]).filter(|x| *x > 1.5).fold(f64::INFINITY, f64::min);
+        let left = simulation.frame().positions::<2>().iter().map(|x| x[0]).filter(|x| *x > 1.5).fold(f64::INFINITY, f64::min);
         see(&simulation, left - 3.0);
     }
     simulation

@@ -170,7 +170,7 @@ fn a_model_that_is_turned_as_a_whole_gives_turned_results() {
                 let summary = simulation.summary();
                 assert!(summary.penetration_max > 0.0 || name == "multiplier");
                 assert!(simulation.ledger().stores.friction > 0.0, "{formulation:?} {name}: friction took something");
-                let mut positions = simulation.frame().positions;
+                let mut positions = simulation.frame().positions::<2>().to_vec();
                 // Storage order follows a curve in space; pair by place instead.
                 if angle != 0.0 {
                     positions.iter_mut().for_each(|x| *x = [cos * x[0] + sin * x[1], cos * x[1] - sin * x[0]]);

@@ -94,13 +94,13 @@ fn a_body_that_starts_from_rest_falls_on_the_exact_parabola() {
         let mut model = bar(element, law, [1.0, 0.2], [5, 2], 0.5);
         gravity(&mut model);
         let mut simulation = simulation(&model);
-        let start = simulation.frame().positions;
+        let start = simulation.frame().positions::<2>().to_vec();
         while simulation.time() < 0.5 {
             // The very first steps are the test of the energy drift: there is next to no energy yet.
             simulation.advance(0.5, 1).unwrap();
             let (t, mass) = (simulation.time(), DENSITY * 0.2);
             let drop = 0.5 * GRAVITY * t * t;
-            for (x, x0) in simulation.frame().positions.iter().zip(&start) {
+            for (x, x0) in simulation.frame().positions::<2>().iter().zip(&start) {
                 assert!((x[1] - x0[1] + drop).abs() < 1e-11 && (x[0] - x0[0]).abs() < 1e-11, "{element} {law} at {t}");
             }
             assert!(field(&simulation, "velocity").chunks_exact(2).all(|v| (v[1] + GRAVITY * t).abs() < 1e-9), "{element} {law} at {t}");
@@ -141,7 +141,7 @@ fn time_zero_shows_the_initial_velocity_and_parts_share_the_kinetic_energy() {
     let expected = [-1.125, -0.75, 0.0, 0.75, 1.125];
     let velocity = field(&simulation, "velocity");
     for (k, v) in velocity.chunks_exact(2).enumerate() {
-        let x = simulation.frame().positions[k][0];
+        let x = simulation.frame().positions::<2>()[k][0];
         let expected = expected[((x + 0.5) * 4.0).round() as usize];
         assert!((v[0] - 0.1).abs() < 1e-15 && (v[1] - expected).abs() < 1e-14, "node {k} at {x}: {v:?}");
     }
@@ -184,7 +184,7 @@ fn a_spinning_bar_has_the_stress_of_its_spin_and_keeps_its_momenta() {
     assert!((mean / expected - 1.0).abs() < 0.02, "{mean} for {expected}");
     struct Silent;
     impl embate_solver::simulation::Observer for Silent {
-        fn frame(&mut self, _: embate_solver::output::Frame<2>) -> Result<(), embate_solver::simulation::ObserverError> {
+        fn frame(&mut self, _: embate_solver::output::Frame) -> Result<(), embate_solver::simulation::ObserverError> {
             Ok(())
         }
         fn row(&mut self, _: &[f64]) -> Result<(), embate_solver::simulation::ObserverError> {
@@ -229,7 +229,7 @@ fn a_pressure_wave_runs_with_the_speed_of_sound() {
         let mut simulation = simulation(&model);
         let c = (modulus_along_x(element, &model.materials["m"]) / DENSITY).sqrt();
         simulation.advance(0.3, u64::MAX).unwrap();
-        let (velocity, positions) = (field(&simulation, "velocity"), simulation.frame().positions);
+        let (velocity, positions) = (field(&simulation, "velocity"), simulation.frame().positions::<2>().to_vec());
         // Where the velocity falls through its half, between the nodes of the lower side.
         let v = |k: usize| velocity[2 * k] - 0.5 * SPEED;
         let last = (0..200).rfind(|&k| v(k) > 0.0).unwrap_or(0);
@@ -269,7 +269,7 @@ fn waves_are_as_slow_as_their_mesh_and_step_make_them() {
             hold(&mut model, "guides", [None, Some(0.0)]);
             let c = (modulus_along_x(element, &model.materials["m"]) / DENSITY).sqrt();
             let mut simulation = simulation(&model);
-            let start = simulation.frame().positions;
+            let start = simulation.frame().positions::<2>().to_vec();
             simulation.advance(f64::INFINITY, 100).unwrap();
             let steps = simulation.steps() as f64;
             let dt = simulation.time() / steps;

@@ -101,7 +101,7 @@ fn friction_heat_on_the_surfaces_is_what_friction_took() {
 }
 
 fn model_start(model: &Model) -> Vec<[f64; 2]> {
-    simulation(model).frame().positions
+    simulation(model).frame().positions::<2>().to_vec()
 }
 
 #[test]

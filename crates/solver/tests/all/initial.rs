@@ -162,7 +162,7 @@ fn nodes_that_are_pushed_out_stay_on_their_symmetry_line() {
     model.contacts[0].interface.initial_penetration = InitialPenetration::PushOut;
     model.symmetries.push(Symmetry { normal: [1.0, 0.0, 0.0], ..Symmetry::default() });
     let simulation = simulation(&model);
-    let on_line = simulation.frame().positions.iter().filter(|x| x[0].abs() < 1e-15).count();
+    let on_line = simulation.frame().positions::<2>().iter().filter(|x| x[0].abs() < 1e-15).count();
     assert_eq!(on_line, 4 + 4 + 5);
     assert!(simulation.summary().penetration_max < 1e-10);
 }
@@ -225,7 +225,7 @@ fn bodies_are_pushed_out_of_obstacles_or_left_in_peace() {
         let (simulation, history) = run(&model);
         let summary = simulation.summary();
         assert!(summary.penetration_max < 1.1e-10 && history.largest("energy.total") < 1e-9, "{name}: {summary:?}");
-        assert!(simulation.frame().positions.iter().all(|x| gap(*x) > -1.1e-10), "{name}");
+        assert!(simulation.frame().positions::<2>().iter().all(|x| gap(*x) > -1.1e-10), "{name}");
         model.obstacles[0].interface.initial_penetration = InitialPenetration::Ignore;
         let (simulation, history) = run(&model);
         assert_eq!(history.largest("energy.contact"), 0.0, "{name}");

@@ -33,9 +33,9 @@ type Paths = Vec<([f64; 2], [f64; 2])>;
 /// Where nodes begin and end.
 fn moved(model: &Model) -> (Simulation, Paths) {
     let mut simulation = simulation(model);
-    let start = simulation.frame().positions;
+    let start = simulation.frame().positions::<2>().to_vec();
     simulation.advance(f64::INFINITY, u64::MAX).unwrap_or_else(|error| panic!("{error}"));
-    let pairs = start.into_iter().zip(simulation.frame().positions).collect();
+    let pairs = start.into_iter().zip(simulation.frame().positions::<2>().iter().copied()).collect();
     (simulation, pairs)
 }
 

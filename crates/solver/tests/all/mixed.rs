@@ -89,7 +89,7 @@ fn a_part_of_quadrilaterals_and_triangles_keeps_its_numbers_and_its_mass() {
             places.sort_by(|a, b| a.partial_cmp(b).unwrap());
             places
         };
-        let (place, expected) = (places(written.cell(k), &frame.positions), places(cell, &model.meshes[0].positions));
+        let (place, expected) = (places(written.cell(k), frame.positions::<2>()), places(cell, &model.meshes[0].positions));
         assert_eq!((written.kinds[k], place), (kind, expected), "element {k}");
     }
 }

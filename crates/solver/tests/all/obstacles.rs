@@ -243,7 +243,7 @@ fn a_free_polyline_keeps_both_momenta_and_moves_with_its_outline() {
     let (s, c) = history.last("obstacle.angle[box]").sin_cos();
     let wanted = [history.last("obstacle.x[box]") - 0.02 * c + 0.02 * s, history.last("obstacle.y[box]") - 0.02 * s - 0.02 * c];
     assert!((points[0][0] - wanted[0]).abs() < 1e-14 && (points[0][1] - wanted[1]).abs() < 1e-14 && points[4] == points[0]);
-    assert_eq!(frame.positions.len(), summary.nodes, "corners of obstacles are no nodes of results");
+    assert_eq!(frame.positions::<2>().len(), summary.nodes, "corners of obstacles are no nodes of results");
 }
 
 #[test]

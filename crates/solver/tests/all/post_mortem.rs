@@ -11,7 +11,7 @@ use embate_solver::simulation::{Control, Observer, ObserverError, Options, Progr
 struct Deaf;
 
 impl Observer for Deaf {
-    fn frame(&mut self, _: Frame<2>) -> Result<(), ObserverError> {
+    fn frame(&mut self, _: Frame) -> Result<(), ObserverError> {
         Ok(())
     }
     fn row(&mut self, _: &[f64]) -> Result<(), ObserverError> {
@@ -70,7 +70,7 @@ fn a_culprit_is_followed_to_its_failure_with_the_same_bits() {
     let mut before = simulation(&shorter);
     before.run(&mut Deaf).unwrap();
     let (frame, good) = (before.frame(), &trace.moments[trace.moments.len() - 2]);
-    assert!(trace.near.nodes.iter().zip(&good.positions).all(|(&node, x)| frame.positions[node] == *x));
+    assert!(trace.near.nodes.iter().zip(&good.positions).all(|(&node, x)| frame.positions::<2>()[node] == *x));
     assert!(good.row == before.history_row());
     let pressing = trace.contacts.iter().position(|(kind, name)| *kind == "obstacle" && name == "punch").unwrap();
     assert!(trace.moments.iter().any(|moment| moment.pressing[pressing] > 0.0));

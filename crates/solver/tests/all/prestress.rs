@@ -11,9 +11,9 @@ use embate_solver::simulation::Simulation;
 
 /// One that has run to its end, and how far a node has gone at most, m.
 fn farthest(model: &Model) -> (Simulation, f64) {
-    let start = simulation(model).frame().positions;
+    let start = simulation(model).frame().positions::<2>().to_vec();
     let simulation = to_end(model);
-    let end = simulation.frame().positions;
+    let end = simulation.frame().positions::<2>().to_vec();
     let most = start.iter().flatten().zip(end.iter().flatten()).fold(0.0f64, |most, (x, y)| most.max((x - y).abs()));
     (simulation, most)
 }

@@ -39,7 +39,7 @@ fn nobody_passes(model: &Model, thickness: f64, place: &str) {
     let plates = model.parts.len() - 1;
     let (simulation, history) = run(model);
     assert!(SPEED * history.first("time_step") > 10.0 * thickness, "{place}");
-    let positions = simulation.frame().positions;
+    let positions = simulation.frame().positions::<2>().to_vec();
     let nodes = 2 * (SEGMENTS + 1);
     let highest = positions[..nodes].iter().map(|x| x[1]).fold(f64::NEG_INFINITY, f64::max);
     assert!(positions[plates * nodes..].iter().all(|x| x[1] > highest + 10.0 * thickness), "{place}: it is back above the plates");

@@ -35,16 +35,16 @@ fn bits<'a>(values: impl IntoIterator<Item = &'a f64>) -> Vec<u64> {
     values.into_iter().map(|value| value.to_bits()).collect()
 }
 
-fn seen(frame: &Frame<2>) -> Vec<u64> {
+fn seen(frame: &Frame) -> Vec<u64> {
     let mut all = vec![frame.step, frame.time.to_bits()];
-    all.extend(bits(frame.positions.iter().flatten()));
+    all.extend(bits(frame.positions::<2>().iter().flatten()));
     frame.fields.iter().for_each(|field| all.extend(bits(&field.values)));
     frame.outlines.iter().for_each(|outline| all.extend(bits(outline.points.iter().flatten())));
     all
 }
 
 impl Observer for Told {
-    fn frame(&mut self, frame: Frame<2>) -> Result<(), ObserverError> {
+    fn frame(&mut self, frame: Frame) -> Result<(), ObserverError> {
         self.frames.push(seen(&frame));
         Ok(())
     }

@@ -33,8 +33,12 @@ fn rods(formulation: Formulation, interface: Interface, across: [usize; 2], end:
 fn pressures(simulation: &Simulation, across: &[usize]) -> Vec<f64> {
     let frame = simulation.frame();
     let field = |name: &str| &frame.fields.iter().find(|field| field.kind.name == name).unwrap().values;
-    let forces: Vec<[f64; 2]> =
-        field("contact_force").chunks(2).zip(&frame.positions).filter(|(f, _)| f[1] != 0.0).map(|(f, x)| [x[0], f[1].abs()]).collect();
+    let forces: Vec<[f64; 2]> = field("contact_force")
+        .chunks(2)
+        .zip(frame.positions::<2>())
+        .filter(|(f, _)| f[1] != 0.0)
+        .map(|(f, x)| [x[0], f[1].abs()])
+        .collect();
     let shares = |count: usize| {
         let step = RADIUS / count as f64;
         (0..=count).map(move |i| match i {
@@ -168,7 +172,7 @@ fn friction_has_the_limit_of_the_area_all_around() {
     let frame = simulation.frame();
     let heat = &frame.fields.iter().find(|field| field.kind.name == "friction_heat").unwrap().values;
     let slid = history.last("rod.y") - history.first("rod.y");
-    let beside = frame.positions.iter().zip(heat).filter(|(x, _)| x[0] > 0.9 * RADIUS && (0.02..0.08).contains(&x[1]));
+    let beside = frame.positions::<2>().iter().zip(heat).filter(|(x, _)| x[0] > 0.9 * RADIUS && (0.02..0.08).contains(&x[1]));
     let mut count = 0;
     for (x, heat) in beside {
         assert!((heat / (0.5 * 1e3 * slid) - 1.0).abs() < 0.1, "{x:?}: {heat} {slid}");
@@ -221,7 +225,7 @@ fn a_tie_breaks_at_its_strength_all_around() {
             simulation.advance(f64::INFINITY, u64::MAX).unwrap();
             simulation
         };
-        let apart = simulation.frame().positions.iter().filter(|x| x[1].abs() > 1e-5 && x[1].abs() < 0.5e-3).count();
+        let apart = simulation.frame().positions::<2>().iter().filter(|x| x[1].abs() > 1e-5 && x[1].abs() < 0.5e-3).count();
         assert_eq!(apart > 0, breaks, "{strength}");
     }
 }

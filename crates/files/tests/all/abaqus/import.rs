@@ -126,7 +126,7 @@ fn a_deck_of_two_bars_gives_what_the_model_written_by_hand_gives() {
     let [(steps, by_hand), (steps_imported, by_deck)] = [&example, &model(&folder)].map(|model| {
         let mut simulation = Simulation::new(model, &Options::default()).unwrap();
         simulation.advance(model.run.end, u64::MAX).unwrap();
-        let mut positions = simulation.frame().positions;
+        let mut positions = simulation.frame().positions::<2>().to_vec();
         positions.sort_by(|a, b| row(a).cmp(&row(b)).then(a[0].total_cmp(&b[0])));
         (simulation.steps(), positions)
     });

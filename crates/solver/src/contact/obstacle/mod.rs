@@ -77,13 +77,13 @@ pub struct OutlineShape {
 impl OutlineShape {
     /// Where it is now.
     #[must_use]
-    pub fn now(&self, bodies: &Bodies) -> Outline<2> {
+    pub fn now(&self, bodies: &Bodies) -> Outline {
         let body = bodies.state(self.body);
         let place = |&point: &Vector| {
             let arm = body.to_global(point);
-            [body.centre[0] + arm[0], body.centre[1] + arm[1]]
+            [body.centre[0] + arm[0], body.centre[1] + arm[1], 0.0]
         };
-        Outline { name: self.name.clone(), points: self.points.iter().map(place).collect() }
+        Outline { name: self.name.clone(), points: self.points.iter().map(place).collect(), facets: Vec::new() }
     }
 }
 

@@ -1,7 +1,7 @@
-//! Obstacles as lines: which are closed, on which side they are solid, which have no end, and the piece of an endless one that a file holds.
-//! Outlines come with every [`Frame`]; lines go to the pictures and to `obstacles.pvd`.
+//! Obstacles as lines, in space as surfaces: which are closed, on which side they are solid, which have no end, and the piece of an endless one that a
+//! file holds. Outlines come with every [`Frame`]; lines and surfaces go to the pictures and to `obstacles.pvd`.
 
-use embate_solver::output::Frame;
+use embate_solver::output::{Frame, Outline};
 
 /// A plane whose outline is longer than so many times the largest initial coordinate has no end.
 const ENDLESS: f64 = 30.0;
@@ -9,7 +9,7 @@ const ENDLESS: f64 = 30.0;
 const DRAWN_OUT: f64 = 1e3;
 
 /// Lower and upper corner.
-pub(crate) type Extent = [[f64; 2]; 2];
+pub(crate) type Extent<const D: usize = 2> = [[f64; D]; 2];
 
 /// The surface of an obstacle at one time, the solid on its right.
 #[derive(Clone, Debug, PartialEq)]
@@ -87,11 +87,21 @@ pub(crate) struct LineReader {
 }
 
 impl LineReader {
-    /// Lines of a frame, in model order.
+    /// Lines of a frame of the plane, in model order.
     pub(crate) fn lines(&mut self, frame: &Frame) -> Vec<Line> {
-        let largest = || frame.positions::<2>().iter().flatten().filter(|x| x.is_finite()).fold(0.0f64, |size, x| size.max(x.abs()));
-        let far = *self.far.get_or_insert_with(|| ENDLESS * largest());
+        let far = self.far(frame);
         frame.outlines.iter().map(|outline| line(&outline.points, far)).collect()
+    }
+
+    /// Surfaces of a frame of space, in model order.
+    pub(crate) fn surfaces(&mut self, frame: &Frame) -> Vec<Surface> {
+        let far = self.far(frame);
+        frame.outlines.iter().map(|outline| Surface::of(outline, far)).collect()
+    }
+
+    fn far(&mut self, frame: &Frame) -> f64 {
+        let largest = || frame.coordinates.iter().filter(|x| x.is_finite()).fold(0.0f64, |size, x| size.max(x.abs()));
+        *self.far.get_or_insert_with(|| ENDLESS * largest())
     }
 }
 
@@ -109,10 +119,117 @@ fn line(points: &[[f64; 3]], far: f64) -> Line {
     Line { points, is_endless: false }
 }
 
+/// The surface of an obstacle of space at one time, the solid behind its facets.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Surface {
+    /// m.
+    pub(crate) points: Vec<[f64; 3]>,
+    /// Points of each facet; a triangle repeats its last one.
+    pub(crate) facets: Vec<[u32; 4]>,
+    pub(crate) is_endless: bool,
+}
+
+/// A plane: a point of it, its unit normal, and two unit vectors in it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Plane {
+    /// The point nearest to the origin, m.
+    pub(crate) foot: [f64; 3],
+    pub(crate) normal: [f64; 3],
+    along: [[f64; 3]; 2],
+}
+
+/// By this fraction of the bodies' size the piece of a plane without end is larger than they are, on each side.
+const BESIDE: f64 = 0.12;
+
+impl Surface {
+    fn of(outline: &Outline, far: f64) -> Self {
+        let extent = |k: usize| {
+            let bounds = outline.points.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], p| [low.min(p[k]), high.max(p[k])]);
+            bounds[1] - bounds[0]
+        };
+        // A plane is a facet or two.
+        let is_endless = far > 0.0 && outline.facets.len() <= 2 && (0..3).any(|k| extent(k) > far);
+        let surface = Self { points: outline.points.clone(), facets: outline.facets.clone(), is_endless };
+        let is_plane = surface.plane().is_some();
+        Self { is_endless: is_endless && is_plane, ..surface }
+    }
+
+    /// The plane of its first facet; none without one that has an area.
+    pub(crate) fn plane(&self) -> Option<Plane> {
+        let facet = self.facets.first()?;
+        let [a, b, c] = [0, 1, 2].map(|k| self.points.get(facet[k] as usize).copied());
+        let (a, b, c) = (a?, b?, c?);
+        let minus = |a: [f64; 3], b: [f64; 3]| [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+        let normal = unit(cross(minus(b, a), minus(c, a)))?;
+        let foot = normal.map(|n| n * dot(normal, a));
+        let least = (0..3).min_by(|&i, &j| normal[i].abs().total_cmp(&normal[j].abs()))?;
+        let mut axis = [0.0; 3];
+        axis[least] = 1.0;
+        let share = dot(axis, normal);
+        let first = unit([0, 1, 2].map(|k| axis[k] - share * normal[k]))?;
+        Some(Plane { foot, normal, along: [first, cross(normal, first)] })
+    }
+
+    /// Itself; of a plane without end the piece beside the bodies in this box.
+    pub(crate) fn piece(&self, near: Extent<3>) -> Self {
+        match self.plane().filter(|_| self.is_endless && near.iter().flatten().all(|v| v.is_finite())) {
+            None => self.clone(),
+            Some(plane) => {
+                let points = plane.rectangle(plane.sides(near)).to_vec();
+                Self { points, facets: vec![[0, 1, 2, 3]], is_endless: true }
+            }
+        }
+    }
+}
+
+impl Plane {
+    /// The place in space of two coordinates in the plane.
+    pub(crate) fn place(&self, [a, b]: [f64; 2]) -> [f64; 3] {
+        [0, 1, 2].map(|k| self.foot[k] + a * self.along[0][k] + b * self.along[1][k])
+    }
+
+    /// Coordinates in the plane of the smallest rectangle above which a box lies, and some room beside it.
+    pub(crate) fn sides(&self, near: Extent<3>) -> Extent {
+        let mut sides = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+        for corner in 0..8_usize {
+            let x = [0, 1, 2].map(|k| near[corner >> k & 1][k]);
+            for (k, along) in self.along.iter().enumerate() {
+                let at = dot(*along, x);
+                (sides[0][k], sides[1][k]) = (sides[0][k].min(at), sides[1][k].max(at));
+            }
+        }
+        let more = BESIDE * (0..3).map(|k| near[1][k] - near[0][k]).fold(0.0, f64::max);
+        [sides[0].map(|v| v - more), sides[1].map(|v| v + more)]
+    }
+
+    /// Corners of a rectangle in the plane, outward by the right-hand rule, m.
+    pub(crate) fn rectangle(&self, [low, high]: Extent) -> [[f64; 3]; 4] {
+        [[low[0], low[1]], [high[0], low[1]], [high[0], high[1]], [low[0], high[1]]].map(|at| self.place(at))
+    }
+}
+
+pub(crate) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+pub(crate) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// The vector with length one; none for one without a direction.
+pub(crate) fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
+    let largest = v.iter().fold(0.0f64, |size, c| size.max(c.abs()));
+    if !(largest > 0.0 && v.iter().all(|c| c.is_finite())) {
+        return None;
+    }
+    let scaled = v.map(|c| c / largest);
+    let length = dot(scaled, scaled).sqrt();
+    Some(scaled.map(|c| c / length))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use embate_solver::output::Outline;
 
     fn lines(points: Vec<[f64; 2]>) -> Vec<Line> {
         let outlines = vec![Outline::line("o", points)];
@@ -143,5 +260,28 @@ mod tests {
         let hollow = lines(square.iter().rev().copied().collect());
         assert!(hollow[0].is_closed() && !hollow[0].is_filled());
         assert!(!lines(square[..4].to_vec())[0].is_closed());
+    }
+
+    fn surface(points: Vec<[f64; 3]>, facets: Vec<[u32; 4]>) -> Surface {
+        let outlines = vec![Outline { name: "o".into(), points, facets }];
+        let frame = Frame { outlines, ..Frame::of(&[[-1.0, 0.0, 0.5], [0.0, 2.0, 1.0]]) };
+        LineReader::default().surfaces(&frame).remove(0)
+    }
+
+    #[test]
+    fn a_plane_of_space_far_larger_than_the_model_has_no_end_and_a_piece_under_it() {
+        // Slanted: z = x − 1.
+        let square = |s: f64| vec![[-s, -s, -s - 1.0], [s, -s, s - 1.0], [s, s, s - 1.0], [-s, s, -s - 1.0]];
+        let large = surface(square(50.0), vec![[0, 1, 2, 3]]);
+        assert!(large.is_endless && !surface(square(5.0), vec![[0, 1, 2, 3]]).is_endless);
+        assert!(surface(square(50.0), vec![[0, 1, 2, 2], [0, 2, 3, 3]]).is_endless);
+        assert!(!surface(square(50.0), vec![[0, 0, 0, 0]]).is_endless);
+        let piece = large.piece([[0.0; 3], [2.0; 3]]);
+        assert_eq!(piece.facets, [[0, 1, 2, 3]]);
+        assert!(piece.points.iter().all(|p| (p[2] - p[0] + 1.0).abs() < 1e-9 && p.iter().all(|v| v.abs() < 5.0)), "{piece:?}");
+        let up = |s: &Surface| s.plane().unwrap().normal;
+        assert!((0..3).all(|k| (up(&piece)[k] - up(&large)[k]).abs() < 1e-9), "its free side stays");
+        let finite = surface(square(5.0), vec![[0, 1, 2, 3]]);
+        assert_eq!(finite.piece([[0.0; 3], [2.0; 3]]), finite);
     }
 }

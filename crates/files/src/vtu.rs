@@ -9,6 +9,7 @@
 
 mod pack;
 
+use crate::outline::Surface;
 use crate::threads::{Rooms, Threads};
 use embate_solver::output::{CellKind, Cells, Field, FieldKind, Frame, Location};
 use pack::{Array, Data, Packer, Plain, plain, zlib_blocks};
@@ -223,21 +224,64 @@ pub(crate) fn write_obstacles(lines: &[Vec<[f64; 2]>], time: f64, out: &mut (imp
         }
         first += line.len() as u32;
     }
-    let count = indices.len();
-    let indices = Data::Bytes(indices.iter().flat_map(|index| index.to_le_bytes()).collect());
-    let offsets: Vec<u32> = (1..=count as u32).map(|k| 2 * k).collect();
-    let array = |attributes: &str, data| vec![Content::Plain(plain(attributes, data))];
-    let mut cells = array(CONNECTIVITY, Data::Indices(&connectivity));
-    cells.extend(array(OFFSETS, Data::Indices(&offsets)));
-    cells.extend(array(TYPES, Data::Bytes(vec![VTK_LINE; count])));
-    let sections = vec![
-        ("PointData", vec![]),
-        ("CellData", array("type=\"Int32\" Name=\"obstacle\"", indices)),
-        ("Points", array(POINTS, Data::PlaneVectors(&positions))),
-        ("Cells", cells),
-    ];
-    let packers = Rooms::default();
-    VtuFile { time, counts: [first as usize, count], sections, packers: &packers }.write(&Threads::one(), out)
+    let cells = Pieces {
+        types: vec![VTK_LINE; indices.len()],
+        offsets: (1..=indices.len() as u32).map(|k| 2 * k).collect(),
+        connectivity,
+        indices,
+    };
+    cells.write(Data::PlaneVectors(&positions), first as usize, time, out)
+}
+
+/// Writes a `.vtu` file of the obstacles of a model of space: each facet as a triangle or a quadrilateral, with the index of its obstacle as the cell array
+/// `obstacle`.
+///
+/// # Errors
+/// Those of `out`.
+pub(crate) fn write_surfaces(surfaces: &[Surface], time: f64, out: &mut (impl Write + Seek)) -> io::Result<()> {
+    let positions: Vec<f64> = surfaces.iter().flat_map(|surface| surface.points.as_flattened()).copied().collect();
+    let mut cells = Pieces::default();
+    let mut first = 0;
+    for (index, surface) in (0_i32..).zip(surfaces) {
+        for facet in &surface.facets {
+            let corners = if facet[2] == facet[3] { &facet[..3] } else { &facet[..] };
+            cells.connectivity.extend(corners.iter().map(|corner| first + corner));
+            cells.offsets.push(cells.connectivity.len() as u32);
+            cells.types.push(vtk_cell_type(if corners.len() == 3 { CellKind::Triangle } else { CellKind::Quadrilateral }));
+            cells.indices.push(index);
+        }
+        first += surface.points.len() as u32;
+    }
+    cells.write(Data::Numbers(&positions), first as usize, time, out)
+}
+
+/// Cells of obstacles.
+#[derive(Default)]
+struct Pieces {
+    connectivity: Vec<u32>,
+    offsets: Vec<u32>,
+    types: Vec<u8>,
+    /// Obstacle of each.
+    indices: Vec<i32>,
+}
+
+impl Pieces {
+    fn write(self, positions: Data<'_>, points: usize, time: f64, out: &mut (impl Write + Seek)) -> io::Result<()> {
+        let count = self.indices.len();
+        let indices = Data::Bytes(self.indices.iter().flat_map(|index| index.to_le_bytes()).collect());
+        let array = |attributes: &str, data| vec![Content::Plain(plain(attributes, data))];
+        let mut cells = array(CONNECTIVITY, Data::Indices(&self.connectivity));
+        cells.extend(array(OFFSETS, Data::Indices(&self.offsets)));
+        cells.extend(array(TYPES, Data::Bytes(self.types)));
+        let sections = vec![
+            ("PointData", vec![]),
+            ("CellData", array("type=\"Int32\" Name=\"obstacle\"", indices)),
+            ("Points", array(POINTS, positions)),
+            ("Cells", cells),
+        ];
+        let packers = Rooms::default();
+        VtuFile { time, counts: [points, count], sections, packers: &packers }.write(&Threads::one(), out)
+    }
 }
 
 /// The text of a `.pvd` file: each frame's time (s) and its path relative to the collection.
@@ -304,7 +348,7 @@ fn field_attributes(kind: &FieldKind) -> String {
 mod tests {
     use super::pack::BLOCK;
     use super::*;
-    use embate_solver::output::field_kind;
+    use embate_solver::output::{field_kind, fields_of};
     use std::io::Cursor;
     use std::io::Read;
 
@@ -473,6 +517,54 @@ mod tests {
         let numbers = |name: &str| -> Vec<u8> { array(&file, name).chunks_exact(8).map(|b| b[0]).collect() };
         assert_eq!((numbers("connectivity"), numbers("offsets")), (vec![0, 1, 1, 2, 4, 5], vec![2, 4, 6]));
         assert_eq!(array(&file, "types"), [3, 3, 3]);
+        assert_eq!(array(&file, "obstacle"), [0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 0, 0]);
+    }
+
+    /// A hexahedron, a wedge on its side and a tetrahedron on the wedge.
+    fn solids() -> (Cells, Frame) {
+        let cells = Cells {
+            nodes: vec![0, 1, 2, 3, 4, 5, 6, 7, 1, 8, 2, 5, 9, 6, 5, 9, 6, 10],
+            offsets: vec![0, 8, 14, 18],
+            kinds: vec![CellKind::Hexahedron, CellKind::Wedge, CellKind::Tetrahedron],
+            parts: vec![0, 0, 1],
+            part_names: vec!["block".into(), "tip".into()],
+        };
+        let places: Vec<[f64; 3]> = (0..11).map(|k| [f64::from(k), 0.5, -f64::from(k)]).collect();
+        let field = |name: &str, values: Vec<f64>| Field { kind: fields_of(3).iter().find(|kind| kind.name == name).unwrap(), values };
+        let fields = vec![field("velocity", (0..33).map(f64::from).collect()), field("stress", (0..18).map(f64::from).collect())];
+        (cells, Frame { fields, ..Frame::of(&places) })
+    }
+
+    #[test]
+    fn cells_vectors_and_stresses_of_space_are_written_with_their_names() {
+        let (cells, frame) = solids();
+        let file = bytes(&cells, &frame, &[], 1).unwrap();
+        let text = String::from_utf8_lossy(&file);
+        let names = |of: &[&str]| of.iter().enumerate().map(|(k, name)| format!(" ComponentName{k}=\"{name}\"")).collect::<String>();
+        assert!(text.contains(&format!("\"stress\" NumberOfComponents=\"6\"{}", names(&["xx", "yy", "zz", "xy", "yz", "zx"]))));
+        assert!(text.contains(&format!("\"velocity\" NumberOfComponents=\"3\"{}", names(&["x", "y", "z"]))));
+        assert!(floats(&array(&file, "Points")) == frame.coordinates);
+        assert_eq!(floats(&array(&file, "velocity")), (0..33).map(f64::from).collect::<Vec<_>>());
+        assert_eq!(floats(&array(&file, "stress")), (0..18).map(f64::from).collect::<Vec<_>>());
+        assert_eq!(array(&file, "types"), [12, 13, 10]);
+        let nodes: Vec<u32> = array(&file, "connectivity").chunks_exact(8).map(|b| u32::from(b[0])).collect();
+        assert_eq!(nodes, cells.nodes);
+    }
+
+    #[test]
+    fn obstacles_of_space_are_triangles_and_quadrilaterals_with_their_index() {
+        let square = [[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [1.0, 2.0, 1.0], [0.0, 2.0, 1.0]].to_vec();
+        let surface = |points: &[[f64; 3]], facets: Vec<[u32; 4]>| Surface { points: points.to_vec(), facets, is_endless: false };
+        let surfaces =
+            [surface(&square, vec![[0, 1, 2, 2], [0, 2, 3, 3]]), surface(&square[..1], vec![]), surface(&square, vec![[0, 1, 2, 3]])];
+        let mut file = Cursor::new(Vec::new());
+        write_surfaces(&surfaces, 0.25, &mut file).unwrap();
+        let file = file.into_inner();
+        assert!(String::from_utf8_lossy(&file).contains("NumberOfPoints=\"9\" NumberOfCells=\"3\""));
+        assert_eq!(floats(&array(&file, "Points"))[..6], [0.0, 0.0, 1.0, 1.0, 0.0, 1.0]);
+        let numbers = |name: &str| -> Vec<u8> { array(&file, name).chunks_exact(8).map(|b| b[0]).collect() };
+        assert_eq!((numbers("connectivity"), numbers("offsets")), (vec![0, 1, 2, 0, 2, 3, 5, 6, 7, 8], vec![3, 6, 10]));
+        assert_eq!(array(&file, "types"), [5, 5, 9]);
         assert_eq!(array(&file, "obstacle"), [0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 0, 0]);
     }
 

@@ -17,17 +17,44 @@ pub struct F64x4(__m256d);
 #[repr(transparent)]
 pub struct F64x8(__m512d);
 
-/// Both vectors of a point of the plane in one register.
+/// The first four of the components of both vectors of a point in one register: all of the plane, of space the first vector and one more.
 ///
 /// # Safety
-/// `index` must be less than `points.len()`, `D` must be 2, and the machine must have AVX.
+/// `index` must be less than `points.len()`, `D` must be 2 or 3, and the machine must have AVX.
 #[inline(always)]
 unsafe fn point<const D: usize>(points: &[[[f64; D]; 2]], index: u16) -> __m256d {
-    // SAFETY: by the contract above all four components lie inside the slice; unaligned loads need no alignment.
+    // SAFETY: by the contract above there are at least four components in each point of the slice; unaligned loads need no alignment.
     unsafe { _mm256_loadu_pd(points.as_ptr().add(usize::from(index)).cast::<f64>()) }
 }
 
-/// Two points of the plane in one register.
+/// The last two components of the second vectors of two points of space in one register.
+///
+/// # Safety
+/// As for [`point`], but that `D` must be 3.
+#[inline(always)]
+unsafe fn two_rests<const D: usize>(points: &[[[f64; D]; 2]], low: u16, high: u16) -> __m256d {
+    // SAFETY: by the contract above each point has six components; unaligned loads need no alignment.
+    unsafe {
+        let low = points.as_ptr().add(usize::from(low)).cast::<f64>().add(4);
+        let high = points.as_ptr().add(usize::from(high)).cast::<f64>().add(4);
+        _mm256_insertf128_pd::<1>(_mm256_castpd128_pd256(_mm_loadu_pd(low)), _mm_loadu_pd(high))
+    }
+}
+
+/// Both vectors from their components in turn, the first four and the last two; of the plane there are four.
+#[inline(always)]
+fn vectors<L: Copy, const D: usize>(first: [L; 4], last: [L; 2]) -> [[L; D]; 2] {
+    let all = [first[0], first[1], first[2], first[3], last[0], last[1]];
+    let mut out = [[all[0]; D]; 2];
+    for k in 0..2 {
+        for d in 0..D {
+            out[k][d] = all[k * D + d];
+        }
+    }
+    out
+}
+
+/// Two points in one register.
 ///
 /// # Safety
 /// As for [`point`], and the machine must have AVX-512.
@@ -37,10 +64,10 @@ unsafe fn two_points<const D: usize>(points: &[[[f64; D]; 2]], low: u16, high: u
     unsafe { _mm512_insertf64x4::<1>(_mm512_castpd256_pd512(point(points, low)), point(points, high)) }
 }
 
-/// Adds a vector of the plane to one of `sums`.
+/// Adds a vector of the plane, or the first two components of one of space, to one of `sums`.
 ///
 /// # Safety
-/// `index` must be less than `sums.len()`, `D` must be 2, and `pair` must be aligned to 16 bytes.
+/// `index` must be less than `sums.len()`, `D` must be at least 2, and `pair` must be aligned to 16 bytes.
 #[inline(always)]
 unsafe fn add_pair<const D: usize>(sums: &mut [[f64; D]], index: u16, pair: &[f64; 2]) {
     // SAFETY: by the contract above both components lie inside the slice; its loads and stores need no alignment.
@@ -48,6 +75,16 @@ unsafe fn add_pair<const D: usize>(sums: &mut [[f64; D]], index: u16, pair: &[f6
         let sum = sums.as_mut_ptr().add(usize::from(index)).cast::<f64>();
         _mm_storeu_pd(sum, _mm_add_pd(_mm_loadu_pd(sum), _mm_load_pd(pair.as_ptr())));
     }
+}
+
+/// Adds the third component of a vector of space to one of `sums`.
+///
+/// # Safety
+/// `index` must be less than `sums.len()`, and `D` must be 3.
+#[inline(always)]
+unsafe fn add_third<const D: usize>(sums: &mut [[f64; D]], index: u16, value: f64) {
+    // SAFETY: by the contract above there is such a component.
+    unsafe { *sums.as_mut_ptr().add(usize::from(index)).cast::<f64>().add(2) += value };
 }
 
 /// Pairs of components of the lanes, as they lie in a register or two.
@@ -198,10 +235,9 @@ impl Lane for F64x4 {
     }
     #[inline(always)]
     fn gather<const D: usize>(points: &[[[f64; D]; 2]], indices: &Indices, row: usize, at: usize) -> [[Self; D]; 2] {
-        if D != 2 {
+        if D != 2 && D != 3 {
             return plain::gather(points, indices, row, at);
         }
-        let mut out = [[Self::splat(0.0); D]; 2];
         let [index] = indices.checked::<_, 1>(points, row, at, 4);
         // SAFETY: `checked` has shown that every index is below `points.len()`; the instructions are there as for the operators.
         let [x, y, u, v] = unsafe {
@@ -216,12 +252,20 @@ impl Lane for F64x4 {
                 _mm256_permute2f128_pd::<0x31>(ab_high, cd_high),
             ]
         };
-        (out[0][0], out[0][1], out[1][0], out[1][1]) = (Self(x), Self(y), Self(u), Self(v));
-        out
+        let first = [Self(x), Self(y), Self(u), Self(v)];
+        if D == 2 {
+            return vectors(first, [Self(x); 2]);
+        }
+        // SAFETY: as above.
+        let last = unsafe {
+            let (even, odd) = (two_rests(points, index[at], index[at + 2]), two_rests(points, index[at + 1], index[at + 3]));
+            [_mm256_unpacklo_pd(even, odd), _mm256_unpackhi_pd(even, odd)]
+        };
+        vectors(first, [Self(last[0]), Self(last[1])])
     }
     #[inline(always)]
     fn scatter<const D: usize, const N: usize>(values: &[[Self; D]; N], sums: &mut [[f64; D]], indices: &Indices, row: usize, at: usize) {
-        if D != 2 {
+        if D != 2 && D != 3 {
             return plain::scatter(values, sums, indices, row, at);
         }
         let rows = indices.checked::<_, N>(sums, row, at, 4);
@@ -234,10 +278,20 @@ impl Lane for F64x4 {
                 _mm256_store_pd(all[4..].as_mut_ptr(), _mm256_unpackhi_pd(vector[0].0, vector[1].0));
             }
         }
+        let mut thirds = [const { Batch([0.0; 8]) }; N];
+        if D == 3 {
+            for a in 0..N {
+                values[a][2].store(&mut thirds[a], 0);
+            }
+        }
         for lane in 0..4 {
-            for (row, pairs) in rows.iter().zip(&pairs) {
+            for a in 0..N {
                 // SAFETY: `checked` has shown that every index is below `sums.len()`; pairs lie at multiples of 16 bytes.
-                unsafe { add_pair(sums, row[at + lane], &pairs.0[lane % 2 * 2 + lane / 2]) };
+                unsafe { add_pair(sums, rows[a][at + lane], &pairs[a].0[lane % 2 * 2 + lane / 2]) };
+                if D == 3 {
+                    // SAFETY: as above.
+                    unsafe { add_third(sums, rows[a][at + lane], thirds[a].0[lane]) };
+                }
             }
         }
     }
@@ -369,10 +423,9 @@ impl Lane for F64x8 {
     }
     #[inline(always)]
     fn gather<const D: usize>(points: &[[[f64; D]; 2]], indices: &Indices, row: usize, at: usize) -> [[Self; D]; 2] {
-        if D != 2 {
+        if D != 2 && D != 3 {
             return plain::gather(points, indices, row, at);
         }
-        let mut out = [[Self::splat(0.0); D]; 2];
         let [index] = indices.checked::<_, 1>(points, row, at, 8);
         // SAFETY: `checked` has shown that every index is below `points.len()`; the instructions are there as for the operators.
         let [x, y, u, v] = unsafe {
@@ -388,12 +441,23 @@ impl Lane for F64x8 {
                 _mm512_permutex2var_pd(ab_high, second, cd_high),
             ]
         };
-        (out[0][0], out[0][1], out[1][0], out[1][1]) = (Self(x), Self(y), Self(u), Self(v));
-        out
+        let first = [Self(x), Self(y), Self(u), Self(v)];
+        if D == 2 {
+            return vectors(first, [Self(x); 2]);
+        }
+        // SAFETY: as above.
+        let last = unsafe {
+            let (a, b) = (two_rests(points, index[0], index[2]), two_rests(points, index[4], index[6]));
+            let (c, d) = (two_rests(points, index[1], index[3]), two_rests(points, index[5], index[7]));
+            let even = _mm512_insertf64x4::<1>(_mm512_castpd256_pd512(a), b);
+            let odd = _mm512_insertf64x4::<1>(_mm512_castpd256_pd512(c), d);
+            [_mm512_unpacklo_pd(even, odd), _mm512_unpackhi_pd(even, odd)]
+        };
+        vectors(first, [Self(last[0]), Self(last[1])])
     }
     #[inline(always)]
     fn scatter<const D: usize, const N: usize>(values: &[[Self; D]; N], sums: &mut [[f64; D]], indices: &Indices, row: usize, at: usize) {
-        if D != 2 {
+        if D != 2 && D != 3 {
             return plain::scatter(values, sums, indices, row, at);
         }
         let rows = indices.checked::<_, N>(sums, row, at, 8);
@@ -406,10 +470,21 @@ impl Lane for F64x8 {
                 _mm512_store_pd(all[8..].as_mut_ptr(), _mm512_unpackhi_pd(vector[0].0, vector[1].0));
             }
         }
+        let mut thirds = [const { Batch([0.0; 8]) }; N];
+        if D == 3 {
+            for a in 0..N {
+                values[a][2].store(&mut thirds[a], 0);
+            }
+        }
+        #[allow(clippy::needless_range_loop)] // lanes are summed one after the other, corner by corner
         for lane in 0..8 {
-            for (row, pairs) in rows.iter().zip(&pairs) {
+            for a in 0..N {
                 // SAFETY: `checked` has shown that every index is below `sums.len()`; pairs lie at multiples of 16 bytes.
-                unsafe { add_pair(sums, row[lane], &pairs.0[lane % 2 * 4 + lane / 2]) };
+                unsafe { add_pair(sums, rows[a][lane], &pairs[a].0[lane % 2 * 4 + lane / 2]) };
+                if D == 3 {
+                    // SAFETY: as above.
+                    unsafe { add_third(sums, rows[a][lane], thirds[a].0[lane]) };
+                }
             }
         }
     }

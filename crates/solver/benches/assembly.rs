@@ -83,7 +83,7 @@ fn main() {
     println!("forces of elements on nodes, ns per element, best of {ROUNDS} rounds in turns");
     for n in if sizes.is_empty() { vec![32, 100, 1000] } else { sizes } {
         let n = n.next_multiple_of(4);
-        let mesh = Mesh::new(&spinning_block("quad4", "elastic", n)).expect("the model is sound");
+        let mesh = Mesh::<2>::new(&spinning_block("quad4", "elastic", n)).expect("the model is sound");
         let (connectivity, nodes) = (&mesh.groups[0].connectivity, mesh.positions.len());
         let batches = n * n / BATCH;
         let numbers: Vec<Batch> = (0..batches).map(|b| Batch(std::array::from_fn(|lane| ((b * BATCH + lane) as f64).sin()))).collect();

@@ -10,56 +10,54 @@ mod limits;
 mod mass;
 mod mirrors;
 mod obstacles;
+mod outline;
+pub(crate) mod plane;
+mod space;
+mod space_contact;
 mod start;
 
-use crate::contact::messages::{NO_STEP, ON_SYMMETRY, TIED_TWICE};
+use crate::contact::messages::NO_STEP;
 use crate::material::messages::INITIAL_STATE;
-use crate::mesh::messages::NEGATIVE_RADIUS;
 use crate::model::messages::UNKNOWN_NAME;
+use crate::tensor::Dim;
+use crate::world::World;
 pub(crate) use again::{Lent, Origin};
-use fans::{Fans, Under};
+use fans::Fans;
 pub(crate) use mass::Shares;
 use mass::part_masses;
 
 use crate::assembly::Assembly;
 use crate::block::{Block, BlockInput, Initial, Motion, Report, Wrong, make};
 use crate::contact::forces::ContactForces;
-use crate::contact::formulation::{self, Setup, Side};
 use crate::contact::law::{self, Law};
-use crate::contact::mirror::Mirrored;
 use crate::contact::obstacle::OutlineShape;
-use crate::contact::projection::node_segment::Target;
+use crate::contact::search;
 use crate::contact::search::SearchKind;
 use crate::contact::springs::friction::Friction;
 use crate::contact::springs::{Springs, Tangential, Terms};
 use crate::contact::traces::Traces;
-use crate::contact::{self, Contact, ContactKind, Formulation, search};
 use crate::element::ElementOptions;
 use crate::energy::{Ledger, Sums};
 use crate::error::{Fault, Warning};
 use crate::load::body_force::BodyForces;
-use crate::load::constraint::{Constraints, unit};
+use crate::load::constraint::Constraints;
 use crate::load::curve::Curves;
 use crate::load::damping::Damping;
 use crate::load::force::Forces;
 use crate::load::join::Joins;
-use crate::load::non_reflecting::{Behind, NonReflecting};
+use crate::load::non_reflecting::NonReflecting;
 use crate::load::tributary::Depth;
-use crate::mesh::surface::{NONE, Surface};
 use crate::mesh::{ElementGroup, Mesh};
-use crate::model::{self, ContactLaw, Interface, Model, Partners, Penalty, PenaltySource, Symmetry};
+use crate::model::{self, ContactLaw, Interface, Model, Penalty, PenaltySource};
 use crate::rigid::Bodies;
 use crate::step::erosion::Erosion;
 use crate::step::free::Groups;
 use crate::step::relaxation::Relaxation;
 use crate::step::{CHUNK, Governor, System};
-use crate::vector::first;
 use embate_lanes::{Level, Team};
-use std::cell::{OnceCell, RefCell};
+use std::cell::OnceCell;
 use std::collections::BTreeMap;
 
-/// Nodes nearer to the axis than this fraction of the model's size are on it.
-const ON_AXIS: f64 = 1e-9;
 /// Below so many elements threads cost more than they bring.
 const SERIAL: usize = 4096;
 
@@ -67,14 +65,17 @@ const SERIAL: usize = 4096;
 ///
 /// # Errors
 /// All faults of the model.
-pub fn system(model: &Model, level: Level, threads: usize) -> Result<(System, Vec<Warning>), Vec<Fault>> {
+pub fn system<const D: usize>(model: &Model, level: Level, threads: usize) -> Result<(System<D>, Vec<Warning>), Vec<Fault>>
+where
+    Dim<D>: World<D>,
+{
     let faults = model.check();
     if !faults.is_empty() {
         return Err(faults);
     }
     let mut warnings = model.warnings();
     let mesh = Mesh::new(model)?;
-    let with_axis = with_axis(model, &mesh)?;
+    let with_axis = <Dim<D>>::with_axis(model, &mesh)?;
     let model = with_axis.as_ref().unwrap_or(model);
     let curves = Curves::new(model);
     let joins = Joins::new(model, &mesh)?;
@@ -99,7 +100,7 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<(System, Ve
         mesh,
     };
     warnings.extend(idle::warnings(model, &builder.mesh, &builder.body_of_node));
-    let initial_penetrations = builder.part_at_start();
+    let initial_penetrations = <Dim<D>>::part_at_start(&mut builder);
     if !builder.faults.is_empty() {
         return Err(builder.faults);
     }
@@ -133,10 +134,10 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<(System, Ve
     blocks.iter_mut().for_each(|block| block.release_corner_masses());
     drop((part_mass_scaled, part_mass_true));
     builder.measure_stiffness(&mut blocks, level);
-    let springs = builder.springs();
+    let springs = <Dim<D>>::springs(&mut builder);
     let (forces, boundary) = builder.loads();
-    let mut contacts = builder.contacts();
-    contacts.extend(builder.obstacles());
+    let mut contacts = <Dim<D>>::contacts(&mut builder);
+    contacts.extend(<Dim<D>>::obstacles(&mut builder));
     if !builder.faults.is_empty() {
         return Err(builder.faults);
     }
@@ -151,10 +152,10 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<(System, Ve
     let erosion = criteria.iter().any(|criteria| !criteria.is_empty()).then(|| Box::new(Erosion::new(criteria, origin())));
     let elements: usize = blocks.iter().map(|block| block.elements()).sum();
     let has_springs = springs.is_some();
-    blocks.extend(springs.map(|springs| Box::new(springs) as Box<dyn Block<2>>));
+    blocks.extend(springs);
     let nodes = positions.len();
     let assembly = Assembly::new(nodes, &blocks.iter().map(|block| block.slots()).collect::<Vec<_>>());
-    velocities.resize(nodes, [0.0; 2]);
+    velocities.resize(nodes, [0.0; D]);
     // Made only to be told of elements that overlap where nothing touches. A symmetry line is no surface: pressures count the length on the model's side.
     let outside =
         mesh.outside_without(&[], |segment| contacts.is_empty() || constraints.is_mirror(segment)).map_err(|fault| vec![fault])?;
@@ -164,7 +165,7 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<(System, Ve
     let traces = Traces::new(outside, &mesh.positions[..touched.min(mesh.positions.len())], Depth::of(model));
     let run = &model.run;
     let mut system = System {
-        slots: vec![[0.0; 2]; assembly.count],
+        slots: vec![[0.0; D]; assembly.count],
         rigid: mesh.groups.iter().map(|group| model.parts[group.part].rigid.is_some()).chain(has_springs.then_some(false)).collect(),
         has_springs,
         shares,
@@ -216,38 +217,21 @@ pub fn system(model: &Model, level: Level, threads: usize) -> Result<(System, Ve
     Ok((system, warnings))
 }
 
-/// An axisymmetric model with its axis as a symmetry line, if it touches that.
-fn with_axis(model: &Model, mesh: &Mesh<2>) -> Result<Option<Model>, Vec<Fault>> {
-    if !model.is_axisymmetric() {
-        return Ok(None);
-    }
-    let size = mesh.positions.iter().flatten().fold(0.0f64, |size, x| size.max(x.abs()));
-    if let Some([x, y]) = mesh.positions.iter().find(|x| x[0] < -ON_AXIS * size) {
-        let message = format!("an axisymmetric part has a node at a negative radius, ({x:.6e}, {y:.6e}) m");
-        return Err(vec![Fault::new(&NEGATIVE_RADIUS, "part", message, "x is the radius: move the part to the right of the axis x = 0")]);
-    }
-    let touches = mesh.positions.iter().any(|x| x[0] <= ON_AXIS * size);
-    let axis = Symmetry { normal: [1.0, 0.0, 0.0], ..Symmetry::default() };
-    let is_there = |symmetry: &Symmetry| symmetry.parts.is_empty() && symmetry.point[0] == 0.0 && symmetry.normal[1] == 0.0;
-    if !touches || model.symmetries.iter().any(is_there) {
-        return Ok(None);
-    }
-    let mut model = model.clone();
-    model.symmetries.push(axis);
-    Ok(Some(model))
-}
-
-struct Builder<'a> {
+/// A system while it is built.
+pub struct Builder<'a, const D: usize>
+where
+    Dim<D>: World<D>,
+{
     model: &'a Model,
-    mesh: Mesh<2>,
+    mesh: Mesh<D>,
     /// Body that each node of the mesh belongs to.
     body_of_node: Vec<u32>,
-    constraints: Constraints<2>,
-    joins: Joins,
+    constraints: Constraints<D>,
+    joins: Joins<D>,
     curves: Curves,
     faults: Vec<Fault>,
     /// Initial positions of all nodes, m: those of elements, then those of obstacles.
-    positions: Vec<[f64; 2]>,
+    positions: Vec<[f64; D]>,
     /// Their masses, kg/m; 1 where an obstacle has a node.
     mass: Vec<f64>,
     /// Which elements are at which nodes; found when the first edge asks.
@@ -256,21 +240,24 @@ struct Builder<'a> {
     moduli: Vec<[f64; 2]>,
     /// First time step, s; only where a contact asks for it.
     time_step: f64,
-    bodies: Bodies,
+    bodies: Bodies<D>,
     /// Rigid parts and their bodies.
     body_parts: Vec<(usize, usize)>,
     /// What acts in contacts, ties and obstacles, as they are made.
     terms: Vec<Terms>,
-    outlines: Vec<OutlineShape>,
+    outlines: Vec<OutlineShape<D>>,
     /// Rigid bodies of the obstacles by name, where they are there already.
     made: BTreeMap<String, usize>,
     /// Whether contacts are made again, of changed surfaces.
     again: bool,
 }
 
-impl Builder<'_> {
+impl<const D: usize> Builder<'_, D>
+where
+    Dim<D>: World<D>,
+{
     /// A block for each group of elements.
-    fn blocks(&mut self) -> Vec<Box<dyn Block<2>>> {
+    fn blocks(&mut self) -> Vec<Box<dyn Block<D>>> {
         let mut blocks = Vec::new();
         for group in &self.mesh.groups {
             let (i, part) = (group.part, &self.model.parts[group.part]);
@@ -283,13 +270,13 @@ impl Builder<'_> {
                 ));
                 continue;
             };
-            let element = part.element_of(group.nodes_per_element).map_or("", |kind| kind.name);
+            let element = part.element_in(D, group.nodes_per_element).map_or("", |kind| kind.name);
             let viscosity = self.model.run.bulk_viscosity;
             let input = BlockInput {
                 area: part.area.unwrap_or(0.0),
                 damping: self.model.stiffness_damping(part),
                 options: ElementOptions { hourglass: part.hourglass },
-                stress_state: &part.stress_state,
+                stress_state: if D == 2 { &part.stress_state } else { "" },
                 viscosity: (viscosity != [0.0; 2]).then_some(viscosity),
                 ..BlockInput::new(element, material, &group.connectivity, &self.mesh.positions)
             };
@@ -310,17 +297,17 @@ impl Builder<'_> {
     }
 
     /// What the stiffness of contacts is made from beyond the elements behind their surfaces: moduli and the first step.
-    fn measure_stiffness(&mut self, blocks: &mut [Box<dyn Block<2>>], level: Level) {
+    fn measure_stiffness(&mut self, blocks: &mut [Box<dyn Block<D>>], level: Level) {
         self.moduli = blocks.iter().map(|block| [block.wave_modulus(), block.bulk_modulus()]).collect();
         let interfaces = self.model.contacts.iter().map(|c| &c.interface).chain(self.model.obstacles.iter().map(|o| &o.interface));
         if interfaces.into_iter().any(|interface| source_of(interface) == PenaltySource::TimeStep) {
-            let velocities = vec![[0.0; 2]; self.mesh.positions.len()];
+            let velocities = vec![[0.0; D]; self.mesh.positions.len()];
             let motion = Motion { positions: &self.mesh.positions, velocities: &velocities, time_step: 0.0 };
-            let stable = |(block, group): (&mut Box<dyn Block<2>>, &ElementGroup)| {
+            let stable = |(block, group): (&mut Box<dyn Block<D>>, &ElementGroup)| {
                 if self.model.parts[group.part].rigid.is_some() {
                     return f64::INFINITY;
                 }
-                let mut slots = vec![[0.0; 2]; block.slots().len()];
+                let mut slots = vec![[0.0; D]; block.slots().len()];
                 block.advance(&motion, level, &mut slots, &mut Team::alone()).time_step_squared
             };
             let elements =
@@ -338,78 +325,13 @@ impl Builder<'_> {
     }
 
     /// Forces on nodes, and boundaries that reflect nothing.
-    fn loads(&mut self) -> (Forces, NonReflecting) {
-        let is_mirror = |segment| self.constraints.is_mirror(segment);
-        let behind = |segment| {
-            let under = self.under(segment)?;
-            let part = &self.model.parts[self.mesh.groups[under.group].part];
-            let density = *self.model.materials.get(&part.material)?.parameters.get("density")?;
-            Some(Behind { density, moduli: self.moduli[under.group] })
-        };
-        let forces = Forces::new(self.model, &self.mesh, &self.curves, is_mirror);
-        let boundary = NonReflecting::new(self.model, &self.mesh, is_mirror, behind);
+    fn loads(&mut self) -> (Forces<D>, NonReflecting<D>) {
+        let forces = Forces::new(self.model, &self.mesh, &self.curves, |facet| self.constraints.is_mirror(facet));
+        let boundary = <Dim<D>>::boundary(self);
         let mut faults = Vec::new();
-        let made = (forces.unwrap_or_else(|wrong| told(wrong, &mut faults)), boundary.unwrap_or_else(|wrong| told(wrong, &mut faults)));
+        let made = (told(forces, &mut faults), told(boundary, &mut faults));
         self.faults.extend(faults);
         made
-    }
-
-    /// What is behind a surface, with the stiffness that an interface asks for.
-    fn side(&self, Outlined { target, lids }: Outlined, interface: &Interface) -> Side<'_> {
-        let (surface, positions, source) = (&target.surface, &self.mesh.positions, source_of(interface));
-        let modulus = |under: Under| self.moduli[under.group][usize::from(source == PenaltySource::BulkModulus)] * under.flatness;
-        let mut segments: Vec<f64> = surface.segments.iter().map(|&segment| self.under(segment).map_or(0.0, modulus)).collect();
-        let mut nodes = contact::tributaries(surface, &segments, positions, Depth::of(self.model));
-        if source == PenaltySource::TimeStep {
-            for (&node, own) in surface.nodes.iter().zip(&mut nodes) {
-                own.stiffness = law::penalty::of_time_step(self.mass[node as usize], self.time_step, own.area);
-            }
-            let of = |node: u32| surface.nodes.binary_search(&node).map_or(0.0, |at| nodes[at].stiffness);
-            segments = surface.segments.iter().map(|&[a, b]| 0.5 * (of(a) + of(b))).collect();
-        }
-        let cell = |&segment: &[u32; 2]| self.under(segment).map_or(&[][..], |under| self.mesh.groups[under.group].cell(under.element));
-        let cells = surface.segments.iter().map(cell).collect();
-        let parts = surface
-            .segments
-            .iter()
-            .map(|&segment| self.under(segment).map_or(0, |under| self.mesh.groups[under.group].part as u32))
-            .collect();
-        Side { lids, segments, parts, nodes, cells, target }
-    }
-
-    fn contacts(&mut self) -> Vec<Contact> {
-        let mut contacts = Vec::new();
-        let mut tied = BTreeMap::new();
-        for (i, contact) in self.model.contacts.iter().enumerate() {
-            match self.contact(contact) {
-                Ok(made) => {
-                    if let Some(ties) = made.ties() {
-                        self.tied_once(&format!("contact[{i}].tied"), &contact.name, &ties.nodes, &mut tied);
-                    }
-                    contacts.push(made);
-                }
-                Err(faults) => self.faults.extend(faults.into_iter().map(|fault| {
-                    let dot = if fault.path.is_empty() { "" } else { "." };
-                    Fault { path: format!("contact[{i}]{dot}{}", fault.path), ..fault }
-                })),
-            }
-        }
-        contacts
-    }
-
-    /// Tells if nodes are bound already (`tied`: which contact binds a node): two ties would hold against each other.
-    fn tied_once<'m>(&mut self, path: &str, contact: &'m str, nodes: &[u32], tied: &mut BTreeMap<u32, &'m str>) {
-        let twice = nodes.iter().find_map(|&node| Some((node, *tied.get(&node)?)));
-        if let Some((node, other)) = twice {
-            let [x, y] = self.mesh.positions[node as usize];
-            self.faults.push(Fault::new(
-                &TIED_TWICE,
-                path,
-                format!("the node at ({x:.6e}, {y:.6e}) m is tied already by contact \"{other}\""),
-                "leave one of the two ties out, name smaller surfaces, or let the other surface be the slave",
-            ));
-        }
-        tied.extend(nodes.iter().map(|&node| (node, contact)));
     }
 
     /// Adds what acts in springs; returns its number.
@@ -417,143 +339,14 @@ impl Builder<'_> {
         self.terms.push(terms);
         self.terms.len() - 1
     }
-
-    /// A contact; faults have paths relative to it.
-    fn contact(&mut self, contact: &model::Contact) -> Result<Contact, Vec<Fault>> {
-        let (formulation, terms) = self.formulation(contact)?;
-        Ok(Contact::new(contact.name.clone(), ContactKind::Contact, formulation, terms, contact.interface.active))
-    }
-
-    /// What makes the springs of a contact, and the number of the terms that they follow.
-    fn formulation(&mut self, contact: &model::Contact) -> Result<(Box<dyn Formulation>, usize), Vec<Fault>> {
-        let terms = self.add_terms(terms_of(&contact.interface));
-        let tie_terms = if contact.tied.is_some() { self.add_terms(terms_of_ties(&contact.interface)) } else { terms };
-        let mirror_terms = self.add_terms(mirrors::terms_of_mirrors(&contact.interface));
-        let sides: Vec<Side<'_>> = self.outlines_of(contact)?.into_iter().map(|outline| self.side(outline, &contact.interface)).collect();
-        let mirrors = self.mirrors_of(contact, &sides[0]);
-        let Some(search) = search_by_name(&contact.search) else {
-            let message = format!("there is no search \"{}\"", contact.search);
-            return Err(vec![Fault::new(&UNKNOWN_NAME, "search", message, "see `embate list searches`")]);
-        };
-        let Some(kind) = formulation::kind_of(contact) else {
-            let message = format!("there is no formulation \"{}\"", contact.formulation.name());
-            return Err(vec![Fault::new(&UNKNOWN_NAME, "formulation", message, "see `embate list formulations`")]);
-        };
-        let setup = Setup {
-            contact,
-            sides,
-            bodies: &self.body_of_node,
-            positions: &self.mesh.positions,
-            depth: Depth::of(self.model),
-            law: &|| law_of(&contact.interface),
-            passes: (kind.passes)(contact),
-            tie_terms,
-            search: &|| (search.make)(),
-            again: self.again,
-        };
-        let mut made = (kind.make)(setup).map_err(|fault| vec![fault])?;
-        if !mirrors.is_empty() {
-            made = Box::new(Mirrored::new(made, mirrors, mirror_terms));
-        }
-        Ok((made, terms))
-    }
-
-    /// The surfaces of a contact: two, or one that meets itself. Faults have paths relative to the contact.
-    fn outlines_of(&self, contact: &model::Contact) -> Result<Vec<Outlined>, Vec<Fault>> {
-        match &contact.partners {
-            Partners::Between(between) => {
-                let sides = (0..).zip(between).map(|(side, name)| {
-                    let outline = self.outlined(|leave_out| self.mesh.surface(name, leave_out), &format!("surface \"{name}\""));
-                    outline.map_err(|fault| Fault { path: format!("between[{side}]"), ..fault })
-                });
-                let (good, faulty): (Vec<_>, Vec<_>) = sides.partition(Result::is_ok);
-                if faulty.is_empty() {
-                    Ok(good.into_iter().flatten().collect())
-                } else {
-                    Err(faulty.into_iter().filter_map(Result::err).collect())
-                }
-            }
-            Partners::Bodies(parts) => {
-                let outline = self.outlined(|leave_out| self.mesh.outside_without(parts, leave_out), "the outside of the bodies");
-                outline.map(|outline| vec![outline]).map_err(|fault| vec![Fault { path: "bodies".into(), ..fault }])
-            }
-        }
-    }
-
-    /// A surface without the segments on symmetry lines, and the normals of the lines at the ends that this leaves open.
-    fn outlined(&self, surface: impl Fn(&dyn Fn([u32; 2]) -> bool) -> Result<Surface, Fault>, what: &str) -> Result<Outlined, Fault> {
-        let lids = RefCell::new(Vec::new());
-        let surface = surface(&|segment| {
-            let is_lid = self.constraints.is_mirror(segment);
-            if is_lid {
-                lids.borrow_mut().push(segment);
-            }
-            is_lid
-        })?;
-        if surface.segments.is_empty() {
-            return Err(Fault::new(&ON_SYMMETRY, "", format!("{what} lies on a symmetry line altogether"), "name another surface"));
-        }
-        Ok(Outlined { target: self.with_mirrors(surface), lids: lids.into_inner() })
-    }
-
-    /// A surface as a target that goes on beyond symmetry lines.
-    fn with_mirrors(&self, surface: Surface) -> Target {
-        let starts =
-            surface.segments.iter().zip(&surface.previous).filter(|(_, previous)| **previous == NONE).map(|(segment, _)| segment[0]);
-        let ends = surface.segments.iter().zip(&surface.next).filter(|(_, next)| **next == NONE).map(|(segment, _)| segment[1]);
-        let open = starts.chain(ends);
-        let mut mirrors: Vec<(u32, [f64; 2])> =
-            open.filter_map(|node| Some((node, self.constraints.mirror_normals(node).next()?))).collect();
-        mirrors.sort_by_key(|&(node, _)| node);
-        Target { surface, mirrors }
-    }
 }
 
-/// Notes faults and gives what stands in for the thing that has them.
-fn told<T: Default>(wrong: Vec<Fault>, faults: &mut Vec<Fault>) -> T {
-    faults.extend(wrong);
-    T::default()
-}
-
-impl Builder<'_> {
-    /// Symmetry lines behind which there is nothing of the parts that they hold: number, a point, and the unit normal that points to the parts.
-    fn mirror_lines(&self) -> impl Iterator<Item = (usize, [f64; 2], [f64; 2])> {
-        let tolerance = contact::initial::TOLERANCE * contact::initial::size(&self.mesh.positions);
-        self.model.symmetries.iter().enumerate().filter_map(move |(number, symmetry)| {
-            let (normal, point) = (unit(first(symmetry.normal))?, first(symmetry.point));
-            let parts = self.mesh.parts.iter().filter(|part| symmetry.parts.is_empty() || symmetry.parts.contains(&part.name));
-            let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-            for &node in parts.flat_map(|part| &part.nodes) {
-                let distance = height(self.mesh.positions[node as usize], point, normal);
-                (low, high) = (low.min(distance), high.max(distance));
-            }
-            if low >= -tolerance {
-                Some((number, point, normal))
-            } else {
-                (high <= tolerance).then_some((number, point, normal.map(|n| -n)))
-            }
-        })
-    }
-
-    /// Whether a point lies on a symmetry line of one of these parts (none: all) or beyond it, where the mirror images of the parts are.
-    fn is_beyond_mirrors(&self, x: [f64; 2], parts: &[String]) -> bool {
-        let tolerance = contact::initial::TOLERANCE * contact::initial::size(&self.mesh.positions);
-        let concerns = |held: &[String]| held.is_empty() || parts.is_empty() || held.iter().any(|part| parts.contains(part));
-        self.mirror_lines()
-            .any(|(number, point, normal)| concerns(&self.model.symmetries[number].parts) && height(x, point, normal) <= tolerance)
-    }
-}
-
-/// How far `x` is from the line through `point`, along its normal, m.
-fn height(x: [f64; 2], point: [f64; 2], normal: [f64; 2]) -> f64 {
-    (x[0] - point[0]) * normal[0] + (x[1] - point[1]) * normal[1]
-}
-
-/// A surface of a contact.
-pub(crate) struct Outlined {
-    target: Target,
-    /// Segments that were left out because they lie on a symmetry line.
-    lids: Vec<[u32; 2]>,
+/// What was made, or its faults noted and what stands in for it.
+fn told<T: Default>(made: Result<T, Vec<Fault>>, faults: &mut Vec<Fault>) -> T {
+    made.unwrap_or_else(|wrong| {
+        faults.extend(wrong);
+        T::default()
+    })
 }
 
 fn law_of(interface: &Interface) -> Box<dyn Law> {
@@ -593,7 +386,7 @@ fn source_of(interface: &Interface) -> PenaltySource {
     }
 }
 
-fn search_by_name(name: &str) -> Option<SearchKind<2>> {
-    let registry = search::registry::<2>();
+fn search_by_name<const D: usize>(name: &str) -> Option<SearchKind<D>> {
+    let registry = search::registry::<D>();
     if name.is_empty() { registry.first().copied() } else { registry.into_iter().find(|kind| kind.name == name) }
 }

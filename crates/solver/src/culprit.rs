@@ -3,8 +3,14 @@
 use crate::contact::Contact;
 use crate::error::Error;
 use crate::step::{Governor, System};
+use crate::tensor::Dim;
+use crate::vector::{dot, plus};
+use crate::world::{World, place};
 
-impl System {
+impl<const D: usize> System<D>
+where
+    Dim<D>: World<D>,
+{
     /// Who sets the time step, in words.
     pub(crate) fn governor_name(&self, governor: Governor) -> String {
         match governor {
@@ -17,9 +23,9 @@ impl System {
     fn element_with_step(&self, squared: f64) -> String {
         if let Some((g, element)) = self.governing_element(squared) {
             let group = &self.mesh.groups[g];
-            let [x, y] = self.centre(group.cell(element));
+            let at = place(self.centre(group.cell(element)));
             let user = group.user_elements[element];
-            return format!("element {user} of part \"{}\" ({x:.6e}, {y:.6e})", self.mesh.parts[group.part].name);
+            return format!("element {user} of part \"{}\" {at}", self.mesh.parts[group.part].name);
         }
         let what = if self.has_springs { "springs and the elements that they hold" } else { "an element" };
         what.into()
@@ -34,13 +40,9 @@ impl System {
         })
     }
 
-    pub(crate) fn centre(&self, nodes: &[u32]) -> [f64; 2] {
-        let n = nodes.len();
-        let sum = nodes.iter().fold([0.0; 2], |s: [f64; 2], &node| {
-            let x = self.positions[node as usize];
-            [s[0] + x[0], s[1] + x[1]]
-        });
-        [sum[0] / n as f64, sum[1] / n as f64]
+    pub(crate) fn centre(&self, nodes: &[u32]) -> [f64; D] {
+        let sum = nodes.iter().fold([0.0; D], |sum, &node| plus(sum, self.positions[node as usize]));
+        sum.map(|component| component / nodes.len() as f64)
     }
 
     pub(crate) fn inverted(&self) -> Error {
@@ -55,18 +57,13 @@ impl System {
     pub(crate) fn most_inverted(&self) -> (usize, usize) {
         let mut worst = (f64::INFINITY, 0, 0);
         for (g, (group, block)) in self.mesh.groups.iter().zip(&self.blocks).enumerate() {
-            let n = group.nodes_per_element;
             for (element, cell) in group.cells().enumerate().filter(|(element, _)| group.is_alive(*element)) {
-                let x = |corner: usize| self.positions[cell[corner % n] as usize];
-                if n == 2 && block.determinant(element, &self.positions) <= 0.0 {
-                    worst = (f64::NEG_INFINITY, g, element);
-                }
-                for c in 0..if n == 2 { 0 } else { n } {
-                    let (a, b, d) = (x(c), x(c + 1), x(c + n - 1));
-                    let jacobian = (b[0] - a[0]) * (d[1] - a[1]) - (b[1] - a[1]) * (d[0] - a[0]);
-                    if jacobian < worst.0 {
-                        worst = (jacobian, g, element);
-                    }
+                let corners = <Dim<D>>::least_corner(cell, &self.positions).unwrap_or_else(|| {
+                    let determinant = block.determinant(element, &self.positions);
+                    if cell.len() == 2 && determinant <= 0.0 { f64::NEG_INFINITY } else { determinant }
+                });
+                if corners < worst.0 {
+                    worst = (corners, g, element);
                 }
             }
         }
@@ -86,7 +83,7 @@ impl System {
     }
 
     pub(crate) fn fastest_node(&self) -> Option<usize> {
-        let square = |v: &[f64; 2]| v[0] * v[0] + v[1] * v[1];
+        let square = |v: &[f64; D]| dot(*v, *v);
         self.velocities.iter().enumerate().max_by(|(_, a), (_, b)| square(a).total_cmp(&square(b))).map(|(node, _)| node)
     }
 
@@ -97,13 +94,13 @@ impl System {
     }
 
     /// The node of a contact that is deepest inside, and how deep, m.
-    pub(crate) fn deepest(&self, contact: &Contact) -> Option<(usize, f64)> {
+    pub(crate) fn deepest(&self, contact: &Contact<D>) -> Option<(usize, f64)> {
         let deepest = contact.penetrations(&self.springs).max_by(|(_, a), (_, b)| a.total_cmp(b));
         deepest.map(|(node, depth)| (node as usize, depth))
     }
 
     /// The contact that is too deep, at its deepest node.
-    pub(crate) fn too_deep(&self, contact: &Contact) -> Error {
+    pub(crate) fn too_deep(&self, contact: &Contact<D>) -> Error {
         let (node, depth) = self.deepest(contact).unwrap_or((0, contact.penetration));
         Error::TooDeep {
             contact: format!("{} \"{}\"", contact.kind.name(), contact.name).into(),
@@ -117,8 +114,7 @@ impl System {
 
     /// A node and where it is.
     fn node_place(&self, node: usize) -> String {
-        let [x, y] = self.positions[node];
-        format!("{} at ({x:.6e}, {y:.6e})", self.node_name(node))
+        format!("{} at {}", self.node_name(node), place(self.positions[node]))
     }
 
     /// A node by the user's number, and the parts that it belongs to.
@@ -135,9 +131,9 @@ impl System {
             Some(node) => {
                 // Positions of the step before are there as long as those of this one are not.
                 let is_seen = self.positions[node].iter().all(|x| x.is_finite());
-                let [x, y] = if is_seen { self.positions[node] } else { self.positions_old[node] };
+                let at = place(if is_seen { self.positions[node] } else { self.positions_old[node] });
                 let name = self.node_name(node);
-                ("the motion of a node".to_string(), format!("{name}, last seen at ({x:.6e}, {y:.6e})"))
+                ("the motion of a node".to_string(), format!("{name}, last seen at {at}"))
             }
             None => ("an energy".to_string(), "no node is affected yet".to_string()),
         };

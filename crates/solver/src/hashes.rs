@@ -5,7 +5,10 @@
 
 use crate::contact::{Contact, ContactKind};
 use crate::hash::{Fnv, mixed};
+use crate::model::in_space;
 use crate::step::System;
+use crate::tensor::Dim;
+use crate::world::World;
 
 /// Hashes of a state at the end of a step.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -27,7 +30,7 @@ pub struct Hashes {
 }
 
 /// What is compared of a contact.
-pub(crate) const CONTACT: [&str; 7] = [
+pub(crate) const CONTACT: [&str; 8] = [
     "force x",
     "force y",
     "sum of the normal forces",
@@ -35,18 +38,22 @@ pub(crate) const CONTACT: [&str; 7] = [
     "energy of the elastic slip",
     "friction work",
     "penetration",
+    "force z",
 ];
-/// What is compared of a rigid body.
-pub(crate) const BODY: [&str; 6] = ["x", "y", "angle", "velocity x", "velocity y", "spin"];
-
-pub(crate) fn of_contact(contact: &Contact) -> [f64; CONTACT.len()] {
+pub(crate) fn of_contact<const D: usize>(contact: &Contact<D>) -> [f64; CONTACT.len()]
+where
+    Dim<D>: World<D>,
+{
     let totals = &contact.totals;
-    let [x, y] = totals.resultant;
-    [x, y, totals.pressing, totals.energy, totals.slip_energy, contact.friction_work, contact.penetration]
+    let [x, y, z] = in_space(totals.resultant);
+    [x, y, totals.pressing, totals.energy, totals.slip_energy, contact.friction_work, contact.penetration, z]
 }
 
 /// Rigid bodies that move, by the names of their obstacles or parts.
-pub(crate) fn bodies(system: &System) -> impl Iterator<Item = (&str, [f64; BODY.len()])> {
+pub(crate) fn bodies<const D: usize>(system: &System<D>) -> impl Iterator<Item = (&str, Vec<f64>)>
+where
+    Dim<D>: World<D>,
+{
     let of_obstacles = system.contacts.iter().filter_map(|contact| match contact.kind {
         ContactKind::Obstacle(body) if !system.bodies.state(body).is_fixed() => Some((contact.name.as_str(), body)),
         _ => None,
@@ -54,19 +61,24 @@ pub(crate) fn bodies(system: &System) -> impl Iterator<Item = (&str, [f64; BODY.
     let of_parts = system.body_parts.iter().map(|&(part, body)| (system.mesh.parts[part].name.as_str(), body));
     of_obstacles.chain(of_parts).map(|(name, body)| {
         let body = system.bodies.state(body);
-        let [u, v, spin] = body.velocity;
-        (name, [body.centre[0], body.centre[1], body.angle, u, v, spin])
+        (name, <Dim<D>>::numbers(body))
     })
 }
 
 /// Energies of the elements of a part, J/m: stored and dissipated, of each of its groups.
-pub(crate) fn energies(system: &System, part: usize) -> impl Iterator<Item = [f64; 2]> {
+pub(crate) fn energies<const D: usize>(system: &System<D>, part: usize) -> impl Iterator<Item = [f64; 2]>
+where
+    Dim<D>: World<D>,
+{
     let groups = system.mesh.groups.iter().zip(&system.reports);
     groups.filter(move |(group, _)| group.part == part).map(|(_, report)| [report.stored, report.dissipated])
 }
 
 /// The nodes of a part as they are stored, each with its place in the part, in ascending order: memory is read from one end to the other.
-pub(crate) fn nodes(system: &System, part: usize) -> Vec<[u32; 2]> {
+pub(crate) fn nodes<const D: usize>(system: &System<D>, part: usize) -> Vec<[u32; 2]>
+where
+    Dim<D>: World<D>,
+{
     let mut nodes: Vec<[u32; 2]> = system.mesh.parts[part].nodes.iter().zip(0..).map(|(&node, place)| [node, place]).collect();
     nodes.sort_unstable();
     nodes
@@ -95,13 +107,19 @@ pub(crate) struct Hashing {
 }
 
 impl Hashing {
-    pub(crate) fn new(system: &System, every: Option<u64>) -> Self {
+    pub(crate) fn new<const D: usize>(system: &System<D>, every: Option<u64>) -> Self
+    where
+        Dim<D>: World<D>,
+    {
         let parts = if every.is_some() { 0..system.mesh.parts.len() } else { 0..0 };
         Self { every, nodes: parts.map(|part| nodes(system, part)).collect(), ..Self::default() }
     }
 
     /// Takes those of a step that is due.
-    pub(crate) fn note(&mut self, system: &System) {
+    pub(crate) fn note<const D: usize>(&mut self, system: &System<D>)
+    where
+        Dim<D>: World<D>,
+    {
         if self.every.is_some_and(|every| system.step.is_multiple_of(every)) {
             self.take(system);
         }
@@ -113,7 +131,10 @@ impl Hashing {
     }
 
     /// Takes those of the first and of the last state, whatever their steps.
-    pub(crate) fn take(&mut self, system: &System) {
+    pub(crate) fn take<const D: usize>(&mut self, system: &System<D>)
+    where
+        Dim<D>: World<D>,
+    {
         if self.every.is_some() && self.last != Some(system.step) {
             self.last = Some(system.step);
             self.taken.push(hashes(system, &self.nodes));
@@ -122,17 +143,24 @@ impl Hashing {
 }
 
 /// Hashes of the state now; `nodes` has the [`nodes`] of each part.
-pub(crate) fn hashes(system: &System, nodes: &[Vec<[u32; 2]>]) -> Hashes {
+pub(crate) fn hashes<const D: usize>(system: &System<D>, nodes: &[Vec<[u32; 2]>]) -> Hashes
+where
+    Dim<D>: World<D>,
+{
     let of_node = |&[node, place]: &[u32; 2]| {
-        let ([x, y], [u, v]) = (system.positions[node as usize], system.velocities[node as usize]);
-        [x, y, u, v].into_iter().fold(mixed(0, place.into()), |hash, number| mixed(hash, number.to_bits()))
+        let motion = system.positions[node as usize].into_iter().chain(system.velocities[node as usize]);
+        motion.fold(mixed(0, place.into()), |hash, number| mixed(hash, number.to_bits()))
     };
     let of_part = |(part, nodes): (usize, &Vec<[u32; 2]>)| {
         let sum = nodes.iter().map(of_node).fold(0, u64::wrapping_add);
         energies(system, part).flatten().fold(sum, |hash, energy| mixed(hash, energy.to_bits()))
     };
     let parts: Vec<u64> = nodes.iter().enumerate().map(of_part).collect();
-    let contacts = system.contacts.iter().map(|contact| named(&contact.name, &of_contact(contact))).fold(0, u64::wrapping_add);
+    let contacts = system
+        .contacts
+        .iter()
+        .map(|contact| named(&contact.name, &of_contact(contact)[..CONTACT.len() + D - 3]))
+        .fold(0, u64::wrapping_add);
     let bodies = bodies(system).map(|(name, numbers)| named(name, &numbers)).fold(0, u64::wrapping_add);
     let state = parts.iter().chain([&contacts, &bodies]).fold(0, |hash, &other| mixed(hash, other));
     Hashes { step: system.step, time: system.time, time_step: system.time_step, state, contacts, bodies, parts }

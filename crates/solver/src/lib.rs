@@ -9,6 +9,8 @@ pub mod hash;
 pub mod quantity;
 pub mod tensor;
 mod vector;
+pub mod motion;
+pub mod world;
 pub mod rows;
 pub mod model;
 pub mod mesh;

@@ -14,11 +14,11 @@ pub enum CellKind {
     Triangle,
     /// Four-node quadrilateral, counter-clockwise.
     Quadrilateral,
-    /// Four-node tetrahedron; seen from the fourth node the first three run clockwise.
+    /// Four-node tetrahedron; seen from the fourth node the first three run counter-clockwise.
     Tetrahedron,
-    /// Six-node wedge: two triangles.
+    /// Six-node wedge: two triangles, seen from the second one the first runs counter-clockwise.
     Wedge,
-    /// Eight-node hexahedron: two quadrilaterals.
+    /// Eight-node hexahedron: two quadrilaterals, seen from the second one the first runs counter-clockwise.
     Hexahedron,
 }
 
@@ -299,8 +299,8 @@ pub struct Eroded {
     pub part: String,
     /// Its number in the part.
     pub element: usize,
-    /// Mean of its nodes when it failed, m.
-    pub at: [f64; 2],
+    /// Mean of its nodes when it failed, m; in the plane z is zero.
+    pub at: [f64; 3],
     /// When it failed, s.
     pub time: f64,
     /// By which criterion.
@@ -321,6 +321,8 @@ pub struct Erosion {
 /// Result figures of a run, in the order in which they are written; see `docs/output.md` for the meaning of each.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Summary {
+    /// Components of a position: 2 in the plane, 3 in space.
+    pub dimension: usize,
     /// Number of elements.
     pub elements: usize,
     /// Number of nodes.

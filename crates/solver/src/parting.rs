@@ -4,9 +4,12 @@
 //! them, whatever else the models have, and only where their meshes are the same.
 
 use crate::hash::mixed;
-use crate::hashes::{self, BODY, CONTACT};
-use crate::simulation::Simulation;
+use crate::hashes::{self, CONTACT};
+use crate::simulation::{Either, Simulation};
 use crate::step::System;
+use crate::tensor::Dim;
+use crate::vector::{dot, minus};
+use crate::world::World;
 
 /// Parts of two models that have the same mesh.
 #[derive(Clone, Debug)]
@@ -66,7 +69,7 @@ pub struct NodeParting {
     /// The number that field files and messages have.
     pub user: u32,
     /// Position, velocity at the half step that follows, and the forces that led to it (those that are zero in both left out), with their units.
-    pub values: Vec<(&'static str, Value)>,
+    pub values: Vec<(String, Value)>,
 }
 
 /// A number of two states.
@@ -103,28 +106,35 @@ impl Value {
 }
 
 /// Names of the values of a node.
-const NODE: [&str; 11] = [
-    "position x",
-    "position y",
-    "velocity x",
-    "velocity y",
-    "force of the elements x",
-    "force of the elements y",
-    "contact force x",
-    "contact force y",
-    "load x",
-    "load y",
-    "mass",
+const NODE: [(&[&str], &str); 6] = [
+    (&AXES, "position"),
+    (&AXES, "velocity"),
+    (&AXES, "force of the elements"),
+    (&AXES, "contact force"),
+    (&AXES, "load"),
+    (&[""], "mass"),
 ];
-/// So many of them are told in any case.
-const ALWAYS: usize = 4;
+const AXES: [&str; 3] = [" x", " y", " z"];
+/// So many of the vectors are told in any case.
+const ALWAYS: usize = 2;
 
 impl Pairing {
     /// Finds the parts that correspond.
     #[must_use]
     pub fn new(a: &Simulation, b: &Simulation) -> Self {
+        match (&a.0, &b.0) {
+            (Either::Plane(a), Either::Plane(b)) => Self::of([&a.system, &b.system]),
+            (Either::Space(a), Either::Space(b)) => Self::of([&a.system, &b.system]),
+            _ => Self { parts: Vec::new(), left_out: vec!["one run lies in the plane, the other one in space".into()] },
+        }
+    }
+
+    fn of<const D: usize>([a, b]: [&System<D>; 2]) -> Self
+    where
+        Dim<D>: World<D>,
+    {
         let mut pairing = Self { parts: Vec::new(), left_out: Vec::new() };
-        let [own, others] = [a, b].map(|simulation| &simulation.system.mesh.parts);
+        let [own, others] = [a, b].map(|system| &system.mesh.parts);
         for (index, part) in own.iter().enumerate() {
             let name = &part.name;
             let Some(other) = others.iter().position(|other| other.name == *name) else {
@@ -134,7 +144,7 @@ impl Pairing {
             if part.nodes.len() != others[other].nodes.len() {
                 let [a, b] = [part, &others[other]].map(|part| part.nodes.len());
                 pairing.left_out.push(format!("part \"{name}\" has another mesh: {a} nodes, and {b}"));
-            } else if cells(&a.system, index) != cells(&b.system, other) {
+            } else if cells(a, index) != cells(b, other) {
                 pairing.left_out.push(format!("part \"{name}\" has another mesh: as many nodes, but other elements"));
             } else {
                 let nodes = part.nodes.iter().zip(&others[other].nodes).map(|(&a, &b)| [a, b]).collect();
@@ -156,23 +166,35 @@ impl Pairing {
     /// What is not the same in two states; `None`: all is.
     #[must_use]
     pub fn parting(&self, a: &Simulation, b: &Simulation) -> Option<Parting> {
-        let systems = [&a.system, &b.system];
+        match (&a.0, &b.0) {
+            (Either::Plane(a), Either::Plane(b)) => self.between([&a.system, &b.system]),
+            (Either::Space(a), Either::Space(b)) => self.between([&a.system, &b.system]),
+            _ => None,
+        }
+    }
+
+    fn between<const D: usize>(&self, systems: [&System<D>; 2]) -> Option<Parting>
+    where
+        Dim<D>: World<D>,
+    {
+        let [a, b] = systems;
         let parts: Vec<PartParting> = self.parts.iter().filter_map(|pair| pair.parting(systems)).collect();
         let others = others(systems);
-        let time = Value(a.system.time, b.system.time);
-        let time_step = Value(a.system.time_step, b.system.time_step);
+        let (time, time_step) = (Value(a.time, b.time), Value(a.time_step, b.time_step));
         let differs = time.differs() || time_step.differs() || !parts.is_empty() || !others.is_empty();
         let governors = || systems.map(|system| system.governor_name(system.governor));
-        differs.then(|| Parting { step: a.system.step, time, time_step, governors: governors(), parts, others })
+        differs.then(|| Parting { step: a.step, time, time_step, governors: governors(), parts, others })
     }
 }
 
 impl Pair {
-    fn parting(&self, systems: [&System; 2]) -> Option<PartParting> {
+    fn parting<const D: usize>(&self, systems: [&System<D>; 2]) -> Option<PartParting>
+    where
+        Dim<D>: World<D>,
+    {
         let moved = |&[a, b]: &[u32; 2]| {
-            let of = |node: u32, system: &System| {
-                let ([x, y], [u, v]) = (system.positions[node as usize], system.velocities[node as usize]);
-                [x, y, u, v].map(f64::to_bits)
+            let of = |node: u32, system: &System<D>| {
+                [system.positions[node as usize], system.velocities[node as usize]].map(|vector| vector.map(f64::to_bits))
             };
             of(a, systems[0]) != of(b, systems[1])
         };
@@ -186,7 +208,7 @@ impl Pair {
         }
         let apart = |number: usize| {
             let [a, b] = [0, 1].map(|k| systems[k].velocities[self.nodes[number][k] as usize]);
-            (a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2)
+            dot(minus(a, b), minus(a, b))
         };
         let farthest = differing.iter().copied().reduce(|far, number| if apart(number) > apart(far) { number } else { far });
         Some(PartParting {
@@ -199,18 +221,22 @@ impl Pair {
         })
     }
 
-    fn node(&self, number: usize, systems: [&System; 2]) -> NodeParting {
+    fn node<const D: usize>(&self, number: usize, systems: [&System<D>; 2]) -> NodeParting
+    where
+        Dim<D>: World<D>,
+    {
         let values = [0, 1].map(|k| {
             let (node, system) = (self.nodes[number][k] as usize, systems[k]);
-            let ([x, y], [u, v]) = (system.positions[node], system.velocities[node]);
             let internal = system.assembly.force(node, &system.slots);
-            let contact = if system.contacts.is_empty() { [0.0; 2] } else { system.contact_forces.of(node) };
-            let load = system.forces.now().get(node).copied().unwrap_or_default();
-            [x, y, u, v, internal[0], internal[1], contact[0], contact[1], load[0], load[1], system.mass[node]]
+            let contact = if system.contacts.is_empty() { [0.0; D] } else { system.contact_forces.of(node) };
+            let load = system.forces.now().get(node).copied().unwrap_or([0.0; D]);
+            let vectors = [system.positions[node], system.velocities[node], internal, contact, load];
+            vectors.into_iter().flatten().chain([system.mass[node]]).collect::<Vec<f64>>()
         });
-        let values = (0..NODE.len()).map(|k| (NODE[k], Value(values[0][k], values[1][k])));
-        let is_told = |(k, (name, value)): &(usize, (&str, Value))| {
-            *k < ALWAYS || value.differs() || (*name != "mass" && (value.0 != 0.0 || value.1 != 0.0))
+        let names = NODE.iter().flat_map(|(axes, name)| axes[..D.min(axes.len())].iter().map(move |axis| format!("{name}{axis}")));
+        let values = names.zip(values[0].iter().zip(&values[1])).map(|(name, (&a, &b))| (name, Value(a, b)));
+        let is_told = |(k, (name, value)): &(usize, (String, Value))| {
+            *k < ALWAYS * D || value.differs() || (*name != "mass" && (value.0 != 0.0 || value.1 != 0.0))
         };
         let told = values.enumerate().filter(is_told).map(|(_, value)| value).collect();
         NodeParting { number, user: systems[0].mesh.user_nodes[self.nodes[number][0] as usize], values: told }
@@ -218,7 +244,10 @@ impl Pair {
 }
 
 /// What differs of contacts and rigid bodies that are in both; what is in one alone and acts differs by what it does to parts, or by its hash.
-fn others(systems: [&System; 2]) -> Vec<(String, Value)> {
+fn others<const D: usize>(systems: [&System<D>; 2]) -> Vec<(String, Value)>
+where
+    Dim<D>: World<D>,
+{
     let mut found = Vec::new();
     let mut hold = |what: &str, name: &str, names: &[&str], a: &[f64], b: &[f64]| {
         let values = names.iter().zip(a.iter().zip(b)).map(|(value, (&a, &b))| (format!("{value} of {what} \"{name}\""), Value(a, b)));
@@ -235,14 +264,17 @@ fn others(systems: [&System; 2]) -> Vec<(String, Value)> {
     }
     for (name, body) in hashes::bodies(systems[0]) {
         if let Some((_, other)) = hashes::bodies(systems[1]).find(|(other, _)| *other == name) {
-            hold("rigid body", name, &BODY, &body, &other);
+            hold("rigid body", name, <Dim<D>>::MOTION, &body, &other);
         }
     }
     found
 }
 
 /// What the elements of a part join, whatever the order in which they and their nodes are stored.
-fn cells(system: &System, part: usize) -> u64 {
+fn cells<const D: usize>(system: &System<D>, part: usize) -> u64
+where
+    Dim<D>: World<D>,
+{
     let mut place = vec![0_u32; system.mesh.positions.len()];
     for (&node, number) in system.mesh.parts[part].nodes.iter().zip(0..) {
         place[node as usize] = number;

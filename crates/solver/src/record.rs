@@ -11,9 +11,12 @@ use crate::material::Variable;
 use crate::mesh::ElementGroup;
 use crate::model::messages::UNKNOWN_NAME;
 use crate::model::{Model, ProbeAt};
-use crate::output::{CellKind, Cells, FIELDS, Field, FieldKind, Frame, Location, Needs};
+use crate::output::{Cells, Field, FieldKind, Frame, Location, Needs, fields_of};
 use crate::rigid::Body;
-use crate::step::{System, Vector};
+use crate::step::System;
+use crate::tensor::Dim;
+use crate::vector::{dot, first, minus, plus, times};
+use crate::world::{self, World, unit_matrix};
 use std::cell::OnceCell;
 
 /// Columns of energies, after `energy.`.
@@ -31,8 +34,8 @@ const ENERGIES: [&str; 12] = [
     "external",
     "total",
 ];
-/// Columns of a rigid body that moves: reference point, angle and their velocities.
-const MOTION: [&str; 6] = ["x", "y", "angle", "vx", "vy", "spin"];
+/// Axes of the components of a vector.
+const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// Fields and probes of a model, resolved to nodes.
 pub(crate) struct Recorded {
@@ -49,7 +52,10 @@ struct Probe {
 }
 
 impl Recorded {
-    pub(crate) fn new(model: &Model, system: &System) -> Result<Self, Vec<Fault>> {
+    pub(crate) fn new<const D: usize>(model: &Model, system: &System<D>) -> Result<Self, Vec<Fault>>
+    where
+        Dim<D>: World<D>,
+    {
         let has_failure = system.erosion.is_some();
         let has_contact = !system.contacts.is_empty();
         let has_friction = system.springs.terms.iter().any(|terms| matches!(terms.tangential, Tangential::Friction(_)));
@@ -68,7 +74,7 @@ impl Recorded {
             let pictured = pictured || (model.output.pictures && kind.name == "alive" && has_failure);
             named || pictured || (include.is_empty() && sensible)
         };
-        let fields = FIELDS.iter().filter(wanted).collect();
+        let fields = fields_of(D).iter().filter(wanted).collect();
         let (mut probes, mut faults) = (Vec::new(), Vec::new());
         for (i, probe) in model.probes.iter().enumerate() {
             match resolve(&probe.at, system) {
@@ -85,7 +91,10 @@ impl Recorded {
         self.probes.iter().map(|probe| probe.line.clone()).collect()
     }
 
-    pub(crate) fn columns(&self, system: &System) -> Vec<String> {
+    pub(crate) fn columns<const D: usize>(&self, system: &System<D>) -> Vec<String>
+    where
+        Dim<D>: World<D>,
+    {
         let mut columns: Vec<String> = ["time", "time_step"].map(String::from).to_vec();
         columns.extend(ENERGIES.iter().map(|name| format!("energy.{name}")));
         for part in &system.mesh.parts {
@@ -94,22 +103,28 @@ impl Recorded {
         for contact in &system.contacts {
             let (kind, name) = (contact.kind.name(), &contact.name);
             let column = |value: &&str| format!("{kind}.{value}[{name}]");
-            columns.extend(["force_x", "force_y", "energy", "penetration", "friction_work"].iter().map(column));
+            columns.extend(["force_x", "force_y", "force_z"][..D].iter().chain(&["energy", "penetration", "friction_work"]).map(column));
             if let ContactKind::Obstacle(body) = contact.kind {
-                columns.push(column(&"moment"));
+                columns.extend(<Dim<D>>::MOMENT.iter().map(column));
                 if !system.bodies.state(body).is_fixed() {
-                    columns.extend(MOTION.iter().map(column));
+                    columns.extend(<Dim<D>>::MOTION.iter().map(column));
                 }
             }
         }
         for &(part, _) in &system.body_parts {
-            columns.extend(MOTION.iter().map(|value| format!("rigid.{value}[{}]", system.mesh.parts[part].name)));
+            columns.extend(<Dim<D>>::MOTION.iter().map(|value| format!("rigid.{value}[{}]", system.mesh.parts[part].name)));
         }
-        columns.extend(self.probes.iter().flat_map(|probe| ["x", "y", "vx", "vy"].map(|value| format!("{}.{value}", probe.name))));
+        for probe in &self.probes {
+            columns.extend(AXES[..D].iter().map(|axis| format!("{}.{axis}", probe.name)));
+            columns.extend(AXES[..D].iter().map(|axis| format!("{}.v{axis}", probe.name)));
+        }
         columns
     }
 
-    pub(crate) fn row(&self, system: &System) -> Vec<f64> {
+    pub(crate) fn row<const D: usize>(&self, system: &System<D>) -> Vec<f64>
+    where
+        Dim<D>: World<D>,
+    {
         let (stores, external) = (system.ledger.stores, system.ledger.external);
         let mut row = vec![system.time, system.time_step, stores.kinetic, stores.elastic + stores.plastic, stores.plastic];
         row.extend([
@@ -135,24 +150,22 @@ impl Recorded {
         row.extend(of_parts.iter().flatten());
         for contact in &system.contacts {
             let totals = &contact.totals;
-            row.extend([totals.resultant[0], totals.resultant[1], totals.energy + totals.slip_energy, contact.penetration]);
-            row.push(contact.friction_work);
+            row.extend(totals.resultant);
+            row.extend([totals.energy + totals.slip_energy, contact.penetration, contact.friction_work]);
             if let ContactKind::Obstacle(body) = contact.kind {
-                row.push(contact.moment(body, &system.bodies, &system.springs, &system.positions));
+                let moment = contact.moment(body, &system.bodies, &system.springs, &system.positions);
+                row.extend(<Dim<D>>::moments(&moment));
                 if !system.bodies.state(body).is_fixed() {
-                    row.extend(motion(system, body));
+                    row.extend(<Dim<D>>::motion(system.bodies.state(body), system.before()));
                 }
             }
         }
         for &(_, body) in &system.body_parts {
-            row.extend(motion(system, body));
+            row.extend(<Dim<D>>::motion(system.bodies.state(body), system.before()));
         }
         for probe in &self.probes {
-            let mean = |value: &dyn Fn(usize) -> Vector| {
-                probe.nodes.iter().fold([0.0; 2], |sum: Vector, &(node, weight)| {
-                    let v = value(node as usize);
-                    [sum[0] + weight * v[0], sum[1] + weight * v[1]]
-                })
+            let mean = |value: &dyn Fn(usize) -> [f64; D]| {
+                probe.nodes.iter().fold([0.0; D], |sum, &(node, weight)| plus(sum, times(weight, value(node as usize))))
             };
             row.extend(mean(&|node| system.positions[node]));
             row.extend(mean(&|node| velocity(system, node)));
@@ -161,10 +174,13 @@ impl Recorded {
     }
 
     /// Puts the state of a system into a frame; what the frame held goes, its buffers serve again.
-    pub(crate) fn fill(&self, system: &System, frame: &mut Frame) {
+    pub(crate) fn fill<const D: usize>(&self, system: &System<D>, frame: &mut Frame)
+    where
+        Dim<D>: World<D>,
+    {
         (frame.time, frame.step) = (system.time, system.step);
-        frame.dimension = 2;
-        frame.coordinates.resize(2 * system.mesh.user_nodes.len(), 0.0);
+        frame.dimension = D;
+        frame.coordinates.resize(D * system.mesh.user_nodes.len(), 0.0);
         let (coordinates, _) = frame.coordinates.as_chunks_mut();
         for (x, &user) in system.positions.iter().zip(&system.mesh.user_nodes) {
             coordinates[user as usize] = *x;
@@ -182,16 +198,12 @@ impl Recorded {
 }
 
 /// Velocity at the whole step, m/s: v^{n-1/2} and v^{n+1/2} lie ½ dt^{n-1} before and ½ dt^n after it (v⁰ itself at time zero).
-fn velocity(system: &System, node: usize) -> Vector {
+fn velocity<const D: usize>(system: &System<D>, node: usize) -> [f64; D]
+where
+    Dim<D>: World<D>,
+{
     let ([a, b], before) = (system.velocities_around(node), system.before());
-    [a[0] + before * (b[0] - a[0]), a[1] + before * (b[1] - a[1])]
-}
-
-/// Values of [`MOTION`] of a rigid body at the whole step.
-fn motion(system: &System, body: usize) -> [f64; 6] {
-    let (body, before) = (system.bodies.state(body), system.before());
-    let [u, v, spin] = std::array::from_fn(|k| body.velocity_old[k] + before * (body.velocity[k] - body.velocity_old[k]));
-    [body.centre[0], body.centre[1], body.angle, u, v, spin]
+    plus(a, times(before, minus(b, a)))
 }
 
 /// What several fields of a frame are taken from, found when the first of them asks.
@@ -203,11 +215,14 @@ struct OnSurface {
 }
 
 /// Values of one of [`FIELDS`] at the nodes, in the user's order.
-fn fill_nodes(name: &str, system: &System, surface: &OnSurface, values: &mut Vec<f64>) {
+fn fill_nodes<const D: usize>(name: &str, system: &System<D>, surface: &OnSurface, values: &mut Vec<f64>)
+where
+    Dim<D>: World<D>,
+{
     let traces = &system.traces;
-    let tractions = || surface.tractions.get_or_init(|| traces.tractions(&system.contact_forces, &system.positions));
+    let tractions = || surface.tractions.get_or_init(|| <Dim<D>>::tractions(traces, &system.contact_forces, &system.positions));
     let states = || surface.states.get_or_init(|| Traces::states(&system.springs, system.positions.len()));
-    let moved = |node: usize| [0, 1].map(|d| system.positions[node][d] - system.mesh.positions[node][d]);
+    let moved = |node: usize| minus(system.positions[node], system.mesh.positions[node]);
     match name {
         "displacement" => by_node(system, values, moved),
         "velocity" => by_node(system, values, |node| velocity(system, node)),
@@ -235,7 +250,10 @@ fn fill_nodes(name: &str, system: &System, surface: &OnSurface, values: &mut Vec
 }
 
 /// Values of every node, in the user's order.
-fn by_node<const N: usize>(system: &System, values: &mut Vec<f64>, value: impl Fn(usize) -> [f64; N]) {
+fn by_node<const D: usize, const N: usize>(system: &System<D>, values: &mut Vec<f64>, value: impl Fn(usize) -> [f64; N])
+where
+    Dim<D>: World<D>,
+{
     values.resize(N * system.mesh.user_nodes.len(), 0.0);
     for (node, &user) in system.mesh.user_nodes.iter().enumerate() {
         values[N * user as usize..][..N].copy_from_slice(&value(node));
@@ -248,7 +266,7 @@ type OfElement = fn(&ElementState, f64, &mut [f64]);
 /// How the values of one of [`FIELDS`] at the cells are made.
 fn of_element(name: &str) -> Option<OfElement> {
     Some(match name {
-        "stress" => |state, _, values| values.copy_from_slice(&state.stress[..4]),
+        "stress" => |state, _, values| values.copy_from_slice(&state.stress[..values.len()]),
         "von_mises" => |state, _, values| values[0] = von_mises(&state.stress),
         "pressure" => |state, _, values| values[0] = -(state.stress[0] + state.stress[1] + state.stress[2]) / 3.0,
         "plastic_strain" => |state, _, values| values[0] = state.variables[Variable::PlasticStrain as usize],
@@ -262,7 +280,10 @@ fn of_element(name: &str) -> Option<OfElement> {
 }
 
 /// Values of all fields at the cells, part by part in the user's order: each element is asked for its state once.
-fn fill_cells(system: &System, fields: &mut [Field]) {
+fn fill_cells<const D: usize>(system: &System<D>, fields: &mut [Field])
+where
+    Dim<D>: World<D>,
+{
     let mut made: Vec<(usize, OfElement, &mut Vec<f64>)> = Vec::new();
     let elements: usize = system.mesh.groups.iter().map(ElementGroup::elements).sum();
     for field in fields.iter_mut().filter(|field| field.kind.location == Location::Cell) {
@@ -295,18 +316,18 @@ pub(crate) fn von_mises(s: &[f64; 6]) -> f64 {
     (0.5 * differences + 3.0 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5])).sqrt()
 }
 
-fn resolve(at: &ProbeAt, system: &System) -> Result<(Vec<(u32, f64)>, String), String> {
+fn resolve<const D: usize>(at: &ProbeAt, system: &System<D>) -> Result<(Vec<(u32, f64)>, String), String>
+where
+    Dim<D>: World<D>,
+{
     let part_of =
         |name: &str| system.mesh.parts.iter().find(|part| part.name == name).ok_or_else(|| format!("there is no part \"{name}\""));
-    let place = |node: u32| {
-        let [x, y] = system.positions[node as usize];
-        format!("({x:.6e}, {y:.6e}) m")
-    };
+    let place = |node: u32| format!("{} m", world::place(system.positions[node as usize]));
     match at {
         ProbeAt::Point { part, point } => {
             let distance = |node: &u32| {
-                let x = system.positions[*node as usize];
-                ((x[0] - point[0]).powi(2) + (x[1] - point[1]).powi(2)).sqrt()
+                let way = minus(system.positions[*node as usize], first(*point));
+                dot(way, way).sqrt()
             };
             let nodes = &part_of(part)?.nodes;
             let nearest = nodes.iter().copied().reduce(|best, node| if distance(&node) < distance(&best) { node } else { best });
@@ -329,7 +350,10 @@ fn resolve(at: &ProbeAt, system: &System) -> Result<(Vec<(u32, f64)>, String), S
 }
 
 /// The cells of all parts, in the user's order and numbering.
-pub(crate) fn cells(system: &System) -> Cells {
+pub(crate) fn cells<const D: usize>(system: &System<D>) -> Cells
+where
+    Dim<D>: World<D>,
+{
     let mut cells = Cells { offsets: vec![0], ..Cells::default() };
     for (index, part) in system.mesh.parts.iter().enumerate() {
         cells.part_names.push(part.name.clone());
@@ -343,11 +367,7 @@ pub(crate) fn cells(system: &System) -> Cells {
             let cell = groups[of_part].cell(element as usize);
             cells.nodes.extend(cell.iter().map(|&node| system.mesh.user_nodes[node as usize]));
             cells.offsets.push(cells.nodes.len() as u32);
-            cells.kinds.push(match cell.len() {
-                2 => CellKind::Line,
-                3 => CellKind::Triangle,
-                _ => CellKind::Quadrilateral,
-            });
+            cells.kinds.push(<Dim<D>>::cell_kind(cell.len()));
             cells.parts.push(index as u32);
         }
     }
@@ -355,10 +375,13 @@ pub(crate) fn cells(system: &System) -> Cells {
 }
 
 /// FNV-1a hash (64 bit) of the bits of all positions and velocities v^{n+1/2}, node by node, then of the obstacles that move; hexadecimal.
-pub(crate) fn state_hash(system: &System) -> String {
+pub(crate) fn state_hash<const D: usize>(system: &System<D>) -> String
+where
+    Dim<D>: World<D>,
+{
     let mut hash = Fnv::default();
     let moving = system.bodies.iter().filter(|body| !body.of_elements && !body.is_fixed());
-    let states = moving.flat_map(|body| [body.centre[0], body.centre[1], body.angle].into_iter().chain(body.velocity));
+    let states = moving.flat_map(<Dim<D>>::numbers);
     // Nodes in the order of the curve, then those of obstacles: as they are numbered only for speed, that is no matter here.
     let nodes = || system.mesh.along_curve().chain(system.mesh.user_nodes.len()..system.positions.len());
     let positions = nodes().flat_map(|node| system.positions[node]);
@@ -370,22 +393,23 @@ pub(crate) fn state_hash(system: &System) -> String {
 }
 
 /// Linear and angular momentum of a model on which nothing acts from outside.
-pub(crate) struct Momentum {
-    start: Moments,
+pub(crate) struct Momentum<const D: usize> {
+    start: Moments<D>,
     drift: [f64; 2],
     /// Whether x is a radius: forces around the axis cancel, and only what goes along it is kept.
     of_revolution: bool,
 }
 
-#[derive(Clone, Copy, Default)]
-struct Moments {
-    linear: Vector,
-    angular: f64,
+#[derive(Clone, Copy)]
+struct Moments<const D: usize> {
+    linear: [f64; D],
+    /// In the plane about z alone.
+    angular: [f64; 3],
     /// Σ m|v| and Σ m|x||v|: what the drifts are measured against.
     scale: [f64; 2],
 }
 
-impl Keep for Momentum {
+impl<const D: usize> Keep for Momentum<D> {
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
         // The start is that of the model.
         let Self { start: _, drift, of_revolution: _ } = self;
@@ -393,12 +417,15 @@ impl Keep for Momentum {
     }
 }
 
-impl Momentum {
+impl<const D: usize> Momentum<D>
+where
+    Dim<D>: World<D>,
+{
     /// `None` where something is held or driven, or loads act.
-    pub(crate) fn new(system: &System) -> Option<Self> {
+    pub(crate) fn new(system: &System<D>) -> Option<Self> {
         let of_revolution = system.of_revolution;
-        let is_free = |body: &Body| if of_revolution { body.drives[1].is_none() } else { body.is_free() };
-        let is_held = if of_revolution { system.constraints.holds_more_than([1.0, 0.0]) } else { !system.constraints.is_empty() };
+        let is_free = |body: &Body<D>| if of_revolution { body.drives.as_ref()[1].is_none() } else { body.is_free() };
+        let is_held = if of_revolution { system.constraints.holds_more_than(unit_matrix()[0]) } else { !system.constraints.is_empty() };
         let isolated = system.bodies.iter().all(is_free)
             && !is_held
             && system.body_forces.is_empty()
@@ -410,12 +437,14 @@ impl Momentum {
         isolated.then(|| Self { start: Moments::of(system), drift: [0.0; 2], of_revolution })
     }
 
-    pub(crate) fn note(&mut self, system: &System) {
+    pub(crate) fn note(&mut self, system: &System<D>) {
         let now = Moments::of(system);
-        let along_radius = if self.of_revolution { 0.0 } else { now.linear[0] - self.start.linear[0] };
-        let change = [along_radius, now.linear[1] - self.start.linear[1]];
-        let linear = (change[0] * change[0] + change[1] * change[1]).sqrt();
-        let angular = (now.angular - self.start.angular).abs();
+        let mut change = minus(now.linear, self.start.linear);
+        if self.of_revolution {
+            change[0] = 0.0;
+        }
+        let turned = minus(now.angular, self.start.angular);
+        let (linear, angular) = (dot(change, change).sqrt(), dot(turned, turned).sqrt());
         for (drift, (change, scales)) in
             self.drift.iter_mut().zip([(linear, [self.start.scale[0], now.scale[0]]), (angular, [self.start.scale[1], now.scale[1]])])
         {
@@ -436,32 +465,32 @@ impl Momentum {
     }
 }
 
-impl Moments {
+impl<const D: usize> Moments<D>
+where
+    Dim<D>: World<D>,
+{
     /// Σ m v^{n+1/2} and Σ m x^n × v^{n+1/2} + Σ I ω^{n+1/2}: the latter is the one that central differences keep exactly.
-    fn of(system: &System) -> Self {
-        let mut sum = Self::default();
+    fn of(system: &System<D>) -> Self {
+        let mut sum = Self { linear: [0.0; D], angular: [0.0; 3], scale: [0.0; 2] };
         for (node, ((&m, x), v)) in (0..).zip(system.mass.iter().zip(&system.positions).zip(&system.velocities)) {
             if system.bodies.of_node(node).is_none() {
-                sum.add(m, x, v);
+                sum.add(m, *x, *v);
             }
         }
         for body in system.bodies.iter() {
-            // The free one: of a body of revolution that along the axis.
-            let [x, y, inertia] = body.mass;
-            let m = x.max(y);
-            sum.add(m, &body.centre, &[body.velocity[0], body.velocity[1]]);
-            let spin = inertia * body.velocity[2];
-            sum.angular += spin;
-            sum.scale[1] += spin.abs();
+            let (m, velocity, spin) = <Dim<D>>::momenta(body);
+            sum.add(m, body.centre, velocity);
+            sum.angular = plus(sum.angular, spin);
+            sum.scale[1] += dot(spin, spin).sqrt();
         }
         sum
     }
 
-    fn add(&mut self, m: f64, x: &Vector, v: &Vector) {
-        self.linear = [self.linear[0] + m * v[0], self.linear[1] + m * v[1]];
-        self.angular += m * (x[0] * v[1] - x[1] * v[0]);
-        let speed = m * (v[0] * v[0] + v[1] * v[1]).sqrt();
+    fn add(&mut self, m: f64, x: [f64; D], v: [f64; D]) {
+        self.linear = plus(self.linear, times(m, v));
+        self.angular = plus(self.angular, times(m, <Dim<D> as World<D>>::moment(x, v)));
+        let speed = m * dot(v, v).sqrt();
         self.scale[0] += speed;
-        self.scale[1] += speed * (x[0] * x[0] + x[1] * x[1]).sqrt();
+        self.scale[1] += speed * dot(x, x).sqrt();
     }
 }

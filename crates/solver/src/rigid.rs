@@ -1,11 +1,11 @@
-//! Rigid bodies: obstacles and rigid parts. Each has a reference point, an angle and three velocities, and moves by the same central differences as the nodes.
+//! Rigid bodies: obstacles and rigid parts. Each has a reference point, an angle and its velocities, and moves by the same central differences as the nodes.
 //!
 //! Contact forces reach a body at its nodes, or at points; corner forces of deformable elements at the nodes that they share with it. With F the sum of the forces
 //! and T their moment about X^n:
 //!
 //! V^{n+½} = V^{n−½} + ½ (dt^{n−1} + dt^n) F / M,   ω^{n+½} = ω^{n−½} + ½ (dt^{n−1} + dt^n) T / I,   X^{n+1} = X^n + dt^n V^{n+½},   θ^{n+1} = θ^n + dt^n ω^{n+½}
 //!
-//! and a node is at x = X + R(θ) r. Where a degree of freedom is driven its velocity is prescribed, it has no mass in the books, and what drives it does
+//! and a node is at x = X + R(θ) r. In space a rotation takes the place of the angle and the angular momentum that of the spin ([`space`]). Where a degree of freedom is driven its velocity is prescribed, it has no mass in the books, and what drives it does
 //! the work that the forces do not.
 
 use crate::archive::{Archive, Keep, Kept, keep_each};
@@ -14,257 +14,346 @@ use crate::energy::Sums;
 use crate::load::body_force::BodyForces;
 use crate::load::curve::{Curves, Speed};
 use crate::load::damping::Damping;
-use crate::step::Vector;
+use crate::motion::Motion;
+use crate::tensor::Dim;
+use crate::vector::dot;
+use crate::world::World;
 use std::f64::consts::FRAC_PI_2;
+
+pub mod space;
+
+/// What prescribes a velocity; `None`: it is free.
+pub type Drive = Option<Speed>;
 
 /// The rigid bodies of a model.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Bodies {
+pub struct Bodies<const D: usize = 2>
+where
+    Dim<D>: Motion<D>,
+{
     /// Rigid body of each node; `u32::MAX`: none. Empty where no body has nodes.
     of_node: Vec<u32>,
-    list: Vec<Body>,
+    list: Vec<Body<D>>,
 }
 
 /// State of a rigid body.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Body {
-    /// Angle since the start, rad.
-    pub angle: f64,
+#[derive(Clone, Debug, PartialEq)]
+pub struct Body<const D: usize = 2>
+where
+    Dim<D>: Motion<D>,
+{
+    /// Angle since the start, rad; in space a rotation.
+    pub angle: Angle<D>,
     /// Reference point X^n: the centre of mass where it is free to move and to turn, m.
-    pub centre: Vector,
+    pub centre: [f64; D],
     /// Angle and reference point at the beginning of the step that led here.
-    pub old: (f64, Vector),
-    /// v^{n−½}: x, y (m/s) and angular (rad/s).
-    pub velocity_old: [f64; 3],
+    pub old: (Angle<D>, [f64; D]),
+    /// v^{n−½}: x, y, z (m/s) and angular (rad/s).
+    pub velocity_old: Row<D>,
     /// v^{n+½} without contact forces.
-    pub velocity_free: [f64; 3],
+    pub velocity_free: Row<D>,
     /// v^{n+½}.
-    pub velocity: [f64; 3],
-    /// Mass, mass (kg/m) and inertia (kg m); zero where it is driven.
-    pub mass: [f64; 3],
-    /// Change of velocity per impulse: 1/mass, 1/mass and 1/inertia, less with damping; zero where it is driven.
-    pub inverse_mass: [f64; 3],
+    pub velocity: Row<D>,
+    /// Mass, mass (kg/m) and inertia (kg m); zero where it is driven. In space the mass (kg) three times; inertia is in `turning`.
+    pub mass: Row<D>,
+    /// Change of velocity per impulse: 1/mass, 1/mass and 1/inertia, less with damping; zero where it is driven. In space that of spins is in `turning`.
+    pub inverse_mass: Row<D>,
     /// Contact forces (N/m) and their moment about the reference point (N).
-    pub force: [f64; 3],
+    pub force: Row<D>,
     /// What prescribes each velocity; `None`: free.
-    pub drives: [Option<Speed>; 3],
+    pub drives: <Dim<D> as Motion<D>>::Drives,
     /// What it weighs.
-    pub weight: Weight,
+    pub weight: Weight<D>,
     /// Forces of loads on its nodes (N/m) and their moment (N).
-    pub load: [f64; 3],
+    pub load: Row<D>,
     /// Rates of damping of its mass and inertia, 1/s.
-    pub damping: [f64; 3],
+    pub damping: Row<D>,
     /// Whether it is made of elements: then its nodes have its mass.
     pub of_elements: bool,
     /// Nodes that move with it.
-    pub members: Vec<Member>,
+    pub members: Vec<Member<D>>,
     /// Those of `members` where elements or springs pull that are not rigid, ascending.
     pub shared: Vec<u32>,
     /// Forces of such elements and their moment.
-    pub internal: [f64; 3],
+    pub internal: Row<D>,
     /// a = ½ rate · ½ (dt^{n−1} + dt^n) of the damping.
-    pub slowing: [f64; 3],
+    pub slowing: Row<D>,
+    /// What it knows of its rotation in space.
+    pub turning: <Dim<D> as Motion<D>>::Turning,
 }
+
+/// A value for each velocity.
+type Row<const D: usize> = <Dim<D> as Motion<D>>::Row<f64>;
+/// Where a body is turned to.
+type Angle<const D: usize> = <Dim<D> as Motion<D>>::Angle;
 
 /// A node of a rigid body.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Member {
+pub struct Member<const D: usize = 2> {
     /// The node.
     pub node: u32,
     /// Where it is seen from the reference point, in the frame of the body, m.
-    pub arm: Vector,
+    pub arm: [f64; D],
 }
 
 /// What acts on the mass of a body: a force, and a moment where parts of one body weigh differently.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Weight {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Weight<const D: usize = 2>
+where
+    Dim<D>: Motion<D>,
+{
     /// Force, N/m.
-    pub force: Vector,
-    /// Σ r × f and Σ r · f of what is not uniform, N: the moment at angle θ is cos θ times the first less sin θ times the second.
-    pub moments: [f64; 2],
+    pub force: [f64; D],
+    /// Σ r × f and Σ r · f of what is not uniform, N: the moment at angle θ is cos θ times the first less sin θ times the second. In space Σ r fᵀ.
+    pub moments: <Dim<D> as Motion<D>>::Moments,
 }
 
-impl Weight {
-    fn at(&self, angle: f64) -> [f64; 3] {
-        let moment = if self.moments == [0.0; 2] { 0.0 } else { turn(self.moments, angle)[0] };
-        [self.force[0], self.force[1], moment]
+impl<const D: usize> Default for Weight<D>
+where
+    Dim<D>: Motion<D>,
+{
+    fn default() -> Self {
+        Self { force: [0.0; D], moments: Default::default() }
     }
 }
 
-impl Keep for Body {
+impl<const D: usize> Weight<D>
+where
+    Dim<D>: Motion<D>,
+{
+    fn at(&self, angle: &Angle<D>) -> Row<D> {
+        Dim::<D>::row_with(self.force, Dim::<D>::weight_moment(&self.moments, angle))
+    }
+}
+
+impl<const D: usize> Default for Body<D>
+where
+    Dim<D>: Motion<D>,
+{
+    fn default() -> Self {
+        let ((angle, turning), (drives, weight)) = Default::default();
+        let none = Row::<D>::default();
+        #[rustfmt::skip]
+        let body = Self {
+            angle, drives, weight, turning, centre: [0.0; D], old: (angle, [0.0; D]), velocity_old: none, velocity_free: none, velocity: none, mass: none, inverse_mass: none,
+            force: none, load: none, damping: none, of_elements: false, members: Vec::new(), shared: Vec::new(), internal: none, slowing: none,
+        };
+        body
+    }
+}
+
+impl<const D: usize> Keep for Body<D>
+where
+    Dim<D>: Motion<D>,
+{
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
         // Weight and damping follow from loads and time, in the step.
         #[rustfmt::skip]
         let Self {
             mass: _, drives: _, weight: _, damping: _, of_elements: _, members: _, shared: _,
-            angle, centre, old, velocity_old, velocity_free, velocity, inverse_mass, force, load, internal, slowing,
+            angle, centre, old, velocity_old, velocity_free, velocity, inverse_mass, force, load, internal, slowing, turning,
         } = self;
-        keep_each!(archive; angle, centre, old, velocity_old, velocity_free, velocity, inverse_mass, force, load, internal, slowing);
+        keep_each!(archive; angle, centre, old, velocity_old, velocity_free, velocity, inverse_mass, force, load, internal, slowing, turning);
         Ok(())
     }
 }
 
-impl Keep for Bodies {
+impl<const D: usize> Keep for Bodies<D>
+where
+    Dim<D>: Motion<D>,
+{
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
         let Self { of_node: _, list } = self;
         list[..].keep(archive)
     }
 }
 
-impl Body {
+impl<const D: usize> Body<D>
+where
+    Dim<D>: Motion<D>,
+{
     /// A point seen from the body: relative to its reference point, turned back by its angle.
     #[must_use]
-    pub fn to_local(&self, x: Vector) -> Vector {
-        to_local(x, (self.angle, self.centre))
+    pub fn to_local(&self, x: [f64; D]) -> [f64; D] {
+        to_local(x, &(self.angle, self.centre))
     }
 
     /// A point at the beginning of the step, seen from where the body was then.
     #[must_use]
-    pub fn to_local_old(&self, x: Vector) -> Vector {
-        to_local(x, self.old)
+    pub fn to_local_old(&self, x: [f64; D]) -> [f64; D] {
+        to_local(x, &self.old)
     }
 
     /// A direction of the body, turned with it.
     #[must_use]
-    pub fn to_global(&self, direction: Vector) -> Vector {
-        if self.angle == 0.0 { direction } else { turn(direction, self.angle) }
+    pub fn to_global(&self, direction: [f64; D]) -> [f64; D] {
+        Dim::<D>::turned(&self.angle, direction)
+    }
+
+    /// Square of the velocity of its reference point, m²/s².
+    #[must_use]
+    pub fn speed_squared(&self) -> f64 {
+        let velocity: [f64; D] = std::array::from_fn(|d| self.velocity[d]);
+        dot(velocity, velocity)
     }
 
     /// Whether nothing ever moves it.
     #[must_use]
     pub fn is_fixed(&self) -> bool {
-        self.drives.iter().all(|drive| drive.as_ref().is_some_and(|speed| speed.as_constant() == Some(0.0)))
+        self.drives().iter().all(|drive| drive.as_ref().is_some_and(|speed| speed.as_constant() == Some(0.0)))
     }
 
     /// Whether nothing drives it.
     #[must_use]
     pub fn is_free(&self) -> bool {
-        self.drives.iter().all(Option::is_none)
+        self.drives().iter().all(Option::is_none)
+    }
+
+    fn drives(&self) -> &[Drive] {
+        self.drives.as_ref()
     }
 
     /// Velocity of the point x^n of the body with one of its velocities, m/s.
     #[must_use]
-    pub fn velocity_at(&self, x: Vector, velocity: &[f64; 3]) -> Vector {
-        let [u, v, spin] = *velocity;
-        [u - spin * (x[1] - self.centre[1]), v + spin * (x[0] - self.centre[0])]
+    pub fn velocity_at(&self, x: [f64; D], velocity: &Row<D>) -> [f64; D] {
+        Dim::<D>::velocity_at(velocity, self.arm(x))
     }
 
     /// The part of a velocity that has mass in the books: that which is not driven.
     #[must_use]
-    pub fn free_part(&self, velocity: &[f64; 3]) -> [f64; 3] {
-        std::array::from_fn(|k| if self.drives[k].is_none() { velocity[k] } else { 0.0 })
+    pub fn free_part(&self, velocity: &Row<D>) -> Row<D> {
+        Dim::<D>::row(|k| if self.drives()[k].is_none() { velocity[k] } else { 0.0 })
     }
 
     /// ½ M V² + ½ I ω², J/m; without what is driven.
     #[must_use]
-    pub fn kinetic(&self, first: &[f64; 3], second: &[f64; 3]) -> f64 {
-        (0..3).map(|k| 0.5 * self.mass[k] * first[k] * second[k]).sum()
+    pub fn kinetic(&self, first: &Row<D>, second: &Row<D>) -> f64 {
+        Dim::<D>::kinetic(self, first, second)
     }
 
-    fn moment(&self, x: Vector, force: Vector) -> f64 {
-        (x[0] - self.centre[0]) * force[1] - (x[1] - self.centre[1]) * force[0]
+    /// Where a point is seen from the reference point, m.
+    fn arm(&self, x: [f64; D]) -> [f64; D] {
+        std::array::from_fn(|d| x[d] - self.centre[d])
     }
 
-    fn add_force(sums: &mut [f64; 3], force: Vector, moment: f64) {
-        *sums = [sums[0] + force[0], sums[1] + force[1], sums[2] + moment];
+    /// A force at a point, and its moment about the reference point.
+    fn force_at(&self, x: [f64; D], force: [f64; D]) -> Row<D> {
+        Dim::<D>::row_of(force, Some(self.arm(x)))
+    }
+
+    fn add_force(sums: &mut Row<D>, force: &Row<D>) {
+        (0..Dim::<D>::ROW).for_each(|k| sums[k] += force[k]);
     }
 
     /// Velocities without contact forces, and what a contact force will change.
-    fn set_free(&mut self, acting: &Acting<'_, impl Fn(usize) -> Vector>) {
-        let weight = self.weight.at(self.angle);
-        self.internal = [0.0; 3];
+    fn set_free(&mut self, acting: &Acting<'_, impl Fn(usize) -> [f64; D], D>) {
+        let weight = self.weight.at(&self.angle);
+        let mut internal = Row::<D>::default();
         for &node in &self.shared {
-            let (x, force) = (acting.positions[node as usize], (acting.internal)(node as usize));
-            Self::add_force(&mut self.internal, force, (x[0] - self.centre[0]) * force[1] - (x[1] - self.centre[1]) * force[0]);
+            Self::add_force(&mut internal, &self.force_at(acting.positions[node as usize], (acting.internal)(node as usize)));
         }
-        self.load = [0.0; 3];
+        self.internal = internal;
+        let mut load = Row::<D>::default();
         if !acting.loads.is_empty() {
             for member in &self.members {
-                let (x, force) = (acting.positions[member.node as usize], acting.loads[member.node as usize]);
-                let moment = (x[0] - self.centre[0]) * force[1] - (x[1] - self.centre[1]) * force[0];
-                Self::add_force(&mut self.load, force, moment);
+                Self::add_force(&mut load, &self.force_at(acting.positions[member.node as usize], acting.loads[member.node as usize]));
             }
         }
+        self.load = load;
         self.velocity_old = self.velocity;
-        for k in 0..3 {
-            let a = 0.5 * self.damping[k] * acting.mean_step;
-            self.slowing[k] = a;
-            match &self.drives[k] {
-                Some(speed) => {
-                    self.velocity_free[k] = acting.curves.mean(speed, acting.from, acting.to);
-                    self.inverse_mass[k] = 0.0;
-                }
-                None => {
-                    let undamped = self.velocity_old[k] + acting.mean_step * (self.internal[k] + weight[k] + self.load[k]) / self.mass[k];
-                    self.velocity_free[k] = (undamped - a * self.velocity_old[k]) / (1.0 + a);
-                    self.inverse_mass[k] = 1.0 / (self.mass[k] * (1.0 + a));
-                }
+        for k in 0..Dim::<D>::ROW {
+            self.slowing[k] = 0.5 * self.damping[k] * acting.mean_step;
+            if let Some(speed) = &self.drives.as_ref()[k] {
+                self.velocity_free[k] = acting.curves.mean(speed, acting.from, acting.to);
+                self.inverse_mass[k] = 0.0;
             }
         }
-        self.force = [0.0; 3];
+        (0..D).for_each(|k| self.free_along(k, &weight, acting.mean_step));
+        Dim::<D>::free_spins(self, &weight, acting.mean_step);
+        self.force = Row::<D>::default();
+    }
+
+    /// One of the velocities without contact forces, where its mass is a number.
+    pub(crate) fn free_along(&mut self, k: usize, weight: &Row<D>, mean_step: f64) {
+        if self.drives()[k].is_none() {
+            let a = self.slowing[k];
+            let undamped = self.velocity_old[k] + mean_step * (self.internal[k] + weight[k] + self.load[k]) / self.mass[k];
+            self.velocity_free[k] = (undamped - a * self.velocity_old[k]) / (1.0 + a);
+            self.inverse_mass[k] = 1.0 / (self.mass[k] * (1.0 + a));
+        }
     }
 
     /// v^{n+½} with the contact forces, and its part in the books.
-    fn accelerate(&mut self, mean_step: f64, contact_forces: &ContactForces, positions: &[Vector], sums: &mut Sums) {
+    fn accelerate(&mut self, mean_step: f64, contact_forces: &ContactForces<D>, positions: &[[f64; D]], sums: &mut Sums) {
+        let mut pushed = self.force;
         for member in &self.members {
             let force = contact_forces.of(member.node as usize);
-            if force != [0.0; 2] {
-                let moment = self.moment(positions[member.node as usize], force);
-                Self::add_force(&mut self.force, force, moment);
+            if force != [0.0; D] {
+                Self::add_force(&mut pushed, &self.force_at(positions[member.node as usize], force));
             }
         }
-        let weight = self.weight.at(self.angle);
-        for k in 0..3 {
-            let old = self.velocity_old[k];
-            let new = self.velocity_free[k] + mean_step * self.inverse_mass[k] * self.force[k];
-            self.velocity[k] = new;
-            let mean = 0.5 * (old + new);
-            sums.internal += mean_step * self.internal[k] * mean;
-            sums.load += mean_step * self.load[k] * mean;
-            sums.external_old += mean_step * self.load[k] * old;
-            if self.drives[k].is_some() {
-                let impulse = -mean_step * (self.internal[k] + self.force[k] + self.load[k]);
-                sums.drive += impulse * mean;
-                sums.external_old += impulse * old;
-                continue;
-            }
-            let m = self.mass[k];
-            sums.kinetic_half += 0.5 * m * new * new;
-            sums.kinetic += 0.5 * m * old * new;
-            sums.gravity += mean_step * weight[k] * mean;
-            sums.external_old += mean_step * weight[k] * old;
-            let impulse = -2.0 * self.slowing[k] * m * mean;
-            sums.damping += impulse * mean;
-            sums.damping_old += impulse * old;
+        self.force = pushed;
+        let weight = self.weight.at(&self.angle);
+        for k in 0..D {
+            self.velocity[k] = self.velocity_free[k] + mean_step * self.inverse_mass[k] * self.force[k];
+            let momenta = [self.velocity_old[k], self.velocity[k]].map(|velocity| self.mass[k] * velocity);
+            self.book(k, momenta, &weight, mean_step, sums);
         }
+        Dim::<D>::accelerate_spins(self, &weight, mean_step, sums);
+    }
+
+    /// The part of one velocity in the books; `momenta`: before and after.
+    pub(crate) fn book(&self, k: usize, momenta: [f64; 2], weight: &Row<D>, mean_step: f64, sums: &mut Sums) {
+        let (old, new) = (self.velocity_old[k], self.velocity[k]);
+        let mean = 0.5 * (old + new);
+        sums.internal += mean_step * self.internal[k] * mean;
+        sums.load += mean_step * self.load[k] * mean;
+        sums.external_old += mean_step * self.load[k] * old;
+        if self.drives()[k].is_some() {
+            let impulse = -mean_step * (self.internal[k] + self.force[k] + self.load[k]);
+            sums.drive += impulse * mean;
+            sums.external_old += impulse * old;
+            return;
+        }
+        Dim::<D>::book_mass(self, k, momenta, sums);
+        sums.gravity += mean_step * weight[k] * mean;
+        sums.external_old += mean_step * weight[k] * old;
+        let impulse = Dim::<D>::slowed(self, k, momenta, mean);
+        sums.damping += impulse * mean;
+        sums.damping_old += impulse * old;
+    }
+
+    /// ½ m v² of one velocity with a mass of its own in the books.
+    pub(crate) fn book_straight(&self, k: usize, sums: &mut Sums) {
+        let (m, old, new) = (self.mass[k], self.velocity_old[k], self.velocity[k]);
+        sums.kinetic_half += 0.5 * m * new * new;
+        sums.kinetic += 0.5 * m * old * new;
     }
 
     /// Velocities of the nodes that lead them over the coming step (s) to where the body will have them: chords of their arcs.
-    fn lead(&self, time_step: f64, positions: &[Vector], velocities: &mut [Vector]) {
-        let [u, v, spin] = self.velocity;
-        let [[_, sin], [_, half]] = [time_step * spin, 0.5 * time_step * spin].map(cos_sin);
-        let (along, across) = (-2.0 * half * half / time_step, sin / time_step);
+    fn lead(&self, time_step: f64, positions: &[[f64; D]], velocities: &mut [[f64; D]]) {
+        let chords = Dim::<D>::chords(self, time_step);
         for member in &self.members {
-            let x = positions[member.node as usize];
-            let arm = [x[0] - self.centre[0], x[1] - self.centre[1]];
-            velocities[member.node as usize] = [u + along * arm[0] - across * arm[1], v + along * arm[1] + across * arm[0]];
+            velocities[member.node as usize] = Dim::<D>::chord(self, &chords, self.arm(positions[member.node as usize]));
         }
     }
 }
 
-fn to_local(x: Vector, (angle, centre): (f64, Vector)) -> Vector {
-    let arm = [x[0] - centre[0], x[1] - centre[1]];
-    if angle == 0.0 { arm } else { turn(arm, -angle) }
+fn to_local<const D: usize>(x: [f64; D], (angle, centre): &(Angle<D>, [f64; D])) -> [f64; D]
+where
+    Dim<D>: Motion<D>,
+{
+    Dim::<D>::turned_back(angle, std::array::from_fn(|d| x[d] - centre[d]))
 }
 
-fn turn(v: Vector, angle: f64) -> Vector {
+pub(crate) fn turn(v: [f64; 2], angle: f64) -> [f64; 2] {
     let [cos, sin] = cos_sin(angle);
     [cos * v[0] - sin * v[1], sin * v[0] + cos * v[1]]
 }
 
 /// Velocity (m/s) that leads the point `arm` (m) from a centre that rests along the chord of an arc, with `spin` (rad/s) over `time_step` (s); without a step that
 /// along the tangent.
-pub(crate) fn chord(arm: Vector, spin: f64, time_step: f64) -> Vector {
+pub(crate) fn chord(arm: [f64; 2], spin: f64, time_step: f64) -> [f64; 2] {
     if time_step == 0.0 {
         return [-spin * arm[1], spin * arm[0]];
     }
@@ -296,7 +385,7 @@ pub(crate) fn cos_sin(angle: f64) -> [f64; 2] {
 }
 
 /// What acts on bodies beside contact.
-pub struct Acting<'a, F: Fn(usize) -> Vector> {
+pub struct Acting<'a, F: Fn(usize) -> [f64; D], const D: usize = 2> {
     /// ½ (dt^{n−1} + dt^n), s.
     pub mean_step: f64,
     /// Times t^n and t^{n+1}, between which what is driven follows its curve, s.
@@ -306,22 +395,25 @@ pub struct Acting<'a, F: Fn(usize) -> Vector> {
     /// The curves.
     pub curves: &'a Curves,
     /// x^n, m.
-    pub positions: &'a [Vector],
+    pub positions: &'a [[f64; D]],
     /// Forces of loads on nodes, N/m; empty without.
-    pub loads: &'a [Vector],
+    pub loads: &'a [[f64; D]],
     /// Sum of the corner forces at a node, N/m.
     pub internal: F,
 }
 
-impl Bodies {
+impl<const D: usize> Bodies<D>
+where
+    Dim<D>: Motion<D>,
+{
     /// Adds a body; returns its number.
-    pub fn add(&mut self, body: Body) -> usize {
+    pub fn add(&mut self, body: Body<D>) -> usize {
         self.list.push(body);
         self.list.len() - 1
     }
 
     /// Adds a body that carries its members along; returns its number. `nodes` is the number of all nodes.
-    pub fn add_with_nodes(&mut self, body: Body, nodes: usize) -> usize {
+    pub fn add_with_nodes(&mut self, body: Body<D>, nodes: usize) -> usize {
         self.of_node.resize(nodes, u32::MAX);
         let number = self.list.len();
         for member in &body.members {
@@ -363,32 +455,31 @@ impl Bodies {
 
     /// State of a body.
     #[must_use]
-    pub fn state(&self, body: usize) -> &Body {
+    pub fn state(&self, body: usize) -> &Body<D> {
         &self.list[body]
     }
 
     /// All bodies.
-    pub fn iter(&self) -> impl Iterator<Item = &Body> {
+    pub fn iter(&self) -> impl Iterator<Item = &Body<D>> {
         self.list.iter()
     }
 
-    /// Takes what acts on their mass now; `mass` of the nodes, kg/m.
-    pub fn weigh(&mut self, forces: &BodyForces, mass: &[f64]) {
-        let accelerations = forces.accelerations();
+    /// Takes what acts on their mass now: accelerations of all nodes, m/s² (empty: none act on them), that of what is everywhere at a place, and the `mass` of the nodes, kg/m.
+    pub fn weigh_by(&mut self, accelerations: &[[f64; D]], everywhere: impl Fn([f64; D]) -> [f64; D], mass: &[f64]) {
         for body in &mut self.list {
             if !body.of_elements {
-                let g = forces.everywhere(body.centre);
-                body.weight = Weight { force: [body.mass[0] * g[0], body.mass[1] * g[1]], moments: [0.0; 2] };
+                let g = everywhere(body.centre);
+                body.weight = Weight { force: std::array::from_fn(|d| body.mass[d] * g[d]), ..Weight::default() };
                 continue;
             }
             let Some(&first) = body.members.first().and_then(|member| accelerations.get(member.node as usize)) else { continue };
-            let mut weight = Weight { force: [0, 1].map(|d| body.mass[d] * first[d]), moments: [0.0; 2] };
-            for Member { node, arm: [a, b] } in &body.members {
+            let mut weight = Weight { force: std::array::from_fn(|d| body.mass[d] * first[d]), ..Weight::default() };
+            for Member { node, arm } in &body.members {
                 let (g, m) = (accelerations[*node as usize], mass[*node as usize]);
                 // What is uniform has no moment, to the last bit.
-                let [x, y] = [m * (g[0] - first[0]), m * (g[1] - first[1])];
-                weight.force = [weight.force[0] + x, weight.force[1] + y];
-                weight.moments = [weight.moments[0] + (a * y - b * x), weight.moments[1] + (a * x + b * y)];
+                let more = std::array::from_fn(|d| m * (g[d] - first[d]));
+                (0..D).for_each(|d| weight.force[d] += more[d]);
+                Dim::<D>::add_weight(&mut weight.moments, *arm, more);
             }
             body.weight = weight;
         }
@@ -398,36 +489,37 @@ impl Bodies {
     pub fn damp(&mut self, damping: &Damping, mass: &[f64]) {
         for body in &mut self.list {
             if !body.of_elements {
-                body.damping = [damping.rate_everywhere(); 3];
+                body.damping = Dim::<D>::row(|_| damping.rate_everywhere());
                 continue;
             }
             let mut sums = [[0.0; 2]; 2];
             for Member { node, arm } in &body.members {
                 let (m, rate) = (mass[*node as usize], damping.rate(*node as usize));
-                for (sum, m) in sums.iter_mut().zip([m, m * (arm[0] * arm[0] + arm[1] * arm[1])]) {
+                for (sum, m) in sums.iter_mut().zip([m, m * (1..D).fold(arm[0] * arm[0], |sum, d| sum + arm[d] * arm[d])]) {
                     *sum = [sum[0] + m, sum[1] + rate * m];
                 }
             }
             let [straight, round] = sums.map(|[whole, damped]| damped / whole);
-            body.damping = [straight, straight, round];
+            body.damping = Dim::<D>::row(|k| if k < D { straight } else { round });
         }
     }
 
     /// Adds a contact force (N/m) that acts on a body at a point.
-    pub fn push_at(&mut self, body: usize, force: Vector, point: Vector) {
+    pub fn push_at(&mut self, body: usize, force: [f64; D], point: [f64; D]) {
         let body = &mut self.list[body];
-        let moment = body.moment(point, force);
-        Body::add_force(&mut body.force, force, moment);
+        let force = body.force_at(point, force);
+        Body::<D>::add_force(&mut body.force, &force);
     }
 
     /// Velocities at time zero: those of the model where the bodies are free, else those that drive them. Their nodes get them too.
-    pub fn start(&mut self, curves: &Curves, positions: &[Vector], velocities: &mut [Vector]) {
+    pub fn start(&mut self, curves: &Curves, positions: &[[f64; D]], velocities: &mut [[f64; D]]) {
         for body in &mut self.list {
-            for k in 0..3 {
-                if let Some(speed) = &body.drives[k] {
+            for k in 0..Dim::<D>::ROW {
+                if let Some(speed) = &body.drives.as_ref()[k] {
                     body.velocity[k] = curves.mean(speed, 0.0, 0.0);
                 }
             }
+            Dim::<D>::start_spins(body);
             for member in &body.members {
                 velocities[member.node as usize] = body.velocity_at(positions[member.node as usize], &body.velocity);
             }
@@ -442,7 +534,7 @@ impl Bodies {
     }
 
     /// v^{n+½} without contact forces; forgets the contact forces of the last step.
-    pub fn set_free(&mut self, acting: &Acting<'_, impl Fn(usize) -> Vector>) {
+    pub fn set_free(&mut self, acting: &Acting<'_, impl Fn(usize) -> [f64; D], D>) {
         for body in &mut self.list {
             body.set_free(acting);
         }
@@ -452,9 +544,9 @@ impl Bodies {
     pub fn accelerate(
         &mut self,
         [mean_step, time_step]: [f64; 2],
-        contact_forces: &ContactForces,
-        positions: &[Vector],
-        velocities: &mut [Vector],
+        contact_forces: &ContactForces<D>,
+        positions: &[[f64; D]],
+        velocities: &mut [[f64; D]],
     ) -> Sums {
         let mut sums = Sums::default();
         for body in &mut self.list {
@@ -467,22 +559,33 @@ impl Bodies {
     }
 
     /// X^{n+1} and θ^{n+1} over a step (s), and the nodes where these say.
-    pub fn advance(&mut self, time_step: f64, positions: &mut [Vector]) {
+    pub fn advance(&mut self, time_step: f64, positions: &mut [[f64; D]]) {
         for body in &mut self.list {
             body.old = (body.angle, body.centre);
             if body.is_fixed() {
                 continue;
             }
-            for d in 0..2 {
+            let turned = Dim::<D>::turned_by(body, time_step);
+            for d in 0..D {
                 body.centre[d] += time_step * body.velocity[d];
             }
-            body.angle += time_step * body.velocity[2];
-            let [cos, sin] = cos_sin(body.angle);
+            body.angle = turned;
+            let places = Dim::<D>::places(&body.angle);
             for member in &body.members {
-                let [a, b] = member.arm;
-                positions[member.node as usize] = [body.centre[0] + (cos * a - sin * b), body.centre[1] + (sin * a + cos * b)];
+                let arm = Dim::<D>::place(&places, member.arm);
+                positions[member.node as usize] = std::array::from_fn(|d| body.centre[d] + arm[d]);
             }
         }
+    }
+}
+
+impl<const D: usize> Bodies<D>
+where
+    Dim<D>: World<D>,
+{
+    /// Takes what acts on their mass now; `mass` of the nodes, kg/m.
+    pub fn weigh(&mut self, forces: &BodyForces<D>, mass: &[f64]) {
+        self.weigh_by(forces.accelerations(), |centre| forces.everywhere(centre), mass);
     }
 }
 

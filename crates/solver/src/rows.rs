@@ -3,7 +3,7 @@
 //! Mesh, blocks, assembly and contact make them from connectivities; whoever walks around a node reads them.
 
 /// A list of items for each key below a count.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Rows<T> {
     /// Where the items of each key begin; one more than keys.
     starts: Vec<u32>,

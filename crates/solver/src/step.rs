@@ -29,14 +29,14 @@ use crate::load::join::Joins;
 use crate::load::non_reflecting::NonReflecting;
 use crate::mesh::Mesh;
 use crate::rigid::{Acting, Bodies};
+use crate::tensor::Dim;
+use crate::vector::{dot, plus, times};
+use crate::world::World;
 use embate_lanes::{Chunks, Level, Team};
 use erosion::Erosion;
 use free::Groups;
 use nodes::Nodes;
 use relaxation::Relaxation;
-
-/// A vector of the plane.
-pub type Vector = [f64; 2];
 
 /// Nodes that one task updates.
 pub(crate) const CHUNK: usize = 1024;
@@ -83,14 +83,17 @@ pub enum Governor {
 }
 
 /// Bodies, what acts on them, and their state.
-pub struct System {
-    pub(crate) mesh: Mesh<2>,
-    pub(crate) blocks: Vec<Box<dyn Block<2>>>,
+pub struct System<const D: usize>
+where
+    Dim<D>: World<D>,
+{
+    pub(crate) mesh: Mesh<D>,
+    pub(crate) blocks: Vec<Box<dyn Block<D>>>,
     pub(crate) assembly: Assembly,
     pub(crate) mass: Vec<f64>,
     /// Contacts, then obstacles.
-    pub(crate) contacts: Vec<Contact>,
-    pub(crate) bodies: Bodies,
+    pub(crate) contacts: Vec<Contact<D>>,
+    pub(crate) bodies: Bodies<D>,
     /// Rigid parts: the part and its body.
     pub(crate) body_parts: Vec<(usize, usize)>,
     /// Whether each block is a rigid part: then it is not strained.
@@ -100,20 +103,20 @@ pub struct System {
     /// What parts weigh.
     pub(crate) shares: Shares,
     /// Shapes of the obstacles, for pictures.
-    pub(crate) outlines: Vec<OutlineShape>,
+    pub(crate) outlines: Vec<OutlineShape<D>>,
     /// What contacts leave on the surfaces.
-    pub(crate) traces: Traces,
-    pub(crate) constraints: Constraints<2>,
+    pub(crate) traces: Traces<D>,
+    pub(crate) constraints: Constraints<D>,
     pub(crate) curves: Curves,
     pub(crate) damping: Damping,
     /// Gravity and centrifugal forces.
-    pub(crate) body_forces: BodyForces,
+    pub(crate) body_forces: BodyForces<D>,
     /// Forces and pressures on nodes.
-    pub(crate) forces: Forces,
+    pub(crate) forces: Forces<D>,
     /// Boundaries that reflect nothing.
-    pub(crate) boundary: NonReflecting,
+    pub(crate) boundary: NonReflecting<D>,
     /// Nodes that move as one.
-    pub(crate) joins: Joins,
+    pub(crate) joins: Joins<D>,
     pub(crate) limits: Limits,
     pub(crate) level: Level,
     /// Who shares the loops over elements and nodes.
@@ -128,18 +131,18 @@ pub struct System {
     /// Step that will lead to the next positions, s.
     pub(crate) time_step: f64,
     pub(crate) governor: Governor,
-    pub(crate) positions: Vec<Vector>,
+    pub(crate) positions: Vec<[f64; D]>,
     /// x^{n-1}; from the velocity update on those x^{n+1} of free nodes that it leads to.
-    pub(crate) positions_old: Vec<Vector>,
+    pub(crate) positions_old: Vec<[f64; D]>,
     /// v^{n+1/2}.
-    pub(crate) velocities: Vec<Vector>,
+    pub(crate) velocities: Vec<[f64; D]>,
     /// v^{n-1/2}.
-    pub(crate) velocities_old: Vec<Vector>,
+    pub(crate) velocities_old: Vec<[f64; D]>,
     /// Contact and obstacle forces at x^n, N/m.
-    pub(crate) contact_forces: ContactForces,
+    pub(crate) contact_forces: ContactForces<D>,
     /// What the elements pull with, by the slots of the blocks, N/m.
-    pub(crate) slots: Vec<Vector>,
-    pub(crate) springs: Springs,
+    pub(crate) slots: Vec<[f64; D]>,
+    pub(crate) springs: Springs<D>,
     pub(crate) reports: Vec<Report>,
     pub(crate) sums: Vec<Sums>,
     /// Groups of eight nodes, and which are free.
@@ -154,9 +157,9 @@ pub struct System {
     /// Penetrations of contacts at the start, one line each.
     pub(crate) initial_penetrations: Vec<String>,
     /// What fails and what has failed; `None` where nothing can.
-    pub(crate) erosion: Option<Box<Erosion>>,
+    pub(crate) erosion: Option<Box<Erosion<D>>>,
     /// What brings everything to rest; `None`: nothing.
-    pub(crate) relaxation: Option<Relaxation>,
+    pub(crate) relaxation: Option<Relaxation<D>>,
     /// Mass that was added for longer steps, and the true mass of what it was added to, kg/m.
     pub(crate) mass_added: [f64; 2],
 }
@@ -186,7 +189,10 @@ macro_rules! nodes {
     };
 }
 
-impl System {
+impl<const D: usize> System<D>
+where
+    Dim<D>: World<D>,
+{
     /// One step: x, forces, stable step, v, ledger.
     ///
     /// # Errors
@@ -231,11 +237,10 @@ impl System {
         }
         self.bodies.start(&self.curves, &self.positions, &mut self.velocities);
         let free = |&(node, _): &(u32, _)| self.bodies.of_node(node).is_none();
-        let kinetic = |(_, (m, v)): (u32, (&f64, &Vector))| 0.5 * m * (v[0] * v[0] + v[1] * v[1]);
+        let kinetic = |(_, (m, v)): (u32, (&f64, &[f64; D]))| 0.5 * m * dot(*v, *v);
         let nodes: f64 = (0..).zip(self.mass.iter().zip(&self.velocities)).filter(free).map(kinetic).sum();
         self.ledger = Ledger::new(nodes + self.bodies.kinetic(), self.energy_of_round_off());
-        let square = |[x, y]: Vector| x * x + y * y;
-        let nodes = self.velocities.iter().map(|&v| square(v)).fold(0.0, f64::max);
+        let nodes = self.velocities.iter().map(|&v| dot(v, v)).fold(0.0, f64::max);
         self.positions_old.clone_from(&self.positions);
         self.see_rigid_parts();
         self.respond()?;
@@ -243,7 +248,7 @@ impl System {
             self.limits.step = 1e-3 * self.time_step;
         }
         if self.limits.velocity <= 0.0 {
-            let all = self.bodies.iter().map(|body| square([body.velocity[0], body.velocity[1]])).fold(nodes, f64::max);
+            let all = self.bodies.iter().map(|body| body.speed_squared()).fold(nodes, f64::max);
             self.limits.velocity = RUNAWAY * (all.sqrt() - self.limits.velocity);
         }
         Ok(())
@@ -254,8 +259,7 @@ impl System {
         let dt = self.time_step;
         // The velocity update has moved the free ones already.
         for node in self.groups.held_nodes(self.positions.len()) {
-            let (x, v) = (self.positions[node], self.velocities[node]);
-            self.positions_old[node] = [x[0] + dt * v[0], x[1] + dt * v[1]];
+            self.positions_old[node] = plus(self.positions[node], times(dt, self.velocities[node]));
         }
         std::mem::swap(&mut self.positions, &mut self.positions_old);
         self.bodies.advance(dt, &mut self.positions);
@@ -438,7 +442,10 @@ impl System {
     }
 }
 
-impl System {
+impl<const D: usize> System<D>
+where
+    Dim<D>: World<D>,
+{
     /// Whether nodes are as fast, and contacts as deep, as is sound.
     fn see_limits(&self) -> Result<(), Error> {
         if self.speed > self.limits.velocity {
@@ -453,8 +460,7 @@ impl System {
     /// Largest |v^{n+1/2}|, m/s.
     fn largest_speed(&self) -> f64 {
         let free = self.sums.iter().fold(0.0f64, |largest, sums| largest.max(sums.speed_squared));
-        let square =
-            |node: usize| self.velocities[node][0] * self.velocities[node][0] + self.velocities[node][1] * self.velocities[node][1];
+        let square = |node: usize| dot(self.velocities[node], self.velocities[node]);
         let all = self.groups.held_nodes(self.velocities.len()).map(square).fold(free, f64::max);
         all.sqrt()
     }
@@ -493,7 +499,7 @@ impl System {
             let (slots, others) = rest.split_at_mut(block.slots().len());
             if *rigid {
                 let seen = block.advance(&motion, self.level, slots, &mut self.team);
-                slots.fill([0.0; 2]);
+                slots.fill([0.0; D]);
                 *report = if alone { Report { stored: 0.0, dissipated: 0.0, ..seen } } else { Report::NOTHING };
             }
             rest = others;
@@ -501,7 +507,7 @@ impl System {
     }
 
     /// Velocities of a node before and after the whole step, m/s: of a rigid body those of the point, not those of the chord that leads it on.
-    pub(crate) fn velocities_around(&self, node: usize) -> [Vector; 2] {
+    pub(crate) fn velocities_around(&self, node: usize) -> [[f64; D]; 2] {
         match self.bodies.of_node(node as u32) {
             Some(body) => {
                 let body = self.bodies.state(body);
@@ -521,7 +527,6 @@ impl System {
             None => [self.velocities_old[node], self.velocities[node]],
         };
         let before = self.before();
-        let dot = |a: Vector, b: Vector| a[0] * b[0] + a[1] * b[1];
         if before > 0.0 {
             0.5 * dot(old, new) - (0.5 - before) * 0.5 * (dot(new, new) - dot(old, old))
         } else {

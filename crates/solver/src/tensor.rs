@@ -5,6 +5,9 @@
 //! in it becomes a call (measured: ten times slower than scalar code). Loops over small arrays are unrolled instead.
 
 mod principal;
+mod space;
+
+pub use space::{cross, dot};
 
 use embate_lanes::{Batch, Lane};
 
@@ -389,7 +392,12 @@ pub trait Space<const D: usize> {
     /// Gradient A B⁻¹ of a displacement with the natural gradient A in the mid-step configuration with Jacobian B, and Hughes and Winget's rotation
     /// (I − ½W)⁻¹ (I + ½W) of its skew part W, [half of it, all of it]; exact (and the strain increment zero) for a rigid rotation. Half of it turns the mid-step
     /// strain increment to the end of the step. B is given as adjugate and determinant: one division does it all. Hughes and Winget 1980.
-    fn displaced<L: Lane>(natural: &Matrix<L, D>, adjugate: &Matrix<L, D>, determinant: L) -> (Matrix<L, D>, Turns<Self::Tensor<L>, L>);
+    #[inline(always)]
+    fn displaced<L: Lane>(natural: &Matrix<L, D>, adjugate: &Matrix<L, D>, determinant: L) -> (Matrix<L, D>, Turns<Self::Tensor<L>, L>) {
+        Self::increment(&product(natural, adjugate), determinant)
+    }
+    /// The same from `determinant` times the gradient.
+    fn increment<L: Lane>(gradient: &Matrix<L, D>, determinant: L) -> (Matrix<L, D>, Turns<Self::Tensor<L>, L>);
     /// A vector that goes with the rotation of [`Space::displaced`].
     fn turned<L: Lane>(vector: [L; D], turns: &Turns<Self::Tensor<L>, L>) -> [L; D];
     /// `scale` F Fᵀ, out-of-plane component `scale` in the plane.
@@ -421,9 +429,8 @@ impl Space<2> for Dim<2> {
         Plane([g[0][0], g[1][1], L::splat(0.0), (g[0][1] + g[1][0]) * L::splat(0.5)])
     }
     #[inline(always)]
-    fn displaced<L: Lane>(natural: &Matrix<L, 2>, adjugate: &Matrix<L, 2>, determinant: L) -> (Matrix<L, 2>, [PlaneRotation<L>; 2]) {
+    fn increment<L: Lane>(g: &Matrix<L, 2>, determinant: L) -> (Matrix<L, 2>, [PlaneRotation<L>; 2]) {
         // All times det B: tan(θ/2) = ω/2 with ω = ½(g_yx − g_xy)
-        let g = product(natural, adjugate);
         let half = (g[1][0] - g[0][1]) * L::splat(0.25);
         let (square, one) = (half * half, determinant * determinant);
         let sum = one + square;
@@ -431,7 +438,7 @@ impl Space<2> for Dim<2> {
         let of_sum = inverse * determinant;
         let (cos, sin) = ((one - square) * of_sum, (half + half) * determinant * of_sum);
         // A tensor feels twice the angle: half the rotation is θ to it.
-        (scaled(g, inverse * sum), [PlaneRotation([cos, sin]), PlaneRotation::new(cos, sin)])
+        (scaled(*g, inverse * sum), [PlaneRotation([cos, sin]), PlaneRotation::new(cos, sin)])
     }
     #[inline(always)]
     fn turned<L: Lane>([x, y]: [L; 2], turns: &[PlaneRotation<L>; 2]) -> [L; 2] {

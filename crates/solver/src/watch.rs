@@ -11,6 +11,8 @@ use crate::message::{Example, Message};
 use crate::model::Model;
 use crate::simulation::Shortest;
 use crate::step::System;
+use crate::tensor::Dim;
+use crate::world::{World, place};
 use std::collections::BTreeMap;
 
 pub(crate) static MESSAGES: &[&Message] = &[&HOURGLASS, &SPRINGS, &NEEDLES, &BEYOND_TABLE, &SHORT_STEP];
@@ -127,7 +129,10 @@ fn matter(kind: &Message, part: usize) -> Matter {
 }
 
 impl Watch {
-    pub(crate) fn new(model: &Model, system: &System) -> Self {
+    pub(crate) fn new<const D: usize>(model: &Model, system: &System<D>) -> Self
+    where
+        Dim<D>: World<D>,
+    {
         let end = |part: usize| {
             let material = model.materials.get(&model.parts[part].material)?;
             let kind = material::LAWS.iter().find(|kind| kind.name == material.law)?;
@@ -146,7 +151,10 @@ impl Watch {
     }
 
     /// Looks at a system, also at its elements if it is the last time; what is new.
-    pub(crate) fn look(&mut self, system: &System, shortest: &Shortest, is_last: bool) -> Vec<Notice> {
+    pub(crate) fn look<const D: usize>(&mut self, system: &System<D>, shortest: &Shortest, is_last: bool) -> Vec<Notice>
+    where
+        Dim<D>: World<D>,
+    {
         let mut new = Vec::new();
         self.energies(system, &mut new);
         let first = *self.first_step.get_or_insert(shortest.time_step);
@@ -188,7 +196,10 @@ impl Watch {
         seen.most = seen.most.max(size);
     }
 
-    fn energies(&mut self, system: &System, new: &mut Vec<Notice>) {
+    fn energies<const D: usize>(&mut self, system: &System<D>, new: &mut Vec<Notice>)
+    where
+        Dim<D>: World<D>,
+    {
         let largest = system.ledger.largest;
         let mut of_parts = vec![[0.0; 2]; system.mesh.parts.len()];
         for (group, report) in system.mesh.groups.iter().zip(&system.reports) {
@@ -208,7 +219,7 @@ impl Watch {
         }
         let share = system.ledger.stores.contact / largest;
         if self.lasts(&SPRINGS, usize::MAX, share > SPRINGS_MOST, system) {
-            let energy = |contact: &&crate::contact::Contact| contact.totals.energy;
+            let energy = |contact: &&crate::contact::Contact<D>| contact.totals.energy;
             let worst = system.contacts.iter().max_by(|a, b| energy(a).total_cmp(&energy(b)));
             let name = worst.map_or(String::new(), |contact| format!(", most of it in {} \"{}\"", contact.kind.name(), contact.name));
             let share_now = 100.0 * share;
@@ -218,7 +229,10 @@ impl Watch {
     }
 
     /// Whether something has been so at every look for long enough.
-    fn lasts(&mut self, kind: &Message, part: usize, is_so: bool, system: &System) -> bool {
+    fn lasts<const D: usize>(&mut self, kind: &Message, part: usize, is_so: bool, system: &System<D>) -> bool
+    where
+        Dim<D>: World<D>,
+    {
         if !is_so {
             self.since.remove(&matter(kind, part));
             return false;
@@ -228,7 +242,10 @@ impl Watch {
     }
 
     /// Shapes and plastic strains of all elements that deform.
-    fn elements(&mut self, system: &System, new: &mut Vec<Notice>) {
+    fn elements<const D: usize>(&mut self, system: &System<D>, new: &mut Vec<Notice>)
+    where
+        Dim<D>: World<D>,
+    {
         let mut found: BTreeMap<(&'static str, usize), (&'static Message, usize, String)> = BTreeMap::new();
         for (index, (group, block)) in system.mesh.groups.iter().zip(&system.blocks).enumerate() {
             if system.rigid[index] {
@@ -236,15 +253,15 @@ impl Watch {
             }
             let part = group.part;
             let mut note = |kind: &'static Message, element: usize, what: String| {
-                let [x, y] = system.centre(group.cell(element));
+                let at = place(system.centre(group.cell(element)));
                 let (name, user) = (&system.mesh.parts[part].name, group.user_elements[element]);
-                let text = || format!("element {user} of part \"{name}\" at ({x:.6e}, {y:.6e}) m has {what} at {:.6e} s", system.time);
+                let text = || format!("element {user} of part \"{name}\" at {at} m has {what} at {:.6e} s", system.time);
                 found.entry((kind.code, part)).or_insert_with(|| (kind, 0, text())).1 += 1;
             };
             let end = self.ends[index];
             for (element, cell) in group.cells().enumerate().filter(|(element, _)| group.is_alive(*element)) {
-                let now = shape(cell, &system.positions);
-                if !self.fails[index] && now < SHAPE_LEAST && now < SHAPE_LOST * shape(cell, &system.mesh.positions) {
+                let now = <Dim<D>>::shape(cell, &system.positions);
+                if !self.fails[index] && now < SHAPE_LEAST && now < SHAPE_LOST * <Dim<D>>::shape(cell, &system.mesh.positions) {
                     note(&NEEDLES, element, format!("a shape of {now:.3}"));
                 }
                 if let Some(end) = end {
@@ -258,39 +275,5 @@ impl Watch {
         for ((_, part), (kind, count, text)) in found {
             self.see(kind, part, count as f64, text, new);
         }
-    }
-}
-
-/// Smallest Jacobian determinant at a corner over the square of the longest side: 1 for a square, less for what is long, sheared or folded; lines have the best.
-pub(crate) fn shape(cell: &[u32], positions: &[[f64; 2]]) -> f64 {
-    let n = cell.len();
-    let x = |corner: usize| positions[cell[corner % n] as usize];
-    let side = |corner: usize| {
-        let (a, b) = (x(corner), x(corner + 1));
-        [b[0] - a[0], b[1] - a[1]]
-    };
-    if n < 3 {
-        return 1.0;
-    }
-    let (mut least, mut longest) = (f64::INFINITY, 0.0f64);
-    for corner in 0..n {
-        let (before, after) = (side(corner + n - 1), side(corner));
-        least = least.min(before[0] * after[1] - before[1] * after[0]);
-        longest = longest.max(after[0] * after[0] + after[1] * after[1]);
-    }
-    least / longest
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_shape_of_a_square_is_one_and_of_what_is_flat_or_folded_less() {
-        let of = |positions: &[[f64; 2]]| shape(&(0..positions.len() as u32).collect::<Vec<_>>(), positions);
-        assert_eq!(of(&[[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]]), 1.0);
-        assert_eq!(of(&[[0.0, 0.0], [10.0, 0.0], [10.0, 1.0], [0.0, 1.0]]), 0.1);
-        assert!((of(&[[0.0, 0.0], [1.0, 0.0], [0.5, 0.75f64.sqrt()]]) - 0.75f64.sqrt()).abs() < 1e-15);
-        assert!(of(&[[0.0, 0.0], [1.0, 0.0], [0.2, 0.2], [0.0, 1.0]]) < 0.0);
     }
 }

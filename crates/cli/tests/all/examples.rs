@@ -76,6 +76,7 @@ fn every_example_is_listed_here() {
     let listed = [
         "buckling-column",
         "bullet",
+        "crossing-tubes",
         "crushed-ring",
         "cup-drawing",
         "explosive-ring",
@@ -86,6 +87,7 @@ fn every_example_is_listed_here() {
         "rubber-seal",
         "strip-rolling",
         "taylor-bar",
+        "taylor-bar-3d",
         "thin-plates",
         "three-rings",
         "tube-plate",
@@ -275,6 +277,31 @@ fn a_copper_rod_is_a_third_shorter_after_its_impact() {
     results.is_sound(1e-3);
     is_near(*results.column("tail.y").last().unwrap(), 21.42e-3, 0.25e-3);
     is_near(results.column("energy.kinetic")[0], 239.81, 0.03);
+}
+
+#[test]
+#[cfg_attr(debug_assertions, ignore = "takes half a minute without optimization; release tests run it")]
+fn a_quarter_of_the_copper_rod_in_space_ends_as_the_axisymmetric_one() {
+    let results = run("taylor-bar-3d", "example-taylor-bar-3d");
+    results.is_sound(1e-3);
+    is_near(*results.column("tail.z").last().unwrap(), 21.42e-3, 0.25e-3);
+    is_near(*results.column("rim.x").last().unwrap(), 7.12e-3, 0.15e-3);
+    is_near(results.column("energy.kinetic")[0], 57.84, 0.03);
+}
+
+#[test]
+#[cfg_attr(debug_assertions, ignore = "takes half a minute without optimization; release tests run it")]
+fn tubes_that_cross_dent_each_other_alike() {
+    let results = run("crossing-tubes", "example-crossing-tubes");
+    results.is_sound(1e-3);
+    let [lower, upper] = ["energy.internal[lower]", "energy.internal[upper]"].map(|name| *results.column(name).last().unwrap());
+    is_near(lower / upper, 1.0, 1e-9);
+    let plastic = results.column("energy.plastic").last().unwrap() / results.column("energy.kinetic")[0];
+    assert!((0.8..=1.0).contains(&plastic), "{plastic}");
+    for direction in ["linear", "angular"] {
+        let drift = results.summary["momentum_drift"][direction].as_f64().unwrap();
+        assert!(drift < 1e-12, "{direction}: {drift}");
+    }
 }
 
 #[test]

@@ -44,7 +44,7 @@ fn held(path: &Path, text: &str) {
 /// Messages that no short input of the program provokes, and why; all others have examples that are run.
 const IN_WORDS: &[(&str, &str)] = &[
     ("E0123", "only programs that make models themselves come to it: of a model file it is E0104, E0107 or E0110 before"),
-    ("E0208", "of a model file such lines are no surface but a set of nodes; crates/solver/src/mesh/surface.rs tests it"),
+    ("E0208", "of a model file such lines are no surface but a set of nodes; crates/solver/src/mesh/surface/plane.rs tests it"),
     ("E0301", "only programs that make models themselves come to it: of a model file it is E0107 before"),
     ("E0302", "only programs that make models themselves come to it: of a model file it is E0106 before"),
     ("E0603", "contact that makes energy is a fault of the solver rather than of a short model"),

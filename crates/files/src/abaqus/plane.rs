@@ -77,7 +77,7 @@ pub(super) fn mesh(deck: &Deck, text: &Text, scale: f64) -> Result<ImportedMesh,
     for (node, _) in used.iter().enumerate().filter(|(_, used)| **used) {
         dense[node] = positions.len() as u32;
         let [x, y, _] = deck.nodes[node].position;
-        positions.push([x * scale, y * scale]);
+        positions.push([x * scale, y * scale, 0.0]);
     }
     let names = names(deck);
     let mut groups = Vec::new();

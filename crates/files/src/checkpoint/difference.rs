@@ -267,7 +267,7 @@ mod tests {
     fn a_mesh_counts_by_its_numbers_and_text_reads_back() {
         let with = |x: f64| {
             let mut model = model();
-            model.meshes.push(Arc::new(ImportedMesh { source: "a.msh".into(), positions: vec![[x, 0.0]], groups: vec![] }));
+            model.meshes.push(Arc::new(ImportedMesh { source: "a.msh".into(), positions: vec![[x, 0.0, 0.0]], groups: vec![] }));
             Identity::of(&model)
         };
         assert_eq!(with(1.0), with(1.0));

@@ -236,7 +236,7 @@ impl<'a> Nodes<'a> {
         for (next, (node, _)) in (0..).zip(self.used.iter().enumerate().filter(|(_, used)| **used)) {
             dense[node] = next;
             let [x, y, _] = self.positions[node];
-            positions.push([x, y]);
+            positions.push([x, y, 0.0]);
         }
         let counter_clockwise = |cell: &Cell| {
             let mut nodes: Vec<u32> = cell.nodes().iter().map(|&node| dense[node as usize]).collect();

@@ -7,6 +7,8 @@ use super::tree::{Entry, Node, Place, Value};
 use super::value::{self, Datum, Wrong};
 use crate::model_file::messages::{FORM, MISSING_KEY, MISSING_SECTION, UNKNOWN_KEY};
 use embate_solver::block::stress_state::STRESS_STATES;
+use embate_solver::element::elements_of;
+use embate_solver::mesh::shapes::Shape;
 use embate_solver::mesh::shapes::Values;
 use embate_solver::model::describe::{
     Form, Key, Kind, MOVED, Need, Rule, SECTIONS, Section, TOP, nearest, section as section_by_name, suggestion,
@@ -65,7 +67,7 @@ impl Document {
     pub(super) fn single(&self, name: &str) -> Record {
         match (self.section(name).first(), section_by_name(name)) {
             (Some(record), _) => record.clone(),
-            (None, Some(section)) => Reader { vocabulary: &MODEL, faults: &mut Faults::default(), of_revolution: false }.table(
+            (None, Some(section)) => Reader { vocabulary: &MODEL, faults: &mut Faults::default(), of_whole: false }.table(
                 section,
                 &[],
                 name,
@@ -167,6 +169,10 @@ impl Values for Record {
         Self::vector(self, key)
     }
 
+    fn spatial(&self, key: &str) -> [f64; 3] {
+        Self::spatial(self, key)
+    }
+
     fn numbers(&self, key: &str) -> Vec<f64> {
         self.list(key)
     }
@@ -188,6 +194,15 @@ impl Values for Record {
         [0, 1].map(|index| values.get(index).copied().map_or(usize::MAX, whole))
     }
 
+    fn three_counts(&self, key: &str) -> [usize; 3] {
+        let Some(Datum::Integers(values)) = self.datum(key) else { return [usize::MAX; 3] };
+        [0, 1, 2].map(|index| values.get(index).copied().map_or(usize::MAX, whole))
+    }
+
+    fn text(&self, key: &str) -> String {
+        Self::text(self, key)
+    }
+
     fn flag(&self, key: &str) -> bool {
         self.is(key)
     }
@@ -199,7 +214,7 @@ fn whole(value: u64) -> usize {
 
 /// Reads all sections.
 pub(super) fn read(root: &Node, vocabulary: &Vocabulary, faults: &mut Faults) -> Document {
-    let mut reader = Reader { vocabulary, faults, of_revolution: is_axisymmetric(root) };
+    let mut reader = Reader { vocabulary, faults, of_whole: is_of_whole_bodies(root) };
     let mut document = Document::default();
     let Value::Table(entries) = &root.value else { return document };
     let (sections, others): (Vec<&Entry>, Vec<&Entry>) = entries.iter().partition(|entry| vocabulary.section(&entry.key).is_some());
@@ -231,25 +246,26 @@ pub(super) fn header(section: &Section) -> String {
 struct Reader<'a> {
     vocabulary: &'a Vocabulary,
     faults: &'a mut Faults,
-    /// Whether masses and forces are those of the whole circumference, and not per metre of depth.
-    of_revolution: bool,
+    /// Whether masses and forces are those of whole bodies (of revolution, or solid), and not per metre of depth.
+    of_whole: bool,
 }
 
-/// Whether a part says that it is one; those that don't agree are told later.
-fn is_axisymmetric(root: &Node) -> bool {
+/// Whether a part says that it is axisymmetric or a solid; those that don't agree are told later.
+fn is_of_whole_bodies(root: &Node) -> bool {
     let Value::Table(sections) = &root.value else { return false };
     let parts = sections.iter().filter(|section| section.key == "part").filter_map(|section| match &section.node.value {
         Value::List(parts) => Some(parts),
         _ => None,
     });
-    let says = |key: &Entry| {
-        key.key == "stress_state"
-            && matches!(&key.node.value, Value::Text(name) if STRESS_STATES.iter().any(|kind| kind.name == name && kind.axisymmetric))
+    let says = |key: &Entry| match &key.node.value {
+        Value::Text(name) if key.key == "stress_state" => STRESS_STATES.iter().any(|kind| kind.name == name && kind.axisymmetric),
+        Value::Text(name) if key.key == "element" => elements_of(3).iter().any(|kind| kind.name == name),
+        _ => Shape::is_solid_key(&key.key),
     };
     parts.flatten().any(|part| matches!(&part.value, Value::Table(keys) if keys.iter().any(says)))
 }
 
-/// A key of a body of revolution: without the metre of depth.
+/// A key of a whole body: without the metre of depth.
 fn all_around(key: &Key) -> Key {
     let whole = |dimension: Dimension| match dimension {
         Dimension::MASS_PER_LENGTH => Dimension::MASS,
@@ -346,7 +362,7 @@ impl Reader<'_> {
         if let (Kind::Table(section), Value::Table(entries)) = (key.kind, &node.value) {
             return Some(Datum::Table(Box::new(self.table(section, entries, path, node.place))));
         }
-        let key = if self.of_revolution { all_around(key) } else { *key };
+        let key = if self.of_whole { all_around(key) } else { *key };
         match value::read(&key, node, path) {
             Ok(datum) => Some(datum),
             Err(wrongs) => {

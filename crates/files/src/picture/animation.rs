@@ -1,8 +1,9 @@
 //! The moving picture: one palette for the film, made from the colour map, and per frame only the rectangle that changed.
 //! Canvases come from `film`, some at once; `lzw` packs what changed; bytes go to `animation.gif`.
 
-use super::body::Look;
-use super::colour::{BORDER, GRID, INK, MAP, NO_VALUE, Rgb, SOLID, TEXT, TEXT_FAINT, WHITE, mix};
+pub(super) use super::palette::{Indices, Palette};
+
+use super::palette::UNKNOWN;
 use super::raster::Canvas;
 use super::{PictureError, lzw};
 use crate::threads::{Rooms, Threads};
@@ -10,95 +11,6 @@ use gif::{DisposalMethod, Encoder, EncodingError, Frame, Repeat};
 use std::borrow::Cow;
 use std::io::Write;
 use std::path::Path;
-
-/// Colours of the film: the map itself, the map under element edges and outlines, the map fading into the white background, greys.
-#[derive(Clone, Debug)]
-pub(super) struct Palette {
-    colours: Vec<Rgb>,
-    /// Index for each colour of six bits a channel; `UNKNOWN` until it is first needed.
-    nearest: Vec<u8>,
-}
-
-/// Index that stands for "as in the frame before" in files, and for "not looked up" in the palette.
-const UNKNOWN: u8 = 255;
-
-impl Palette {
-    pub(super) fn new(looks: &[Look]) -> Self {
-        let edge = looks.iter().map(|look| look.edge).fold(0.0, f32::max);
-        let outline = looks.iter().map(|look| look.outline).fold(0.3, f32::max);
-        let mut colours = vec![WHITE, GRID, BORDER, SOLID, NO_VALUE, TEXT, TEXT_FAINT];
-        let of_map = |colours: &mut Vec<Rgb>, count: usize, over: Rgb, alpha: f32| {
-            colours.extend((0..count).map(|k| mix(MAP[k * (MAP.len() - 1) / (count - 1)], over, alpha)));
-        };
-        of_map(&mut colours, 96, INK, 0.0);
-        of_map(&mut colours, 40, INK, 0.85 * edge.max(0.1));
-        of_map(&mut colours, 32, INK, 0.5 * outline);
-        of_map(&mut colours, 14, INK, outline);
-        of_map(&mut colours, 28, WHITE, 0.5);
-        of_map(&mut colours, 8, WHITE, 0.8);
-        let greys = 255 - colours.len();
-        colours.extend((0..greys).map(|k| mix(INK, WHITE, (k as f32 + 0.5) / greys as f32)));
-        let mut palette = Self { colours, nearest: vec![UNKNOWN; 1 << 18] };
-        // Its own colours are found exactly; of those with the same six bits the first.
-        for index in (0..palette.colours.len()).rev() {
-            palette.nearest[key(palette.colours[index])] = index as u8;
-        }
-        palette
-    }
-
-    fn bytes(&self) -> Vec<u8> {
-        self.colours.as_flattened().to_vec()
-    }
-
-    #[inline]
-    fn index(&mut self, colour: Rgb) -> u8 {
-        let known = self.nearest[key(colour)];
-        if known == UNKNOWN { self.look_up(colour) } else { known }
-    }
-
-    #[cold]
-    fn look_up(&mut self, colour: Rgb) -> u8 {
-        let key = key(colour);
-        // The middle of the colours with these bits: which of them is asked for first must not matter.
-        let colour = colour.map(|c| c & !3 | 2);
-        let distance = |other: &Rgb| -> i32 { (0..3).map(|k| (i32::from(other[k]) - i32::from(colour[k])).pow(2)).sum() };
-        let best = self.colours.iter().enumerate().min_by_key(|(_, other)| distance(other));
-        self.nearest[key] = best.map_or(0, |(index, _)| index as u8);
-        self.nearest[key]
-    }
-}
-
-/// Six bits of each channel.
-fn key(colour: Rgb) -> usize {
-    colour.iter().fold(0, |key, c| key << 6 | usize::from(c >> 2))
-}
-
-/// The pixels of a frame as places in the palette, row by row.
-pub(super) type Indices = Vec<u8>;
-
-impl Palette {
-    /// A canvas in the colours of the palette. `like`: another one and its indices; rows that are the same are not looked up again.
-    pub(super) fn indices(&mut self, canvas: &Canvas, like: Option<(&Canvas, &[u8])>) -> Indices {
-        let mut indices = Vec::with_capacity(canvas.pixels.len());
-        let mut last = (WHITE, self.index(WHITE));
-        for (number, row) in canvas.pixels.chunks_exact(canvas.width.max(1)).enumerate() {
-            let range = number * canvas.width..(number + 1) * canvas.width;
-            if let Some((like, known)) = like
-                && like.pixels.get(range.clone()) == Some(row)
-            {
-                indices.extend_from_slice(&known[range]);
-                continue;
-            }
-            indices.extend(row.iter().map(|pixel| {
-                if *pixel != last.0 {
-                    last = (*pixel, self.index(*pixel));
-                }
-                last.1
-            }));
-        }
-        indices
-    }
-}
 
 /// A GIF that is being written.
 pub(super) struct Animation<'a> {
@@ -187,18 +99,7 @@ fn refused(path: &Path, error: EncodingError) -> PictureError {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_palette_is_full_and_knows_its_own_colours() {
-        let mut palette = Palette::new(&[]);
-        assert_eq!(palette.colours.len(), 255);
-        for colour in [WHITE, GRID, BORDER, MAP[0], MAP[255], TEXT] {
-            let index = usize::from(palette.index(colour));
-            let off: i32 = (0..3).map(|k| (i32::from(palette.colours[index][k]) - i32::from(colour[k])).abs()).sum();
-            assert!(off <= 6, "{colour:?} became {:?}", palette.colours[index]);
-        }
-        assert_eq!(palette.index(WHITE), 0);
-    }
+    use crate::picture::colour::MAP;
 
     #[test]
     fn only_what_changed_is_written_and_reading_gives_it_back() {

@@ -238,12 +238,12 @@ fn quad_area(c: &[[f32; 2]; 4]) -> f32 {
     (0.5 * ((c[2][0] - c[0][0]) * (c[3][1] - c[1][1]) - (c[2][1] - c[0][1]) * (c[3][0] - c[1][0]))).abs()
 }
 
-fn floats(colour: colour::Rgb) -> [f32; 3] {
+pub(super) fn floats(colour: colour::Rgb) -> [f32; 3] {
     colour.map(f32::from)
 }
 
 /// Position in the map; none for NaN.
-fn level(value: f32, range: [f64; 2]) -> Option<f32> {
+pub(super) fn level(value: f32, range: [f64; 2]) -> Option<f32> {
     let level = (f64::from(value) - range[0]) / (range[1] - range[0]) * (LEVELS - 1) as f64;
     (!level.is_nan()).then(|| level.clamp(0.0, (LEVELS - 1) as f64) as f32)
 }

@@ -51,6 +51,10 @@ impl Scalar {
                 let squares = (xx - yy).powi(2) + (yy - zz).powi(2) + (zz - xx).powi(2);
                 (0.5 * squares + 3.0 * xy * xy).sqrt()
             }
+            (None, [xx, yy, zz, xy, yz, zx]) => {
+                let squares = (xx - yy).powi(2) + (yy - zz).powi(2) + (zz - xx).powi(2);
+                (0.5 * squares + 3.0 * (xy * xy + yz * yz + zx * zx)).sqrt()
+            }
             (None, vector) => vector.iter().map(|v| v * v).sum::<f64>().sqrt(),
         }
     }
@@ -90,7 +94,7 @@ pub(super) fn names(fields: &[Field]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use embate_solver::output::field_kind;
+    use embate_solver::output::{field_kind, fields_of};
 
     fn frame(fields: &[(&str, &[f64])]) -> Frame {
         let fields = fields.iter().map(|(name, values)| Field { kind: field_kind(name).unwrap(), values: values.to_vec() }).collect();
@@ -111,6 +115,19 @@ mod tests {
         let frame = frame(&[("stress", &[7.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2.0])]);
         let values = Scalar::named(&frame, "stress").unwrap().values(&frame);
         assert!((values[0] - 7.0).abs() < 1e-6 && (values[1] - 12f32.sqrt()).abs() < 1e-6, "{values:?}");
+    }
+
+    #[test]
+    fn a_stress_of_space_shows_its_equivalent_value_and_a_velocity_has_a_third_component() {
+        let named = |name: &str, values: &[f64]| Field {
+            kind: fields_of(3).iter().find(|kind| kind.name == name).unwrap(),
+            values: values.to_vec(),
+        };
+        let fields = vec![named("velocity", &[2.0, -3.0, 6.0]), named("stress", &[7.0, 0.0, 0.0, 0.0, 2.0, 0.0])];
+        let frame = Frame { fields, ..Frame::of(&[[0.0; 3]]) };
+        let value = |name: &str| Scalar::named(&frame, name).unwrap().values(&frame)[0];
+        assert_eq!((value("velocity"), value("velocity.z"), value("stress.yz")), (7.0, 6.0, 2.0));
+        assert!((value("stress") - 61f32.sqrt()).abs() < 1e-6);
     }
 
     #[test]

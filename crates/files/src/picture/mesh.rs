@@ -3,10 +3,14 @@
 
 use super::body::{Mesh, Values};
 use super::film::FilmSettings;
-use super::scene::{Key, Moment, Plan, Scene};
-use super::view::{self, NOTHING, joined, mirrored};
+use super::raster::Canvas;
+use super::scene::{self, Scene};
+use super::sheet::{Key, Plan};
+use super::space::obstacle::{Shape, Solid};
+use super::space::{self, Sight, Skinner};
+use super::view::{self, NOTHING, joined, mirrored, nothing};
 use super::{PictureError, write_png};
-use crate::outline::LineReader;
+use crate::outline::{Extent, LineReader};
 use embate_solver::output::{Cells, Frame};
 use std::path::Path;
 
@@ -15,22 +19,66 @@ use std::path::Path;
 /// # Errors
 /// [`PictureError::Io`] and [`PictureError::Encode`] if the file can't be written.
 pub fn mesh_png(frame: &Frame, cells: &Cells, settings: &FilmSettings, path: &Path) -> Result<(), PictureError> {
+    let canvas = if frame.dimension == 3 { in_space(frame, cells, settings) } else { in_plane(frame, cells, settings) };
+    write_png(&canvas, path)
+}
+
+/// What stands in the picture besides the mesh.
+fn plan<'a>(cells: &Cells, settings: &'a FilmSettings, view: Extent, sides: [f64; 2], note: &'a str) -> Plan<'a> {
+    let size = [settings.width, settings.height];
+    Plan { title: &settings.title, mirror: settings.mirror, sides, size, view, key: Key::Parts(cells.part_names.clone()), note }
+}
+
+/// How many elements and nodes there are.
+fn note(elements: usize, frame: &Frame) -> String {
+    let count = |number: usize, what: &str| format!("{number} {what}{}", if number == 1 { "" } else { "s" });
+    format!("{}, {}", count(elements, "element"), count(frame.nodes(), "node"))
+}
+
+/// Finite positions.
+fn finite<const D: usize>(frame: &Frame) -> impl Iterator<Item = &[f64; D]> {
+    frame.positions::<D>().iter().filter(|p| p.iter().all(|v| v.is_finite()))
+}
+
+/// Positions from the first finite one, and that one.
+fn from_origin<const D: usize>(places: impl Iterator<Item = [f64; D]>, frame: &Frame) -> (Vec<[f32; D]>, [f64; D]) {
+    let origin = finite(frame).next().copied().unwrap_or([0.0; D]);
+    (places.map(|p| std::array::from_fn(|k| (p[k] - origin[k]) as f32)).collect(), origin)
+}
+
+fn in_plane(frame: &Frame, cells: &Cells, settings: &FilmSettings) -> Canvas {
     let mesh = Mesh::new(cells);
-    let finite = || frame.positions::<2>().iter().filter(|p| p.iter().all(|v| v.is_finite()));
-    let origin = finite().next().copied().unwrap_or_default();
-    let bodies = finite().fold(NOTHING, |view, p| joined(view, [*p, *p]));
+    let bodies = finite::<2>(frame).fold(NOTHING, |view, p| joined(view, [*p, *p]));
     let obstacles = LineReader::default().lines(frame);
     let nodes = frame.positions::<2>().iter().copied();
+    let mirror = [settings.mirror[0], settings.mirror[1]];
     let sides = view::sides(nodes.clone());
-    let seen = view::obstacles(&obstacles, nodes, bodies, view::room(bodies, settings.mirror, sides));
-    let view = mirrored(joined(bodies, seen), settings.mirror);
-    let count = |number: usize, what: &str| format!("{number} {what}{}", if number == 1 { "" } else { "s" });
-    let note = format!("{}, {}", count(mesh.len(), "element"), count(frame.positions::<2>().len(), "node"));
-    let size = [settings.width, settings.height];
-    let key = Key::Parts(cells.part_names.clone());
-    let mut scene = Scene::new(&Plan { title: &settings.title, mirror: settings.mirror, sides, size, view, key, note: &note });
-    let positions: Vec<[f32; 2]> = frame.positions::<2>().iter().map(|p| [(p[0] - origin[0]) as f32, (p[1] - origin[1]) as f32]).collect();
+    let seen = view::obstacles(&obstacles, nodes.clone(), bodies, view::room(bodies, mirror, sides));
+    let note = note(mesh.len(), frame);
+    let mut scene = Scene::new(&plan(cells, settings, mirrored(joined(bodies, seen), mirror), sides, &note));
+    let (positions, origin) = from_origin(nodes, frame);
     let mut canvas = scene.still().clone();
-    scene.draw(&mesh, &Moment { positions: &positions, origin, obstacles: &obstacles, values: Values::Parts, note: &note }, &mut canvas);
-    write_png(&canvas, path)
+    let moment = scene::Moment { positions: &positions, origin, obstacles: &obstacles, values: Values::Parts, note: &note };
+    scene.draw(&mesh, &moment, &mut canvas);
+    canvas
+}
+
+fn in_space(frame: &Frame, cells: &Cells, settings: &FilmSettings) -> Canvas {
+    let places = frame.positions::<3>();
+    let place = |node: u32| places.get(node as usize).copied().unwrap_or([f64::NAN; 3]);
+    let skin = Skinner::new(cells, &place).skin(cells, &[]);
+    let own = finite::<3>(frame).fold(nothing(), |view, p| joined(view, [*p, *p]));
+    let bodies = mirrored(own, settings.mirror);
+    let surfaces = LineReader::default().surfaces(frame);
+    let obstacles: Vec<Solid> = surfaces.iter().filter_map(|surface| Shape::of(surface).solid(&surface.points, bodies)).collect();
+    let sight = Sight::new(&settings.camera, settings.mirror);
+    let (positions, origin) = from_origin(skin.nodes.iter().map(|&node| place(node)), frame);
+    let seen = finite::<3>(frame).copied().chain(obstacles.iter().flat_map(|obstacle| obstacle.seen(bodies)));
+    let view = sight.aimed(sight.view(seen));
+    let note = note(cells.len(), frame);
+    let mut scene = space::Scene::new(&plan(cells, settings, view, [1.0; 2], &note), &sight);
+    let mut canvas = scene.still().clone();
+    let moment = space::Moment { skin: &skin, positions: &positions, origin, obstacles: &obstacles, values: Values::Parts, note: &note };
+    scene.draw(&moment, &mut canvas);
+    canvas
 }

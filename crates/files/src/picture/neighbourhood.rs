@@ -82,7 +82,7 @@ impl<'a> Scene<'a> {
         let reach = |moment: &Moment| {
             let centre = centre(near, moment);
             let rings = near.cells.iter().filter(|cell| cell.ring.is_some());
-            let far = rings.flat_map(|cell| &cell.nodes).map(|&node| moment.positions[node]).filter(|x| is_finite(*x));
+            let far = rings.flat_map(|cell| &cell.nodes).map(|&node| seen(moment.positions[node])).filter(|x| is_finite(*x));
             far.fold([[0.0; 2]; 2], |[low, high]: [[f64; 2]; 2], x| {
                 [[0, 1].map(|k| low[k].min(x[k] - centre[k])), [0, 1].map(|k| high[k].max(x[k] - centre[k]))]
             })
@@ -133,7 +133,7 @@ impl<'a> Scene<'a> {
         let mut labels = Vec::new();
         // The culprit's own last, so that its line lies above those of others.
         for (k, cell) in self.near.cells.iter().enumerate().rev() {
-            let corners: Vec<[f64; 2]> = cell.nodes.iter().map(|&node| moment.positions[node]).collect();
+            let corners: Vec<[f64; 2]> = cell.nodes.iter().map(|&node| seen(moment.positions[node])).collect();
             if !corners.iter().all(|x| is_finite(*x)) {
                 continue;
             }
@@ -172,12 +172,13 @@ impl<'a> Scene<'a> {
     /// Contact forces as arrows that end at their nodes.
     fn forces(&self, out: &mut String, moment: &Moment, place: &impl Fn([f64; 2]) -> [f64; 2]) {
         let colour = hex(DISTINCT[3]);
-        for (x, force) in moment.positions.iter().zip(&moment.forces) {
+        for (&x, &force) in moment.positions.iter().zip(&moment.forces) {
+            let (x, force) = (seen(x), seen(force));
             let size = force[0].hypot(force[1]);
-            if self.force <= 0.0 || !size.is_finite() || size < 0.02 * self.force || !is_finite(*x) {
+            if self.force <= 0.0 || !size.is_finite() || size < 0.02 * self.force || !is_finite(x) {
                 continue;
             }
-            let tip = place(*x);
+            let tip = place(x);
             let (length, along) = (12.0 + 50.0 * size / self.force, [force[0] / size, -force[1] / size]);
             let tail = [0, 1].map(|k| tip[k] - length * along[k]);
             let side = [-along[1], along[0]];
@@ -195,7 +196,7 @@ impl<'a> Scene<'a> {
     fn mark(&self, out: &mut String, moment: &Moment, [left, top]: [f64; 2], place: &impl Fn([f64; 2]) -> [f64; 2], mark: &str) {
         let at = place(centre(self.near, moment));
         let colour = hex(CULPRIT);
-        if let Some(x) = self.near.node.map(|node| moment.positions[node]).filter(|x| is_finite(*x)) {
+        if let Some(x) = self.near.node.map(|node| seen(moment.positions[node])).filter(|x| is_finite(*x)) {
             let [x, y] = place(x);
             let _ = writeln!(out, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"7\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"3.5\"/>");
         }
@@ -330,17 +331,22 @@ fn is_finite(x: [f64; 2]) -> bool {
     x.iter().all(|v| v.is_finite())
 }
 
+/// A vector of a model of the plane.
+fn seen([x, y, _]: [f64; 3]) -> [f64; 2] {
+    [x, y]
+}
+
 /// Middle of a panel: the culprit's node, or the mean of its element's.
 fn centre(near: &Neighbourhood, moment: &Moment) -> [f64; 2] {
     let of_node = near.node.map(|node| vec![node]);
     let nodes = of_node.or_else(|| near.element.map(|element| near.cells[element].nodes.clone())).unwrap_or_default();
-    let all = nodes.iter().map(|&node| moment.positions[node]).filter(|x| is_finite(*x));
+    let all = nodes.iter().map(|&node| seen(moment.positions[node])).filter(|x| is_finite(*x));
     let (count, sum) = all.fold((0.0, [0.0; 2]), |(count, sum), x| (count + 1.0, [sum[0] + x[0], sum[1] + x[1]]));
     if count > 0.0 {
         return sum.map(|v| v / count);
     }
     // Where the culprit is nowhere any more: the mean of what is left.
-    let left: Vec<[f64; 2]> = moment.positions.iter().copied().filter(|x| is_finite(*x)).collect();
+    let left: Vec<[f64; 2]> = moment.positions.iter().map(|&x| seen(x)).filter(|x| is_finite(*x)).collect();
     [0, 1].map(|k| left.iter().map(|x| x[k]).sum::<f64>() / left.len().max(1) as f64)
 }
 

@@ -3,7 +3,12 @@
 
 use crate::outline::{Extent, Line};
 
-pub(super) const NOTHING: Extent = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+pub(super) const NOTHING: Extent = nothing();
+
+/// The box of no points.
+pub(super) const fn nothing<const D: usize>() -> Extent<D> {
+    [[f64::INFINITY; D], [f64::NEG_INFINITY; D]]
+}
 
 /// Obstacles with ends are shown whole if they are at most so many times as large as the bodies.
 const WHOLE: f64 = 2.0;
@@ -15,20 +20,20 @@ const NEAR: f64 = 0.35;
 const LOOKS_MAX: usize = 20_000;
 
 /// The box around both.
-pub(super) fn joined(a: Extent, b: Extent) -> Extent {
-    [[a[0][0].min(b[0][0]), a[0][1].min(b[0][1])], [a[1][0].max(b[1][0]), a[1][1].max(b[1][1])]]
+pub(super) fn joined<const D: usize>(a: Extent<D>, b: Extent<D>) -> Extent<D> {
+    [std::array::from_fn(|k| a[0][k].min(b[0][k])), std::array::from_fn(|k| a[1][k].max(b[1][k]))]
 }
 
 /// The longer side.
-pub(super) fn size(view: Extent) -> f64 {
-    (view[1][0] - view[0][0]).max(view[1][1] - view[0][1])
+pub(super) fn size<const D: usize>(view: Extent<D>) -> f64 {
+    (1..D).map(|k| view[1][k] - view[0][k]).fold(view[1][0] - view[0][0], f64::max)
 }
 
 /// Box of finite points without the share `trim` of them at each end of each axis.
-pub(super) fn extent<'a>(points: impl Iterator<Item = &'a [f32; 2]> + Clone, trim: f64) -> Extent {
-    let mut bounds = NOTHING;
-    for axis in 0..2 {
-        let finite = points.clone().filter(|p| p[0].is_finite() && p[1].is_finite()).map(|p| f64::from(p[axis]));
+pub(super) fn extent<'a, const D: usize>(points: impl Iterator<Item = &'a [f32; D]> + Clone, trim: f64) -> Extent<D> {
+    let mut bounds = nothing();
+    for axis in 0..D {
+        let finite = points.clone().filter(|p| p.iter().all(|v| v.is_finite())).map(|p| f64::from(p[axis]));
         if trim == 0.0 {
             (bounds[0][axis], bounds[1][axis]) =
                 finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
@@ -45,8 +50,8 @@ pub(super) fn extent<'a>(points: impl Iterator<Item = &'a [f32; 2]> + Clone, tri
 }
 
 /// The box and its mirror images.
-pub(super) fn mirrored(mut view: Extent, mirror: [bool; 2]) -> Extent {
-    for axis in 0..2 {
+pub(super) fn mirrored<const D: usize>(mut view: Extent<D>, mirror: [bool; D]) -> Extent<D> {
+    for axis in 0..D {
         if mirror[axis] {
             let far = view[0][axis].abs().max(view[1][axis].abs());
             (view[0][axis], view[1][axis]) = (-far, far);

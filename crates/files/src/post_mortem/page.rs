@@ -32,15 +32,16 @@ pub(super) fn shown(value: f64, si: &str) -> String {
     format!("{text} {}", unit.name).trim_end().to_string()
 }
 
-/// A point with its unit.
-pub(super) fn point([x, y]: [f64; 2]) -> String {
-    let unit = unit("m", x.abs().max(y.abs()));
+/// A point with its unit, by so many components.
+pub(super) fn point(x: [f64; 3], dimension: usize) -> String {
+    let unit = unit("m", x.iter().fold(0.0, |most: f64, x| most.max(x.abs())));
     let number = |value: f64| {
         // No minus before nothing.
         let text = format!("{:.4}", (1e4 * value * unit.factor).round() / 1e4 + 0.0);
         text.trim_end_matches('0').trim_end_matches('.').to_string()
     };
-    format!("({}, {}) {}", number(x), number(y), unit.name)
+    let components: Vec<String> = x[..dimension].iter().map(|&x| number(x)).collect();
+    format!("({}) {}", components.join(", "), unit.name)
 }
 
 /// A row of a table; what stands in it keeps to its cell.
@@ -83,12 +84,14 @@ pub(super) fn of_run(failed: &Failed<'_>, findings: &Findings) -> Files {
     let depth = if round { "N" } else { "N/m" };
     let mark = mark(&case.culprit);
     let mut files: Files = Vec::new();
-    if let Some(at) = case.culprit.at().filter(|at| at.iter().all(|v| v.is_finite())) {
+    // Pictures of the place are those of the plane.
+    let is_plane = simulation.dimension() == 2;
+    if let Some(at) = case.culprit.at().filter(|at| is_plane && at.iter().all(|v| v.is_finite())) {
         let frame = simulation.frame();
-        let title = format!("{name} – where: {}", point(at));
-        files.push(("place.svg", place(&title, &simulation.cells(), frame.positions::<2>(), &frame.outlines, at, &mark)));
+        let title = format!("{name} – where: {}", point(at, 2));
+        files.push(("place.svg", place(&title, &simulation.cells(), frame.positions::<2>(), &frame.outlines, [at[0], at[1]], &mark)));
     }
-    if !trace.near.cells.is_empty() {
+    if is_plane && !trace.near.cells.is_empty() {
         let title = format!("{name} – {} and the elements around it", case.culprit);
         files.push(("neighbourhood.svg", neighbourhood(&title, &trace.near, &panels(failed, trace), &mark, depth)));
     }
@@ -176,7 +179,7 @@ fn facts(case: &Case<'_>) -> Vec<Vec<String>> {
     let simulation = case.failed.simulation;
     let line = |name: &str, value: String| vec![name.to_string(), value];
     let mut rows = vec![line("**culprit**", format!("**{}**", case.culprit))];
-    rows.extend(case.culprit.at().map(|at| line("place", point(at))));
+    rows.extend(case.culprit.at().map(|at| line("place", point(at, simulation.dimension()))));
     rows.push(line(
         "time",
         format!("{} ({:.6e} s) of {}", shown(simulation.time(), "s"), simulation.time(), shown(case.failed.model.run.end, "s")),
@@ -358,7 +361,8 @@ mod tests {
         assert_eq!(shown(-0.13364, ""), "-0.1336");
         assert_eq!(shown(-0.0, "Pa"), "0 Pa");
         assert_eq!(shown(f64::NAN, "s"), "no number");
-        assert_eq!(point([0.0056441, 0.0191813]), "(5.6441, 19.1813) mm");
+        assert_eq!(point([0.0056441, 0.0191813, 0.0], 2), "(5.6441, 19.1813) mm");
+        assert_eq!(point([0.0056441, 0.0191813, 0.0], 3), "(5.6441, 19.1813, 0) mm");
     }
 
     #[test]

@@ -39,10 +39,13 @@ fn of_mass(loaded: &Loaded, fault: &Fault, needed: &MassNeeded) -> Files {
     trace.moments.iter_mut().for_each(|moment| moment.values.clone_from(&shares));
     let mark = needed.heaviest.first().map_or(String::new(), |it| format!("element {}", it.element));
     let depth = if model.is_axisymmetric() { "N" } else { "N/m" };
-    if let (Some(worst), Some(moment)) = (needed.heaviest.first(), trace.moments.first()) {
+    if let (Some(worst), Some(moment), 2) = (needed.heaviest.first(), trace.moments.first(), model.dimension()) {
         let frame = simulation.frame();
-        let title = format!("{} – where most mass is needed: {}", model.name, point(worst.at));
-        files.push(("place.svg", place(&title, &simulation.cells(), frame.positions::<2>(), &frame.outlines, worst.at, &mark)));
+        let title = format!("{} – where most mass is needed: {}", model.name, point(worst.at, 2));
+        files.push((
+            "place.svg",
+            place(&title, &simulation.cells(), frame.positions::<2>(), &frame.outlines, [worst.at[0], worst.at[1]], &mark),
+        ));
         let title = format!("{} – element {} of part \"{}\" and the elements around it", model.name, worst.element, worst.part);
         let panel = Panel { title: "at the start".into(), remark: format!("its step is {}", shown(worst.time_step, "s")), moment };
         files.push(("neighbourhood.svg", neighbourhood(&title, &trace.near, &[panel], &mark, depth)));
@@ -75,12 +78,14 @@ fn mass_text(loaded: &Loaded, fault: &Fault, needed: &MassNeeded) -> String {
                         percent(worst.added / worst.mass)
                     ),
                 ],
-                vec!["place".into(), point(worst.at)],
+                vec!["place".into(), point(worst.at, model.dimension())],
                 vec!["its stable step (`safety` included)".into(), shown(worst.time_step, "s")],
                 vec!["step that is asked for".into(), shown(needed.scaling.time_step, "s")],
             ],
         );
-        text.push_str("\n![Where it is](place.svg)\n\n![The neighbourhood](neighbourhood.svg)\n\n");
+        if model.dimension() == 2 {
+            text.push_str("\n![Where it is](place.svg)\n\n![The neighbourhood](neighbourhood.svg)\n\n");
+        }
         let parts = &needed.parts;
         let most = parts.iter().max_by(|a, b| a.added.total_cmp(&b.added));
         if let Some((index, part)) = most.and_then(|most| Some((model.parts.iter().position(|part| part.name == most.part)?, most))) {
@@ -107,7 +112,7 @@ fn mass_text(loaded: &Loaded, fault: &Fault, needed: &MassNeeded) -> String {
             vec![
                 it.element.to_string(),
                 it.part.clone(),
-                point(it.at),
+                point(it.at, model.dimension()),
                 shown(it.time_step, "s"),
                 shown(it.mass, si),
                 format!("{} ({})", shown(it.added, si), percent(it.added / it.mass)),
@@ -170,13 +175,5 @@ fn memory_text(loaded: &Loaded, fault: &Fault) -> String {
 
 /// Elements of each part.
 fn counts(model: &Model) -> Vec<u128> {
-    let group = |mesh: usize, name: &str, dimension: u8| {
-        let groups = model.meshes.get(mesh).map_or(&[][..], |mesh| &mesh.groups);
-        groups.iter().find(|group| group.name == name && group.dimension == dimension).map_or(0, |group| group.cells.len() as u128)
-    };
-    let of = |part: &embate_solver::model::Part| match &part.shape {
-        embate_solver::model::Shape::Group { mesh, group: name } => group(*mesh, name, part.cells_dimension()),
-        _ => part.count().map_or(0, |count| count.elements as u128),
-    };
-    model.parts.iter().map(of).collect()
+    model.parts.iter().map(|part| model.element_count(part)).collect()
 }

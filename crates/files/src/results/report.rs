@@ -57,8 +57,8 @@ pub struct FirstEroded {
     pub part: String,
     /// Its number in the part.
     pub element: usize,
-    /// Its place when it failed, m.
-    pub at: [f64; 2],
+    /// Its place when it failed, m: two components in the plane, three in space.
+    pub at: Vec<f64>,
     /// When it failed, s.
     pub time: f64,
     /// By which criterion.
@@ -138,9 +138,9 @@ fn texts<S: serde::Serializer>(notices: &[Notice], serializer: S) -> Result<S::O
     serializer.collect_seq(notices.iter().map(ToString::to_string))
 }
 
-fn erosion(erosion: &embate_solver::output::Erosion) -> Erosion {
+fn erosion(erosion: &embate_solver::output::Erosion, dimension: usize) -> Erosion {
     let Eroded { part, element, at, time, criterion } = erosion.first.clone();
-    let first = FirstEroded { part, element, at, time, criterion: criterion.to_string() };
+    let first = FirstEroded { part, element, at: at[..dimension].to_vec(), time, criterion: criterion.to_string() };
     Erosion { elements: erosion.elements.iter().cloned().collect(), mass_loose: erosion.mass_loose, first }
 }
 
@@ -179,7 +179,7 @@ impl Report {
                 unverified: summary.contact.unverified,
             },
             mass_added: (summary.mass_added != 0.0).then_some(summary.mass_added),
-            erosion: summary.erosion.as_ref().map(erosion),
+            erosion: summary.erosion.as_ref().map(|it| erosion(it, summary.dimension)),
             state_hash: summary.state_hash.clone(),
             warnings: summary.warnings.clone(),
         }

@@ -20,6 +20,6 @@ pub struct Told {
     /// Whether each frame has a file of obstacles.
     pub(super) has_obstacles: bool,
     /// Box of all nodes of all frames so far, and from where on a line counts as endless, m.
-    pub(super) extent: Option<Extent>,
+    pub(super) extent: Option<Extent<3>>,
     pub(super) far: Option<f64>,
 }

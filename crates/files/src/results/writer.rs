@@ -9,7 +9,7 @@ use super::ran::Ran;
 use super::told::Told;
 use super::{HASHES, ResultsError};
 use crate::checkpoint::{Checkpoint, Identity, Origin};
-use crate::outline::{Extent, LineReader};
+use crate::outline::{Extent, LineReader, Surface};
 use crate::picture::{self, Film, FilmSettings};
 use crate::threads::Threads;
 use crate::vtu::{self, VtuWriter};
@@ -247,6 +247,7 @@ pub fn film_settings(model: &Model) -> FilmSettings {
         rigid: model.parts.iter().map(|part| part.rigid.is_some()).collect(),
         mirror: model.output.mirror,
         view: model.output.picture_view.map(|view| [view.corner, [0, 1].map(|k| view.corner[k] + view.size[k])]),
+        camera: model.output.camera.unwrap_or_default(),
         of_revolution: model.is_axisymmetric(),
         ..FilmSettings::default()
     }
@@ -329,7 +330,7 @@ impl Frames {
 struct Obstacles {
     lines: LineReader,
     /// Box of all nodes of all frames so far: lines without end reach across it.
-    extent: Option<Extent>,
+    extent: Option<Extent<3>>,
     written: Vec<(f64, String)>,
 }
 
@@ -338,14 +339,22 @@ impl Obstacles {
         if frame.outlines.is_empty() {
             return Ok(());
         }
-        for p in frame.positions::<2>().iter().filter(|p| p.iter().all(|v| v.is_finite())) {
-            let [low, high] = self.extent.unwrap_or([*p, *p]);
-            self.extent = Some([[0, 1].map(|k| low[k].min(p[k])), [0, 1].map(|k| high[k].max(p[k]))]);
+        let places = (0..frame.nodes()).map(|node| frame.place(node));
+        for p in places.filter(|p| p.iter().all(|v| v.is_finite())) {
+            let [low, high] = self.extent.unwrap_or([p, p]);
+            self.extent = Some([[0, 1, 2].map(|k| low[k].min(p[k])), [0, 1, 2].map(|k| high[k].max(p[k]))]);
         }
         let near = self.extent.unwrap_or_default();
-        let lines: Vec<Vec<[f64; 2]>> = self.lines.lines(frame).iter().map(|line| line.piece(near)).collect();
         let name = ResultFolder::obstacles_name(number);
-        write_whole_in_pieces(&folder.path().join(&name), |out| vtu::write_obstacles(&lines, frame.time, out))?;
+        let path = folder.path().join(&name);
+        if frame.dimension == 3 {
+            let surfaces: Vec<Surface> = self.lines.surfaces(frame).iter().map(|surface| surface.piece(near)).collect();
+            write_whole_in_pieces(&path, |out| vtu::write_surfaces(&surfaces, frame.time, out))?;
+        } else {
+            let near = near.map(|[x, y, _]| [x, y]);
+            let lines: Vec<Vec<[f64; 2]>> = self.lines.lines(frame).iter().map(|line| line.piece(near)).collect();
+            write_whole_in_pieces(&path, |out| vtu::write_obstacles(&lines, frame.time, out))?;
+        }
         self.written.push((frame.time, name));
         Ok(())
     }

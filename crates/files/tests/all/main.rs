@@ -7,6 +7,7 @@ mod damaged_state;
 mod gmsh;
 mod model_file;
 mod picture;
+mod picture_space;
 mod post_mortem;
 mod reach;
 mod results;

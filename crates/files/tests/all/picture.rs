@@ -81,7 +81,7 @@ fn state(t: f64) -> Frame {
 }
 
 fn settings() -> FilmSettings {
-    FilmSettings { title: "Tube against plate".into(), mirror: [true, false], ..FilmSettings::default() }
+    FilmSettings { title: "Tube against plate".into(), mirror: [true, false, false], ..FilmSettings::default() }
 }
 
 fn film(settings: FilmSettings, frames: usize) -> Film {
@@ -235,7 +235,7 @@ fn outlines(t: f64) -> Vec<Outline> {
 
 #[test]
 fn obstacles_are_seen_on_their_solid_side_in_film_and_picture() {
-    for (name, mirror) in [("whole", [false; 2]), ("mirrored", [true, false])] {
+    for (name, mirror) in [("whole", [false; 3]), ("mirrored", [true, false, false])] {
         let folder = folder(&format!("obstacles-{name}"));
         let mut film = Film::new(cells(), FilmSettings { mirror, ..settings() });
         for k in 0..=10 {
@@ -339,7 +339,7 @@ fn strange_frames_give_a_picture_and_no_panic() {
     for (name, frames) in cases {
         for size in [[960, 720], [1, 1], [240, 5000]] {
             let folder = folder(&format!("strange-{name}"));
-            let settings = FilmSettings { width: size[0], height: size[1], mirror: [true; 2], ..settings() };
+            let settings = FilmSettings { width: size[0], height: size[1], mirror: [true, true, false], ..settings() };
             let mut film = Film::new(cells(), settings.clone());
             frames.iter().for_each(|frame| film.add(frame));
             film.finish(&folder, &Threads::one()).unwrap_or_else(|e| panic!("{name}: {e}"));
@@ -351,7 +351,7 @@ fn strange_frames_give_a_picture_and_no_panic() {
 #[test]
 fn the_mesh_picture_shows_every_part_in_its_colour() {
     let folder = folder("mesh");
-    mesh_png(&state(0.0), &cells(), &FilmSettings { mirror: [false; 2], ..settings() }, &folder.join("mesh.png")).unwrap();
+    mesh_png(&state(0.0), &cells(), &FilmSettings { mirror: [false; 3], ..settings() }, &folder.join("mesh.png")).unwrap();
     let picture = Picture::read(&folder.join("mesh.png"));
     let count = |is: &dyn Fn([u8; 3]) -> bool| {
         (0..picture.height).flat_map(|y| (0..picture.width).map(move |x| (x, y))).filter(|(x, y)| is(picture.at(*x, *y))).count()

@@ -56,6 +56,7 @@ fn frame(step: u64) -> Frame {
 
 fn summary(steps: u64) -> Summary {
     Summary {
+        dimension: 2,
         elements: 2,
         nodes: 5,
         steps,

@@ -1,11 +1,12 @@
 //! Rates of kernels and of whole steps, in element-steps per second, and what contact adds to a step.
 
 use super::bodies::{Patch, material, spinning_block};
-use crate::block::{BlockInput, Motion, make};
+use crate::block::{BlockInput, Blocks, Motion, make};
 use crate::error::{Error, Fault};
 use crate::model::Model;
 use crate::model::messages::UNKNOWN_NAME;
 use crate::simulation::{Options, Simulation};
+use crate::tensor::Dim;
 use embate_lanes::{Level, Team};
 use std::hint::black_box;
 use std::time::Instant;
@@ -45,12 +46,15 @@ pub fn shortest(rounds: usize, mut work: impl FnMut()) -> f64 {
 ///
 /// # Errors
 /// An element or law that is not in its registry.
-pub fn kernel(element: &str, law: &str, patch: &Patch, level: Level, seconds: f64) -> Result<f64, Error> {
+pub fn kernel<const D: usize>(element: &str, law: &str, patch: &Patch<D>, level: Level, seconds: f64) -> Result<f64, Error>
+where
+    Dim<D>: Blocks<D>,
+{
     let material = material(law);
     let input = BlockInput::new(element, &material, &patch.connectivity, &patch.positions);
     let unknown = || Error::Model(vec![Fault::new(&UNKNOWN_NAME, "", format!("there is no block of `{element}` with `{law}`"), "")]);
     let mut block = make(&input).ok_or_else(unknown)?;
-    let (mut slots, mut team) = (vec![[0.0; 2]; block.slots().len()], Team::alone());
+    let (mut slots, mut team) = (vec![[0.0; D]; block.slots().len()], Team::alone());
     let motion = Motion { positions: &patch.positions, velocities: &patch.velocities, time_step: 1e-7 };
     // Long steps first, so that metals flow in every step that is measured.
     let first = Motion { time_step: 1e-5, ..motion };
@@ -164,6 +168,15 @@ mod tests {
                 let rate = step(element, law, 16, Size::Small, &Options::default(), 0.0).unwrap();
                 assert!(rate.is_finite() && rate > 0.0, "{element} {law}");
             }
+        }
+    }
+
+    #[test]
+    fn every_element_of_space_can_be_measured_in_a_kernel() {
+        for kind in crate::element::ELEMENTS_OF_SPACE {
+            let patch = Patch::solid(kind.nodes, 3);
+            let rate = kernel(kind.name, "j2", &patch, Level::best(), 0.0).unwrap();
+            assert!(rate.is_finite() && rate > 0.0, "{}", kind.name);
         }
     }
 

@@ -183,8 +183,8 @@ struct Look<'a> {
 }
 
 impl Seen for Look<'_> {
-    fn stress(&self) -> [Batch; 4] {
-        std::array::from_fn(|c| self.bars.stress[self.batch * PLANE + c])
+    fn stress(&self) -> [Batch; 6] {
+        std::array::from_fn(|c| if c < PLANE { self.bars.stress[self.batch * PLANE + c] } else { Batch::default() })
     }
     fn variable(&self, variable: Variable) -> Batch {
         let place = self.bars.law.place(variable);

@@ -15,7 +15,7 @@ use super::stress_state::StressState;
 use super::strip::{Every, STRIP, Shape, Strip};
 use super::{Block, ElementState, Initial, Motion, Report, Wrong};
 use crate::archive::{Archive, Keep, Kept};
-use crate::element::Element;
+use crate::element::{Element, map_of};
 use crate::failure::Criterion;
 use crate::material::Family;
 use crate::material::points::{PointLaw, Points, RESPONSE};
@@ -109,7 +109,7 @@ where
 
     /// Widths of a batch in stress, history, initial geometry and hourglass memory.
     pub(super) fn widths(&self) -> [usize; 4] {
-        let initial = if self.law.family() == Family::Hyperelastic { P * initial_width::<S, D>() } else { 0 };
+        let initial = if self.law.family() == Family::Hyperelastic { P * initial_width::<E, S, D, N, P>() } else { 0 };
         [P * Self::COMPONENTS, P * self.law.state_width(), initial, E::HOURGLASS]
     }
 
@@ -137,11 +137,11 @@ where
     fn set_up(&mut self, batch: usize, lane: usize, density: f64, connectivity: &[u32], positions: &[[f64; D]]) {
         let element = element_of(batch, lane, self.count);
         let x: [[f64; D]; N] = std::array::from_fn(|a| positions[connectivity[element * N + a] as usize]);
-        let jacobians = E::gradients(&x);
-        let width = initial_width::<S, D>();
+        let map = map_of::<E, f64, D, N, P>(&x);
+        let width = initial_width::<E, S, D, N, P>();
         let (mut volume, mut corner_volumes) = (0.0, [0.0; N]);
         for p in 0..P {
-            let determinant = Dim::<D>::determinant(&jacobians[p]);
+            let determinant = map.determinants[p];
             let shape = E::shape(E::POINTS[p]);
             let point_volume = circumference::<S, f64, D, N>(determinant * E::WEIGHTS[p], &x, &shape);
             volume += point_volume;
@@ -149,7 +149,7 @@ where
                 corner_volumes[a] += point_volume * shape[a];
             }
             if self.law.family() == Family::Hyperelastic {
-                let adjugate = Dim::<D>::adjugate(&jacobians[p]);
+                let adjugate = map.adjugates[p];
                 let initial = &mut self.initial[(batch * P + p) * width..][..width];
                 for i in 0..D {
                     for j in 0..D {
@@ -157,6 +157,13 @@ where
                     }
                 }
                 initial[D * D].0[lane] = point_volume;
+                if E::WARPED {
+                    for i in 0..D {
+                        for j in 0..D {
+                            initial[D * D + 1 + i * D + j].0[lane] = map.warped[i][j] / determinant;
+                        }
+                    }
+                }
                 if S::AXISYMMETRIC {
                     initial[D * D + 1].0[lane] = radius(&x, &shape);
                 }
@@ -182,7 +189,7 @@ where
     fn advance_chunk(common: &Common<'_, E, D>, chunk: Chunk<'_, D>, strip: &mut Strip<D>) -> Report {
         let Common { measures, history_width, level, .. } = *common;
         let (stress_width, history_of_batch) = (P * Self::COMPONENTS, P * history_width);
-        let initial_of_batch = if measures.family == Family::Hyperelastic { P * initial_width::<S, D>() } else { 0 };
+        let initial_of_batch = if measures.family == Family::Hyperelastic { P * initial_width::<E, S, D, N, P>() } else { 0 };
         let mut sums = Sums::new();
         let count = chunk.elements.len();
         common.nodes.copy(chunk.index, common.motion, &mut strip.moving);
@@ -242,6 +249,7 @@ where
                 element: common.element,
                 family: measures.family,
                 is_solid: common.law.stiffness()[1] > 0.0,
+                is_elastic: common.law.is_elastic(),
                 time_step: common.motion.time_step,
                 viscosity: common.viscosity,
                 damping: common.damping,
@@ -250,6 +258,7 @@ where
                 history,
                 history_width,
                 thickness: common.thickness,
+                initial: &chunk.initial[from * initial_of_batch..to * initial_of_batch],
                 hourglass: &mut chunk.hourglass[from * E::HOURGLASS..to * E::HOURGLASS],
                 strip,
                 elements,
@@ -280,7 +289,7 @@ impl<E: Element<D, N, P>, S: StressState, const N: usize, const P: usize, const 
 where
     Dim<D>: Space<D>,
 {
-    fn empty(law: Box<dyn PointLaw>, element: E, input: &BlockInput<'_>) -> Self {
+    fn empty(law: Box<dyn PointLaw>, element: E, input: &BlockInput<'_, D>) -> Self {
         let (connectivity, damping) = (input.connectivity, input.damping);
         let count = connectivity.len() / N;
         let batches = count.div_ceil(BATCH);
@@ -323,9 +332,12 @@ where
     }
 }
 
-impl<E: Element<2, N, P>, S: StressState, const N: usize, const P: usize> Elements<E, S, 2, N, P> {
+impl<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize> Elements<E, S, D, N, P>
+where
+    Dim<D>: Space<D>,
+{
     /// From what [`super::make`] was given.
-    pub(super) fn new(law: Box<dyn PointLaw>, density: f64, input: &BlockInput<'_>) -> Self {
+    pub(super) fn new(law: Box<dyn PointLaw>, density: f64, input: &BlockInput<'_, D>) -> Self {
         let mut block = Self::empty(law, E::new(&input.options), input);
         for batch in 0..block.elements.len() {
             for lane in 0..BATCH {

@@ -8,7 +8,7 @@ use super::elements::{CHUNK, Elements};
 use super::stress_state::StressState;
 use super::{Block, ElementState, Report};
 use crate::archive::{Kept, Misfit, keep_all};
-use crate::element::Element;
+use crate::element::{Element, map_of};
 use crate::failure::{Criterion, Seen, failing};
 use crate::material::Variable;
 use crate::tensor::{Dim, Space};
@@ -69,8 +69,9 @@ impl<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const 
 where
     Dim<D>: Space<D>,
 {
-    fn stress(&self) -> [Batch; 4] {
-        std::array::from_fn(|c| self.mean(&self.block.stress, Elements::<E, S, D, N, P>::COMPONENTS, c))
+    fn stress(&self) -> [Batch; 6] {
+        let components = Elements::<E, S, D, N, P>::COMPONENTS;
+        std::array::from_fn(|c| if c < components { self.mean(&self.block.stress, components, c) } else { Batch::default() })
     }
 
     fn variable(&self, variable: Variable) -> Batch {
@@ -125,7 +126,7 @@ where
     pub(super) fn least_determinant(&self, element: usize, positions: &[[f64; D]]) -> f64 {
         let (batch, lane) = (element / BATCH, element % BATCH);
         let x: [[f64; D]; N] = std::array::from_fn(|a| positions[self.nodes.node(batch * N + a, lane, N)]);
-        E::gradients(&x).iter().map(Dim::<D>::determinant).fold(f64::INFINITY, |least, own| if own < least { own } else { least })
+        map_of::<E, f64, D, N, P>(&x).determinants.into_iter().fold(f64::INFINITY, |least, own| if own < least { own } else { least })
     }
 
     /// Work that bulk viscosity and damping have taken of an element, J/m.

@@ -11,14 +11,14 @@
 use super::Report;
 use super::batch::{ElementBatch, Resistance};
 use super::damping::step_squared;
-use super::strain::{Tensor, averages, circumference};
+use super::strain::{Tensor, averages, circumference, deformation, initial_width, matrix};
 use super::stress_state::StressState;
 use super::strip::{Parts, Strip};
-use crate::element::{Corners, Element, KEPT};
+use crate::element::{Corners, Element, Held, Map, PATTERNS, Pulls, map};
 use crate::material::Family;
 use crate::material::points::RESPONSE;
-use crate::tensor::{Dim, Matrix, Space, SymmetricTensor};
-use embate_lanes::{Batch, Indices, Lane};
+use crate::tensor::{Dim, Space, SymmetricTensor, product, scaled};
+use embate_lanes::{Batch, Indices, Lane, math};
 use std::f64::consts::TAU;
 use std::marker::PhantomData;
 
@@ -28,6 +28,8 @@ pub(super) struct Forces<'a, E, S, const D: usize, const N: usize, const P: usiz
     pub(super) family: Family,
     /// Whether the law bears shear at rest.
     pub(super) is_solid: bool,
+    /// Whether bulk and shear stiffness are those of an isotropic elastic body.
+    pub(super) is_elastic: bool,
     pub(super) time_step: f64,
     /// Coefficients L and Q of the bulk viscosity; none: no work is done for it.
     pub(super) viscosity: Option<[f64; 2]>,
@@ -41,6 +43,8 @@ pub(super) struct Forces<'a, E, S, const D: usize, const N: usize, const P: usiz
     pub(super) history: &'a [Batch],
     pub(super) history_width: usize,
     pub(super) thickness: usize,
+    /// Hyperelastic laws: initial geometry of the points.
+    pub(super) initial: &'a [Batch],
     /// What the element keeps: [`Element::HOURGLASS`] per element.
     pub(super) hourglass: &'a mut [Batch],
     pub(super) strip: &'a Strip<D>,
@@ -106,8 +110,7 @@ fn least(batch: &Batch) -> f64 {
 /// Geometry of the elements in a lane.
 struct Geometry<L, const D: usize, const N: usize, const P: usize> {
     x: [[L; D]; N],
-    jacobians: [Matrix<L, D>; P],
-    determinants: [L; P],
+    map: Map<L, D, P>,
     /// Volume per area of each point: circumference, thickness, or one.
     depth: [L; P],
     area: L,
@@ -129,6 +132,7 @@ where
         let geometry = self.geometry::<L>(batch, at);
         // Sums begin with -0: the first addition is none.
         let (mut stored, mut dissipated, mut modulus, mut shear) = (L::splat(-0.0), L::splat(-0.0), zero, zero);
+        let mut shear_least = L::splat(f64::INFINITY);
         for p in 0..P {
             let point = batch * P + p;
             let response = &self.strip.response[point * RESPONSE..(point + 1) * RESPONSE];
@@ -137,7 +141,7 @@ where
             let current = match self.family {
                 Family::Rate => volume,
                 Family::Hyperelastic => {
-                    let own = geometry.determinants[p] * L::splat(E::WEIGHTS[p]);
+                    let own = geometry.map.determinants[p] * L::splat(E::WEIGHTS[p]);
                     if S::AXISYMMETRIC { own * geometry.depth[p] } else { own }
                 }
             };
@@ -145,20 +149,38 @@ where
             let own = L::load(&response[3], at);
             modulus = modulus.max(L::load(&response[2], at) + own * L::splat(4.0 / 3.0));
             shear = shear.max(own);
+            shear_least = shear_least.min(own);
         }
         if matches!(self.family, Family::Rate) {
             stored = stored * L::splat(0.5);
         }
         let live = L::load(&self.elements[batch].live, at);
-        let thickness_squared = E::thickness_squared(&geometry.x, &geometry.determinants, geometry.area);
+        // In the plane all counts as if it were dilatation; in space that thickness is for dampers, and for the start.
+        let dilates = D == 2 || !self.is_elastic || self.viscosity.is_some() || E::SWINGS > 0 || self.time_step <= 0.0;
+        let dilating_squared =
+            if dilates { E::thickness_squared(&geometry.x, &geometry.map, geometry.area, zero) } else { [L::splat(1.0); 2] };
+        let thickness_squared = if D == 3 && self.is_elastic {
+            E::thickness_squared(&geometry.x, &geometry.map, geometry.area, (shear_least + shear_least) / modulus)
+        } else {
+            dilating_squared
+        };
         let mass = L::load(&self.elements[batch].mass_least, at);
         let (mut pressure, mut stiffening) = (zero, L::splat(1.0));
         if let Some(coefficients) = self.viscosity {
-            (pressure, stiffening) = self.viscous(batch, at, coefficients, &geometry, modulus, thickness_squared);
+            (pressure, stiffening) = self.viscous(batch, at, coefficients, &geometry, modulus, [thickness_squared, dilating_squared]);
         }
-        let mut nodal = self.nodal(batch, at, &geometry, pressure);
+        let mut held = Held { forces: [[zero; D]; N], flux: [[zero; D]; D], pulls: Pulls::none(), work: zero, stiffening };
         if E::HOURGLASS > 0 {
-            stiffening = stiffening.max(self.hold_shape(batch, at, &geometry, [modulus, shear, mass], &mut nodal));
+            held = self.hold_shape(batch, at, &geometry, [modulus, shear, mass], [thickness_squared, dilating_squared]);
+            stiffening = if D == 2 { stiffening.max(held.stiffening) } else { stiffening * held.stiffening };
+        }
+        let mut nodal = self.nodal(batch, at, &geometry, pressure, &held);
+        if E::HOURGLASS > 0 && !E::WARPED {
+            for a in 0..N {
+                for i in 0..D {
+                    nodal[a][i] += held.forces[a][i];
+                }
+            }
         }
         // dt² = h² ρ / (K + 4µ/3) with ρ = m / V, as if all corners were as heavy as the lightest
         let time_step_squared = thickness_squared[0] * mass / (thickness_squared[1] * (geometry.volume * modulus) * stiffening);
@@ -210,7 +232,7 @@ where
         time_step_squared.min(L::load(&sums.time_step_squared, at)).store(&mut sums.time_step_squared, at);
         let mut worst = L::load(&sums.determinant, at);
         for p in 0..P {
-            worst = geometry.determinants[p].min(worst);
+            worst = geometry.map.determinants[p].min(worst);
         }
         worst.store(&mut sums.determinant, at);
     }
@@ -229,12 +251,10 @@ where
                 x[a][i] = L::load(&self.strip.nodes[(batch * N + a) * D + i], at);
             }
         }
-        let jacobians = E::gradients(&x);
         let nothing = L::splat(-0.0);
-        let mut geometry = Geometry { x, jacobians, determinants: [zero; P], depth: [one; P], area: nothing, volume: nothing };
+        let mut geometry = Geometry { x, map: self.map(batch, at, &x), depth: [one; P], area: nothing, volume: nothing };
         for p in 0..P {
-            geometry.determinants[p] = Dim::<D>::determinant(&jacobians[p]);
-            let own = geometry.determinants[p] * L::splat(E::WEIGHTS[p]);
+            let own = geometry.map.determinants[p] * L::splat(E::WEIGHTS[p]);
             geometry.area += own;
             if S::PLANE_STRESS {
                 geometry.depth[p] = L::load(&self.history[(batch * P + p) * self.history_width + self.thickness], at);
@@ -246,12 +266,32 @@ where
         geometry
     }
 
-    /// Forces of the stresses, and of an additional `pressure`, on the nodes.
+    /// The map of the elements. Where the gradient is a mean and the law hyperelastic, that which makes forces the slope of the energy: F of the mean is no ratio of present and initial
+    /// maps, but adj(F) takes adjugates of the start to those of now.
     #[inline(always)]
-    fn nodal<L: Lane>(&self, batch: usize, at: usize, geometry: &Geometry<L, D, N, P>, pressure: L) -> [[L; D]; N] {
+    fn map<L: Lane>(&self, batch: usize, at: usize, x: &[[L; D]; N]) -> Map<L, D, P> {
+        let jacobians = E::gradients(x);
+        let mut map = map::<E, L, D, N, P>(&jacobians, &E::warp(x));
+        if E::WARPED && matches!(self.family, Family::Hyperelastic) {
+            let width = initial_width::<E, S, D, N, P>();
+            for p in 0..P {
+                let initial = &self.initial[(batch * P + p) * width..][..width];
+                let f = deformation::<E, L, D, N, P>(&jacobians[p], x, initial, at);
+                let (turn, size) = (Dim::<D>::adjugate(&f), L::load(&initial[D * D], at) * L::splat(1.0 / E::WEIGHTS[p]));
+                map.determinants[p] = Dim::<D>::determinant(&f) * size;
+                map.adjugates[p] = scaled(product(&matrix(initial, at), &turn), size);
+                map.warped = scaled(product(&matrix(&initial[D * D + 1..], at), &turn), size);
+            }
+        }
+        map
+    }
+
+    /// Forces of the stresses, and of an additional `pressure`, on the nodes; of an element that is warped those of hourglass control too.
+    #[inline(always)]
+    fn nodal<L: Lane>(&self, batch: usize, at: usize, geometry: &Geometry<L, D, N, P>, pressure: L, held: &Held<L, D, N>) -> [[L; D]; N] {
         let (zero, third) = (L::splat(0.0), L::splat(1.0 / 3.0));
         let components = <Tensor<D, L> as SymmetricTensor<L>>::COMPONENTS;
-        let Geometry { jacobians, determinants, depth, .. } = geometry;
+        let Geometry { map: Map { adjugates, warped, determinants }, depth, .. } = geometry;
         let mut stress = [Tensor::<D, L>::isotropic(zero); P];
         let mut weight = [zero; P];
         for p in 0..P {
@@ -276,6 +316,7 @@ where
             mean = mean / geometry.volume;
         }
         let mut flux = [[[zero; D]; D]; P];
+        let mut pulls = held.pulls;
         let mut hoop = [zero; P];
         for p in 0..P {
             let mut weighted = stress[p].times(weight[p]);
@@ -289,13 +330,22 @@ where
             if self.viscosity.is_some() {
                 weighted = weighted.plus_isotropic(-(pressure * share));
             }
-            flux[p] = Dim::<D>::flux(&weighted, &Dim::<D>::adjugate(&jacobians[p]));
+            flux[p] = Dim::<D>::flux(&weighted, &adjugates[p]);
+            if E::WARPED {
+                let warp = Dim::<D>::flux(&weighted, warped);
+                for i in 0..D {
+                    for k in 0..D {
+                        flux[p][i][k] += held.flux[i][k];
+                        pulls.warp[i][k] += warp[i][k];
+                    }
+                }
+            }
             if S::AXISYMMETRIC {
                 // The weight has 2πx already; the hoop strain is u/x.
                 hoop[p] = weighted.zz() * determinants[p] * (L::splat(TAU) / depth[p]);
             }
         }
-        let mut nodal = E::divergence(&flux);
+        let mut nodal = if E::WARPED { E::divergence_warped(&flux, &pulls) } else { E::divergence(&flux) };
         if S::AXISYMMETRIC {
             for p in 0..P {
                 let shape = E::shape(E::POINTS[p]);
@@ -319,7 +369,7 @@ where
         [linear, quadratic]: [f64; 2],
         geometry: &Geometry<L, D, N, P>,
         modulus: L,
-        thickness_squared: [L; 2],
+        [thickness_squared, dilating_squared]: [[L; 2]; 2],
     ) -> (L, L) {
         let (zero, one) = (L::splat(0.0), L::splat(1.0));
         let element = &mut self.resistance[batch];
@@ -328,7 +378,7 @@ where
         let change = size - old;
         let shrinks = change.less(zero);
         let density = L::load(&element.mass, at) / geometry.volume;
-        let length = geometry.area.sqrt();
+        let length = if D == 2 { geometry.area.sqrt() } else { math::cbrt(geometry.volume) };
         let speed = (modulus / density).sqrt();
         let dt = L::splat(if self.time_step > 0.0 { self.time_step } else { f64::INFINITY });
         let rate = (change / ((size + old) * L::splat(0.5) * dt)).abs();
@@ -336,6 +386,12 @@ where
         let pressure = L::select(shrinks, density * length * speed * rate * (linear + growing), zero);
         let pressure = if S::PLANE_STRESS { pressure * depth } else { pressure };
         let damping = (linear + growing + growing) * length * (thickness_squared[1] / thickness_squared[0]).sqrt();
+        // ζ = (…) l h / h₀² with the thickness h₀ of what dilates alone: the damping is that of the dilatation.
+        let damping = if D == 2 {
+            damping
+        } else {
+            damping * (thickness_squared[0] * dilating_squared[1] / (thickness_squared[1] * dilating_squared[0]))
+        };
         let damping = L::select(shrinks, damping, zero);
         let stiffening = (one + damping * damping).sqrt() + damping;
         // Trapezoidal rule, as the nodal works of the ledger.
@@ -347,7 +403,7 @@ where
         (pressure, stiffening * stiffening)
     }
 
-    /// Adds the forces of hourglass control and books their work; the square of the stable step without it over that with it.
+    /// Forces of hourglass control, whose work is booked.
     #[inline(always)]
     fn hold_shape<L: Lane>(
         &mut self,
@@ -355,25 +411,23 @@ where
         at: usize,
         geometry: &Geometry<L, D, N, P>,
         [modulus, shear, mass]: [L; 3],
-        nodal: &mut [[L; D]; N],
-    ) -> L {
+        [thickness_squared, dilating_squared]: [[L; 2]; 2],
+    ) -> Held<L, D, N> {
         let own = batch * E::HOURGLASS..(batch + 1) * E::HOURGLASS;
         let (changes, keep) = (&self.strip.swing[own.clone()], &mut self.hourglass[own]);
-        let (mut swing, mut kept) = ([L::splat(0.0); D], [L::splat(0.0); KEPT]);
-        if E::SWINGS {
+        let mut swing = [[L::splat(0.0); D]; PATTERNS];
+        for pattern in 0..E::SWINGS {
             for i in 0..D {
-                swing[i] = L::load(&changes[i], at);
+                swing[pattern][i] = L::load(&changes[pattern * D + i], at);
             }
-        }
-        for i in 0..E::HOURGLASS {
-            kept[i] = L::load(&keep[i], at);
         }
         // Nothing else holds the shape of a fluid; of a solid that can't change its volume, K would lock it.
         let shape_modulus = if self.is_solid { modulus.min(L::splat(4.0) * shear) } else { modulus };
         let corners = Corners {
             x: geometry.x,
             swing,
-            kept,
+            thickness_squared,
+            dilating_squared,
             area: geometry.area,
             volume: geometry.volume,
             modulus,
@@ -384,18 +438,10 @@ where
             is_start: self.time_step <= 0.0,
             is_plane_stress: S::PLANE_STRESS,
         };
-        let held = self.element.hold_shape(&corners);
-        for i in 0..E::HOURGLASS {
-            held.kept[i].store(&mut keep[i], at);
-        }
-        for a in 0..N {
-            for i in 0..D {
-                nodal[a][i] += held.forces[a][i];
-            }
-        }
+        let held = self.element.hold_shape(&corners, keep, at);
         let element = &mut self.elements[batch];
-        let booked = if E::SWINGS { L::load(&element.hourglass, at) + held.work } else { held.work };
+        let booked = if E::SWINGS > 0 { L::load(&element.hourglass, at) + held.work } else { held.work };
         booked.store(&mut element.hourglass, at);
-        held.stiffening
+        held
     }
 }

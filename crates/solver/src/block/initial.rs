@@ -6,7 +6,7 @@
 use super::elements::Elements;
 use super::strain::Tensor;
 use super::stress_state::StressState;
-use crate::element::Element;
+use crate::element::{Element, map_of};
 use crate::material::points::{PointLaw, Points, RESPONSE, Room};
 use crate::material::{Family, Variable};
 use crate::model::InitialStress;
@@ -63,9 +63,9 @@ pub(super) fn keeps_stress(law: &dyn PointLaw) -> Result<(), Wrong> {
     ))
 }
 
-/// Asks the law if it leaves a point's `stress` as it is: the lane and the stresses before and after, xx yy zz xy, where it does not.
+/// Asks the law if it leaves a point's `stress` as it is: the lane and the stresses before and after, xx yy zz xy (yz zx), where it does not.
 /// `rotation`: no rotation, as it is stored.
-pub(super) fn released(law: &dyn PointLaw, stress: &[Batch], history: &[Batch], rotation: &[Batch]) -> Option<(usize, [[f64; 4]; 2])> {
+pub(super) fn released(law: &dyn PointLaw, stress: &[Batch], history: &[Batch], rotation: &[Batch]) -> Option<(usize, [[f64; 6]; 2])> {
     let mut after = stress.to_vec();
     law.respond(
         Level::SCALAR,
@@ -81,7 +81,7 @@ pub(super) fn released(law: &dyn PointLaw, stress: &[Batch], history: &[Batch], 
             room: &mut Room::default(),
         },
     );
-    let of = |all: &[Batch], lane: usize| -> [f64; 4] { std::array::from_fn(|c| all[c].0[lane]) };
+    let of = |all: &[Batch], lane: usize| -> [f64; 6] { std::array::from_fn(|c| all.get(c).map_or(0.0, |batch| batch.0[lane])) };
     (0..BATCH).map(|lane| (lane, [of(stress, lane), of(&after, lane)])).find(|(_, [before, after])| {
         let size = before.iter().fold(0.0f64, |size, s| size.max(s.abs()));
         // NaN too.
@@ -90,8 +90,8 @@ pub(super) fn released(law: &dyn PointLaw, stress: &[Batch], history: &[Batch], 
 }
 
 /// In words what [`released`] found at a place, m.
-pub(super) fn cannot_hold([x, y]: [f64; 2], [before, after]: [[f64; 4]; 2]) -> Wrong {
-    let words = |[xx, yy, zz, xy]: [f64; 4]| format!("xx {xx:.4e}, yy {yy:.4e}, zz {zz:.4e}, xy {xy:.4e} Pa");
+pub(super) fn cannot_hold([x, y]: [f64; 2], [before, after]: [[f64; 6]; 2]) -> Wrong {
+    let words = |[xx, yy, zz, xy, ..]: [f64; 6]| format!("xx {xx:.4e}, yy {yy:.4e}, zz {zz:.4e}, xy {xy:.4e} Pa");
     Wrong::stress(
         format!("its law can't hold the stress at ({x:.4e}, {y:.4e}) m: of {} it leaves {} at once", words(before), words(after)),
         "keep it within the yield surface; with an equation of state its mean must be minus the pressure of the equation at the start, in plane stress it has no zz",
@@ -124,7 +124,7 @@ where
                     let [xx, yy, zz, xy] = stress.at(*place);
                     let all = [xx, yy, zz, xy, 0.0, 0.0];
                     Tensor::<D, f64>::from_components(all).store(own, lane);
-                    let determinant = Dim::<D>::determinant(&E::gradients(&x)[p]);
+                    let determinant = map_of::<E, f64, D, N, P>(&x).determinants[p];
                     let volume = super::strain::circumference::<S, f64, D, N>(determinant * E::WEIGHTS[p], &x, &shape);
                     self.elements[batch].stored.0[lane] += self.law.energy(all) * volume;
                 }

@@ -3,22 +3,23 @@
 use super::Block;
 use super::bar::Bars;
 use super::elements::Elements;
-use super::stress_state::{StressState, StressStateVisitor, with_stress_state};
+use super::stress_state::{InSpace, StressState, StressStateVisitor, with_stress_state};
 use crate::element::{BAR2, Element, ElementOptions, ElementVisitor, with_element};
 use crate::material::{Parameters, points};
 use crate::model::Material;
+use crate::tensor::{Dim, Space};
 use std::marker::PhantomData;
 
 /// What a block is made from.
 #[derive(Clone, Copy, Debug)]
-pub struct BlockInput<'a> {
+pub struct BlockInput<'a, const D: usize = 2> {
     /// Name in the element registry.
     pub element: &'a str,
     /// Cross-section of bars per metre of depth, m.
     pub area: f64,
     /// Its options.
     pub options: ElementOptions,
-    /// Name in the registry of stress states; empty: plane strain.
+    /// Name in the registry of stress states of the plane, empty: plane strain; in space always empty.
     pub stress_state: &'a str,
     /// Law and parameters.
     pub material: &'a Material,
@@ -29,13 +30,13 @@ pub struct BlockInput<'a> {
     /// Node indices, `nodes` per element.
     pub connectivity: &'a [u32],
     /// Initial positions of all nodes, m.
-    pub positions: &'a [[f64; 2]],
+    pub positions: &'a [[f64; D]],
 }
 
-impl<'a> BlockInput<'a> {
-    /// In plane strain, without options.
+impl<'a, const D: usize> BlockInput<'a, D> {
+    /// In plane strain or in space, without options.
     #[must_use]
-    pub fn new(element: &'a str, material: &'a Material, connectivity: &'a [u32], positions: &'a [[f64; 2]]) -> Self {
+    pub fn new(element: &'a str, material: &'a Material, connectivity: &'a [u32], positions: &'a [[f64; D]]) -> Self {
         Self {
             element,
             area: 0.0,
@@ -50,13 +51,54 @@ impl<'a> BlockInput<'a> {
     }
 }
 
-/// Makes the block; `None` when the element, the stress state or the law is unknown.
+/// Makes the block; `None` when the element is none of the dimension, or the stress state or the law is unknown.
 #[must_use]
-pub fn make(input: &BlockInput<'_>) -> Option<Box<dyn Block<2>>> {
-    if input.element == BAR2.name {
-        return Some(Box::new(Bars::new(input)?));
+pub fn make<const D: usize>(input: &BlockInput<'_, D>) -> Option<Box<dyn Block<D>>>
+where
+    Dim<D>: Blocks<D>,
+{
+    <Dim<D> as Blocks<D>>::make(input)
+}
+
+/// A dimension that blocks are made in.
+pub trait Blocks<const D: usize> {
+    /// See [`make`].
+    fn make(input: &BlockInput<'_, D>) -> Option<Box<dyn Block<D>>>;
+}
+
+impl Blocks<2> for Dim<2> {
+    fn make(input: &BlockInput<'_, 2>) -> Option<Box<dyn Block<2>>> {
+        if input.element == BAR2.name {
+            return Some(Box::new(Bars::new(input)?));
+        }
+        with_element(input.element, ChosenElement(input)).flatten().flatten()
     }
-    with_element(input.element, ChosenElement(input)).flatten().flatten()
+}
+
+impl Blocks<3> for Dim<3> {
+    fn make(input: &BlockInput<'_, 3>) -> Option<Box<dyn Block<3>>> {
+        if !input.stress_state.is_empty() {
+            return None;
+        }
+        with_element(input.element, SolidElement(input)).flatten()
+    }
+}
+
+struct SolidElement<'a>(&'a BlockInput<'a, 3>);
+
+impl ElementVisitor<3> for SolidElement<'_> {
+    type Output = Option<Box<dyn Block<3>>>;
+    fn visit<E: Element<3, N, P>, const N: usize, const P: usize>(self) -> Self::Output {
+        Some(Box::new(Elements::<E, InSpace, 3, N, P>::new(points::of::<3>(self.0.material)?, density(self.0), self.0)))
+    }
+}
+
+/// Every law has a density, and reads it the same way.
+fn density<const D: usize>(input: &BlockInput<'_, D>) -> f64
+where
+    Dim<D>: Space<D>,
+{
+    Parameters::new(&[], &input.material.parameters, &input.material.lists).value("density")
 }
 
 struct ChosenElement<'a>(&'a BlockInput<'a>);
@@ -75,8 +117,6 @@ impl<E: Element<2, N, P>, const N: usize, const P: usize> StressStateVisitor for
     fn visit<S: StressState>(self) -> Self::Output {
         let input = self.0;
         let law = if S::PLANE_STRESS { points::plane_stress(input.material) } else { points::plane(input.material) }?;
-        // Every law has a density, and reads it the same way.
-        let density = Parameters::new(&[], &input.material.parameters, &input.material.lists).value("density");
-        Some(Box::new(Elements::<E, S, 2, N, P>::new(law, density, input)))
+        Some(Box::new(Elements::<E, S, 2, N, P>::new(law, density(input), input)))
     }
 }

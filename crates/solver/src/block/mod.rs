@@ -23,7 +23,7 @@ mod strip;
 pub use elements::CHUNK;
 pub use initial::{Initial, Wrong};
 pub use local::LocalNodes;
-pub use make::{BlockInput, make};
+pub use make::{BlockInput, Blocks, make};
 
 use crate::archive::{Archive, Kept, keep_all};
 use crate::failure::Criterion;

@@ -143,7 +143,7 @@ where
     /// Strains without averages; the volumes and dilatations (volume ratios) of the elements.
     fn strain_all(&mut self, nodal: &mut Nodal<D>, motion: &Motion<'_, D>, measures: Measures, level: Level, team: &mut Team) {
         let components = Self::COMPONENTS;
-        let initial = if measures.family == Family::Hyperelastic { initial_width::<S, D>() } else { 0 };
+        let initial = if measures.family == Family::Hyperelastic { initial_width::<E, S, D, N, P>() } else { 0 };
         let (nodes, volume_initial, elements, all_initial) = (&self.nodes, &self.volume_initial, &self.elements, &self.initial);
         let (resists, resistance) = (self.resists(), &self.resistance);
         let parts = (
@@ -276,6 +276,7 @@ where
         let (components, width, thickness) = (Self::COMPONENTS, self.law.state_width(), self.law.thickness().unwrap_or(0));
         let (element, viscosity, all_stress, all_history) = (&self.element, self.viscosity, &self.stress, &self.history);
         let (damping, all_damped) = (self.damping, &self.damped);
+        let is_elastic = self.law.is_elastic();
         let (means, places) = (&nodal.mean, &self.nodes.places);
         let (keeps_forces, kept) = (self.keeps_forces, chunk(self.kept_width()));
         let (resists, resistance) = (self.resists(), chunk(self.resistance_width()));
@@ -319,6 +320,7 @@ where
                 element,
                 family,
                 is_solid: true,
+                is_elastic,
                 time_step,
                 viscosity,
                 damping,
@@ -327,6 +329,7 @@ where
                 history: if width == 0 { &[] } else { &all_history[first * width..(first + count) * width] },
                 history_width: width,
                 thickness,
+                initial: &[],
                 hourglass: &mut [],
                 strip,
                 elements,

@@ -8,7 +8,7 @@
 use super::batch::Resistance;
 use super::stress_state::StressState;
 use super::strip::{Parts, Strip};
-use crate::element::Element;
+use crate::element::{Element, PATTERNS, map};
 use crate::material::Family;
 use crate::tensor::{Dim, Matrix, Space, SymmetricTensor, Turn, Turns, product};
 use embate_lanes::{Batch, Indices, Lane};
@@ -33,9 +33,69 @@ where
     E::MEAN_DILATATION && !S::PLANE_STRESS
 }
 
-/// Batches of initial geometry per point of a hyperelastic block: inverse Jacobian row by row, volume, and the radius of an axisymmetric body.
-pub(super) const fn initial_width<S: StressState, const D: usize>() -> usize {
-    D * D + 1 + S::AXISYMMETRIC as usize
+/// Batches of initial geometry per point of a hyperelastic block: inverse Jacobian row by row, volume, and the radius of an axisymmetric body; of an element that is warped
+/// the second matrix.
+pub(super) const fn initial_width<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize>() -> usize
+where
+    Dim<D>: Space<D>,
+{
+    D * D + 1 + S::AXISYMMETRIC as usize + if E::WARPED { D * D } else { 0 }
+}
+
+/// Deformation gradient of a point from the Jacobian (and the second matrix of an element that is warped) and the inverse of the start.
+#[inline(always)]
+pub(super) fn deformation<E: Element<D, N, P>, L: Lane, const D: usize, const N: usize, const P: usize>(
+    jacobian: &Matrix<L, D>,
+    x: &[[L; D]; N],
+    initial: &[Batch],
+    at: usize,
+) -> Matrix<L, D>
+where
+    Dim<D>: Space<D>,
+{
+    let mut f = product(jacobian, &matrix(initial, at));
+    if E::WARPED {
+        let more = product(&E::warp(x), &matrix(&initial[D * D + 1..], at));
+        for i in 0..D {
+            for j in 0..D {
+                f[i][j] += more[i][j];
+            }
+        }
+    }
+    f
+}
+
+/// A matrix from batches, row by row.
+#[inline(always)]
+pub(super) fn matrix<L: Lane, const D: usize>(from: &[Batch], at: usize) -> Matrix<L, D> {
+    let mut out = [[L::splat(0.0); D]; D];
+    for i in 0..D {
+        for j in 0..D {
+            out[i][j] = L::load(&from[i * D + j], at);
+        }
+    }
+    out
+}
+
+/// Determinants of an element from its Jacobians.
+#[inline(always)]
+pub(super) fn determinants<E: Element<D, N, P>, L: Lane, const D: usize, const N: usize, const P: usize>(
+    x: &[[L; D]; N],
+    jacobians: &[Matrix<L, D>; P],
+) -> [L; P]
+where
+    Dim<D>: Space<D>,
+{
+    map::<E, L, D, N, P>(jacobians, &E::warp(x)).determinants
+}
+
+/// Shape functions at a point, where the radius is asked for: in bodies of revolution.
+#[inline(always)]
+pub(super) fn shape_at<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize>(p: usize) -> [f64; N]
+where
+    Dim<D>: Space<D>,
+{
+    if S::AXISYMMETRIC { E::shape(E::POINTS[p]) } else { [0.0; N] }
 }
 
 /// Radius x of a point from the nodes.
@@ -122,6 +182,8 @@ where
             }
         }
         let increments = E::gradients(&step);
+        let warp_step = E::warp(&step);
+        let mut warp = E::warp(x);
         // Positions at mid-step are x − ½ step, so the same holds for their gradients.
         let mut middle = *jacobians;
         for p in 0..P {
@@ -131,18 +193,35 @@ where
                 }
             }
         }
+        if E::WARPED {
+            for i in 0..D {
+                for k in 0..D {
+                    warp[i][k] = warp[i][k] - warp_step[i][k] * half;
+                }
+            }
+        }
+        let map = map::<E, L, D, N, P>(&middle, &warp);
         let mut rotations = [[Rotation::<D, L>::none(); 2]; P];
         // Sums begin with -0: the first addition is none.
         let (mut dilatation, mut volume) = (L::splat(-0.0), L::splat(-0.0));
         let mut unturned = [Tensor::<D, L>::isotropic(zero); P];
         for p in 0..P {
-            let determinant = Dim::<D>::determinant(&middle[p]);
-            let shape = E::shape(E::POINTS[p]);
+            let determinant = map.determinants[p];
+            let shape = shape_at::<E, S, D, N, P>(p);
             let own = circumference::<S, L, D, N>(determinant * L::splat(E::WEIGHTS[p]), &x_middle, &shape);
             own.store(&mut self.strip.volume[batch * P + p], at);
-            let (gradient, turns) = Dim::<D>::displaced(&increments[p], &Dim::<D>::adjugate(&middle[p]), determinant);
-            if E::SWINGS {
-                self.swing(batch, at, E::swing(x, &step, &gradient), &turns);
+            let mut natural = product(&increments[p], &map.adjugates[p]);
+            if E::WARPED {
+                let more = product(&warp_step, &map.warped);
+                for i in 0..D {
+                    for k in 0..D {
+                        natural[i][k] += more[i][k];
+                    }
+                }
+            }
+            let (gradient, turns) = Dim::<D>::increment(&natural, determinant);
+            if E::SWINGS > 0 {
+                self.swing(batch, at, &E::swing(x, &step, &gradient), &turns);
             }
             rotations[p] = turns;
             unturned[p] = Dim::<D>::symmetric(&gradient);
@@ -179,21 +258,25 @@ where
         }
     }
 
-    /// Notes the change of the amplitude of an hourglass pattern in directions of the end of the step, and turns what is kept of it there. A vector in mid-step
+    /// Notes the changes of the amplitudes of hourglass patterns in directions of the end of the step, and turns what is kept of them there. A vector in mid-step
     /// directions at the end: the mean of itself and of the turned one, which is shorter by the square of the step's angle.
     #[inline(always)]
-    fn swing<L: Lane>(&mut self, batch: usize, at: usize, change: [L; D], turns: &Turns<Tensor<D, L>, L>) {
+    fn swing<L: Lane>(&mut self, batch: usize, at: usize, changes: &[[L; D]; PATTERNS], turns: &Turns<Tensor<D, L>, L>) {
         let half = L::splat(0.5);
-        let all = Dim::<D>::turned(change, turns);
-        let kept = &mut self.hourglass[batch * E::HOURGLASS..(batch + 1) * E::HOURGLASS];
-        let mut old = change;
-        for i in 0..D {
-            ((change[i] + all[i]) * half).store(&mut self.strip.swing[batch * E::HOURGLASS + i], at);
-            old[i] = L::load(&kept[i], at);
-        }
-        let turned = Dim::<D>::turned(old, turns);
-        for i in 0..D {
-            turned[i].store(&mut kept[i], at);
+        for pattern in 0..E::SWINGS {
+            let change = changes[pattern];
+            let all = Dim::<D>::turned(change, turns);
+            let place = batch * E::HOURGLASS + pattern * D;
+            let kept = &mut self.hourglass[place..place + D];
+            let mut old = change;
+            for i in 0..D {
+                ((change[i] + all[i]) * half).store(&mut self.strip.swing[place + i], at);
+                old[i] = L::load(&kept[i], at);
+            }
+            let turned = Dim::<D>::turned(old, turns);
+            for i in 0..D {
+                turned[i].store(&mut kept[i], at);
+            }
         }
     }
 
@@ -201,9 +284,10 @@ where
     #[inline(always)]
     fn volume_ratio<L: Lane>(&mut self, batch: usize, at: usize, x: &[[L; D]; N], jacobians: &[Matrix<L, D>; P]) {
         let mut volume = L::splat(0.0);
+        let determinants = determinants::<E, L, D, N, P>(x, jacobians);
         for p in 0..P {
-            let own = Dim::<D>::determinant(&jacobians[p]) * L::splat(E::WEIGHTS[p]);
-            volume += circumference::<S, L, D, N>(own, x, &E::shape(E::POINTS[p]));
+            let own = determinants[p] * L::splat(E::WEIGHTS[p]);
+            volume += circumference::<S, L, D, N>(own, x, &shape_at::<E, S, D, N, P>(p));
         }
         let initial = L::load(&self.volume_initial[batch], at);
         let ratio = volume / initial;
@@ -220,19 +304,20 @@ where
     /// b and J from the deformation gradient, the volume ratio averaged over the element with mean dilatation.
     #[inline(always)]
     fn hyperelastic<L: Lane>(&mut self, batch: usize, at: usize, x: &[[L; D]; N], v: &[[L; D]; N], jacobians: &[Matrix<L, D>; P]) {
-        let (zero, one) = (L::splat(0.0), L::splat(1.0));
-        let width = initial_width::<S, D>();
+        let one = L::splat(1.0);
+        let width = initial_width::<E, S, D, N, P>();
         let components = <Tensor<D, L> as SymmetricTensor<L>>::COMPONENTS;
         let (mut volume, mut volume_initial) = (L::splat(-0.0), L::splat(-0.0));
+        let determinants = determinants::<E, L, D, N, P>(x, jacobians);
         for p in 0..P {
-            let own = Dim::<D>::determinant(&jacobians[p]) * L::splat(E::WEIGHTS[p]);
-            volume += circumference::<S, L, D, N>(own, x, &E::shape(E::POINTS[p]));
+            let own = determinants[p] * L::splat(E::WEIGHTS[p]);
+            volume += circumference::<S, L, D, N>(own, x, &shape_at::<E, S, D, N, P>(p));
             let own_initial = L::load(&self.initial[(batch * P + p) * width + D * D], at);
             own_initial.store(&mut self.strip.volume[batch * P + p], at);
             volume_initial += own_initial;
         }
         let ratio_mean = volume / volume_initial;
-        if E::SWINGS {
+        if E::SWINGS > 0 {
             let (dt, half) = (L::splat(self.time_step), L::splat(0.5));
             let mut step = *v;
             for a in 0..N {
@@ -248,21 +333,15 @@ where
                 }
             }
             let (gradient, turns) = Dim::<D>::displaced(&increment, &Dim::<D>::adjugate(&middle), Dim::<D>::determinant(&middle));
-            self.swing(batch, at, E::swing(x, &step, &gradient), &turns);
+            self.swing(batch, at, &E::swing(x, &step, &gradient), &turns);
         }
         for p in 0..P {
             let point = batch * P + p;
             let initial = &self.initial[point * width..(point + 1) * width];
-            let mut inverse = [[zero; D]; D];
-            for i in 0..D {
-                for j in 0..D {
-                    inverse[i][j] = L::load(&initial[i * D + j], at);
-                }
-            }
-            let f = product(&jacobians[p], &inverse);
+            let f = deformation::<E, L, D, N, P>(&jacobians[p], x, initial, at);
             let mut stretch = one; // across the plane
             if S::AXISYMMETRIC {
-                stretch = radius(x, &E::shape(E::POINTS[p])) / L::load(&initial[D * D + 1], at);
+                stretch = radius(x, &shape_at::<E, S, D, N, P>(p)) / L::load(&initial[D * D + 1], at);
             }
             let ratio_point = Dim::<D>::determinant(&f);
             let ratio_point = if S::AXISYMMETRIC { ratio_point * stretch } else { ratio_point };

@@ -52,6 +52,17 @@ macro_rules! stress_states {
     };
 }
 
+/// Bodies of space, which need no such state: what kernels of solids are compiled with. It is not listed, since the plane can't be in it.
+#[derive(Clone, Copy, Debug)]
+pub struct InSpace;
+
+impl StressState for InSpace {
+    const KIND: StressStateKind =
+        StressStateKind { name: "", doc: "bodies of space", source: "Hughes, The Finite Element Method (1987), 2.7", axisymmetric: false };
+    const AXISYMMETRIC: bool = false;
+    const PLANE_STRESS: bool = false;
+}
+
 /// Someone who does something with every stress state's type.
 pub trait StressStateVisitor {
     /// What comes out.

@@ -4,60 +4,67 @@ use super::Builder;
 use crate::error::Fault;
 use crate::load::curve::Speed;
 use crate::load::messages::RIGID;
-use crate::mesh::PartMesh;
 use crate::model::{Motion, Part};
 use crate::rigid::{Body, Member};
+use crate::tensor::Dim;
+use crate::vector::{dot, first as of_model, minus, plus};
+use crate::world::{World, place, unit_matrix};
 
 /// What a part has on its nodes.
-pub(super) struct Bulk {
+pub(super) struct Bulk<const D: usize> {
     /// Centre of mass, m.
-    pub centre: [f64; 2],
+    pub centre: [f64; D],
     /// Mass, kg/m.
     pub mass: f64,
-    /// Moment of inertia about the centre, kg m.
+    /// In the plane the moment of inertia about the centre, kg m.
     pub inertia: f64,
 }
 
-impl Bulk {
+impl<const D: usize> Bulk<D>
+where
+    Dim<D>: World<D>,
+{
     /// Of nodes with masses (kg/m).
-    pub(super) fn of(masses: &[(u32, f64)], positions: &[[f64; 2]]) -> Self {
-        let mut bulk = Self { centre: [0.0; 2], mass: masses.iter().map(|&(_, m)| m).sum(), inertia: 0.0 };
+    pub(super) fn of(masses: &[(u32, f64)], positions: &[[f64; D]]) -> Self {
+        let mut bulk = Self { centre: [0.0; D], mass: masses.iter().map(|&(_, m)| m).sum(), inertia: 0.0 };
         // Seen from the first node: far from the origin no digits are lost.
         let Some(first) = masses.first().map(|&(node, _)| positions[node as usize]) else { return bulk };
         for &(node, m) in masses {
             let x = positions[node as usize];
-            for d in 0..2 {
+            for d in 0..D {
                 bulk.centre[d] += m / bulk.mass * (x[d] - first[d]);
             }
         }
-        bulk.centre = [bulk.centre[0] + first[0], bulk.centre[1] + first[1]];
+        bulk.centre = plus(bulk.centre, first);
         for &(node, m) in masses {
-            let [x, y] = bulk.arm(positions[node as usize]);
-            bulk.inertia += m * (x * x + y * y);
+            let arm = bulk.arm(positions[node as usize]);
+            bulk.inertia += m * dot(arm, arm);
         }
         bulk
     }
 
-    fn arm(&self, x: [f64; 2]) -> [f64; 2] {
-        [x[0] - self.centre[0], x[1] - self.centre[1]]
+    pub(super) fn arm(&self, x: [f64; D]) -> [f64; D] {
+        minus(x, self.centre)
     }
 
     /// Velocity of a point of a part that flies and spins about this centre, m/s.
-    fn velocity(&self, part: &Part, x: [f64; 2]) -> [f64; 2] {
-        let [a, b] = self.arm(x);
-        [part.velocity[0] - part.spin * b, part.velocity[1] + part.spin * a]
+    pub(super) fn velocity(&self, part: &Part, x: [f64; D]) -> [f64; D] {
+        plus(of_model(part.velocity), <Dim<D>>::swept([0.0, 0.0, part.spin], self.arm(x)))
     }
 }
 
-impl Builder<'_> {
+impl<const D: usize> Builder<'_, D>
+where
+    Dim<D>: World<D>,
+{
     /// Velocity of every node at the start, m/s: of a node of several parts the mean by mass.
-    pub(super) fn velocities(&self, part_mass: &[Vec<(u32, f64)>]) -> Vec<[f64; 2]> {
-        let mut momentum = vec![[0.0; 2]; self.mass.len()];
+    pub(super) fn velocities(&self, part_mass: &[Vec<(u32, f64)>]) -> Vec<[f64; D]> {
+        let mut momentum = vec![[0.0; D]; self.mass.len()];
         for (masses, part) in part_mass.iter().zip(&self.model.parts) {
             let bulk = Bulk::of(masses, &self.mesh.positions);
             for &(node, share) in masses {
                 let velocity = bulk.velocity(part, self.mesh.positions[node as usize]);
-                for d in 0..2 {
+                for d in 0..D {
                     momentum[node as usize][d] += share * velocity[d];
                 }
             }
@@ -81,7 +88,7 @@ impl Builder<'_> {
             }
             // It can't leave the axis: nothing moves it along x.
             let holds = |node: u32| {
-                self.constraints.of(node as usize).is_some_and(|held| !(model.is_axisymmetric() && held.holds_only([1.0, 0.0])))
+                self.constraints.of(node as usize).is_some_and(|held| !(model.is_axisymmetric() && held.holds_only(unit_matrix()[0])))
             };
             if let Some(&node) = nodes.iter().find(|&&node| holds(node)) {
                 let message =
@@ -96,19 +103,20 @@ impl Builder<'_> {
                 self.faults.push(Fault::new(&RIGID, format!("part[{i}].rigid"), message, help));
                 continue;
             }
-            let body = self.rigid_part(&self.mesh.parts[i], part, motion, &part_mass[i]);
+            let body = <Dim<D>>::rigid_part(self, i, motion, &part_mass[i]);
             let number = self.bodies.add_with_nodes(body, self.mesh.positions.len());
             self.body_parts.push((i, number));
         }
     }
 
     fn place(&self, node: u32) -> String {
-        let [x, y] = self.mesh.positions[node as usize];
-        format!("({x:.6e}, {y:.6e}) m")
+        format!("{} m", place(self.mesh.positions[node as usize]))
     }
+}
 
-    fn rigid_part(&self, mesh: &PartMesh, part: &Part, motion: &Motion, own: &[(u32, f64)]) -> Body {
-        let positions = &self.mesh.positions;
+impl Builder<'_, 2> {
+    pub(crate) fn rigid_part(&self, index: usize, motion: &Motion, own: &[(u32, f64)]) -> Body {
+        let (mesh, part, positions) = (&self.mesh.parts[index], &self.model.parts[index], &self.mesh.positions);
         // The whole mass of the nodes: that of other parts at common nodes belongs to the body.
         let whole: Vec<(u32, f64)> = own.iter().map(|&(node, _)| (node, self.mass[node as usize])).collect();
         let bulk = Bulk::of(&whole, positions);

@@ -6,8 +6,13 @@ use crate::error::Fault;
 use crate::load::messages::TO_ITSELF;
 use crate::model::Spring;
 use crate::model::messages::UNKNOWN_NAME;
+use crate::tensor::Dim;
+use crate::world::World;
 
-impl Builder<'_> {
+impl<const D: usize> Builder<'_, D>
+where
+    Dim<D>: World<D>,
+{
     /// Adds point masses to the parts of their nodes: of a node of several parts to the first.
     pub(super) fn point_masses(&mut self, part_mass: &mut [Vec<(u32, f64)>]) {
         for (index, mass) in self.model.point_masses.iter().enumerate() {
@@ -22,8 +27,20 @@ impl Builder<'_> {
         }
     }
 
+    /// Nodes of a set that must have some.
+    fn set(&mut self, name: &str, path: &str) -> Option<Vec<u32>> {
+        let nodes = self.mesh.nodes(name).filter(|nodes| !nodes.is_empty());
+        if nodes.is_none() {
+            let message = format!("there is nothing called \"{name}\"");
+            self.faults.push(Fault::new(&UNKNOWN_NAME, path, message, "name a part, a side as part.side, or a group of a mesh file"));
+        }
+        nodes
+    }
+}
+
+impl Builder<'_, 2> {
     /// The springs of the model as a block; `None` without any. The masses of nodes are known.
-    pub(super) fn springs(&mut self) -> Option<SpringBlock> {
+    pub(crate) fn springs(&mut self) -> Option<SpringBlock> {
         let mut springs = Vec::new();
         for (index, spring) in self.model.springs.iter().enumerate() {
             let sets = [0, 1].map(|side| self.set(&spring.between[side], &format!("spring[{index}].between[{side}]")));
@@ -42,16 +59,6 @@ impl Builder<'_> {
             self.bodies.share(pairs.as_flattened());
         }
         (!made.is_empty()).then(|| SpringBlock::new(&made, &self.mesh.positions, &self.mass))
-    }
-
-    /// Nodes of a set that must have some.
-    fn set(&mut self, name: &str, path: &str) -> Option<Vec<u32>> {
-        let nodes = self.mesh.nodes(name).filter(|nodes| !nodes.is_empty());
-        if nodes.is_none() {
-            let message = format!("there is nothing called \"{name}\"");
-            self.faults.push(Fault::new(&UNKNOWN_NAME, path, message, "name a part, a side as part.side, or a group of a mesh file"));
-        }
-        nodes
     }
 }
 

@@ -5,10 +5,15 @@ use crate::block::Block;
 use crate::error::Fault;
 use crate::failure::{self, Criterion};
 use crate::material::messages::CRITERION;
+use crate::tensor::Dim;
+use crate::world::World;
 
-impl Builder<'_> {
+impl<const D: usize> Builder<'_, D>
+where
+    Dim<D>: World<D>,
+{
     /// The criteria of each group of elements; none where the part is rigid. Notes faults where a law does not remember what a criterion needs.
-    pub(super) fn criteria(&mut self, blocks: &[Box<dyn Block<2>>]) -> Vec<Vec<Criterion>> {
+    pub(super) fn criteria(&mut self, blocks: &[Box<dyn Block<D>>]) -> Vec<Vec<Criterion>> {
         let mut faults = Vec::new();
         let mut of_group = Vec::new();
         for (group, block) in self.mesh.groups.iter().zip(blocks) {

@@ -7,9 +7,14 @@ use crate::contact::messages::IDLE;
 use crate::error::Warning;
 use crate::mesh::Mesh;
 use crate::model::{Constraint, Drive, Load, Model, Part, Partners};
+use crate::tensor::Dim;
+use crate::world::World;
 
 /// A warning for each such part.
-pub(super) fn warnings(model: &Model, mesh: &Mesh<2>, body_of_node: &[u32]) -> Vec<Warning> {
+pub(super) fn warnings<const D: usize>(model: &Model, mesh: &Mesh<D>, body_of_node: &[u32]) -> Vec<Warning>
+where
+    Dim<D>: World<D>,
+{
     let mut acted = vec![false; body_of_node.iter().max().map_or(0, |last| *last as usize + 1)];
     let mut act_on = |nodes: &[u32]| nodes.iter().for_each(|&node| acted[body_of_node[node as usize] as usize] = true);
     for name in named(model) {

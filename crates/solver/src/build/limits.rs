@@ -1,17 +1,28 @@
 //! What stops a run: limits of the model, and what stands in for those that it leaves out.
 
 use crate::block::Block;
-use crate::mesh::surface::Surface;
+use crate::mesh::surface::{Corners, Facet, Sided, Surface};
 use crate::mesh::{ElementGroup, Mesh};
 use crate::model::Model;
 use crate::step::Limits;
+use crate::tensor::Dim;
+use crate::vector::{dot, minus};
+use crate::world::World;
 
 /// The limits of a model. Where none is given, the step and the speed depend on the start and are set there.
-pub(super) fn of(model: &Model, mesh: &Mesh<2>, blocks: &[Box<dyn Block<2>>], outside: &Surface) -> Limits {
+pub(super) fn of<const D: usize>(model: &Model, mesh: &Mesh<D>, blocks: &[Box<dyn Block<D>>], outside: &Surface<D>) -> Limits
+where
+    Dim<D>: World<D>,
+{
     let run = &model.run;
-    let length = |&[from, to]: &[u32; 2]| {
-        let ([a, b], [c, d]) = (mesh.positions[from as usize], mesh.positions[to as usize]);
-        ((c - a) * (c - a) + (d - b) * (d - b)).sqrt()
+    // The longest side: a segment, or an edge of a facet.
+    let length = |facet: &Facet<D>| {
+        let nodes = facet.corners();
+        let side = |k: usize| {
+            let [from, to] = [nodes[k], nodes[(k + 1) % nodes.len()]].map(|node| mesh.positions[node as usize]);
+            minus(to, from)
+        };
+        (0..nodes.len()).map(|k| dot(side(k), side(k)).sqrt()).fold(0.0, f64::max)
     };
     Limits {
         end: run.end,
@@ -20,13 +31,16 @@ pub(super) fn of(model: &Model, mesh: &Mesh<2>, blocks: &[Box<dyn Block<2>>], ou
         step: run.step_limit.unwrap_or(0.0),
         largest: run.time_step.unwrap_or(f64::INFINITY),
         velocity: run.velocity_limit.unwrap_or_else(|| -fastest_wave(model, mesh, blocks)),
-        penetration: run.penetration_limit.unwrap_or_else(|| outside.segments.iter().map(length).fold(0.0, f64::max)),
+        penetration: run.penetration_limit.unwrap_or_else(|| outside.facets().iter().map(length).fold(0.0, f64::max)),
     }
 }
 
 /// The fastest wave of all materials, √(M/ρ), m/s.
-fn fastest_wave(model: &Model, mesh: &Mesh<2>, blocks: &[Box<dyn Block<2>>]) -> f64 {
-    let of = |group: &ElementGroup, block: &dyn Block<2>| {
+fn fastest_wave<const D: usize>(model: &Model, mesh: &Mesh<D>, blocks: &[Box<dyn Block<D>>]) -> f64
+where
+    Dim<D>: World<D>,
+{
+    let of = |group: &ElementGroup, block: &dyn Block<D>| {
         let density = model.materials.get(&model.parts[group.part].material)?.parameters.get("density")?;
         Some((block.wave_modulus() / density).sqrt())
     };

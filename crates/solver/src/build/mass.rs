@@ -5,12 +5,17 @@ use crate::block::{Block, Motion};
 use crate::error::Fault;
 use crate::error::MASS_SCALING;
 use crate::mesh::Mesh;
+use crate::tensor::Dim;
+use crate::world::World;
 use embate_lanes::{Level, Team};
 
-impl Builder<'_> {
+impl<const D: usize> Builder<'_, D>
+where
+    Dim<D>: World<D>,
+{
     /// Scales the mass of parts (`mass_scale`) and of elements below the wanted step. Returns the mass added to deformable parts and their true mass, kg/m; more than the limit is a fault.
-    pub(super) fn scale_mass(&mut self, blocks: &mut [Box<dyn Block<2>>], level: Level) -> [f64; 2] {
-        let masses = |block: &dyn Block<2>| (0..block.elements()).map(|element| block.mass(element)).sum::<f64>();
+    pub(super) fn scale_mass(&mut self, blocks: &mut [Box<dyn Block<D>>], level: Level) -> [f64; 2] {
+        let masses = |block: &dyn Block<D>| (0..block.elements()).map(|element| block.mass(element)).sum::<f64>();
         let (mut before, mut after) = (0.0, 0.0);
         let mut wanted_adds = 0.0;
         for (block, group) in blocks.iter_mut().zip(&self.mesh.groups) {
@@ -24,9 +29,9 @@ impl Builder<'_> {
             }
             if let Some(scaling) = self.model.run.mass_scaling {
                 let scaled = masses(block.as_ref());
-                let velocities = vec![[0.0; 2]; self.mesh.positions.len()];
+                let velocities = vec![[0.0; D]; self.mesh.positions.len()];
                 let motion = Motion { positions: &self.mesh.positions, velocities: &velocities, time_step: 0.0 };
-                let mut slots = vec![[0.0; 2]; block.slots().len()];
+                let mut slots = vec![[0.0; D]; block.slots().len()];
                 block.advance(&motion, level, &mut slots, &mut Team::alone());
                 let needed = (scaling.time_step / self.model.run.safety).powi(2);
                 for element in 0..block.elements() {
@@ -61,7 +66,10 @@ impl Builder<'_> {
 }
 
 /// Mass of each part on each of its nodes, kg/m, nodes ascending.
-pub(super) fn part_masses(mesh: &Mesh<2>, blocks: &[Box<dyn Block<2>>]) -> Vec<Vec<(u32, f64)>> {
+pub(super) fn part_masses<const D: usize>(mesh: &Mesh<D>, blocks: &[Box<dyn Block<D>>]) -> Vec<Vec<(u32, f64)>>
+where
+    Dim<D>: World<D>,
+{
     let (mut sums, mut is_own) = (vec![0.0; mesh.positions.len()], vec![false; mesh.positions.len()]);
     let of = |part: usize| {
         let own = &mesh.parts[part].nodes;
@@ -106,9 +114,12 @@ impl Shares {
     }
 }
 
-impl Builder<'_> {
+impl<const D: usize> Builder<'_, D>
+where
+    Dim<D>: World<D>,
+{
     /// What is kept of the masses of parts; `part_mass` has those of all nodes, with point masses.
-    pub(super) fn shares(&self, blocks: &[Box<dyn Block<2>>], part_mass: &[Vec<(u32, f64)>]) -> Shares {
+    pub(super) fn shares(&self, blocks: &[Box<dyn Block<D>>], part_mass: &[Vec<(u32, f64)>]) -> Shares {
         let of = |part: usize| self.mesh.groups.iter().zip(blocks).filter(move |(group, _)| group.part == part).map(|(_, block)| block);
         let whole = |part: usize| of(part).flat_map(|block| (0..block.elements()).map(move |element| block.mass(element))).sum();
         let of_elements = (!self.model.point_masses.is_empty()).then(|| part_masses(&self.mesh, blocks));

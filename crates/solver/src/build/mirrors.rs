@@ -1,6 +1,7 @@
 //! Symmetry lines as what bodies meet that are in contact with themselves: which nodes, and how stiff.
 
-use super::{Builder, height, law_of, stiffness_of};
+use super::plane::height;
+use super::{Builder, law_of, stiffness_of};
 use crate::contact::formulation::Side;
 use crate::contact::law::{self, Law};
 use crate::contact::mirror::{MirrorLine, MirroredNode};
@@ -10,7 +11,7 @@ use crate::contact::{Tributary, Vector, initial};
 use crate::model::{ContactLaw, Interface, Partners};
 use crate::{contact, model};
 
-impl Builder<'_> {
+impl Builder<'_, 2> {
     /// The lines in which the bodies of a contact see their images, with the nodes of `side` that are not on them.
     pub(super) fn mirrors_of(&self, contact: &model::Contact, side: &Side<'_>) -> Vec<MirrorLine> {
         if !matches!(contact.partners, Partners::Bodies(_)) {

@@ -1,6 +1,7 @@
 //! Obstacles: their rigid bodies, their shapes, and the nodes that meet them.
 
-use super::{Builder, Outlined, search_by_name, stiffness_of, terms_of};
+use super::plane::Outlined;
+use super::{Builder, search_by_name, stiffness_of, terms_of};
 use crate::contact::formulation::Side;
 use crate::contact::messages::OBSTACLE;
 use crate::contact::node_segment::{NodeSegment, Slave};
@@ -45,8 +46,8 @@ impl Met {
 /// Points of the outline of a circle: off by less than 4e-5 of the radius, so that a picture of the place where a roll touches shows it round.
 const ROUND: usize = 360;
 
-impl Builder<'_> {
-    pub(super) fn obstacles(&mut self) -> Vec<Contact> {
+impl Builder<'_, 2> {
+    pub(crate) fn obstacles(&mut self) -> Vec<Contact> {
         let mut contacts = Vec::new();
         for (i, obstacle) in self.model.obstacles.iter().enumerate() {
             match self.obstacle_formulation(obstacle) {
@@ -87,6 +88,9 @@ impl Builder<'_> {
             ObstacleShape::Plane { point, normal, length } => self.plane(obstacle, met, first(*point), first(*normal), *length),
             ObstacleShape::Circle { centre, radius, hollow } => self.circle(obstacle, met, first(*centre), *radius, *hollow),
             ObstacleShape::Polyline { points } => Ok(self.polyline(obstacle, met, points)),
+            ObstacleShape::Sphere { .. } | ObstacleShape::Cylinder { .. } => {
+                Err(Fault::new(&OBSTACLE, "", "this obstacle is one of space", "take `circle` in the plane"))
+            }
         }
     }
 
@@ -200,7 +204,7 @@ impl Builder<'_> {
         rigid.members = places.into_iter().map(|(arm, x)| Member { node: self.add_node(x), arm }).collect();
         let nodes: Vec<u32> = rigid.members.iter().map(|member| member.node).collect();
         let body = if nodes.is_empty() { self.bodies.add(rigid) } else { self.bodies.add_with_nodes(rigid, self.positions.len()) };
-        self.outlines.push(OutlineShape { name: obstacle.name.clone(), body, points });
+        self.outlines.push(OutlineShape { name: obstacle.name.clone(), body, points, facets: Vec::new() });
         (body, nodes)
     }
 
@@ -261,7 +265,7 @@ pub(super) fn circle(middle: Vector, radius: f64, hollow: bool, thickness: f64) 
 
 /// Nodes without segments, which are slaves only.
 pub(super) fn points_only(nodes: Vec<u32>) -> Target {
-    Target { surface: Surface { nodes, ..Surface::default() }, mirrors: Vec::new() }
+    Target { surface: Surface::<2> { nodes, ..Surface::<2>::default() }, mirrors: Vec::new() }
 }
 
 /// The points of a polyline, each once, and whether it is closed: then it ends at its first point.
@@ -278,5 +282,5 @@ pub(super) fn chain(nodes: Vec<u32>, closed: bool) -> Surface {
     let mut next: Vec<u32> = (1..=count as u32).collect();
     let last = count - 1;
     (previous[0], next[last]) = if closed { (last as u32, 0) } else { (NONE, NONE) };
-    Surface { segments, previous, next, nodes }
+    Surface::<2> { segments, previous, next, nodes }
 }

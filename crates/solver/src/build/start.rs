@@ -1,7 +1,8 @@
 //! Penetrations at the start, found before anything is strained: refused, ignored, or pushed out.
 
 use super::obstacles::{chain, circle, distinct, plane, points_only};
-use super::{Builder, Outlined, search_by_name};
+use super::plane::Outlined;
+use super::{Builder, search_by_name};
 use crate::contact::formulation::{self, Passes};
 use crate::contact::initial::{self, Movable, Penetration};
 use crate::contact::obstacle::{Memory, Shape, Way};
@@ -29,9 +30,9 @@ struct Meeting {
     points: Vec<Vector>,
 }
 
-impl Builder<'_> {
+impl Builder<'_, 2> {
     /// Penetrations at the start: faults, or lines for the overview. Those that shall be pushed out are, in the mesh.
-    pub(super) fn part_at_start(&mut self) -> Vec<String> {
+    pub(crate) fn part_at_start(&mut self) -> Vec<String> {
         let tolerance = initial::TOLERANCE * initial::size(&self.mesh.positions);
         let mut lines = Vec::new();
         let mut pushed = Vec::new();
@@ -142,7 +143,7 @@ impl Builder<'_> {
                 let ends = plane(first(*point), first(*normal), *length, thickness, 0.0).ok()?.ends()?.into_iter();
                 (ends.filter(|&x| !self.is_beyond_mirrors(x, &obstacle.parts)).collect(), None, 0.0)
             }
-            ObstacleShape::Circle { hollow: true, .. } => return None,
+            ObstacleShape::Circle { hollow: true, .. } | ObstacleShape::Sphere { .. } | ObstacleShape::Cylinder { .. } => return None,
         };
         let first = self.mesh.positions.len() as u32;
         let nodes: Vec<u32> = (first..first + points.len() as u32).collect();
@@ -156,7 +157,7 @@ impl Builder<'_> {
 }
 
 /// What is done, in words.
-const IGNORED: &str = "this counts as zero";
+pub(super) const IGNORED: &str = "this counts as zero";
 const PUSHED: &str = "it was pushed out";
 
 /// Gap (m) and normal of a point at an obstacle; `None` where the obstacle is not.
@@ -170,6 +171,7 @@ fn behind(obstacle: &Obstacle, surface: &Surface, positions: &[Vector]) -> Optio
             let lengths: f64 = surface.segments.iter().map(|&segment| length(segment, positions)).sum();
             Box::new(plane(first(*point), first(*normal), *wide, thickness, lengths / surface.nodes.len().max(1) as f64).ok()?)
         }
+        ObstacleShape::Sphere { .. } | ObstacleShape::Cylinder { .. } => return None,
         ObstacleShape::Circle { centre, radius, hollow } => Box::new(circle(first(*centre), *radius, *hollow, thickness).ok()?),
         ObstacleShape::Polyline { points } => {
             let (own, closed) = distinct(points);

@@ -2,21 +2,20 @@
 //!
 //! Solved springs add to them ([`super::Contact::collect`]); the velocity update, rigid bodies and records read them. A step costs as much as there are nodes in contact.
 
-use super::Vector;
 use crate::archive::{Archive, Keep, Kept};
 use embate_lanes::BATCH;
 
 /// Forces of contacts and obstacles on nodes, N/m. Of a model without contacts there are none, not even of zero: [`ContactForces::new`] of no nodes.
 #[derive(Clone, Debug, Default)]
-pub struct ContactForces {
-    values: Vec<Vector>,
+pub struct ContactForces<const D: usize = 2> {
+    values: Vec<[f64; D]>,
     /// Whether any node of a group of eight was pushed in this step.
     marks: Vec<bool>,
     /// The groups that were.
     marked: Vec<u32>,
 }
 
-impl Keep for ContactForces {
+impl<const D: usize> Keep for ContactForces<D> {
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
         if archive.reads() {
             self.clear();
@@ -34,11 +33,11 @@ impl Keep for ContactForces {
     }
 }
 
-impl ContactForces {
+impl<const D: usize> ContactForces<D> {
     /// None on so many nodes.
     #[must_use]
     pub fn new(nodes: usize) -> Self {
-        Self { values: vec![[0.0; 2]; nodes], marks: vec![false; nodes.div_ceil(BATCH)], marked: Vec::new() }
+        Self { values: vec![[0.0; D]; nodes], marks: vec![false; nodes.div_ceil(BATCH)], marked: Vec::new() }
     }
 
     /// Takes all forces away.
@@ -46,16 +45,16 @@ impl ContactForces {
         for group in self.marked.drain(..) {
             let first = group as usize * BATCH;
             let end = self.values.len().min(first + BATCH);
-            self.values[first..end].fill([0.0; 2]);
+            self.values[first..end].fill([0.0; D]);
             self.marks[group as usize] = false;
         }
     }
 
     /// Pushes a node; `false`: there is no node of this number.
     #[inline]
-    pub fn push(&mut self, node: u32, force: Vector) -> bool {
+    pub fn push(&mut self, node: u32, force: [f64; D]) -> bool {
         let Some(sum) = self.values.get_mut(node as usize) else { return false };
-        *sum = [sum[0] + force[0], sum[1] + force[1]];
+        (0..D).for_each(|d| sum[d] += force[d]);
         let group = node as usize / BATCH;
         if !std::mem::replace(&mut self.marks[group], true) {
             self.marked.push(group as u32);
@@ -66,13 +65,13 @@ impl ContactForces {
     /// That on a node; zero where there are none.
     #[inline]
     #[must_use]
-    pub fn of(&self, node: usize) -> Vector {
-        self.values.get(node).copied().unwrap_or_default()
+    pub fn of(&self, node: usize) -> [f64; D] {
+        self.values.get(node).copied().unwrap_or([0.0; D])
     }
 
     /// Of each node.
     #[must_use]
-    pub fn values(&self) -> &[Vector] {
+    pub fn values(&self) -> &[[f64; D]] {
         &self.values
     }
 

@@ -9,6 +9,7 @@ use crate::contact::messages::PENETRATION;
 use crate::error::Fault;
 use crate::load::constraint::Constraints;
 use crate::model::{InitialPenetration, Interface};
+use crate::world::place;
 
 /// Penetrations deeper than this fraction of the model's size count.
 pub const TOLERANCE: f64 = 1e-9;
@@ -20,29 +21,29 @@ const SWEEPS: usize = 10;
 
 /// A node that is inside at the start.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Penetration {
+pub struct Penetration<const D: usize = 2> {
     /// The node.
     pub node: u32,
     /// Where it is, m.
-    pub place: Vector,
+    pub place: [f64; D],
     /// How deep, m.
     pub depth: f64,
 }
 
-impl Penetration {
+impl<const D: usize> Penetration<D> {
     /// In words.
     #[must_use]
     pub fn line(&self) -> String {
-        let Self { place: [x, y], depth, .. } = self;
-        format!("the node at ({x:.6e}, {y:.6e}) m is {depth:.3e} m inside at the start")
+        let (at, depth) = (place(self.place), self.depth);
+        format!("the node at {at} m is {depth:.3e} m inside at the start")
     }
 }
 
 /// Faults of a contact or obstacle at `path` with these penetrations; the first 20 are told, the rest is counted.
 #[must_use]
-pub fn faults(path: &str, name: &str, found: &[Penetration]) -> Vec<Fault> {
+pub fn faults<const D: usize>(path: &str, name: &str, found: &[Penetration<D>]) -> Vec<Fault> {
     let help = "move the bodies apart, or set `initial_penetration` to \"push_out\" or \"ignore\"";
-    let one = |penetration: &Penetration| Fault::new(&PENETRATION, path, format!("\"{name}\": {}", penetration.line()), help);
+    let one = |penetration: &Penetration<D>| Fault::new(&PENETRATION, path, format!("\"{name}\": {}", penetration.line()), help);
     let mut faults: Vec<Fault> = found.iter().take(TOLD).map(one).collect();
     if found.len() > TOLD {
         faults.push(Fault::new(&PENETRATION, path, format!("\"{name}\": and {} more nodes are inside", found.len() - TOLD), help));
@@ -52,7 +53,7 @@ pub fn faults(path: &str, name: &str, found: &[Penetration]) -> Vec<Fault> {
 
 /// Lines of a contact or obstacle for the overview; the first 20 are told, the rest is counted.
 #[must_use]
-pub fn lines(name: &str, found: &[Penetration], what_is_done: &str) -> Vec<String> {
+pub fn lines<const D: usize>(name: &str, found: &[Penetration<D>], what_is_done: &str) -> Vec<String> {
     let mut lines: Vec<String> =
         found.iter().take(TOLD).map(|penetration| format!("{name}: {}; {what_is_done}", penetration.line())).collect();
     if found.len() > TOLD {
@@ -83,7 +84,7 @@ pub fn kept(has_begun: bool, offset: f64, gap: f64) -> f64 {
 
 /// Size of a model for tolerances: its farthest coordinate, m.
 #[must_use]
-pub fn size(positions: &[Vector]) -> f64 {
+pub fn size<const D: usize>(positions: &[[f64; D]]) -> f64 {
     positions.iter().flatten().fold(0.0f64, |size, x| size.max(x.abs()))
 }
 

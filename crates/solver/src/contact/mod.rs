@@ -13,6 +13,7 @@ pub mod law;
 pub mod springs;
 pub mod forces;
 pub mod formulation;
+pub mod node_facet;
 pub mod node_segment;
 pub mod pinball;
 pub mod segment;
@@ -24,7 +25,9 @@ pub mod traces;
 use crate::archive::{Archive, Kept, keep_each};
 use crate::load::tributary::Depth;
 use crate::mesh::surface::Surface;
+use crate::motion::Motion;
 use crate::rigid::Bodies;
+use crate::tensor::Dim;
 use forces::ContactForces;
 use springs::{Answer, Answers, Springs, Totals};
 use std::any::Any;
@@ -37,13 +40,16 @@ use tracker::{Certificate, SearchReport};
 pub type Vector = [f64; 2];
 
 /// What makes springs of surfaces: nodes against segments, segments against segments, pinballs, nodes against obstacles.
-pub trait Formulation: Any + Send {
+pub trait Formulation<const D: usize = 2>: Any + Send
+where
+    Dim<D>: Motion<D>,
+{
     /// Adds the springs of the step: of everything that is inside or may come in during the next update, so that a spring is there before it is
     /// needed (one that closes unseen would give back what it never took).
-    fn detect(&mut self, scene: &Scene<'_>, springs: &mut Springs);
+    fn detect(&mut self, scene: &Scene<'_, D>, springs: &mut Springs<D>);
 
     /// Keeps what the next step needs of the solved springs, in the order of [`Formulation::detect`].
-    fn remember(&mut self, solved: Answers<'_>);
+    fn remember(&mut self, solved: Answers<'_, D>);
 
     /// Keeps what it knows of the past.
     ///
@@ -84,30 +90,33 @@ pub trait Formulation: Any + Send {
 
 /// What a step shows to contacts.
 #[derive(Clone, Copy)]
-pub struct Scene<'a> {
+pub struct Scene<'a, const D: usize = 2>
+where
+    Dim<D>: Motion<D>,
+{
     /// Paths of the nodes in the step that led here.
-    pub sweep: Sweep<'a>,
+    pub sweep: Sweep<'a, D>,
     /// Rigid bodies.
-    pub bodies: &'a Bodies,
+    pub bodies: &'a Bodies<D>,
     /// Time, s.
     pub time: f64,
 }
 
 /// Positions at both ends of a step.
 #[derive(Clone, Copy, Debug)]
-pub struct Sweep<'a> {
+pub struct Sweep<'a, const D: usize = 2> {
     /// At the beginning, m.
-    pub old: &'a [Vector],
+    pub old: &'a [[f64; D]],
     /// At the end, m: the configuration on which all forces are evaluated.
-    pub new: &'a [Vector],
+    pub new: &'a [[f64; D]],
     /// Way that no node has exceeded since the start, m: ∑ dt max |v|. What is far sleeps until its partners may have come near.
     pub travel: f64,
 }
 
-impl<'a> Sweep<'a> {
+impl<'a, const D: usize> Sweep<'a, D> {
     /// From `old` to `new`, with nothing known of how far nodes go: nothing sleeps.
     #[must_use]
-    pub fn between(old: &'a [Vector], new: &'a [Vector]) -> Self {
+    pub fn between(old: &'a [[f64; D]], new: &'a [[f64; D]]) -> Self {
         Self { old, new, travel: f64::INFINITY }
     }
 }
@@ -133,20 +142,23 @@ impl ContactKind {
 }
 
 /// A contact between surfaces, or between surfaces and an obstacle.
-pub struct Contact {
+pub struct Contact<const D: usize = 2>
+where
+    Dim<D>: Motion<D>,
+{
     /// Name.
     pub name: String,
     /// Where it stands in the model.
     pub kind: ContactKind,
     /// What the springs of the step sum up to: force on the first surface (of an obstacle: on the bodies), energy, work.
-    pub totals: Totals,
+    pub totals: Totals<D>,
     /// Deepest penetration in the last evaluation, m.
     pub penetration: f64,
     /// Whether it pressed at any time so far.
     pub has_pressed: bool,
     /// What friction took until the last half step, J/m.
     pub friction_work: f64,
-    formulation: Box<dyn Formulation>,
+    formulation: Box<dyn Formulation<D>>,
     /// What was checked before its surfaces were gone.
     checked: Certificate,
     /// Number of the terms that its springs follow.
@@ -159,10 +171,13 @@ pub struct Contact {
     found: Range<usize>,
 }
 
-impl Contact {
+impl<const D: usize> Contact<D>
+where
+    Dim<D>: Motion<D>,
+{
     /// A contact that has not acted yet. Its springs follow the terms number `terms`; it acts between the times `active`, s.
     #[must_use]
-    pub fn new(name: String, kind: ContactKind, formulation: Box<dyn Formulation>, terms: usize, active: [f64; 2]) -> Self {
+    pub fn new(name: String, kind: ContactKind, formulation: Box<dyn Formulation<D>>, terms: usize, active: [f64; 2]) -> Self {
         Self {
             name,
             kind,
@@ -199,7 +214,7 @@ impl Contact {
     }
 
     /// Adds the springs of the step to `springs`.
-    pub fn detect(&mut self, scene: &Scene<'_>, springs: &mut Springs) {
+    pub fn detect(&mut self, scene: &Scene<'_, D>, springs: &mut Springs<D>) {
         let first = springs.list.len();
         self.time = scene.time;
         if self.acts_at(scene.time) {
@@ -211,7 +226,14 @@ impl Contact {
     }
 
     /// Sums up the solved springs: adds their forces to `forces` and `bodies`, and what they did in the update of `time_step` (s) to `traces`.
-    pub fn collect(&mut self, springs: &Springs, forces: &mut ContactForces, bodies: &mut Bodies, traces: &mut Traces, time_step: f64) {
+    pub fn collect(
+        &mut self,
+        springs: &Springs<D>,
+        forces: &mut ContactForces<D>,
+        bodies: &mut Bodies<D>,
+        traces: &mut Traces<D>,
+        time_step: f64,
+    ) {
         let answers = springs.answers(self.found.clone());
         self.totals = answers.clone().collect_into(forces, bodies, traces);
         self.has_pressed |= self.totals.pressing > 0.0;
@@ -224,7 +246,7 @@ impl Contact {
     }
 
     /// Goes on with another formulation of the same kind, made of changed surfaces.
-    pub fn renew(&mut self, formulation: Box<dyn Formulation>) {
+    pub fn renew(&mut self, formulation: Box<dyn Formulation<D>>) {
         let old = std::mem::replace(&mut self.formulation, formulation);
         self.formulation.inherit(old);
     }
@@ -237,14 +259,14 @@ impl Contact {
 
     /// Energy at n + ½ of the springs of the last step that have not broken, J/m.
     #[must_use]
-    pub fn stored(&self, springs: &Springs) -> f64 {
-        let stored = |answer: Answer<'_>| answer.books().stored.iter().sum::<f64>();
+    pub fn stored(&self, springs: &Springs<D>) -> f64 {
+        let stored = |answer: Answer<'_, D>| answer.books().stored.iter().sum::<f64>();
         springs.answers(self.found.clone()).map(stored).sum::<f64>() - self.totals.lost.freed
     }
 
     /// Energy at n − ½ of the springs of this step, J/m.
     #[must_use]
-    pub fn stored_before(&self, springs: &Springs) -> f64 {
+    pub fn stored_before(&self, springs: &Springs<D>) -> f64 {
         springs.answers(self.found.clone()).map(|answer| answer.books().stored_before).sum()
     }
 
@@ -270,31 +292,31 @@ impl Contact {
 
     /// Moment (N) of the forces that the last step's springs put on what is not the rigid body `body`, about its reference point.
     #[must_use]
-    pub fn moment(&self, body: usize, bodies: &Bodies, springs: &Springs, positions: &[Vector]) -> f64 {
+    pub fn moment(&self, body: usize, bodies: &Bodies<D>, springs: &Springs<D>, positions: &[[f64; D]]) -> <Dim<D> as Motion<D>>::Spin {
         let centre = bodies.state(body).centre;
         let ends = springs.answers(self.found.clone()).flat_map(|answer| answer.ends().map(move |end| (answer, end)));
-        let moment = |(answer, end): (Answer<'_>, springs::End)| {
+        let moment = |(answer, end): (Answer<'_, D>, springs::End<D>)| {
             let (on_body, point) = match positions.get(end.at as usize) {
                 Some(&x) => (bodies.of_node(end.at) == Some(body), x),
                 None => (end.at as usize - positions.len() == body, end.point),
             };
-            let force = if on_body { [0.0; 2] } else { end.force(answer.spring, answer.solved) };
-            (point[0] - centre[0]) * force[1] - (point[1] - centre[1]) * force[0]
+            let force = if on_body { [0.0; D] } else { end.force(answer.spring, answer.solved) };
+            Dim::<D>::moment(std::array::from_fn(|d| point[d] - centre[d]), force)
         };
-        ends.map(moment).sum()
+        ends.map(moment).fold(Dim::<D>::NO_SPIN, Dim::<D>::plus)
     }
 
     /// Sum of the sizes of the forces of the last step's springs on some nodes (ascending), N/m.
     #[must_use]
-    pub fn force_on(&self, nodes: &[u32], springs: &Springs) -> f64 {
+    pub fn force_on(&self, nodes: &[u32], springs: &Springs<D>) -> f64 {
         let ends = springs.answers(self.found.clone()).flat_map(|answer| answer.ends().map(move |end| (answer, end)));
         let forces =
             ends.filter(|(_, end)| nodes.binary_search(&end.at).is_ok()).map(|(answer, end)| end.force(answer.spring, answer.solved));
-        forces.map(|[x, y]| (x * x + y * y).sqrt()).sum()
+        forces.map(|force| (1..D).fold(force[0] * force[0], |sum, d| sum + force[d] * force[d]).sqrt()).sum()
     }
 
     /// Slave nodes that are inside in the last step, with their depth, m.
-    pub fn penetrations<'a>(&'a self, springs: &'a Springs) -> impl Iterator<Item = (u32, f64)> + 'a {
+    pub fn penetrations<'a>(&'a self, springs: &'a Springs<D>) -> impl Iterator<Item = (u32, f64)> + 'a {
         let inside = springs.list[self.found.clone()].iter().filter(|spring| spring.gap < 0.0);
         inside.filter_map(|spring| Some((springs.ends(spring).next()?.at, -spring.gap)))
     }
@@ -303,9 +325,12 @@ impl Contact {
 /// Stands in where a surface is gone.
 struct Nothing;
 
-impl Formulation for Nothing {
-    fn detect(&mut self, _: &Scene<'_>, _: &mut Springs) {}
-    fn remember(&mut self, _: Answers<'_>) {}
+impl<const D: usize> Formulation<D> for Nothing
+where
+    Dim<D>: Motion<D>,
+{
+    fn detect(&mut self, _: &Scene<'_, D>, _: &mut Springs<D>) {}
+    fn remember(&mut self, _: Answers<'_, D>) {}
     fn keep(&mut self, _: &mut Archive<'_>) -> Kept {
         Ok(())
     }

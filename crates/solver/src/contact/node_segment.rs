@@ -11,6 +11,8 @@ use super::{Formulation, Scene, Sweep, Vector};
 use crate::archive::{Archive, Kept, keep_all, keep_each};
 use crate::mesh::surface::NONE;
 use crate::model;
+use crate::motion::Motion;
+use crate::tensor::Dim;
 use std::any::Any;
 
 /// Registry entry.
@@ -55,7 +57,7 @@ pub struct NodeSegment {
 
 /// How many springs are closed, and their energy, J/m.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Closed {
+pub(super) struct Closed {
     count: u32,
     energy: f64,
 }
@@ -64,7 +66,7 @@ keep_all!(Closed { count, energy });
 
 impl Closed {
     /// Adds a spring.
-    fn add(&mut self, stored: f64) {
+    pub(super) fn add(&mut self, stored: f64) {
         if stored > 0.0 {
             self.count += 1;
             self.energy += stored;
@@ -72,7 +74,7 @@ impl Closed {
     }
 
     /// What is missing in `now`, J/m: where nothing is, sums that were added up in another order differ by round-off.
-    fn less(&self, now: &Self) -> f64 {
+    pub(super) fn less(&self, now: &Self) -> f64 {
         if self.count > now.count { (self.energy - now.energy).max(0.0) } else { 0.0 }
     }
 }
@@ -237,9 +239,10 @@ impl NodeSegment {
             if touch.slope != 0.0 {
                 lean(&mut ends, &touch, scene.sweep.new);
             }
-            let carried = if self.stores { carried(&memory, normal, gap, &ends, self.reach, scene.sweep, self.has_begun) } else { 0.0 };
+            let carried =
+                if self.stores { carried(&memory.before(), normal, gap, &ends, self.reach, scene.sweep, self.has_begun) } else { 0.0 };
             let (side, slip, gap) = (self.tracker.side(touch.pass), memory.slip, gap + carried);
-            springs.push(Spring { normal, gap, stiffness, area, side, slip, ..Spring::default() }, &ends);
+            springs.push(Spring { normal, gap, stiffness, area, side, slip: [slip], ..Spring::default() }, &ends);
             *self.tracker.kept_mut(&touch) = Memory { offset, faces, carried, normal, stored: 0.0, ..memory };
             self.used.push(index as u32);
         }
@@ -258,7 +261,7 @@ impl Formulation for NodeSegment {
         for (&index, answer) in self.used.iter().zip(solved) {
             let touch = self.tracker.touches()[index as usize];
             let memory = self.tracker.kept_mut(&touch);
-            (memory.slip, memory.half) = (answer.solved.slip_new, answer.gap_new());
+            (memory.slip, memory.half) = (answer.solved.slip_new[0], answer.gap_new());
             if self.stores && memory.half < self.reach {
                 memory.stored = answer.stored_new();
                 self.closed.add(memory.stored);
@@ -299,7 +302,7 @@ impl Formulation for NodeSegment {
 }
 
 /// Whether springs of an interface store energy.
-fn is_stored(interface: &model::Interface) -> bool {
+pub(super) fn is_stored(interface: &model::Interface) -> bool {
     interface.law != model::ContactLaw::Multiplier
 }
 
@@ -333,7 +336,7 @@ pub fn segment_ends([a, b]: [u32; 2], projection: &Projection, arm: f64, positio
     let end = |at: u32, weight: f64, sign: f64| {
         let (share, beyond) = (-weight.max(0.0), (-weight).max(0.0));
         let of = |row: Vector, d: usize| beyond * row[d];
-        End { at, share, lean: [0, 1].map(|d| of(normal, d)), turn: [0, 1].map(|d| of(t, d) + sign * turn[d]), ..End::default() }
+        End { at, share, lean: [0, 1].map(|d| of(normal, d)), turn: [[0, 1].map(|d| of(t, d) + sign * turn[d])], ..End::default() }
     };
     [end(a, wa, -1.0), end(b, wb, 1.0)]
 }
@@ -351,22 +354,33 @@ const JUMPED: f64 = 0.25;
 /// At a corner the gap itself goes on, its rate does not: g^{n−½} = g^n − ½ dt ġ^{n−½} would begin elsewhere, by up to what the node goes in half a step, and a spring that is not much deeper
 /// than that would lose or gain any multiple of its energy. Where a surface folds, a node is near another stretch of it from one step to the next, and deep inside that. What it was moved by
 /// stays for as long as it pushes, and then goes as the surfaces part.
-fn carried(memory: &Memory, normal: Vector, gap: f64, ends: &[End], open: f64, sweep: Sweep<'_>, has_begun: bool) -> f64 {
-    let Memory { half, normal: before, carried, .. } = *memory;
-    let is_new = before == [0.0; 2];
+pub(super) fn carried<const D: usize>(
+    before: &Before<D>,
+    normal: [f64; D],
+    gap: f64,
+    ends: &[End<D>],
+    open: f64,
+    sweep: Sweep<'_, D>,
+    has_begun: bool,
+) -> f64
+where
+    Dim<D>: Motion<D>,
+{
+    let Before { half, normal: before, carried } = *before;
+    let is_new = before == [0.0; D];
     if is_new && (gap >= open || !has_begun) {
         return 0.0;
     }
     let half = if is_new { open } else { half };
-    let cosine = before[0] * normal[0] + before[1] * normal[1];
+    let cosine = (1..D).fold(before[0] * normal[0], |sum, d| sum + before[d] * normal[d]);
     let stays = carried == 0.0 || half < open;
     if cosine > STEADY && stays {
         return carried;
     }
-    let (mut way, mut relative) = (0.0, [0.0; 2]);
+    let (mut way, mut relative) = (0.0, [0.0; D]);
     for end in ends {
         let [old, new] = [sweep.old, sweep.new].map(|positions| positions[end.at as usize]);
-        for d in 0..2 {
+        for d in 0..D {
             way += (end.share * normal[d] + end.lean[d]) * (new[d] - old[d]);
             relative[d] += end.share * (new[d] - old[d]);
         }
@@ -375,11 +389,29 @@ fn carried(memory: &Memory, normal: Vector, gap: f64, ends: &[End], open: f64, s
     let jump = (begins + carried).min(open) - half.min(open);
     // What is new may have come in within the step.
     let least = if is_new { 1.0 } else { JUMPED };
-    let has_jumped = jump.abs() > least * (relative[0] * relative[0] + relative[1] * relative[1]).sqrt();
+    let square = (1..D).fold(relative[0] * relative[0], |sum, d| sum + relative[d] * relative[d]);
+    let has_jumped = jump.abs() > least * square.sqrt();
     if (is_new || cosine >= TURNED) && !has_jumped && stays {
         return carried;
     }
     if half < open { half - begins } else { (open - begins).max(0.0) }
+}
+
+/// Where a spring was in the step before.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Before<const D: usize> {
+    /// Its gap at n − ½, m.
+    pub(super) half: f64,
+    /// Its normal; zero: there was none.
+    pub(super) normal: [f64; D],
+    /// What its gap was moved by, m.
+    pub(super) carried: f64,
+}
+
+impl Memory {
+    fn before(&self) -> Before<2> {
+        Before { half: self.half, normal: self.normal, carried: self.carried }
+    }
 }
 
 /// Adds to the rows of the gap those of what the face has fallen off at a distance d beyond its end, φ(d), with the slope φ'.
@@ -409,7 +441,7 @@ mod tests {
 
     /// An open segment from node 1 to node 2 and a node 0 beside one of its ends.
     fn beside(x: Vector) -> (Target, [Vector; 3]) {
-        let surface = Surface { segments: vec![[1, 2]], previous: vec![NONE], next: vec![NONE], nodes: vec![1, 2] };
+        let surface = Surface::<2> { segments: vec![[1, 2]], previous: vec![NONE], next: vec![NONE], nodes: vec![1, 2] };
         (Target { surface, mirrors: Vec::new() }, [x, [0.1, 0.2], [1.3, 0.7]])
     }
 
@@ -448,7 +480,7 @@ mod tests {
             let spin: f64 = ends
                 .iter()
                 .map(|end| {
-                    let ([x, y], slip) = (positions[end.at as usize], [0, 1].map(|d| end.share * t[d] + end.turn[d]));
+                    let ([x, y], slip) = (positions[end.at as usize], [0, 1].map(|d| end.share * t[d] + end.turn[0][d]));
                     x * slip[1] - y * slip[0]
                 })
                 .sum();
@@ -463,9 +495,8 @@ mod tests {
         let sweep = Sweep::between(&old, &new);
         let ends = [End::node(0, 1.0), End::node(1, -0.5), End::node(2, -0.5)];
         let (up, aside) = ([0.0, 1.0], [0.1, (1.0f64 - 0.01).sqrt()]);
-        let of = |half: f64, before: Vector, gap: f64| {
-            carried(&Memory { half, normal: before, ..Memory::default() }, up, gap, &ends, 0.0, sweep, true)
-        };
+        let of =
+            |half: f64, before: Vector, gap: f64| carried(&Before { half, normal: before, carried: 0.0 }, up, gap, &ends, 0.0, sweep, true);
         assert_eq!(of(-0.5, up, -0.9), 0.0, "the normal stayed: so did the surface");
         assert_eq!(of(-0.01, aside, -0.022), 0.0, "off by no more than a turn makes");
         assert!((of(-0.01, aside, -0.9) - (-0.01 + 0.89)).abs() < 1e-15, "another stretch, and deep in it");
@@ -474,7 +505,7 @@ mod tests {
         // A spring that was not there.
         assert_eq!(of(0.0, [0.0; 2], -0.02), 0.0, "what came in within the step");
         assert!((of(0.0, [0.0; 2], -0.9) - 0.89).abs() < 1e-15, "what can't have");
-        let at_start = carried(&Memory::default(), up, -0.9, &ends, 0.0, sweep, false);
+        let at_start = carried(&Memory::default().before(), up, -0.9, &ends, 0.0, sweep, false);
         assert_eq!(at_start, 0.0, "at the start the model has decided");
     }
 }

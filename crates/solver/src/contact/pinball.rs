@@ -126,7 +126,7 @@ impl Disk {
         for (k, end) in ends.iter_mut().enumerate().take(self.count) {
             let [x, y] = arm(self.nodes[k]);
             let turn = [-moment * y / square, moment * x / square];
-            *end = End { at: self.nodes[k], share: sign * self.shares[k], turn, ..End::default() };
+            *end = End { at: self.nodes[k], share: sign * self.shares[k], turn: [turn], ..End::default() };
         }
         ends
     }
@@ -316,7 +316,7 @@ impl Formulation for Pinball {
             let (mine, theirs) = (one.ends(positions, 1.0, part * one.radius), other.ends(positions, -1.0, part * other.radius));
             ends[..one.count].copy_from_slice(&mine[..one.count]);
             ends[one.count..one.count + other.count].copy_from_slice(&theirs[..other.count]);
-            let spring = Spring { normal, gap: gap - near.offset, stiffness, area, side, slip: near.slip, ..Spring::default() };
+            let spring = Spring { normal, gap: gap - near.offset, stiffness, area, side, slip: [near.slip], ..Spring::default() };
             springs.push(spring, &ends[..one.count + other.count]);
         }
         self.has_begun = true;
@@ -360,7 +360,7 @@ impl Formulation for Pinball {
 
     fn remember(&mut self, solved: Answers<'_>) {
         for (near, answer) in self.near.iter_mut().zip(solved) {
-            near.slip = answer.solved.slip_new;
+            near.slip = answer.solved.slip_new[0];
         }
     }
 }
@@ -374,7 +374,7 @@ mod tests {
     use crate::mesh::surface::Surface;
 
     fn disks_of(body: &Body) -> Vec<Disk> {
-        let surface = Surface::outside(body.quads.iter().map(<[u32; 4]>::as_slice)).unwrap();
+        let surface = Surface::<2>::outside(body.quads.iter().map(<[u32; 4]>::as_slice)).unwrap();
         let cell = |segment: &[u32; 2]| {
             let quad = body.quads.iter().find(|quad| (0..4).any(|k| [quad[(k + 1) % 4], quad[k]] == *segment));
             quad.unwrap().as_slice()
@@ -437,7 +437,7 @@ mod tests {
         let t = tangent([(a[0] - b[0]) / distance, (a[1] - b[1]) / distance]);
         let ends = [one.ends(&positions, 1.0, 0.5 * distance), other.ends(&positions, -1.0, 0.5 * distance)].concat();
         let rate = |v: &dyn Fn(Vector) -> Vector| -> f64 {
-            let of = |end: &End| (0..2).map(|d| (end.share * t[d] + end.turn[d]) * v(positions[end.at as usize])[d]).sum::<f64>();
+            let of = |end: &End| (0..2).map(|d| (end.share * t[d] + end.turn[0][d]) * v(positions[end.at as usize])[d]).sum::<f64>();
             ends.iter().map(of).sum()
         };
         assert!(rate(&|x| [-x[1], x[0]]).abs() < 1e-14 && rate(&|_| [3.0, -7.0]).abs() < 1e-14);

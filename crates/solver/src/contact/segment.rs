@@ -16,7 +16,7 @@ mod common;
 use super::formulation::{FormulationKind, Setup, both_passes};
 use super::initial::kept;
 use super::law::{Law, penalty};
-use super::springs::{Answers, Spring, Springs};
+use super::springs::{Answers, Patch, Spring, Springs};
 use super::tracker::{Certificate, SearchReport, Tracker};
 use super::{Formulation, Scene, Sweep, Vector};
 use crate::archive::{Archive, Kept, keep_all, keep_each};
@@ -287,11 +287,11 @@ impl Segment {
 impl Segment {
     /// Energy (J/m²) and pressure (Pa) of the law at a gap.
     fn density(&self, gap: f64, pressure: f64) -> [f64; 2] {
-        let spring = Spring { stiffness: pressure, area: 1.0, ..Spring::default() };
+        let patch = Patch { stiffness: pressure, area: 1.0, ..Patch::default() };
         let small = 1e-6 * gap.abs();
         // The slope of the energy by differences: exact for parabolas, and all laws are made of them.
-        let slope = |small: f64| 0.5 * (self.law.stored(&spring, gap - small) - self.law.stored(&spring, gap + small)) / small;
-        [self.law.stored(&spring, gap), if small > 0.0 { slope(small) } else { 0.0 }]
+        let slope = |small: f64| 0.5 * (self.law.stored(&patch, gap - small) - self.law.stored(&patch, gap + small)) / small;
+        [self.law.stored(&patch, gap), if small > 0.0 { slope(small) } else { 0.0 }]
     }
 
     /// Index of a pair's first node in the forest.
@@ -337,7 +337,7 @@ impl Segment {
             let (normal, area) = (common.normal, weight * common.area * around);
             let side = if self.chains.len() == 1 { 0.0 } else { 1.0 };
             let (stiffness, slip) = (pressure * area, facing.slips[k]);
-            springs.push(Spring { normal, gap, stiffness, area, side, slip, ..Spring::default() }, &ends);
+            springs.push(Spring { normal, gap, stiffness, area, side, slip: [slip], ..Spring::default() }, &ends);
         }
         self.facing.push(facing);
     }
@@ -491,7 +491,7 @@ impl Formulation for Segment {
         for (index, facing) in self.facing.iter_mut().enumerate() {
             facing.stored = 0.0;
             for (slip, answer) in facing.slips.iter_mut().zip(solved.part(index * count, (index + 1) * count)) {
-                *slip = answer.solved.slip_new;
+                *slip = answer.solved.slip_new[0];
                 facing.stored += answer.stored_new();
             }
         }

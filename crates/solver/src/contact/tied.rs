@@ -164,7 +164,7 @@ impl Formulation for Tied {
             // Forces act at the present foot of the node, so that both are collinear.
             let projection = Projection { segment: tie.segment, weights: [1.0 - along / whole, along / whole], gap, normal };
             let (stiffness, area, slip) = (tie.stiffness, tie.area, along - tie.place * whole);
-            let spring = Spring { normal, gap: gap - tie.gap, stiffness, area, side: self.side, slip, ..Spring::default() };
+            let spring = Spring { normal, gap: gap - tie.gap, stiffness, area, side: self.side, slip: [slip], ..Spring::default() };
             springs.push(spring, &ends(tie.node, &projection, &self.target, positions));
         }
         springs.close_group(self.terms);
@@ -183,7 +183,7 @@ impl Formulation for Tied {
         self.ties.retain(|tie| {
             let Some(answer) = ties.next() else { return true };
             let pull = (-answer.solved.force).max(0.0);
-            let holds = pull.hypot(answer.solved.friction) <= strength * tie.area;
+            let holds = pull.hypot(answer.solved.friction[0]) <= strength * tie.area;
             if !holds {
                 bound[tie.slave as usize] = false;
                 *broken += 1;

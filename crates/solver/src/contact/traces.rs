@@ -2,17 +2,21 @@
 //!
 //! Springs come solved; fields go to the record. Each spring stands for a length of surface on both sides, and a node has its shares of the springs at it.
 
-use super::Vector;
 use super::forces::ContactForces;
 use super::springs::{Answer, Lost, Springs};
 use crate::archive::{Archive, Keep, Kept};
-use crate::load::tributary::Depth;
-use crate::mesh::surface::Surface;
+use crate::load::tributary::{Depth, shares, vector_shares};
+use crate::mesh::surface::{Corners, Sided, Surface};
+use crate::motion::{Motion, dot_space};
+use crate::tensor::Dim;
 
 /// Sums over the run, and the outside that they belong to.
-#[derive(Clone, Debug, Default)]
-pub struct Traces {
-    outside: Surface,
+#[derive(Clone, Debug)]
+pub struct Traces<const D: usize = 2>
+where
+    Dim<D>: Motion<D>,
+{
+    outside: Surface<D>,
     depth: Depth,
     /// Initial area of surface at each node, m (of a body of revolution m²); zero inside.
     area: Vec<f64>,
@@ -31,7 +35,19 @@ pub struct State {
     pub status: f64,
 }
 
-impl Keep for Traces {
+impl<const D: usize> Default for Traces<D>
+where
+    Dim<D>: Motion<D>,
+{
+    fn default() -> Self {
+        Self { outside: Surface::<D>::default(), depth: Depth::default(), area: Vec::new(), slip: Vec::new(), heat: Vec::new() }
+    }
+}
+
+impl<const D: usize> Keep for Traces<D>
+where
+    Dim<D>: Motion<D>,
+{
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
         let Self { outside: _, depth: _, area: _, slip, heat } = self;
         slip[..].keep(archive)?;
@@ -39,27 +55,86 @@ impl Keep for Traces {
     }
 }
 
-impl Traces {
-    /// For `outside`, the outside of all bodies; `positions` are the initial ones. Of a model without contacts both are empty: nothing is remembered.
+impl Traces<3> {
+    /// Contact pressure and shear stress (Pa) of every node, from the contact forces on the nodes (N) at their current positions: −f·n and |f + p n A| by current area A, n the normal of
+    /// the surface at the node. In pairs; zero inside.
     #[must_use]
-    pub fn new(outside: Surface, positions: &[Vector], depth: Depth) -> Self {
+    pub fn tractions(&self, forces: &ContactForces<3>, positions: &[[f64; 3]]) -> Vec<[f64; 2]> {
+        let mut normals = vec![[0.0; 3]; positions.len()];
         let mut area = vec![0.0; positions.len()];
-        for &segment in &outside.segments {
-            for (node, share) in segment.into_iter().zip(depth.shares(segment.map(|node| positions[node as usize]))) {
+        for &facet in self.outside.facets() {
+            let vectors = vector_shares(facet.map(|node| positions[node as usize]), facet.corners().len() == 3);
+            for ((node, share), vector) in shares::<3>(self.depth, facet, positions).zip(vectors) {
+                (0..3).for_each(|d| normals[node as usize][d] += vector[d]);
                 area[node as usize] += share;
             }
+        }
+        let traction = |((node, &normal), area): ((usize, &[f64; 3]), &f64)| {
+            let norm = dot_space(normal, normal).sqrt();
+            if norm == 0.0 {
+                return [0.0; 2];
+            }
+            let (force, normal) = (forces.of(node), normal.map(|n| n / norm));
+            let across = dot_space(force, normal);
+            let along = [0, 1, 2].map(|d| force[d] - across * normal[d]);
+            [-across / area, dot_space(along, along).sqrt() / area]
+        };
+        normals.iter().enumerate().zip(&area).map(traction).collect()
+    }
+}
+
+impl Traces<2> {
+    /// Contact pressure and shear stress (Pa) of every node, from the contact forces on the nodes (N/m) at their current positions: −f·n and f·t
+    /// by current area, t along the surface with the body on its right. In pairs; zero inside.
+    #[must_use]
+    pub fn tractions(&self, forces: &ContactForces, positions: &[[f64; 2]]) -> Vec<[f64; 2]> {
+        let mut along = vec![[0.0; 2]; positions.len()];
+        let mut area = vec![0.0; positions.len()];
+        for &segment in &self.outside.segments {
+            let ends @ [a, b] = segment.map(|node| positions[node as usize]);
+            let length = super::length(segment, positions);
+            for (node, share) in segment.into_iter().zip(self.depth.shares(ends)) {
+                let part = if length > 0.0 { share / length } else { 0.0 };
+                along[node as usize][0] += part * (b[0] - a[0]);
+                along[node as usize][1] += part * (b[1] - a[1]);
+                area[node as usize] += share;
+            }
+        }
+        let traction = |((node, t), area): ((usize, &[f64; 2]), &f64)| {
+            let norm = (t[0] * t[0] + t[1] * t[1]).sqrt();
+            if norm == 0.0 {
+                return [0.0; 2];
+            }
+            let (f, per) = (forces.of(node), 1.0 / (norm * area));
+            // n = (−t₂, t₁)
+            [(f[0] * t[1] - f[1] * t[0]) * per, (f[0] * t[0] + f[1] * t[1]) * per]
+        };
+        along.iter().enumerate().zip(&area).map(traction).collect()
+    }
+}
+
+impl<const D: usize> Traces<D>
+where
+    Dim<D>: Motion<D>,
+{
+    /// For `outside`, the outside of all bodies; `positions` are the initial ones. Of a model without contacts both are empty: nothing is remembered.
+    #[must_use]
+    pub fn new(outside: Surface<D>, positions: &[[f64; D]], depth: Depth) -> Self {
+        let mut area = vec![0.0; positions.len()];
+        for &facet in outside.facets() {
+            shares::<D>(depth, facet, positions).for_each(|(node, share)| area[node as usize] += share);
         }
         Self { outside, depth, area, slip: vec![0.0; positions.len()], heat: vec![0.0; positions.len()] }
     }
 
     /// Goes on with another outside; `positions` are the initial ones. Sums stay with the nodes.
-    pub fn renew(&mut self, outside: Surface, positions: &[Vector]) {
+    pub fn renew(&mut self, outside: Surface<D>, positions: &[[f64; D]]) {
         let Self { slip, heat, depth, .. } = std::mem::take(self);
         *self = Self { slip, heat, ..Self::new(outside, positions, depth) };
     }
 
     /// Adds what a solved spring does in the coming update, which takes `lost` from the motion.
-    pub fn mark(&mut self, answer: &Answer<'_>, lost: &Lost) {
+    pub fn mark(&mut self, answer: &Answer<'_, D>, lost: &Lost) {
         if answer.solved.force == 0.0 {
             return;
         }
@@ -87,37 +162,9 @@ impl Traces {
         self.area.get(node).filter(|&&area| area > 0.0).map_or(0.0, |area| self.heat[node] / area)
     }
 
-    /// Contact pressure and shear stress (Pa) of every node, from the contact forces on the nodes (N/m) at their current positions: −f·n and f·t
-    /// by current area, t along the surface with the body on its right. In pairs; zero inside.
-    #[must_use]
-    pub fn tractions(&self, forces: &ContactForces, positions: &[Vector]) -> Vec<[f64; 2]> {
-        let mut along = vec![[0.0; 2]; positions.len()];
-        let mut area = vec![0.0; positions.len()];
-        for &segment in &self.outside.segments {
-            let ends @ [a, b] = segment.map(|node| positions[node as usize]);
-            let length = super::length(segment, positions);
-            for (node, share) in segment.into_iter().zip(self.depth.shares(ends)) {
-                let part = if length > 0.0 { share / length } else { 0.0 };
-                along[node as usize][0] += part * (b[0] - a[0]);
-                along[node as usize][1] += part * (b[1] - a[1]);
-                area[node as usize] += share;
-            }
-        }
-        let traction = |((node, t), area): ((usize, &Vector), &f64)| {
-            let norm = (t[0] * t[0] + t[1] * t[1]).sqrt();
-            if norm == 0.0 {
-                return [0.0; 2];
-            }
-            let (f, per) = (forces.of(node), 1.0 / (norm * area));
-            // n = (−t₂, t₁)
-            [(f[0] * t[1] - f[1] * t[0]) * per, (f[0] * t[0] + f[1] * t[1]) * per]
-        };
-        along.iter().enumerate().zip(&area).map(traction).collect()
-    }
-
     /// State of so many nodes from the solved springs of the step.
     #[must_use]
-    pub fn states(springs: &Springs, nodes: usize) -> Vec<State> {
+    pub fn states(springs: &Springs<D>, nodes: usize) -> Vec<State> {
         let mut sums = vec![(0.0, 0.0, 0.0f64); nodes];
         for Answer { spring, solved, .. } in springs.answers(0..springs.list.len()) {
             let status = if solved.force == 0.0 { 0.0 } else { 1.0 + f64::from(u8::from(solved.slides)) };

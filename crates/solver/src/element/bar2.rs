@@ -8,4 +8,5 @@ pub const BAR2: ElementKind = ElementKind {
     doc: "bar of two nodes for trusses and cables: uniaxial stress, any rotation and stretch; no bending; `area` is its cross-section",
     source: "Belytschko, Liu and Moran, Nonlinear Finite Elements (2000), 2.3 and 4.4",
     nodes: 2,
+    dimension: 2,
 };

@@ -3,17 +3,26 @@
 //! Everything else (strain, internal force, volume) follows in the block. To add an element: one file, one line in `elements!`.
 
 mod bar2;
+mod hex8;
+mod hex8_reduced;
 mod quad4;
 mod quad4_reduced;
+mod stiffest;
+mod tet4;
 mod tri3;
+mod wedge6;
 
 pub use bar2::BAR2;
+pub use hex8::Hex8;
+pub use hex8_reduced::{Hex8Reduced, Hex8ReducedViscous};
 pub use quad4::{Quad4, Quad4Full};
 pub use quad4_reduced::{Quad4Reduced, Quad4ReducedAssumedStrain, Quad4ReducedViscous};
+pub use tet4::{Tet4, Tet4Anp};
 pub use tri3::{Tri3, Tri3Anp};
+pub use wedge6::Wedge6;
 
 use crate::tensor::{Dim, Matrix, Space};
-use embate_lanes::Lane;
+use embate_lanes::{Batch, Lane};
 
 /// An element as the registry describes it.
 #[derive(Clone, Copy, Debug)]
@@ -26,6 +35,8 @@ pub struct ElementKind {
     pub source: &'static str,
     /// Nodes per element.
     pub nodes: usize,
+    /// 2 in the plane, 3 in space.
+    pub dimension: usize,
 }
 
 /// An element of dimension `D` with `N` nodes and `P` quadrature points. The functions must be `#[inline(always)]`.
@@ -45,10 +56,12 @@ where
     const MEAN_DILATATION: bool;
     /// Whether the dilatation is averaged over the nodes of the block and back (`block/nodal.rs`); for elements with one point.
     const NODAL_DILATATION: bool = false;
-    /// Batches that hourglass control keeps per element, at most [`KEPT`]; 0: none is needed.
+    /// Batches that hourglass control keeps per element; 0: none is needed.
     const HOURGLASS: usize = 0;
-    /// Whether that control follows the amplitude of the pattern from step to step and keeps a force against it, which turns with the element.
-    const SWINGS: bool = false;
+    /// Patterns whose amplitude that control follows from step to step, keeping a force against each, which turns with the element; at most [`PATTERNS`].
+    const SWINGS: usize = 0;
+    /// Whether the gradient at its one point is the exact mean over an element that may be warped: then it takes a second matrix of natural parts, [`Element::warp`].
+    const WARPED: bool = false;
 
     /// The element with its options.
     fn new(options: &ElementOptions) -> Self;
@@ -59,25 +72,102 @@ where
     fn gradients<L: Lane>(nodal: &[[L; D]; N]) -> [Matrix<L, D>; P];
     /// The transpose of [`Element::gradients`]: `out[a][i]` = Σ_p Σ_k flux_p,ik ∂N_a/∂ξ_k.
     fn divergence<L: Lane>(flux: &[Matrix<L, D>; P]) -> [[L; D]; N];
-    /// Square of the element's thickness h, m², as numerator and denominator, so that the step costs one division: dt = h / c is stable for waves of speed c when
-    /// every corner has the mass share 1/N. `determinants` are those of the Jacobian at the points, `volume` their weighted sum.
-    fn thickness_squared<L: Lane>(nodal: &[[L; D]; N], determinants: &[L; P], volume: L) -> [L; 2];
+    /// Of an element that is warped: the natural parts of a nodal vector that are not linear in the natural coordinates, as a second matrix.
+    #[inline(always)]
+    fn warp<L: Lane>(_nodal: &[[L; D]; N]) -> Matrix<L, D> {
+        [[L::splat(0.0); D]; D]
+    }
+    /// Of an element that is warped: from both matrices of positions what takes the place of their adjugates, and of the determinant: the mean gradient of a nodal vector
+    /// is (A adj(A) + B adj(B)) / det with its own two matrices A and B.
+    #[inline(always)]
+    fn mean<L: Lane>(jacobian: &Matrix<L, D>, warp: &Matrix<L, D>) -> ([Matrix<L, D>; 2], L) {
+        ([Dim::<D>::adjugate(jacobian), *warp], Dim::<D>::determinant(jacobian))
+    }
+    /// Of an element that is warped: the transpose of [`Element::gradients`], [`Element::warp`] and of what part neither of them is, all together.
+    #[inline(always)]
+    fn divergence_warped<L: Lane>(flux: &[Matrix<L, D>; P], _pulls: &Pulls<L, D>) -> [[L; D]; N] {
+        Self::divergence(flux)
+    }
+    /// Square of the element's thickness h, m², as numerator and denominator, so that the step costs one division: dt = h / c is stable for waves of speed c² = M/ρ when
+    /// every corner has the mass share 1/N. `map` is that of the element's present form, `volume` the weighted sum of its determinants, and `shear` the part s = 2µ/M of an
+    /// isotropic elastic stiffness in M = K + 4µ/3, or 0 where only M is known.
+    fn thickness_squared<L: Lane>(nodal: &[[L; D]; N], map: &Map<L, D, P>, volume: L, shear: L) -> [L; 2];
     /// Exact ∫ N_a dA of every corner, or ∫ 2πx N_a dA of a body of revolution; `None`: the points' sums are exact enough.
     fn corner_volumes(_nodal: &[[f64; D]; N], _is_axisymmetric: bool) -> Option<[f64; N]> {
         None
     }
-    /// Change of the amplitude q of the shape that the points do not feel, m, in a `step` of the nodes to `x` whose displacement gradient at mid-step is known.
-    /// Called only where hourglass control follows it ([`Element::SWINGS`]).
+    /// Changes of the amplitudes q of the shapes that the points do not feel, m, in a `step` of the nodes to `x` whose displacement gradient at mid-step is known.
+    /// Called only where hourglass control follows them ([`Element::SWINGS`]).
     #[inline(always)]
-    fn swing<L: Lane>(_x: &[[L; D]; N], _step: &[[L; D]; N], _gradient: &Matrix<L, D>) -> [L; D] {
-        [L::splat(0.0); D]
+    fn swing<L: Lane>(_x: &[[L; D]; N], _step: &[[L; D]; N], _gradient: &Matrix<L, D>) -> [[L; D]; PATTERNS] {
+        [[L::splat(0.0); D]; PATTERNS]
     }
-    /// Forces against the shapes that the points do not feel. Called only where hourglass control keeps something.
+    /// Forces against the shapes that the points do not feel; `kept` is what was kept at the beginning of the step ([`Element::HOURGLASS`] batches, lanes from `at` on; a force that
+    /// follows an amplitude is turned to its end) and becomes what is kept until the next. Called only where hourglass control keeps something.
     #[inline(always)]
-    fn hold_shape<L: Lane>(&self, corners: &Corners<L, D, N>) -> Held<L, D, N> {
+    fn hold_shape<L: Lane>(&self, _corners: &Corners<L, D, N>, _kept: &mut [Batch], _at: usize) -> Held<L, D, N> {
         let zero = L::splat(0.0);
-        Held { forces: [[zero; D]; N], kept: corners.kept, work: zero, stiffening: L::splat(1.0) }
+        Held { forces: [[zero; D]; N], flux: [[zero; D]; D], pulls: Pulls::none(), work: zero, stiffening: L::splat(1.0) }
     }
+}
+
+/// What pulls on the natural parts of a nodal vector that are not linear.
+#[derive(Clone, Copy, Debug)]
+pub struct Pulls<L, const D: usize> {
+    /// On those of [`Element::warp`].
+    pub warp: Matrix<L, D>,
+    /// On the last.
+    pub rest: [L; D],
+}
+
+impl<L: Lane, const D: usize> Pulls<L, D> {
+    /// Nothing.
+    #[inline(always)]
+    #[must_use]
+    pub fn none() -> Self {
+        Self { warp: [[L::splat(0.0); D]; D], rest: [L::splat(0.0); D] }
+    }
+}
+
+/// The map from natural coordinates to places, at the points of an element.
+#[derive(Clone, Copy, Debug)]
+pub struct Map<L, const D: usize, const P: usize> {
+    /// Adjugates of the Jacobian.
+    pub adjugates: [Matrix<L, D>; P],
+    /// Of an element that is warped: that of the second matrix.
+    pub warped: Matrix<L, D>,
+    /// Determinants: volume per natural volume.
+    pub determinants: [L; P],
+}
+
+/// The map of an element from its Jacobians, and the second matrix of one that is warped.
+#[inline(always)]
+pub fn map<E: Element<D, N, P>, L: Lane, const D: usize, const N: usize, const P: usize>(
+    jacobians: &[Matrix<L, D>; P],
+    warp: &Matrix<L, D>,
+) -> Map<L, D, P>
+where
+    Dim<D>: Space<D>,
+{
+    let mut map = Map { adjugates: *jacobians, warped: *warp, determinants: [L::splat(0.0); P] };
+    for p in 0..P {
+        if E::WARPED {
+            let ([own, warped], determinant) = E::mean(&jacobians[p], warp);
+            (map.adjugates[p], map.warped, map.determinants[p]) = (own, warped, determinant);
+        } else {
+            (map.adjugates[p], map.determinants[p]) = (Dim::<D>::adjugate(&jacobians[p]), Dim::<D>::determinant(&jacobians[p]));
+        }
+    }
+    map
+}
+
+/// The map of an element from the positions of its nodes.
+#[inline(always)]
+pub fn map_of<E: Element<D, N, P>, L: Lane, const D: usize, const N: usize, const P: usize>(x: &[[L; D]; N]) -> Map<L, D, P>
+where
+    Dim<D>: Space<D>,
+{
+    map::<E, L, D, N, P>(&E::gradients(x), &E::warp(x))
 }
 
 /// What a user may choose of an element.
@@ -87,18 +177,20 @@ pub struct ElementOptions {
     pub hourglass: Option<f64>,
 }
 
-/// Most batches that hourglass control keeps per element.
-pub const KEPT: usize = 5;
+/// Most patterns that hourglass control follows.
+pub const PATTERNS: usize = 4;
 
 /// What hourglass control reads.
 #[derive(Clone, Copy, Debug)]
 pub struct Corners<L, const D: usize, const N: usize> {
     /// Positions, m.
     pub x: [[L; D]; N],
-    /// Change of the amplitude in the step that led there, m, in directions of its end.
-    pub swing: [L; D],
-    /// What was kept at its beginning; a force that follows the amplitude is turned to its end.
-    pub kept: [L; KEPT],
+    /// Changes of the amplitudes in the step that led there, m, in directions of its end.
+    pub swing: [[L; D]; PATTERNS],
+    /// Square of the thickness as numerator and denominator, as in the stable step.
+    pub thickness_squared: [L; 2],
+    /// The same where all of M resists dilatation alone.
+    pub dilating_squared: [L; 2],
     /// Area, m².
     pub area: L,
     /// Volume: area times depth, m² (m³).
@@ -122,10 +214,12 @@ pub struct Corners<L, const D: usize, const N: usize> {
 /// What hourglass control answers.
 #[derive(Clone, Copy, Debug)]
 pub struct Held<L, const D: usize, const N: usize> {
-    /// Forces against which the nodes move, as those of the stresses: f_a = ∂W/∂x_a, N/m.
+    /// Forces against which the nodes move, as those of the stresses: f_a = ∂W/∂x_a, N/m. Not read of an element that is warped.
     pub forces: [[L; D]; N],
-    /// What is kept until the next step.
-    pub kept: [L; KEPT],
+    /// Of an element that is warped: what pulls on the linear natural parts, as the flux of the stresses does.
+    pub flux: Matrix<L, D>,
+    /// Of an element that is warped: what pulls on the other parts.
+    pub pulls: Pulls<L, D>,
     /// Work taken from the nodes in the step by the trapezoidal rule where control follows the amplitude, else the energy that is stored, J/m.
     pub work: L,
     /// Square of the stable step without it over that with it, at least 1.
@@ -133,44 +227,93 @@ pub struct Held<L, const D: usize, const N: usize> {
 }
 
 /// Someone who does something with every element's type.
-pub trait ElementVisitor {
+pub trait ElementVisitor<const D: usize = 2>
+where
+    Dim<D>: Space<D>,
+{
     /// What comes out.
     type Output;
-    /// The work for an element of the plane.
-    fn visit<E: Element<2, N, P>, const N: usize, const P: usize>(self) -> Self::Output;
+    /// The work for an element of the dimension.
+    fn visit<E: Element<D, N, P>, const N: usize, const P: usize>(self) -> Self::Output;
 }
 
-/// The registry: one line per element, with its nodes and points.
-macro_rules! elements {
-    ($($element:ident: $nodes:literal nodes, $points:literal points),* $(,)?) => {
-        /// Every element, in the order in which it is listed.
-        pub const ELEMENTS: &[ElementKind] = &[$(<$element as Element<2, $nodes, $points>>::KIND),*];
+/// A dimension with elements.
+pub trait Registered<const D: usize>
+where
+    Dim<D>: Space<D>,
+{
+    /// Every element of the dimension, in the order in which it is listed.
+    const ELEMENTS: &'static [ElementKind];
+    /// Calls `visitor` with the element called `name`; `None` when there is none.
+    fn with_element<V: ElementVisitor<D>>(name: &str, visitor: V) -> Option<V::Output>;
+}
 
-        /// Calls `visitor` with the element called `name`; `None` when there is none.
-        pub fn with_element<V: ElementVisitor>(name: &str, visitor: V) -> Option<V::Output> {
-            match name {
-                $(n if n == <$element as Element<2, $nodes, $points>>::KIND.name => Some(visitor.visit::<$element, $nodes, $points>()),)*
-                _ => None,
+/// Calls `visitor` with the element called `name`; `None` when its dimension has none.
+pub fn with_element<const D: usize, V: ElementVisitor<D>>(name: &str, visitor: V) -> Option<V::Output>
+where
+    Dim<D>: Space<D> + Registered<D>,
+{
+    <Dim<D> as Registered<D>>::with_element(name, visitor)
+}
+
+/// The registry: by dimension one line per element, with its nodes and points.
+macro_rules! elements {
+    ($($dimension:literal { $($element:ident: $nodes:literal nodes, $points:literal points),* $(,)? })*) => {
+        $(impl Registered<$dimension> for Dim<$dimension> {
+            const ELEMENTS: &'static [ElementKind] = &[$(<$element as Element<$dimension, $nodes, $points>>::KIND),*];
+
+            fn with_element<V: ElementVisitor<$dimension>>(name: &str, visitor: V) -> Option<V::Output> {
+                match name {
+                    $(n if n == <$element as Element<$dimension, $nodes, $points>>::KIND.name => {
+                        Some(visitor.visit::<$element, $nodes, $points>())
+                    })*
+                    _ => None,
+                }
+            }
+        })*
+
+        /// Every element of a dimension, in the order in which it is listed, but for [`BARS`]; none of a dimension that there is not.
+        #[must_use]
+        pub fn elements_of(dimension: usize) -> &'static [ElementKind] {
+            match dimension {
+                $($dimension => <Dim<$dimension> as Registered<$dimension>>::ELEMENTS,)*
+                _ => &[],
             }
         }
     };
 }
 
-elements!(
-    Quad4: 4 nodes, 4 points,
-    Quad4Full: 4 nodes, 4 points,
-    Quad4Reduced: 4 nodes, 1 points,
-    Quad4ReducedViscous: 4 nodes, 1 points,
-    Quad4ReducedAssumedStrain: 4 nodes, 1 points,
-    Tri3: 3 nodes, 1 points,
-    Tri3Anp: 3 nodes, 1 points,
-);
+elements! {
+    2 {
+        Quad4: 4 nodes, 4 points,
+        Quad4Full: 4 nodes, 4 points,
+        Quad4Reduced: 4 nodes, 1 points,
+        Quad4ReducedViscous: 4 nodes, 1 points,
+        Quad4ReducedAssumedStrain: 4 nodes, 1 points,
+        Tri3: 3 nodes, 1 points,
+        Tri3Anp: 3 nodes, 1 points,
+    }
+    3 {
+        Hex8: 8 nodes, 8 points,
+        Hex8Reduced: 8 nodes, 1 points,
+        Hex8ReducedViscous: 8 nodes, 1 points,
+        Wedge6: 6 nodes, 6 points,
+        Tet4: 4 nodes, 1 points,
+        Tet4Anp: 4 nodes, 1 points,
+    }
+}
+
+/// Every element of the plane, in the order in which it is listed.
+pub const ELEMENTS: &[ElementKind] = <Dim<2> as Registered<2>>::ELEMENTS;
+
+/// Every element of space, in the order in which it is listed.
+pub const ELEMENTS_OF_SPACE: &[ElementKind] = <Dim<3> as Registered<3>>::ELEMENTS;
 
 /// Elements that are lines: blocks of their own make them, not the kernels that [`Element`]s are compiled into.
 pub const BARS: &[ElementKind] = &[BAR2];
 
-/// Every element.
+/// Every element: those of the plane, bars too, then those of space.
 #[must_use]
 pub fn registry() -> Vec<ElementKind> {
-    ELEMENTS.iter().chain(BARS).copied().collect()
+    ELEMENTS.iter().chain(BARS).chain(ELEMENTS_OF_SPACE).copied().collect()
 }

@@ -11,7 +11,7 @@
 //! a = ¼ Σ ξ_a u_a, b = ¼ Σ η_a u_a, h = ¼ Σ ξ_a η_a u_a. At 2 × 2 points only two values of each occur, which saves most of the work.
 //! Source: Hughes, The Finite Element Method (1987), 3.2 and 4.5 (mean dilatation).
 
-use super::{Element, ElementKind, ElementOptions};
+use super::{Element, ElementKind, ElementOptions, Map};
 use crate::tensor::Matrix;
 use embate_lanes::Lane;
 
@@ -113,8 +113,8 @@ macro_rules! quadrilateral {
                 divergence(flux)
             }
             #[inline(always)]
-            fn thickness_squared<L: Lane>(nodal: &[[L; 2]; 4], determinants: &[L; 4], volume: L) -> [L; 2] {
-                thickness_squared(nodal, determinants, volume)
+            fn thickness_squared<L: Lane>(nodal: &[[L; 2]; 4], map: &Map<L, 2, 4>, volume: L, _: L) -> [L; 2] {
+                thickness_squared(nodal, &map.determinants, volume)
             }
         }
     };
@@ -129,6 +129,7 @@ quadrilateral!(
         doc: "four-node quadrilateral, 2 x 2 points, mean dilatation; the default: no locking in plastic flow or rubber",
         source: "Hughes, The Finite Element Method (1987), 4.5; the paper's 4-node linear isoparametric",
         nodes: 4,
+        dimension: 2,
     }
 );
 
@@ -141,5 +142,6 @@ quadrilateral!(
         doc: "four-node quadrilateral, 2 x 2 points, full integration; locks in plastic flow and rubber: for teaching and comparison only",
         source: "Hughes, The Finite Element Method (1987), 3.2",
         nodes: 4,
+        dimension: 2,
     }
 );

@@ -23,9 +23,9 @@
 //! Sources: Flanagan and Belytschko, Int. J. Numer. Meth. Engng 17 (1981) 679-706; Hughes and Winget, Int. J. Numer. Meth. Engng 15 (1980) 1862-1867; Belytschko and Bindeman, Comput. Meth. Appl. Mech. Engng 88 (1991) 311-340.
 
 use super::quad4::{Quad4Full, distance_squared, shape};
-use super::{Corners, Element, ElementKind, ElementOptions, Held, KEPT};
+use super::{Corners, Element, ElementKind, ElementOptions, Held, Map, PATTERNS, Pulls};
 use crate::tensor::{Dim, Matrix, Space, scaled};
-use embate_lanes::Lane;
+use embate_lanes::{Batch, Lane};
 use std::f64::consts::{SQRT_2, TAU};
 
 /// Natural coordinates along the diagonals, from corner to corner of length one: at the centre the gradient is the differences between opposite nodes.
@@ -171,6 +171,9 @@ fn corner_volumes(x: &[[f64; 2]; 4], is_axisymmetric: bool) -> [f64; 4] {
     volumes
 }
 
+/// Values that the potential of the assumed strain keeps.
+const POTENTIAL: usize = 5;
+
 /// What a control adds.
 struct Answer<L> {
     /// To Q; of dampers all of it.
@@ -181,7 +184,7 @@ struct Answer<L> {
 
 /// What the potential of the assumed strain keeps of the start: γ as its parts along the diagonals, and the stiffness in the axes of [`frame`], N/m (N).
 #[inline(always)]
-fn potential<L: Lane>(coefficient: L, corners: &Corners<L, 2, 4>, start: &Differences<L>, inverse: L) -> [L; KEPT] {
+fn potential<L: Lane>(coefficient: L, corners: &Corners<L, 2, 4>, start: &Differences<L>, inverse: L) -> [L; POTENTIAL] {
     let (one, two) = (L::splat(1.0), L::splat(2.0));
     let Corners { modulus, shear, volume, .. } = *corners;
     // ν = (M − 2µ) / 2(M − µ), ν/(1 − ν) = (M − 2µ) / M
@@ -213,9 +216,20 @@ fn bend<L: Lane>(
     [numerator, extent]: [L; 2],
     end: &Differences<L>,
     inverse: L,
+    memory: (&mut [Batch], usize),
 ) -> Held<L, 2, 4> {
     let (quarter, half, two, four) = (L::splat(0.25), L::splat(0.5), L::splat(2.0), L::splat(4.0));
-    let kept = if corners.is_start { potential(coefficient, corners, end, inverse) } else { corners.kept };
+    let (memory, at) = memory;
+    if corners.is_start {
+        let kept = potential(coefficient, corners, end, inverse);
+        for i in 0..POTENTIAL {
+            kept[i].store(&mut memory[i], at);
+        }
+    }
+    let mut kept = [half; POTENTIAL];
+    for i in 0..POTENTIAL {
+        kept[i] = L::load(&memory[i], at);
+    }
     let [first, second, xx, yy, xy] = kept;
     let amplitude = |i: usize| (end.twist[i] + first * end.first[i] + second * end.second[i]) * quarter;
     let Frame { p, axis, square } = end.frame();
@@ -240,7 +254,8 @@ fn bend<L: Lane>(
     let r = (L::splat(32.0) * (x * x + y * y) / square).sqrt();
     Held {
         forces,
-        kept,
+        flux: [[L::splat(0.0); 2]; 2],
+        pulls: Pulls::none(),
         work: half * (force_x * x + force_y * y),
         stiffening: together(swing, more) + swing * (four + more) * quarter * (r * (two + r)),
     }
@@ -269,9 +284,9 @@ fn together<L: Lane>(swing: L, more: L) -> L {
 }
 
 #[inline(always)]
-fn hold_shape<L: Lane>(control: Control, coefficient: f64, corners: &Corners<L, 2, 4>) -> Held<L, 2, 4> {
-    let (zero, quarter, half, one, two, four) = (L::splat(0.0), L::splat(0.25), L::splat(0.5), L::splat(1.0), L::splat(2.0), L::splat(4.0));
-    let Corners { shape_modulus, mass, rate, volume, swing: change, kept: old, .. } = *corners;
+fn hold_shape<L: Lane>(control: Control, coefficient: f64, corners: &Corners<L, 2, 4>, kept: &mut [Batch], at: usize) -> Held<L, 2, 4> {
+    let (quarter, half, one, two, four) = (L::splat(0.25), L::splat(0.5), L::splat(1.0), L::splat(2.0), L::splat(4.0));
+    let Corners { shape_modulus, mass, rate, volume, swing: [change, ..], .. } = *corners;
     let coefficient = L::splat(coefficient);
     let end = Differences::of(&corners.x);
     let inverse = one / end.area_twice();
@@ -287,8 +302,9 @@ fn hold_shape<L: Lane>(control: Control, coefficient: f64, corners: &Corners<L, 
             let c = two * coefficient * (stiffness * mass).sqrt() * rate;
             Answer { added: [c * change[0], c * change[1]], swing: L::splat(SQRT_2) * coefficient }
         }
-        Control::AssumedStrain => return bend(coefficient, corners, thickness_squared, &end, inverse),
+        Control::AssumedStrain => return bend(coefficient, corners, thickness_squared, &end, inverse, (kept, at)),
     };
+    let old = [L::load(&kept[0], at), L::load(&kept[1], at)];
     let force = if matches!(control, Control::Viscous) { added } else { [old[0] + added[0], old[1] + added[1]] };
     let [first, second] = end.diagonals(inverse);
     let gamma = gamma(first, second);
@@ -297,11 +313,14 @@ fn hold_shape<L: Lane>(control: Control, coefficient: f64, corners: &Corners<L, 
     for a in 0..4 {
         forces[a] = [gamma[a] * quarters[0], gamma[a] * quarters[1]];
     }
+    force[0].store(&mut kept[0], at);
+    force[1].store(&mut kept[1], at);
     // γ·γ − 4
     let together = together(swing, two * (first * first + second * second));
     Held {
         forces,
-        kept: [force[0], force[1], zero, zero, zero],
+        flux: [[L::splat(0.0); 2]; 2],
+        pulls: Pulls::none(),
         work: half * ((old[0] + force[0]) * change[0] + (old[1] + force[1]) * change[1]),
         stiffening: if matches!(control, Control::Viscous) { together * together } else { together },
     }
@@ -321,8 +340,8 @@ macro_rules! reduced {
             const WEIGHTS: [f64; 1] = [0.5];
             const NODES: [[f64; 2]; 4] = DIAGONAL_NODES;
             const MEAN_DILATATION: bool = false;
-            const HOURGLASS: usize = if matches!(Control::$control, Control::AssumedStrain) { KEPT } else { 2 };
-            const SWINGS: bool = !matches!(Control::$control, Control::AssumedStrain);
+            const HOURGLASS: usize = if matches!(Control::$control, Control::AssumedStrain) { POTENTIAL } else { 2 };
+            const SWINGS: usize = if matches!(Control::$control, Control::AssumedStrain) { 0 } else { 1 };
 
             fn new(options: &ElementOptions) -> Self {
                 Self { coefficient: options.hourglass.unwrap_or($coefficient) }
@@ -350,19 +369,21 @@ macro_rules! reduced {
                 out
             }
             #[inline(always)]
-            fn thickness_squared<L: Lane>(nodal: &[[L; 2]; 4], _: &[L; 1], area: L) -> [L; 2] {
+            fn thickness_squared<L: Lane>(nodal: &[[L; 2]; 4], _: &Map<L, 2, 1>, area: L, _: L) -> [L; 2] {
                 thickness_squared(nodal, area)
             }
             fn corner_volumes(nodal: &[[f64; 2]; 4], is_axisymmetric: bool) -> Option<[f64; 4]> {
                 Some(corner_volumes(nodal, is_axisymmetric))
             }
             #[inline(always)]
-            fn swing<L: Lane>(x: &[[L; 2]; 4], step: &[[L; 2]; 4], gradient: &Matrix<L, 2>) -> [L; 2] {
-                swing(x, step, gradient)
+            fn swing<L: Lane>(x: &[[L; 2]; 4], step: &[[L; 2]; 4], gradient: &Matrix<L, 2>) -> [[L; 2]; PATTERNS] {
+                let mut all = [[L::splat(0.0); 2]; PATTERNS];
+                all[0] = swing(x, step, gradient);
+                all
             }
             #[inline(always)]
-            fn hold_shape<L: Lane>(&self, corners: &Corners<L, 2, 4>) -> Held<L, 2, 4> {
-                hold_shape(Control::$control, self.coefficient, corners)
+            fn hold_shape<L: Lane>(&self, corners: &Corners<L, 2, 4>, kept: &mut [Batch], at: usize) -> Held<L, 2, 4> {
+                hold_shape(Control::$control, self.coefficient, corners, kept, at)
             }
         }
     };
@@ -378,6 +399,7 @@ reduced!(
         doc: "four-node quadrilateral, one point, hourglass control by stiffness (coefficient 0.05)",
         source: "Flanagan and Belytschko, Int. J. Numer. Meth. Engng 17 (1981) 679-706",
         nodes: 4,
+        dimension: 2,
     }
 );
 
@@ -391,6 +413,7 @@ reduced!(
         doc: "four-node quadrilateral, one point, hourglass control by damping (coefficient 0.05): for high rates; shapes that are there remain",
         source: "Flanagan and Belytschko, Int. J. Numer. Meth. Engng 17 (1981) 679-706",
         nodes: 4,
+        dimension: 2,
     }
 );
 
@@ -404,5 +427,6 @@ reduced!(
         doc: "four-node quadrilateral, one point, hourglass control by assumed strain (coefficient 1): right in elastic bending with one element through the thickness",
         source: "Belytschko and Bindeman, Comput. Meth. Appl. Mech. Engng 88 (1991) 311-340 (ASQBI)",
         nodes: 4,
+        dimension: 2,
     }
 );

@@ -10,7 +10,7 @@
 //! Sources: Hughes, The Finite Element Method (1987), 3.I; Bonet and Burton, Commun. Numer. Meth. Engng 14 (1998) 437-449.
 
 use super::quad4::distance_squared;
-use super::{Element, ElementKind, ElementOptions};
+use super::{Element, ElementKind, ElementOptions, Map};
 use crate::tensor::Matrix;
 use embate_lanes::Lane;
 use std::f64::consts::TAU;
@@ -55,7 +55,7 @@ macro_rules! triangle {
                 out
             }
             #[inline(always)]
-            fn thickness_squared<L: Lane>(x: &[[L; 2]; 3], _: &[L; 1], area: L) -> [L; 2] {
+            fn thickness_squared<L: Lane>(x: &[[L; 2]; 3], _: &Map<L, 2, 1>, area: L, _: L) -> [L; 2] {
                 thickness_squared(x, area)
             }
             fn corner_volumes(x: &[[f64; 2]; 3], is_axisymmetric: bool) -> Option<[f64; 3]> {
@@ -74,6 +74,7 @@ triangle!(
         doc: "three-node triangle, one point; stiff in bending, locks in plastic flow and rubber",
         source: "Hughes, The Finite Element Method (1987), 3.I",
         nodes: 3,
+        dimension: 2,
     }
 );
 
@@ -86,6 +87,7 @@ triangle!(
         doc: "three-node triangle, one point, pressure averaged over the nodes: for triangles in plastic flow and rubber",
         source: "Bonet and Burton, Commun. Numer. Meth. Engng 14 (1998) 437-449",
         nodes: 3,
+        dimension: 2,
     }
 );
 

@@ -37,8 +37,8 @@ pub struct Criterion {
 
 /// What criteria see of eight elements: means over the points.
 pub trait Seen {
-    /// Cauchy stress xx yy zz xy, Pa.
-    fn stress(&self) -> [Batch; 4];
+    /// Cauchy stress xx yy zz xy yz zx, Pa; the last two are zero in the plane.
+    fn stress(&self) -> [Batch; 6];
     /// What the law remembers; zero where it has no such thing.
     fn variable(&self, variable: Variable) -> Batch;
     /// Squares of the stable steps, s².
@@ -63,13 +63,13 @@ mod tests {
     use super::*;
 
     struct State {
-        stress: [f64; 4],
+        stress: [f64; 6],
         variables: [f64; Variable::COUNT],
         time_step: f64,
     }
 
     impl Seen for State {
-        fn stress(&self) -> [Batch; 4] {
+        fn stress(&self) -> [Batch; 6] {
             self.stress.map(Batch::splat)
         }
         fn variable(&self, variable: Variable) -> Batch {
@@ -82,7 +82,7 @@ mod tests {
 
     #[test]
     fn each_criterion_fails_at_its_limit_and_not_before() {
-        let state = State { stress: [3.0, 1.0, 0.5, 2.0], variables: [0.2, 300.0, 0.9, 7800.0], time_step: 1e-8 };
+        let state = State { stress: [3.0, 1.0, 0.5, 2.0, 0.0, 0.0], variables: [0.2, 300.0, 0.9, 7800.0], time_step: 1e-8 };
         let at = |name: &str, limit: f64| (by_name(name).unwrap().fails)(&state, limit)[0];
         assert!(at("plastic_strain", 0.2) && !at("plastic_strain", 0.21));
         // 2 + √(1 + 4)
@@ -93,16 +93,28 @@ mod tests {
 
     #[test]
     fn stress_across_the_plane_counts_and_pressure_does_not() {
-        let fails = |stress: [f64; 4]| {
+        let fails = |stress: [f64; 6]| {
             let state = State { stress, variables: [0.0; Variable::COUNT], time_step: 1.0 };
             (by_name("principal_stress").unwrap().fails)(&state, 1.0)[0]
         };
-        assert!(fails([0.0, 0.0, 1.5, 0.0]) && !fails([-9.0, -9.0, -9.0, 0.0]));
+        assert!(fails([0.0, 0.0, 1.5, 0.0, 0.0, 0.0]) && !fails([-9.0, -9.0, -9.0, 0.0, 0.0, 0.0]));
+    }
+
+    #[test]
+    fn in_space_every_shear_counts() {
+        let largest = |stress: [f64; 6], limit: f64| {
+            let state = State { stress, variables: [0.0; Variable::COUNT], time_step: 1.0 };
+            (by_name("principal_stress").unwrap().fails)(&state, limit)[0]
+        };
+        // The same tension of 3 along x, along y − z, and along x + y + z.
+        for stress in [[3.0, 0.0, 0.0, 0.0, 0.0, 0.0], [0.0, 1.5, 1.5, 0.0, -1.5, 0.0], [1.0; 6]] {
+            assert!(largest(stress, 3.0 - 1e-12) && !largest(stress, 3.0 + 1e-12), "{stress:?}");
+        }
     }
 
     #[test]
     fn an_element_without_a_step_fails_for_its_step() {
-        let state = State { stress: [0.0; 4], variables: [0.0; Variable::COUNT], time_step: f64::NAN };
+        let state = State { stress: [0.0; 6], variables: [0.0; Variable::COUNT], time_step: f64::NAN };
         assert!((by_name("time_step").unwrap().fails)(&state, 1e-9)[0]);
     }
 }

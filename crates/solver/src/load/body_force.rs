@@ -9,22 +9,22 @@
 use super::curve::Curves;
 use crate::mesh::Mesh;
 use crate::model::{Load, Model};
-use crate::vector::first;
-
-type Vector = [f64; 2];
+use crate::tensor::Dim;
+use crate::vector::{first, minus, plus, times};
+use crate::world::{World, axis};
 
 /// The forces on mass of a model.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct BodyForces {
-    loads: Vec<Acting>,
+pub struct BodyForces<const D: usize> {
+    loads: Vec<Acting<D>>,
     /// Acceleration of every node now, m/s²; empty when the model has no such load.
-    now: Vec<Vector>,
+    now: Vec<[f64; D]>,
 }
 
 /// One load.
 #[derive(Clone, Debug, PartialEq)]
-struct Acting {
-    field: Field,
+struct Acting<const D: usize> {
+    field: Field<D>,
     /// Curve of the factor.
     curve: Option<usize>,
     /// c now.
@@ -36,10 +36,12 @@ struct Acting {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Field {
-    Uniform(Vector),
+enum Field<const D: usize> {
+    Uniform([f64; D]),
     Centrifugal {
-        centre: Vector,
+        centre: [f64; D],
+        /// A unit vector.
+        axis: [f64; 3],
         speed: f64,
     },
     /// About the axis of a body of revolution.
@@ -48,25 +50,33 @@ enum Field {
     },
 }
 
-impl Field {
-    fn at(self, factor: f64, x: Vector) -> Vector {
+impl<const D: usize> Field<D>
+where
+    Dim<D>: World<D>,
+{
+    fn at(self, factor: f64, x: [f64; D]) -> [f64; D] {
         match self {
-            Self::Uniform(acceleration) => acceleration.map(|component| factor * component),
-            Self::Axial { speed } => [(factor * speed).powi(2) * x[0], 0.0],
-            Self::Centrifugal { centre, speed } => [0, 1].map(|d| (factor * speed).powi(2) * (x[d] - centre[d])),
+            Self::Uniform(acceleration) => times(factor, acceleration),
+            Self::Axial { speed } => std::array::from_fn(|d| if d == 0 { (factor * speed).powi(2) * x[0] } else { 0.0 }),
+            Self::Centrifugal { centre, axis, speed } => times((factor * speed).powi(2), <Dim<D>>::across(minus(x, centre), axis)),
         }
     }
 }
 
-impl BodyForces {
+impl<const D: usize> BodyForces<D>
+where
+    Dim<D>: World<D>,
+{
     /// `part_mass` lists the nodes of each part with the part's mass on them (kg/m), `mass` the whole mass of each node, all in their initial positions.
     #[must_use]
-    pub fn new(model: &Model, mesh: &Mesh<2>, curves: &Curves, mass: &[f64], part_mass: &[Vec<(u32, f64)>]) -> Self {
+    pub fn new(model: &Model, mesh: &Mesh<D>, curves: &Curves, mass: &[f64], part_mass: &[Vec<(u32, f64)>]) -> Self {
         let load = |load: &Load| {
             let (parts, curve, field) = match load {
                 Load::Gravity { parts, acceleration, curve } => (parts, curve, Field::Uniform(first(*acceleration))),
                 Load::Centrifugal { parts, speed, curve, .. } if model.is_axisymmetric() => (parts, curve, Field::Axial { speed: *speed }),
-                Load::Centrifugal { parts, centre, speed, curve } => (parts, curve, Field::Centrifugal { centre: *centre, speed: *speed }),
+                Load::Centrifugal { parts, about, speed, curve } => {
+                    (parts, curve, Field::Centrifugal { centre: first(about.centre), axis: axis(about.direction), speed: *speed })
+                }
                 Load::Damping { .. } | Load::StiffnessDamping { .. } | Load::Force { .. } | Load::Pressure { .. } => return None,
             };
             let mut shares = vec![0.0; mesh.positions.len()];
@@ -98,16 +108,16 @@ impl BodyForces {
     }
 
     /// Takes their means between two times (s) at these positions (m).
-    pub fn prepare(&mut self, curves: &Curves, [from, to]: [f64; 2], positions: &[Vector]) {
+    pub fn prepare(&mut self, curves: &Curves, [from, to]: [f64; 2], positions: &[[f64; D]]) {
         let nodes = self.loads.first().map_or(0, |load| load.shares.len());
         self.now.clear();
-        self.now.resize(nodes, [0.0; 2]);
+        self.now.resize(nodes, [0.0; D]);
         for load in &mut self.loads {
             load.factor = load.curve.map_or(1.0, |curve| curves.curve(curve).mean(from, to));
             for ((sum, &share), x) in self.now.iter_mut().zip(&load.shares).zip(positions) {
                 if share > 0.0 {
                     let acceleration = load.field.at(load.factor, *x);
-                    *sum = [sum[0] + acceleration[0] * share, sum[1] + acceleration[1] * share];
+                    *sum = plus(*sum, acceleration.map(|component| component * share));
                 }
             }
         }
@@ -115,16 +125,13 @@ impl BodyForces {
 
     /// Acceleration of every node now, m/s²; empty when the model has no such load.
     #[must_use]
-    pub fn accelerations(&self) -> &[Vector] {
+    pub fn accelerations(&self) -> &[[f64; D]] {
         &self.now
     }
 
     /// Acceleration now at a point of a free obstacle, m/s².
     #[must_use]
-    pub fn everywhere(&self, x: Vector) -> Vector {
-        self.loads.iter().filter(|load| load.everywhere).fold([0.0; 2], |sum, load| {
-            let acceleration = load.field.at(load.factor, x);
-            [sum[0] + acceleration[0], sum[1] + acceleration[1]]
-        })
+    pub fn everywhere(&self, x: [f64; D]) -> [f64; D] {
+        self.loads.iter().filter(|load| load.everywhere).fold([0.0; D], |sum, load| plus(sum, load.field.at(load.factor, x)))
     }
 }

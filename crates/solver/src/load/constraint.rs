@@ -3,14 +3,15 @@
 
 use super::curve::{Curves, Meaning, Speed};
 use super::join::{Joins, back};
-use super::non_reflecting::{Matrix, times};
 use crate::error::Fault;
 use crate::load::messages::{HELD_TWICE, OFF_SYMMETRY};
 use crate::mesh::Mesh;
+use crate::mesh::surface::Corners;
 use crate::model::messages::UNKNOWN_NAME;
 use crate::model::{Constraint, Model, Symmetry};
-use crate::rigid::chord;
-use crate::vector::{dot, first};
+use crate::tensor::Dim;
+use crate::vector::{dot, first, minus};
+use crate::world::{self, Square, World, applied, unit_matrix};
 
 /// Prescribed directions of one node, orthonormal.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -83,24 +84,25 @@ impl<const D: usize> Held<D> {
         direction
     }
 
-    /// The same of something that gives way to impulses by a matrix (xx, xy, yy): the reactions act along the held directions.
+    /// The same of something that gives way to impulses by a symmetric matrix: the reactions act along the held directions.
     #[must_use]
-    pub fn apply_in(&self, mut velocity: [f64; 2], mut mobility: Matrix) -> [f64; 2] {
+    pub fn apply_in(&self, mut velocity: [f64; D], mut mobility: Square<D>) -> [f64; D] {
         for (direction, speed) in &self.directions {
-            let direction = [direction[0], direction[1]];
-            let change = speed - (velocity[0] * direction[0] + velocity[1] * direction[1]);
-            let response = times(mobility, direction);
-            let along = response[0] * direction[0] + response[1] * direction[1];
-            velocity = [velocity[0] + change / along * response[0], velocity[1] + change / along * response[1]];
-            mobility = without(mobility, direction);
+            let change = speed - dot(velocity, *direction);
+            let response = applied(&mobility, *direction);
+            let along = dot(response, *direction);
+            for d in 0..D {
+                velocity[d] += change / along * response[d];
+            }
+            mobility = without(mobility, *direction);
         }
         velocity
     }
 
-    /// What is left of a mobility (xx, xy, yy) along what is free.
+    /// What is left of a symmetric mobility along what is free.
     #[must_use]
-    pub fn mobility(&self, mobility: Matrix) -> Matrix {
-        self.directions.iter().fold(mobility, |mobility, (direction, _)| without(mobility, [direction[0], direction[1]]))
+    pub fn mobility(&self, mobility: Square<D>) -> Square<D> {
+        self.directions.iter().fold(mobility, |mobility, (direction, _)| without(mobility, *direction))
     }
 
     /// The velocity with the prescribed components.
@@ -146,6 +148,8 @@ struct Mirror<const D: usize> {
 #[derive(Clone, Debug, PartialEq)]
 struct Turn<const D: usize> {
     centre: [f64; D],
+    /// A unit vector.
+    axis: [f64; 3],
     speed: Speed,
 }
 
@@ -154,14 +158,17 @@ const ON_LINE: f64 = 1e-9;
 /// At most so many contradictions of a condition are told one by one.
 const TOLD: usize = 20;
 
-impl Constraints<2> {
+impl<const D: usize> Constraints<D>
+where
+    Dim<D>: World<D>,
+{
     /// From the symmetries and constraints of a model.
     ///
     /// `joins` tells which nodes move as one: what holds one of them holds its leader.
     ///
     /// # Errors
     /// Names without nodes, symmetry lines that hold no node, motions that contradict each other on a node.
-    pub fn new(model: &Model, mesh: &Mesh<2>, curves: &Curves, joins: &Joins) -> Result<Self, Vec<Fault>> {
+    pub fn new(model: &Model, mesh: &Mesh<D>, curves: &Curves, joins: &Joins<D>) -> Result<Self, Vec<Fault>> {
         let mut result = Self::default();
         if model.symmetries.is_empty() && model.constraints.is_empty() && joins.is_empty() {
             return Ok(result);
@@ -177,7 +184,7 @@ impl Constraints<2> {
             result.constrain(i, constraint, place, curves, &mut faults);
         }
         result.fix_tips(place, &mut faults);
-        let changes = |held: &Held<2>| held.turn.is_some() || held.speeds.iter().any(|speed| speed.as_constant().is_none());
+        let changes = |held: &Held<D>| held.turn.is_some() || held.speeds.iter().any(|speed| speed.as_constant().is_none());
         for (node, &index) in (0..).zip(&result.index) {
             if result.held.get(index as usize).is_some_and(changes) {
                 result.driven.push((index, node));
@@ -188,7 +195,7 @@ impl Constraints<2> {
     }
 
     /// Holds the nodes on a symmetry line.
-    fn mirror(&mut self, i: usize, symmetry: &Symmetry, place: Place<'_>, faults: &mut Vec<Fault>) {
+    fn mirror(&mut self, i: usize, symmetry: &Symmetry, place: Place<'_, D>, faults: &mut Vec<Fault>) {
         let mut found = Telling::new(format!("symmetry[{i}]"));
         self.conditions.push(format!("symmetry[{i}]"));
         let Some(normal) = unit(first(symmetry.normal)) else { return };
@@ -209,7 +216,7 @@ impl Constraints<2> {
     }
 
     /// Holds the nodes of a constraint.
-    fn constrain(&mut self, i: usize, constraint: &Constraint, place: Place<'_>, curves: &Curves, faults: &mut Vec<Fault>) {
+    fn constrain(&mut self, i: usize, constraint: &Constraint, place: Place<'_, D>, curves: &Curves, faults: &mut Vec<Fault>) {
         let mut found = Telling::new(format!("constraint[{i}]"));
         self.conditions.push(format!("constraint[{i}] on \"{}\"", constraint.on));
         let Some(nodes) = place.mesh.nodes(&constraint.on) else {
@@ -222,8 +229,8 @@ impl Constraints<2> {
             return;
         };
         if let Some(speed) = constraint.rotation.as_ref().and_then(|rotation| curves.speed(&rotation.speed)) {
-            let centre = constraint.rotation.as_ref().map_or([0.0; 2], |rotation| rotation.centre);
-            self.turns.push(Turn { centre, speed });
+            let about = constraint.rotation.as_ref().map(|rotation| rotation.about).unwrap_or_default();
+            self.turns.push(Turn { centre: first(about.centre), axis: world::axis(about.direction), speed });
             for &node in &nodes {
                 self.turn(node, place, &mut found);
             }
@@ -233,9 +240,9 @@ impl Constraints<2> {
             (Meaning::Displacement, &constraint.displacement),
             (Meaning::Acceleration, &constraint.acceleration),
         ] {
-            let speeds = [0, 1].map(|d| drives[d].as_ref().and_then(|drive| curves.meant(drive, meaning)));
+            let speeds: [_; D] = std::array::from_fn(|d| drives[d].as_ref().and_then(|drive| curves.meant(drive, meaning)));
             for &node in &nodes {
-                for (speed, direction) in speeds.iter().zip([[1.0, 0.0], [0.0, 1.0]]) {
+                for (speed, direction) in speeds.iter().zip(unit_matrix::<D>()) {
                     let Some(speed) = speed else { continue };
                     if meaning == Meaning::Acceleration {
                         self.hold(
@@ -255,18 +262,18 @@ impl Constraints<2> {
     }
 
     /// Holds the nodes that a rotation leads to themselves.
-    fn fix_tips(&mut self, place: Place<'_>, faults: &mut Vec<Fault>) {
+    fn fix_tips(&mut self, place: Place<'_, D>, faults: &mut Vec<Fault>) {
         let mut found = Telling::new("join".to_string());
         self.conditions.push("a join around it".to_string());
         for group in place.joins.groups().iter().filter(|group| group.fixed) {
-            for direction in [[1.0, 0.0], [0.0, 1.0]] {
+            for direction in unit_matrix::<D>() {
                 self.hold(group.members[0].node, direction, &Speed::constant(0.0), place, &mut found);
             }
         }
         found.tell(faults);
     }
 
-    fn slot(&mut self, node: u32) -> &mut Held<2> {
+    fn slot(&mut self, node: u32) -> &mut Held<D> {
         let slot = &mut self.index[node as usize];
         if *slot == u32::MAX {
             *slot = self.held.len() as u32;
@@ -276,7 +283,7 @@ impl Constraints<2> {
     }
 
     /// Prescribes a velocity along a direction, by the last of the conditions.
-    fn hold(&mut self, node: u32, direction: [f64; 2], velocity: &Speed, place: Place<'_>, found: &mut Telling) {
+    fn hold(&mut self, node: u32, direction: [f64; D], velocity: &Speed, place: Place<'_, D>, found: &mut Telling) {
         let giver = self.conditions.len() as u32 - 1;
         let (leader, turn) = place.joins.leader(node);
         let direction = back(turn, direction);
@@ -297,13 +304,13 @@ impl Constraints<2> {
     }
 
     /// Leads a node around by the last of the turns.
-    fn turn(&mut self, node: u32, place: Place<'_>, found: &mut Telling) {
+    fn turn(&mut self, node: u32, place: Place<'_, D>, found: &mut Telling) {
         let (giver, turn) = (self.conditions.len() as u32 - 1, self.turns.len() as u32 - 1);
-        let at_centre = self.turns.last().is_some_and(|turn| turn.centre == place.mesh.positions[node as usize]);
+        let x = place.mesh.positions[node as usize];
+        let at_centre = self.turns.last().is_some_and(|turn| <Dim<D>>::across(minus(x, turn.centre), turn.axis) == [0.0; D]);
         if at_centre {
-            // The centre itself rests.
-            self.hold(node, [1.0, 0.0], &Speed::constant(0.0), place, found);
-            return self.hold(node, [0.0, 1.0], &Speed::constant(0.0), place, found);
+            // What is on the axis rests.
+            return unit_matrix::<D>().into_iter().for_each(|direction| self.hold(node, direction, &Speed::constant(0.0), place, found));
         }
         let (leader, _) = place.joins.leader(node);
         if place.joins.is_periodic() && place.mesh.positions[leader as usize] != place.mesh.positions[node as usize] {
@@ -319,9 +326,9 @@ impl Constraints<2> {
             return; // through another node of the group
         }
         if held.givers.is_empty() {
-            held.directions = vec![([1.0, 0.0], 0.0), ([0.0, 1.0], 0.0)];
-            held.speeds = vec![Speed::default(); 2];
-            held.givers = vec![giver; 2];
+            held.directions = unit_matrix::<D>().map(|direction| (direction, 0.0)).into();
+            held.speeds = vec![Speed::default(); D];
+            held.givers = vec![giver; D];
             held.turn = Some(turn);
         } else {
             let others = held.givers.clone();
@@ -342,14 +349,13 @@ impl Constraints<2> {
     }
 
     /// Takes the velocities that change with time, as their mean between two times, s; `positions` at the first of them, m.
-    pub fn drive(&mut self, curves: &Curves, [from, to]: [f64; 2], positions: &[[f64; 2]]) {
+    pub fn drive(&mut self, curves: &Curves, [from, to]: [f64; 2], positions: &[[f64; D]]) {
         for &(index, node) in &self.driven {
             let held = &mut self.held[index as usize];
-            if let Some(Turn { centre, speed }) = held.turn.and_then(|turn| self.turns.get(turn as usize)) {
+            if let Some(Turn { centre, axis, speed }) = held.turn.and_then(|turn| self.turns.get(turn as usize)) {
                 let x = positions[node as usize];
-                let velocity = chord([x[0] - centre[0], x[1] - centre[1]], curves.mean(speed, from, to), to - from);
-                held.directions[0].1 = velocity[0];
-                held.directions[1].1 = velocity[1];
+                let velocity = <Dim<D>>::led(minus(x, *centre), *axis, curves.mean(speed, from, to), to - from);
+                held.directions.iter_mut().zip(velocity).for_each(|(direction, along)| direction.1 = along);
                 continue;
             }
             for ((_, velocity), speed) in held.directions.iter_mut().zip(&held.speeds) {
@@ -359,7 +365,7 @@ impl Constraints<2> {
     }
 
     /// Tells what accelerates from which velocities (m/s) it begins.
-    pub fn begin(&mut self, velocities: &[[f64; 2]]) {
+    pub fn begin(&mut self, velocities: &[[f64; D]]) {
         for &(index, node) in &self.driven {
             for speed in &mut self.held[index as usize].speeds {
                 speed.begin(velocities[node as usize]);
@@ -370,9 +376,12 @@ impl Constraints<2> {
 
 /// Where nodes are, and which move as one.
 #[derive(Clone, Copy)]
-struct Place<'a> {
-    mesh: &'a Mesh<2>,
-    joins: &'a Joins,
+struct Place<'a, const D: usize>
+where
+    Dim<D>: World<D>,
+{
+    mesh: &'a Mesh<D>,
+    joins: &'a Joins<D>,
 }
 
 /// Contradictions of one condition with earlier ones.
@@ -387,10 +396,10 @@ impl Telling {
         Self { path, faults: Vec::new(), count: 0 }
     }
 
-    fn note(&mut self, [x, y]: [f64; 2], shall: &str, others: &str, does: &str) {
+    fn note<const D: usize>(&mut self, x: [f64; D], shall: &str, others: &str, does: &str) {
         self.count += 1;
         if self.count <= TOLD {
-            let message = format!("the node at ({x:.6e}, {y:.6e}) m {shall}, but {others} {does}");
+            let message = format!("the node at {} m {shall}, but {others} {does}", world::place(x));
             self.faults.push(Fault::new(&HELD_TWICE, &self.path, message, "take the node out of one of the two"));
         }
     }
@@ -433,26 +442,35 @@ impl<const D: usize> Constraints<D> {
         self.mirrors[start..].iter().take_while(move |mirror| mirror.node == node)
     }
 
-    /// Part of a node that belongs to the model: a half on a symmetry line, a quarter where two lines meet.
+    /// Part of a node that belongs to the model: a half on a symmetry line, a quarter where two lines meet (in space: planes; an eighth where three do).
     #[must_use]
     pub fn share(&self, node: u32) -> f64 {
-        let Some(first) = self.mirror_normals(node).next() else { return 1.0 };
-        let along = |normal: [f64; D]| (0..D).map(|d| first[d] * normal[d]).sum::<f64>().abs();
-        if self.mirror_normals(node).any(|normal| along(normal) < 1.0 - 1e-9) { 0.25 } else { 0.5 }
+        let mut different: Vec<[f64; D]> = Vec::new();
+        for normal in self.mirror_normals(node) {
+            if different.iter().all(|other| dot(*other, normal).abs() < 1.0 - 1e-9) {
+                different.push(normal);
+            }
+        }
+        0.5f64.powi(different.len().min(D) as i32)
     }
 
-    /// Whether both nodes lie on the same symmetry line.
+    /// Whether all nodes of a segment or facet lie on the same symmetry line (in space: plane).
     #[must_use]
-    pub fn is_mirror(&self, segment: [u32; 2]) -> bool {
-        self.mirrors_of(segment[0]).any(|a| self.mirrors_of(segment[1]).any(|b| a.line == b.line))
+    pub fn is_mirror(&self, facet: impl Corners) -> bool {
+        let Some((&first, others)) = facet.corners().split_first() else { return false };
+        self.mirrors_of(first).any(|a| others.iter().all(|&node| self.mirrors_of(node).any(|b| a.line == b.line)))
     }
 }
 
-fn on_line(symmetry: &Symmetry, normal: [f64; 2], mesh: &Mesh<2>) -> Vec<u32> {
-    let size = mesh.positions.iter().flatten().chain(&symmetry.point).fold(0.0f64, |size, x| size.max(x.abs()));
+fn on_line<const D: usize>(symmetry: &Symmetry, normal: [f64; D], mesh: &Mesh<D>) -> Vec<u32>
+where
+    Dim<D>: World<D>,
+{
+    let point = first(symmetry.point);
+    let size = mesh.positions.iter().flatten().chain(&point).fold(0.0f64, |size, x| size.max(x.abs()));
     let near = |&node: &u32| {
         let x = mesh.positions[node as usize];
-        ((x[0] - symmetry.point[0]) * normal[0] + (x[1] - symmetry.point[1]) * normal[1]).abs() <= ON_LINE * size
+        dot(minus(x, point), normal).abs() <= ON_LINE * size
     };
     let parts = mesh.parts.iter().filter(|part| symmetry.parts.is_empty() || symmetry.parts.contains(&part.name));
     let mut nodes: Vec<u32> = parts.flat_map(|part| part.nodes.iter().copied()).filter(near).collect();
@@ -462,10 +480,10 @@ fn on_line(symmetry: &Symmetry, normal: [f64; 2], mesh: &Mesh<2>) -> Vec<u32> {
 }
 
 /// A mobility without what gives way along a direction.
-fn without(mobility: Matrix, direction: [f64; 2]) -> Matrix {
-    let [x, y] = times(mobility, direction);
-    let along = x * direction[0] + y * direction[1];
-    [mobility[0] - x * x / along, mobility[1] - x * y / along, mobility[2] - y * y / along]
+fn without<const D: usize>(mobility: Square<D>, direction: [f64; D]) -> Square<D> {
+    let response = applied(&mobility, direction);
+    let along = dot(response, direction);
+    std::array::from_fn(|i| std::array::from_fn(|j| mobility[i][j] - response[i] * response[j] / along))
 }
 
 /// Unit vector; `None` for a vector without direction.

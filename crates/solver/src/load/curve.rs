@@ -9,7 +9,9 @@ pub mod sine;
 pub mod table;
 
 use crate::archive::{Archive, Keep, Kept};
+use crate::model::in_space;
 use crate::model::{self, CurveShape, Drive, Model};
+use crate::vector::{dot, plus, times};
 use expression::Expression;
 use sine::Sine;
 use table::Table;
@@ -119,7 +121,7 @@ pub struct Speed {
     /// Constant acceleration, m/s².
     growth: f64,
     /// Shares of the components of the node's initial velocity.
-    initial: [f64; 2],
+    initial: [f64; 3],
     terms: Vec<Term>,
 }
 
@@ -217,20 +219,20 @@ impl Speed {
     /// Whether it is the same at all times, and which.
     #[must_use]
     pub fn as_constant(&self) -> Option<f64> {
-        (self.terms.is_empty() && self.growth == 0.0 && self.initial == [0.0; 2]).then_some(self.constant)
+        (self.terms.is_empty() && self.growth == 0.0 && self.initial == [0.0; 3]).then_some(self.constant)
     }
 
     /// This velocity plus `share` of a node's initial velocity.
     #[must_use]
-    pub fn from_initial(mut self, share: [f64; 2]) -> Self {
-        self.initial = [self.initial[0] + share[0], self.initial[1] + share[1]];
+    pub fn from_initial<const D: usize>(mut self, share: [f64; D]) -> Self {
+        self.initial = plus(self.initial, in_space(share));
         self
     }
 
     /// Takes the node's initial velocity, m/s.
-    pub fn begin(&mut self, velocity: [f64; 2]) {
-        self.constant += self.initial[0] * velocity[0] + self.initial[1] * velocity[1];
-        self.initial = [0.0; 2];
+    pub fn begin<const D: usize>(&mut self, velocity: [f64; D]) {
+        self.constant += dot(self.initial, in_space(velocity));
+        self.initial = [0.0; 3];
     }
 
     /// This velocity plus `factor` times another.
@@ -239,7 +241,7 @@ impl Speed {
         let mut sum = Self {
             constant: self.constant + factor * other.constant,
             growth: self.growth + factor * other.growth,
-            initial: [0, 1].map(|d| self.initial[d] + factor * other.initial[d]),
+            initial: plus(self.initial, times(factor, other.initial)),
             terms: self.terms.clone(),
         };
         for term in &other.terms {

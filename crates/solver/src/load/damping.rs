@@ -8,6 +8,8 @@
 
 use crate::mesh::Mesh;
 use crate::model::{Load, Model};
+use crate::tensor::Dim;
+use crate::world::World;
 use embate_lanes::Batch;
 
 /// The damping loads of a model.
@@ -38,7 +40,10 @@ struct Acting {
 impl Damping {
     /// `part_mass` lists the nodes of each part with the part's mass on them (kg/m), `mass` the whole mass of each node.
     #[must_use]
-    pub fn new(model: &Model, mesh: &Mesh<2>, mass: &[f64], part_mass: &[Vec<(u32, f64)>]) -> Self {
+    pub fn new<const D: usize>(model: &Model, mesh: &Mesh<D>, mass: &[f64], part_mass: &[Vec<(u32, f64)>]) -> Self
+    where
+        Dim<D>: World<D>,
+    {
         let load = |load: &Load| {
             let Load::Damping { parts, rate, active } = load else { return None };
             let mut shares = vec![0.0; mass.len()];

@@ -6,50 +6,63 @@
 //! with a factor c(t) of a curve. Works are external. A closed surface under pressure feels no resultant.
 
 use super::curve::Curves;
-use super::tributary::Depth;
+use super::tributary::{self, Depth, Tributary};
 use crate::error::Fault;
-use crate::mesh::Mesh;
+use crate::mesh::surface::{Corners, Facet, Sided};
+use crate::mesh::{Mesh, Meshed};
 use crate::model::messages::UNKNOWN_NAME;
 use crate::model::{Load, Model};
-use crate::vector::first;
-
-type Vector = [f64; 2];
+use crate::tensor::Dim;
+use crate::vector::{first, plus, times};
+use crate::world::World;
 
 /// The forces on nodes of a model.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Forces {
-    loads: Vec<Acting>,
+pub struct Forces<const D: usize>
+where
+    Dim<D>: Meshed<D>,
+{
+    loads: Vec<Acting<D>>,
     /// Force on every node now, N/m; empty when the model has no such load.
-    now: Vec<Vector>,
+    now: Vec<[f64; D]>,
     depth: Depth,
 }
 
 #[derive(Clone, Debug, PartialEq)]
-struct Acting {
-    what: What,
+struct Acting<const D: usize>
+where
+    Dim<D>: Meshed<D>,
+{
+    what: What<D>,
     curve: Option<usize>,
 }
 
 #[derive(Clone, Debug, PartialEq)]
-enum What {
+enum What<const D: usize>
+where
+    Dim<D>: Meshed<D>,
+{
     /// Nodes and their forces, N/m.
-    Given(Vec<(u32, Vector)>),
-    /// Segments with the body on the right, and the pressure, Pa.
-    Pressure(Vec<[u32; 2]>, f64),
+    Given(Vec<(u32, [f64; D])>),
+    /// Pieces of the outside, and the pressure, Pa.
+    Pressure(Vec<Facet<D>>, f64),
 }
 
-impl Forces {
+impl<const D: usize> Forces<D>
+where
+    Dim<D>: World<D>,
+{
     /// `is_mirror` tells which segments lie on a symmetry line: they are no surface.
     ///
     /// # Errors
     /// Names of nothing, or of what is no surface.
-    pub fn new(model: &Model, mesh: &Mesh<2>, curves: &Curves, is_mirror: impl Fn([u32; 2]) -> bool) -> Result<Self, Vec<Fault>> {
+    pub fn new(model: &Model, mesh: &Mesh<D>, curves: &Curves, is_mirror: impl Fn(Facet<D>) -> bool) -> Result<Self, Vec<Fault>> {
         let (mut loads, mut faults, depth) = (Vec::new(), Vec::new(), Depth::of(model));
         for (i, load) in model.loads.iter().enumerate() {
             let (what, curve) = match load {
                 Load::Force { on, force, curve } => (given(mesh, on, first(*force), depth, &is_mirror), curve),
                 Load::Pressure { on, pressure, curve } => {
-                    (mesh.surface(on, &is_mirror).map(|surface| What::Pressure(surface.segments, *pressure)), curve)
+                    (mesh.surface(on, &is_mirror).map(|surface| What::Pressure(surface.facets().to_vec(), *pressure)), curve)
                 }
                 Load::Gravity { .. } | Load::Centrifugal { .. } | Load::Damping { .. } | Load::StiffnessDamping { .. } => continue,
             };
@@ -68,30 +81,25 @@ impl Forces {
     }
 
     /// Takes their means between two times (s) at these positions (m).
-    pub fn prepare(&mut self, curves: &Curves, [from, to]: [f64; 2], positions: &[Vector]) {
+    pub fn prepare(&mut self, curves: &Curves, [from, to]: [f64; 2], positions: &[[f64; D]]) {
         if self.loads.is_empty() {
             return;
         }
         self.now.clear();
-        self.now.resize(positions.len(), [0.0; 2]);
+        self.now.resize(positions.len(), [0.0; D]);
         for load in &self.loads {
             let factor = load.curve.map_or(1.0, |curve| curves.curve(curve).mean(from, to));
-            let mut add = |node: u32, [x, y]: Vector, factor: f64| {
+            let mut add = |node: u32, force: [f64; D], factor: f64| {
                 let sum = &mut self.now[node as usize];
-                *sum = [sum[0] + factor * x, sum[1] + factor * y];
+                *sum = plus(*sum, times(factor, force));
             };
             match &load.what {
                 What::Given(forces) => forces.iter().for_each(|&(node, force)| add(node, force, factor)),
-                What::Pressure(segments, pressure) => {
-                    for &[a, b] in segments {
-                        let ends = [a, b].map(|node| positions[node as usize]);
-                        let side = [ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]];
-                        let length = (side[0] * side[0] + side[1] * side[1]).sqrt();
-                        if length > 0.0 {
-                            let inward = [side[1] / length, -side[0] / length];
-                            for (node, share) in [a, b].into_iter().zip(self.depth.shares(ends)) {
-                                add(node, inward, factor * pressure * share);
-                            }
+                What::Pressure(facets, pressure) => {
+                    for facet in facets {
+                        let presses = Dim::<D>::presses(self.depth, *facet, positions);
+                        for (&node, &(inward, share)) in facet.corners().iter().zip(presses.as_ref()).filter(|(_, press)| press.1 > 0.0) {
+                            add(node, inward, factor * pressure * share);
                         }
                     }
                 }
@@ -100,24 +108,33 @@ impl Forces {
     }
 
     /// Leaves nodes without elements alone, and surfaces that are outside no more.
-    pub fn renew(&mut self, is_free: impl Fn(u32) -> bool, is_outside: impl Fn([u32; 2]) -> bool) {
+    pub fn renew(&mut self, is_free: impl Fn(u32) -> bool, is_outside: impl Fn(Facet<D>) -> bool) {
         for load in &mut self.loads {
             match &mut load.what {
                 What::Given(forces) => forces.retain(|&(node, _)| !is_free(node)),
-                What::Pressure(segments, _) => segments.retain(|&segment| is_outside(segment)),
+                What::Pressure(facets, _) => facets.retain(|&facet| is_outside(facet)),
             }
         }
     }
 
     /// Force on every node now, N/m; empty when the model has no such load.
     #[must_use]
-    pub fn now(&self) -> &[Vector] {
+    pub fn now(&self) -> &[[f64; D]] {
         &self.now
     }
 }
 
 /// Shares a force over a set.
-fn given(mesh: &Mesh<2>, on: &str, force: Vector, depth: Depth, is_mirror: &impl Fn([u32; 2]) -> bool) -> Result<What, Fault> {
+fn given<const D: usize>(
+    mesh: &Mesh<D>,
+    on: &str,
+    force: [f64; D],
+    depth: Depth,
+    is_mirror: &impl Fn(Facet<D>) -> bool,
+) -> Result<What<D>, Fault>
+where
+    Dim<D>: World<D>,
+{
     let nodes = mesh.nodes(on).filter(|nodes| !nodes.is_empty());
     let Some(nodes) = nodes else {
         return Err(Fault::new(
@@ -130,9 +147,9 @@ fn given(mesh: &Mesh<2>, on: &str, force: Vector, depth: Depth, is_mirror: &impl
     let mut shares: Vec<(u32, f64)> = nodes.into_iter().map(|node| (node, 0.0)).collect();
     // A group of lines inside a body is no surface: its nodes are equal.
     match mesh.surface(on, is_mirror) {
-        Ok(surface) if !surface.segments.is_empty() => {
-            for segment in surface.segments {
-                for (node, part) in segment.into_iter().zip(depth.shares(segment.map(|node| mesh.positions[node as usize]))) {
+        Ok(surface) if !surface.facets().is_empty() => {
+            for &facet in surface.facets() {
+                for (node, part) in tributary::shares(depth, facet, &mesh.positions) {
                     if let Ok(at) = shares.binary_search_by_key(&node, |&(node, _)| node) {
                         shares[at].1 += part;
                     }

@@ -11,15 +11,13 @@ use crate::load::messages::NO_PARTNER;
 use crate::mesh::Mesh;
 use crate::model::messages::UNKNOWN_NAME;
 use crate::model::{Image, Join, Model};
-use crate::rigid::cos_sin;
+use crate::tensor::{Dim, product};
+use crate::vector::{dot, first as first_of, minus, plus, times};
+use crate::world::{Square, World, applied, axis, place, transposed, unit_matrix};
 
-type Vector = [f64; 2];
-
-/// Cosine and sine of a rotation.
-pub type Turn = [f64; 2];
+/// A rotation.
+pub type Turn<const D: usize> = Square<D>;
 const NONE: u32 = u32::MAX;
-/// No rotation.
-const STRAIGHT: Turn = [1.0, 0.0];
 /// Distance at which nodes still coincide, fraction of the model's size.
 const TOLERANCE: f64 = 1e-6;
 /// At most so many nodes without a partner are told one by one.
@@ -27,44 +25,50 @@ const TOLD: usize = 20;
 
 /// The groups of a model.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Joins {
+pub struct Joins<const D: usize> {
     /// Group and place in it of each node; empty without joins.
     of_node: Vec<(u32, u32)>,
-    groups: Vec<Group>,
+    groups: Vec<Group<D>>,
     /// Whether some set is the image of another at another place: then momenta are not kept.
     periodic: bool,
 }
 
 /// Nodes that move as one.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Group {
+pub struct Group<const D: usize> {
     /// The leader first, without rotation.
-    pub members: Vec<Member>,
+    pub members: Vec<Member<D>>,
     /// Whether a rotation leads it to itself: then it can't move.
     pub fixed: bool,
 }
 
 /// A node of a group.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Member {
+pub struct Member<const D: usize> {
     /// The node.
     pub node: u32,
     /// R.
-    pub turn: Turn,
+    pub turn: Turn<D>,
 }
+
+/// Where a point is moved to.
+type Moves<const D: usize> = Box<dyn Fn([f64; D]) -> [f64; D]>;
 
 /// The second node moves like the first one, turned.
-struct Link {
+struct Link<const D: usize> {
     nodes: [u32; 2],
-    turn: Turn,
+    turn: Turn<D>,
 }
 
-impl Joins {
+impl<const D: usize> Joins<D>
+where
+    Dim<D>: World<D>,
+{
     /// Of a model.
     ///
     /// # Errors
     /// Sets of nothing, nodes without a partner.
-    pub fn new(model: &Model, mesh: &Mesh<2>) -> Result<Self, Vec<Fault>> {
+    pub fn new(model: &Model, mesh: &Mesh<D>) -> Result<Self, Vec<Fault>> {
         let (mut links, mut faults) = (Vec::new(), Vec::new());
         for (i, join) in model.joins.iter().enumerate() {
             link(&format!("join[{i}]"), join, mesh, &mut links, &mut faults);
@@ -77,11 +81,11 @@ impl Joins {
     }
 
     /// The groups that links make of so many nodes.
-    fn of(links: &[Link], nodes: usize) -> Self {
+    fn of(links: &[Link<D>], nodes: usize) -> Self {
         let mut beside = vec![Vec::new(); nodes];
         for Link { nodes: [a, b], turn } in links {
             beside[*a as usize].push((*b, *turn));
-            beside[*b as usize].push((*a, [turn[0], -turn[1]]));
+            beside[*b as usize].push((*a, transposed(turn)));
         }
         let mut joins = Self { of_node: vec![(NONE, 0); nodes], ..Self::default() };
         for first in 0..nodes as u32 {
@@ -89,20 +93,20 @@ impl Joins {
                 continue;
             }
             let number = joins.groups.len() as u32;
-            let mut group = Group { members: vec![Member { node: first, turn: STRAIGHT }], fixed: false };
+            let mut group = Group { members: vec![Member { node: first, turn: unit_matrix() }], fixed: false };
             joins.of_node[first as usize] = (number, 0);
             let mut next = 0;
             while let Some(&Member { node, turn }) = group.members.get(next) {
                 next += 1;
                 for &(other, step) in &beside[node as usize] {
-                    let [cos, sin] = [step[0] * turn[0] - step[1] * turn[1], step[1] * turn[0] + step[0] * turn[1]];
+                    let turn = product(&step, &turn);
                     let (known, place) = joins.of_node[other as usize];
                     if known == NONE {
                         joins.of_node[other as usize] = (number, group.members.len() as u32);
-                        group.members.push(Member { node: other, turn: [cos, sin] });
+                        group.members.push(Member { node: other, turn });
                     } else {
-                        let [known_cos, known_sin] = group.members[place as usize].turn;
-                        group.fixed |= (cos - known_cos).abs().max((sin - known_sin).abs()) > 1e-9;
+                        let known = group.members[place as usize].turn.as_flattened();
+                        group.fixed |= turn.as_flattened().iter().zip(known).any(|(turn, known)| (turn - known).abs() > 1e-9);
                     }
                 }
             }
@@ -125,14 +129,14 @@ impl Joins {
 
     /// All groups.
     #[must_use]
-    pub fn groups(&self) -> &[Group] {
+    pub fn groups(&self) -> &[Group<D>] {
         &self.groups
     }
 
     /// Group of a node, and its member that the node is.
     #[inline]
     #[must_use]
-    pub fn of_node(&self, node: u32) -> Option<(&Group, &Member)> {
+    pub fn of_node(&self, node: u32) -> Option<(&Group<D>, &Member<D>)> {
         let &(group, place) = self.of_node.get(node as usize)?;
         let group = self.groups.get(group as usize)?;
         Some((group, &group.members[place as usize]))
@@ -140,57 +144,57 @@ impl Joins {
 
     /// The node that moves in the stead of `node`, and the rotation from its motion to that of `node`.
     #[must_use]
-    pub fn leader(&self, node: u32) -> (u32, Turn) {
-        self.of_node(node).map_or((node, STRAIGHT), |(group, member)| (group.members[0].node, member.turn))
+    pub fn leader(&self, node: u32) -> (u32, Turn<D>) {
+        self.of_node(node).map_or((node, unit_matrix()), |(group, member)| (group.members[0].node, member.turn))
     }
 
     /// Gives each group the mean velocity of its members by mass (kg/m); fixed ones rest.
-    pub fn begin(&self, mass: &[f64], velocities: &mut [Vector]) {
+    pub fn begin(&self, mass: &[f64], velocities: &mut [[f64; D]]) {
         for group in &self.groups {
-            let (mut sum, mut whole) = ([0.0; 2], 0.0);
+            let (mut sum, mut whole) = ([0.0; D], 0.0);
             for member in &group.members {
                 let (m, v) = (mass[member.node as usize], back(member.turn, velocities[member.node as usize]));
-                sum = [sum[0] + m * v[0], sum[1] + m * v[1]];
+                sum = plus(sum, times(m, v));
                 whole += m;
             }
-            group.lead(if group.fixed { [0.0; 2] } else { sum.map(|p| p / whole) }, velocities);
+            group.lead(if group.fixed { [0.0; D] } else { sum.map(|p| p / whole) }, velocities);
         }
     }
 }
 
-impl Group {
+impl<const D: usize> Group<D> {
     /// Gives all members the velocity of the leader.
-    pub fn lead(&self, velocity: Vector, velocities: &mut [Vector]) {
+    pub fn lead(&self, velocity: [f64; D], velocities: &mut [[f64; D]]) {
         for member in &self.members {
             velocities[member.node as usize] = turned(member.turn, velocity);
         }
     }
 
     /// Σ R_iᵀ f_i of what each member's node has.
-    pub fn sum(&self, of: impl Fn(usize) -> Vector) -> Vector {
-        self.members.iter().fold([0.0; 2], |sum, member| {
-            let force = back(member.turn, of(member.node as usize));
-            [sum[0] + force[0], sum[1] + force[1]]
-        })
+    pub fn sum(&self, of: impl Fn(usize) -> [f64; D]) -> [f64; D] {
+        self.members.iter().fold([0.0; D], |sum, member| plus(sum, back(member.turn, of(member.node as usize))))
     }
 }
 
 /// R v.
 #[inline]
 #[must_use]
-pub fn turned([cos, sin]: Turn, v: Vector) -> Vector {
-    if sin == 0.0 && cos == 1.0 { v } else { [cos * v[0] - sin * v[1], sin * v[0] + cos * v[1]] }
+pub fn turned<const D: usize>(turn: Turn<D>, v: [f64; D]) -> [f64; D] {
+    if turn == unit_matrix() { v } else { applied(&turn, v) }
 }
 
 /// Rᵀ v.
 #[inline]
 #[must_use]
-pub fn back([cos, sin]: Turn, v: Vector) -> Vector {
-    turned([cos, -sin], v)
+pub fn back<const D: usize>(turn: Turn<D>, v: [f64; D]) -> [f64; D] {
+    turned(transposed(&turn), v)
 }
 
 /// Finds the partner of each node of the first set in the second one; of images also the other way round.
-fn link(path: &str, join: &Join, mesh: &Mesh<2>, links: &mut Vec<Link>, faults: &mut Vec<Fault>) {
+fn link<const D: usize>(path: &str, join: &Join, mesh: &Mesh<D>, links: &mut Vec<Link<D>>, faults: &mut Vec<Fault>)
+where
+    Dim<D>: World<D>,
+{
     let mut sets = Vec::new();
     for (side, name) in join.between.iter().enumerate() {
         match mesh.nodes(name).filter(|nodes| !nodes.is_empty()) {
@@ -204,16 +208,12 @@ fn link(path: &str, join: &Join, mesh: &Mesh<2>, links: &mut Vec<Link>, faults: 
         }
     }
     let [first, second] = &sets[..] else { return };
-    let (turn, image): (Turn, Box<dyn Fn(Vector) -> Vector>) = match join.image {
-        Image::Same => (STRAIGHT, Box::new(|x| x)),
-        Image::Translated([dx, dy]) => (STRAIGHT, Box::new(move |[x, y]| [x + dx, y + dy])),
-        Image::Turned { centre, angle } => {
-            let turn = cos_sin(angle);
-            let around = move |x: Vector| {
-                let [a, b] = turned(turn, [x[0] - centre[0], x[1] - centre[1]]);
-                [centre[0] + a, centre[1] + b]
-            };
-            (turn, Box::new(around))
+    let (turn, image): (Turn<D>, Moves<D>) = match join.image {
+        Image::Same => (unit_matrix(), Box::new(|x| x)),
+        Image::Translated(by) => (unit_matrix(), Box::new(move |x| plus(x, first_of(by)))),
+        Image::Turned { about, angle } => {
+            let (turn, centre) = (<Dim<D>>::rotation(axis(about.direction), angle), first_of(about.centre));
+            (turn, Box::new(move |x| plus(centre, turned(turn, minus(x, centre)))))
         }
     };
     let size = mesh.positions.iter().flatten().fold(0.0f64, |size, x| size.max(x.abs()));
@@ -227,7 +227,7 @@ fn link(path: &str, join: &Join, mesh: &Mesh<2>, links: &mut Vec<Link>, faults: 
         lonely.extend(other.into_iter().filter(|pair| pair.partner.is_none()).map(|pair| Lonely { pair, side: 1 }));
     }
     tell(path, join, &lonely, mesh, faults);
-    let moves = |pair: &Pair| pair.partner.is_some_and(|partner| partner != pair.node || turn != STRAIGHT);
+    let moves = |pair: &Pair| pair.partner.is_some_and(|partner| partner != pair.node || turn != unit_matrix());
     links.extend(pairs.iter().filter(|pair| moves(pair)).map(|pair| Link { nodes: [pair.node, pair.partner.unwrap_or(pair.node)], turn }));
 }
 
@@ -246,11 +246,18 @@ struct Lonely {
     side: usize,
 }
 
-fn partners(nodes: impl Iterator<Item = (u32, Vector)>, others: impl Iterator<Item = (u32, Vector)>, tolerance: f64) -> Vec<Pair> {
-    let mut sorted: Vec<(u32, Vector)> = others.collect();
+fn partners<const D: usize>(
+    nodes: impl Iterator<Item = (u32, [f64; D])>,
+    others: impl Iterator<Item = (u32, [f64; D])>,
+    tolerance: f64,
+) -> Vec<Pair> {
+    let mut sorted: Vec<(u32, [f64; D])> = others.collect();
     sorted.sort_by(|(_, a), (_, b)| a[0].total_cmp(&b[0]));
-    let nearest = |x: Vector, among: &[(u32, Vector)]| {
-        let distance = |&(node, y): &(u32, Vector)| (((y[0] - x[0]).powi(2) + (y[1] - x[1]).powi(2)).sqrt(), node);
+    let nearest = |x: [f64; D], among: &[(u32, [f64; D])]| {
+        let distance = |&(node, y): &(u32, [f64; D])| {
+            let way = minus(y, x);
+            (dot(way, way).sqrt(), node)
+        };
         among.iter().map(distance).min_by(|a, b| a.0.total_cmp(&b.0))
     };
     nodes
@@ -265,13 +272,16 @@ fn partners(nodes: impl Iterator<Item = (u32, Vector)>, others: impl Iterator<It
         .collect()
 }
 
-fn tell(path: &str, join: &Join, lonely: &[Lonely], mesh: &Mesh<2>, faults: &mut Vec<Fault>) {
+fn tell<const D: usize>(path: &str, join: &Join, lonely: &[Lonely], mesh: &Mesh<D>, faults: &mut Vec<Fault>)
+where
+    Dim<D>: World<D>,
+{
     for Lonely { pair, side } in lonely.iter().take(TOLD) {
-        let [x, y] = mesh.positions[pair.node as usize];
+        let at = place(mesh.positions[pair.node as usize]);
         let (own, other) = (&join.between[*side], &join.between[1 - side]);
         let what = if join.image == Image::Same { "" } else { " of the image" };
         let message = format!(
-            "the node at ({x:.6e}, {y:.6e}) m of \"{own}\" has no partner in \"{other}\": the nearest node{what} is {:.3e} m away",
+            "the node at {at} m of \"{own}\" has no partner in \"{other}\": the nearest node{what} is {:.3e} m away",
             pair.distance
         );
         faults.push(Fault::new(

@@ -12,9 +12,7 @@ use crate::error::Fault;
 use crate::mesh::Mesh;
 use crate::mesh::surface::Surface;
 use crate::model::Model;
-
-/// A symmetric matrix: xx, xy, yy.
-pub type Matrix = [f64; 3];
+use crate::world::Square;
 
 /// What is behind a segment of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,12 +25,12 @@ pub struct Behind {
 
 /// The dashpots of a model.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct NonReflecting {
-    /// C of every node, kg/(m s); empty when the model has no such boundary.
-    dashpots: Vec<Matrix>,
+pub struct NonReflecting<const D: usize> {
+    /// C of every node, kg/(m s), of solids kg/s; empty when the model has no such boundary.
+    dashpots: Vec<Square<D>>,
 }
 
-impl NonReflecting {
+impl NonReflecting<2> {
     /// `behind` tells what is behind a segment, `is_mirror` which segments lie on a symmetry line: they are no boundary.
     ///
     /// # Errors
@@ -45,7 +43,7 @@ impl NonReflecting {
     ) -> Result<Self, Vec<Fault>> {
         let (mut result, mut faults, depth) = (Self::default(), Vec::new(), Depth::of(model));
         for (i, boundary) in model.non_reflecting.iter().enumerate() {
-            result.dashpots.resize(mesh.positions.len(), [0.0; 3]);
+            result.dashpots.resize(mesh.positions.len(), [[0.0; 2]; 2]);
             match mesh.surface(&boundary.on, &is_mirror) {
                 Ok(surface) => result.add(&surface, mesh, depth, &behind),
                 Err(fault) => faults.push(Fault { path: format!("non_reflecting[{i}].on"), ..fault }),
@@ -61,14 +59,17 @@ impl NonReflecting {
             let length = ((b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2)).sqrt();
             let [x, y] = [(b[0] - a[0]) / length, (b[1] - a[1]) / length];
             let (along, across) = ((density * 0.75 * (wave - bulk)).max(0.0).sqrt(), (density * wave).sqrt());
-            let matrix = [across * y * y + along * x * x, (along - across) * x * y, across * x * x + along * y * y];
+            let shear = (along - across) * x * y;
+            let matrix = [[across * y * y + along * x * x, shear], [shear, across * x * x + along * y * y]];
             for (node, share) in segment.into_iter().zip(depth.shares([a, b])) {
                 let sum = &mut self.dashpots[node as usize];
-                *sum = std::array::from_fn(|k| sum[k] + share * matrix[k]);
+                *sum = std::array::from_fn(|i| std::array::from_fn(|j| sum[i][j] + share * matrix[i][j]));
             }
         }
     }
+}
 
+impl<const D: usize> NonReflecting<D> {
     /// Whether the model has no such boundary.
     #[must_use]
     pub fn is_empty(&self) -> bool {
@@ -78,22 +79,7 @@ impl NonReflecting {
     /// C of a node, kg/(m s); `None` without.
     #[inline]
     #[must_use]
-    pub fn of(&self, node: usize) -> Option<Matrix> {
-        self.dashpots.get(node).copied().filter(|matrix| *matrix != [0.0; 3])
+    pub fn of(&self, node: usize) -> Option<Square<D>> {
+        self.dashpots.get(node).copied().filter(|matrix| *matrix != [[0.0; D]; D])
     }
-}
-
-/// Matrix times vector.
-#[inline]
-#[must_use]
-pub fn times([xx, xy, yy]: Matrix, [x, y]: [f64; 2]) -> [f64; 2] {
-    [xx * x + xy * y, xy * x + yy * y]
-}
-
-/// Inverse of a positive definite matrix.
-#[inline]
-#[must_use]
-pub fn inverse([xx, xy, yy]: Matrix) -> Matrix {
-    let determinant = xx * yy - xy * xy;
-    [yy / determinant, -xy / determinant, xx / determinant]
 }

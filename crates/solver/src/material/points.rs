@@ -66,6 +66,10 @@ pub trait PointLaw: Send + Sync {
     }
     /// Bulk and shear stiffness at rest, Pa.
     fn stiffness(&self) -> [f64; 2];
+    /// Whether the bulk and shear stiffness that it reports are those of an isotropic elastic body, which it is never stiffer than; else they bound the speed of the waves alone.
+    fn is_elastic(&self) -> bool {
+        false
+    }
     /// Energy stored at the start per initial volume, J/m³: of an equation of state.
     fn stored(&self) -> f64 {
         0.0
@@ -82,18 +86,30 @@ pub trait PointLaw: Send + Sync {
     fn respond(&self, level: Level, points: Points<'_>);
 }
 
-/// The law of a material for points of the plane, with its equation of state; `None` when one of them is unknown.
+/// The law of a material for points of the plane or of space, with its equation of state; `None` when one of them is unknown.
 #[must_use]
-pub fn plane(material: &Material) -> Option<Box<dyn PointLaw>> {
-    struct Make<'a>(&'a Material);
-    impl LawVisitor for Make<'_> {
+pub fn of<const D: usize>(material: &Material) -> Option<Box<dyn PointLaw>>
+where
+    Dim<D>: Space<D>,
+{
+    struct Make<'a, const D: usize>(&'a Material);
+    impl<const D: usize> LawVisitor for Make<'_, D>
+    where
+        Dim<D>: Space<D>,
+    {
         type Output = Box<dyn PointLaw>;
         fn visit<M: Law>(self) -> Self::Output {
             let law = M::new(&Parameters::new(M::KIND.parameters, &self.0.parameters, &self.0.lists));
-            Box::new(Erased::<M, 2> { law })
+            Box::new(Erased::<M, D> { law })
         }
     }
-    super::eos::around(with_law(&material.law, Make(material))?, material)
+    super::eos::around::<D>(with_law(&material.law, Make::<D>(material))?, material)
+}
+
+/// The law of a material for points of the plane: [`of`] it.
+#[must_use]
+pub fn plane(material: &Material) -> Option<Box<dyn PointLaw>> {
+    of::<2>(material)
 }
 
 /// The law of a material for points in plane stress.
@@ -136,6 +152,9 @@ where
     }
     fn stiffness(&self) -> [f64; 2] {
         self.law.stiffness()
+    }
+    fn is_elastic(&self) -> bool {
+        M::FAMILY == Family::Rate && M::ISOTROPIC
     }
     fn energy(&self, stress: [f64; 6]) -> f64 {
         self.law.energy(stress)

@@ -2,8 +2,20 @@
 
 use crate::message::{Example, Message};
 
-pub(crate) static MESSAGES: &[&Message] =
-    &[&SHAPE, &UNMESHABLE, &TOO_MANY, &NO_ELEMENT, &SAME_PLACE, &GROUP, &BAD_ELEMENT, &NOT_A_SURFACE, &OVERLAP, &BARS, &NEGATIVE_RADIUS];
+pub(crate) static MESSAGES: &[&Message] = &[
+    &SHAPE,
+    &UNMESHABLE,
+    &TOO_MANY,
+    &NO_ELEMENT,
+    &SAME_PLACE,
+    &GROUP,
+    &BAD_ELEMENT,
+    &NOT_A_SURFACE,
+    &OVERLAP,
+    &BARS,
+    &NEGATIVE_RADIUS,
+    &DIMENSION,
+];
 
 pub(crate) static SHAPE: Message = Message {
     code: "E0201",
@@ -96,8 +108,8 @@ pub(crate) static OVERLAP: Message = Message {
     example: Example::Gmsh(
         "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 \"block\"\n$EndPhysicalNames\n$Nodes\n5\n1 0 0 0\n2 2 0 0\n3 1 1 0\n4 1 2 0\n5 1 -1 0\n$EndNodes\n$Elements\n3\n1 2 2 1 1 1 2 3\n2 2 2 1 1 1 2 4\n3 2 2 1 1 2 1 5\n$EndElements\n",
     ),
-    cause: "In the plane an edge belongs to two elements at most, which lie on its two sides.",
-    cure: "Remove elements that are there twice, and turn those that are clockwise.",
+    cause: "An edge of the plane, and a facet of space, belongs to two elements at most, which lie on its two sides.",
+    cure: "Remove elements that are there twice, and turn those that are clockwise or inside out.",
 };
 
 pub(crate) static BARS: Message = Message {
@@ -120,4 +132,16 @@ pub(crate) static NEGATIVE_RADIUS: Message = Message {
     ),
     cause: "In an axisymmetric model x is the radius, which is never negative.",
     cure: "Move the part to the right of the axis x = 0; only one half of the section is modelled.",
+};
+
+pub(crate) static DIMENSION: Message = Message {
+    code: "E0212",
+    title: "parts of the plane and of space in one model",
+    example: Example::Model(
+        "[[part]]\nname = \"block\"\nmaterial = \"steel\"\nrectangle = { corner = [0, 0], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }\n\n\
+         [[part]]\nname = \"wall\"\nmaterial = \"steel\"\nrectangle = { corner = [0, \"-20 mm\"], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }\n\
+         extrude = { length = \"5 mm\", elements = 1 }\n\n[[contact]]\nname = \"hit\"\nbodies = \"all\"\n",
+    ),
+    cause: "A model is of the plane, with forces per metre of depth, or of space. A part is a solid if its shape is one (`box`, `cylinder`, `tube`, `sphere`, a group of volumes of a mesh file), or by `extrude` or `revolve`.",
+    cure: "Make all parts solids, or none.",
 };

@@ -7,15 +7,20 @@ pub mod placement;
 pub mod shapes;
 pub(crate) mod messages;
 pub mod surface;
+mod dimension;
 mod order;
 
+pub use dimension::Meshed;
+
 use crate::error::Fault;
-use crate::mesh::messages::{BAD_ELEMENT, GROUP, TOO_MANY, UNMESHABLE};
+use crate::mesh::messages::{BAD_ELEMENT, GROUP, TOO_MANY};
 use crate::model::messages::{NOTHING, UNKNOWN_NAME};
-use crate::model::{ImportedMesh, Model, Part, Shape};
-use shapes::Wrong;
+use crate::model::{ImportedMesh, Model, Part, Shape, Sweep};
+use crate::tensor::Dim;
+use shapes::Body;
+use shapes::sweep::SweptMesh;
 use std::collections::BTreeMap;
-use surface::Surface;
+use surface::{Corners, Facet, Surface};
 
 /// A part: its nodes. Its elements are in one or more [`ElementGroup`]s.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -33,7 +38,7 @@ pub struct ElementGroup {
     pub part: usize,
     /// Nodes per element.
     pub nodes_per_element: usize,
-    /// Node indices, `nodes_per_element` per element, counter-clockwise.
+    /// Node indices, `nodes_per_element` per element: counter-clockwise in the plane; in space the lower ones counter-clockwise seen from the upper ones, then those.
     pub connectivity: Vec<u32>,
     /// The user's number of each element: its place in the part as it was made or read, whatever its number of nodes.
     pub user_elements: Vec<u32>,
@@ -58,7 +63,7 @@ impl ElementGroup {
         self.cells().enumerate().filter(|(element, _)| self.is_alive(*element)).map(|(_, cell)| cell)
     }
 
-    /// Whether its elements have an area, and so a surface: bars have none.
+    /// Whether its elements have an area (in space a volume), and so a surface: bars have none.
     #[must_use]
     pub fn has_surface(&self) -> bool {
         self.nodes_per_element > 2
@@ -85,7 +90,10 @@ impl ElementGroup {
 
 /// The bodies of a model in one node numbering.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Mesh<const D: usize> {
+pub struct Mesh<const D: usize>
+where
+    Dim<D>: Meshed<D>,
+{
     /// Initial node positions, m.
     pub positions: Vec<[f64; D]>,
     /// Parts in model order.
@@ -96,18 +104,27 @@ pub struct Mesh<const D: usize> {
     pub user_nodes: Vec<u32>,
     /// Whether each node, in the order of the curve that they are sorted along, is on an outline: those are numbered first.
     outlines: Vec<bool>,
-    /// Named lines: `part.side` and one-dimensional groups, each with the body on the right.
-    lines: BTreeMap<String, Vec<[u32; 2]>>,
-    /// Named nodes: zero- and two-dimensional groups.
+    /// Named pieces of the outside: `part.side`, and groups of lines in the plane, of surfaces in space.
+    sides: BTreeMap<String, Vec<Facet<D>>>,
+    /// Named nodes: all other groups.
     points: BTreeMap<String, Vec<u32>>,
+}
+
+/// A mesh file's mesh of the plane, swept: the numbers that its nodes have here (`u32::MAX`: not yet used).
+struct Swept {
+    file: usize,
+    sweep: Sweep,
+    made: SweptMesh,
+    numbers: Vec<u32>,
 }
 
 /// At most so many faults of one kind are told one by one.
 const TOLD: usize = 20;
-/// What is wrong with an element whose corners all turn the other way.
-const CLOCKWISE: &str = "has negative area: its nodes run clockwise";
 
-impl Mesh<2> {
+impl<const D: usize> Mesh<D>
+where
+    Dim<D>: Meshed<D>,
+{
     /// The mesh of a model whose references have been checked.
     ///
     /// # Errors
@@ -116,18 +133,23 @@ impl Mesh<2> {
         let mut mesh = Self::default();
         let mut faults = Vec::new();
         let mut imported = vec![Vec::new(); model.meshes.len()];
+        let mut swept: Vec<Swept> = Vec::new();
         for (index, part) in model.parts.iter().enumerate() {
             match &part.shape {
                 Shape::Group { mesh: file, group } => match model.meshes.get(*file) {
-                    Some(source) => mesh.add_group(source, group, part, &mut imported[*file], &mut faults),
+                    Some(source) if part.sweep.is_none() => mesh.add_group(source, group, part, &mut imported[*file], &mut faults),
+                    Some(_) => mesh.add_swept(model, part, *file, &mut swept, &mut faults),
                     None => faults.push(Fault::new(&UNKNOWN_NAME, format!("part[{index}]"), "its mesh was not read", "")),
                 },
-                shape => mesh.add_shape(shape, part, &mut faults),
+                _ => mesh.add_shape(part, &mut faults),
             }
             mesh.check_elements(index, &mut faults);
         }
         for (source, numbers) in model.meshes.iter().zip(&imported) {
             mesh.add_named_groups(source, numbers, &mut faults);
+        }
+        for it in &swept {
+            mesh.add_named_groups(&it.made.mesh, &it.numbers, &mut faults);
         }
         if !faults.is_empty() {
             return Err(faults);
@@ -136,27 +158,28 @@ impl Mesh<2> {
         Ok(mesh)
     }
 
-    fn add_shape(&mut self, shape: &Shape, part: &Part, faults: &mut Vec<Fault>) {
-        let Some((shape, key)) = shape.built_in() else { return };
-        let body = match shape.body() {
-            Ok(body) => part.placement.applied(body),
-            Err(Wrong { key: at, message, help }) => {
-                let dot = if at.is_empty() { "" } else { "." };
-                faults.push(Fault::new(&UNMESHABLE, format!("part[{}].{key}{dot}{at}", self.parts.len()), message, help));
+    fn add_shape(&mut self, part: &Part, faults: &mut Vec<Fault>) {
+        match Dim::<D>::body(part) {
+            Some(Ok(body)) => self.add_body(&part.name, body),
+            Some(Err(fault)) => {
+                faults.push(Fault { path: format!("part[{}].{}", self.parts.len(), fault.path), ..fault });
                 self.parts.push(PartMesh { name: part.name.clone(), ..PartMesh::default() });
-                return;
             }
-        };
+            None => {}
+        }
+    }
+
+    fn add_body(&mut self, part: &str, body: Body<D>) {
         let first = self.positions.len() as u32;
         self.positions.extend(&body.positions);
         self.add_elements(body.cells(), |node| node + first);
-        self.parts.push(PartMesh { name: part.name.clone(), nodes: (first..first + body.positions.len() as u32).collect() });
-        for (side, segments) in body.sides {
-            let segments = segments.iter().map(|segment| segment.map(|node| node + first)).collect();
-            self.lines.insert(format!("{}.{side}", part.name), segments);
+        self.parts.push(PartMesh { name: part.into(), nodes: (first..first + body.positions.len() as u32).collect() });
+        for (side, facets) in body.sides {
+            let facets = facets.into_iter().map(|facet| facet.renamed(|node| node + first)).collect();
+            self.sides.insert(format!("{part}.{side}"), facets);
         }
         for (name, nodes) in body.points {
-            self.points.insert(format!("{}.{name}", part.name), sorted(nodes.into_iter().map(|node| node + first)));
+            self.points.insert(format!("{part}.{name}"), sorted(nodes.into_iter().map(|node| node + first)));
         }
     }
 
@@ -180,9 +203,9 @@ impl Mesh<2> {
     fn add_group(&mut self, source: &ImportedMesh, group: &str, part: &Part, numbers: &mut Vec<u32>, faults: &mut Vec<Fault>) {
         numbers.resize(source.positions.len(), u32::MAX);
         let path = format!("part[{}]", self.parts.len());
-        let dimension = part.cells_dimension();
+        let dimension = if part.is_of_bars() { 1 } else { D as u8 };
         let Some(group) = source.groups.iter().find(|g| g.name == group && g.dimension == dimension) else {
-            let kind = if dimension == 1 { "one" } else { "two" };
+            let kind = ["zero", "one", "two", "three"][usize::from(dimension)];
             faults.push(Fault::new(
                 &GROUP,
                 path,
@@ -196,12 +219,42 @@ impl Mesh<2> {
             let number = &mut numbers[node as usize];
             if *number == u32::MAX {
                 *number = self.positions.len() as u32;
-                self.positions.push(source.positions[node as usize]);
+                self.positions.push(Dim::<D>::of_space(source.positions[node as usize]));
             }
         }
         let number = |node: &u32| numbers[*node as usize];
         self.add_elements(group.cells.iter().map(Vec::as_slice), number);
         self.parts.push(PartMesh { name: part.name.clone(), nodes: sorted(group.cells.iter().flatten().map(number)) });
+    }
+
+    /// Adds a group of a mesh of the plane that is swept; parts of one file that are swept alike share their nodes.
+    fn add_swept(&mut self, model: &Model, part: &Part, file: usize, all: &mut Vec<Swept>, faults: &mut Vec<Fault>) {
+        let (Shape::Group { group, .. }, Some(sweep)) = (&part.shape, &part.sweep) else { return };
+        let path = format!("part[{}]", self.parts.len());
+        let at = all.iter().position(|it| it.file == file && it.sweep == *sweep).unwrap_or_else(|| {
+            let is_alike = |other: &&Part| other.sweep.as_ref() == Some(sweep);
+            let wanted: Vec<&str> = model.parts.iter().filter(is_alike).filter_map(|other| other.shape.group_of(file)).collect();
+            let made = sweep.swept_mesh(&model.meshes[file], &wanted).unwrap_or_else(|wrong| {
+                let Fault { path: at, kind, message, help } = wrong.at(sweep.key());
+                faults.push(Fault::new(kind, format!("{path}.{at}"), message, help));
+                SweptMesh::default()
+            });
+            all.push(Swept { file, sweep: sweep.clone(), made, numbers: Vec::new() });
+            all.len() - 1
+        });
+        let Swept { made, numbers, .. } = &mut all[at];
+        if made.mesh.positions.is_empty() {
+            self.parts.push(PartMesh { name: part.name.clone(), ..PartMesh::default() });
+            return; // its fault is told
+        }
+        self.add_group(&made.mesh, group, part, numbers, faults);
+        for (_, ends) in made.ends.iter().filter(|(name, _)| name == group) {
+            for (side, facets) in sweep.sides().into_iter().zip(ends) {
+                let cells = facets.iter().filter_map(|facet| Facet::<D>::of_cell(facet.corners()));
+                let facets = cells.map(|facet| facet.renamed(|node| numbers[node as usize])).collect();
+                self.sides.insert(format!("{}.{side}", part.name), facets);
+            }
+        }
     }
 
     /// Elements of a part.
@@ -222,22 +275,20 @@ impl Mesh<2> {
     }
 
     fn add_named_groups(&mut self, source: &ImportedMesh, numbers: &[u32], faults: &mut Vec<Fault>) {
-        let outside_of = |part| surface::exterior(self.groups_of(part).flat_map(ElementGroup::cells)).ok();
-        let outside: Vec<[u32; 2]> = (0..self.parts.len()).filter_map(outside_of).flatten().collect();
+        let outside_of = |part| surface::exterior::<D>(self.groups_of(part).flat_map(ElementGroup::cells)).ok();
+        let outside: Vec<Facet<D>> = (0..self.parts.len()).filter_map(outside_of).flatten().collect();
         for group in &source.groups {
             let nodes = || group.cells.iter().flatten().map(|&node| numbers.get(node as usize).copied().unwrap_or(u32::MAX));
             if nodes().any(|node| node == u32::MAX) {
                 continue; // a group of something that no part uses
             }
-            if group.dimension == 1 {
-                let lines: Vec<[u32; 2]> = nodes().collect::<Vec<_>>().chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect();
-                match surface::oriented(&lines, &outside) {
-                    Ok(lines) => drop(self.lines.insert(group.name.clone(), lines)),
-                    // A line inside a body is no surface, but still a set of nodes.
-                    Err(_) => drop(self.points.insert(group.name.clone(), sorted(nodes()))),
-                }
-            } else {
-                self.points.insert(group.name.clone(), sorted(nodes()));
+            let number = |cell: &Vec<u32>| cell.iter().map(|&node| numbers[node as usize]).collect::<Vec<u32>>();
+            let facet = |cell: &Vec<u32>| Facet::<D>::of_cell(&number(cell));
+            let facets: Option<Vec<Facet<D>>> = group.cells.iter().map(facet).collect();
+            match facets.filter(|_| usize::from(group.dimension) + 1 == D).map(|facets| surface::oriented(&facets, &outside)) {
+                Some(Ok(facets)) => drop(self.sides.insert(group.name.clone(), facets)),
+                // A line inside a body is no surface, but still a set of nodes.
+                _ => drop(self.points.insert(group.name.clone(), sorted(nodes()))),
             }
         }
         if self.positions.len() > u32::MAX as usize - 1 {
@@ -245,17 +296,16 @@ impl Mesh<2> {
         }
     }
 
-    /// Every corner of every element must turn counter-clockwise: then the Jacobian is positive in the whole element, and so is a triangle's area.
+    /// Every element must have a form that it can be computed with; see [`Meshed::wrong_form`].
     fn check_elements(&self, part: usize, faults: &mut Vec<Fault>) {
         let Some(PartMesh { name, .. }) = self.parts.get(part) else { return };
         let cells = self.groups_of(part).flat_map(|group| group.user_elements.iter().zip(group.cells()));
-        let mut bad: Vec<(u32, &[u32], &str)> =
+        let mut bad: Vec<(u32, &[u32], [&str; 2])> =
             cells.filter_map(|(&user, cell)| Some((user, cell, self.what_is_wrong_with(cell)?))).collect();
         bad.sort_unstable();
-        for &(user, cell, wrong) in bad.iter().take(TOLD) {
-            let [x, y] = self.positions[cell[0] as usize];
-            let help = if wrong == CLOCKWISE { "number its nodes counter-clockwise" } else { "mend the mesh there" };
-            let message = format!("element {user} of part \"{name}\" at ({x:.6e}, {y:.6e}) {wrong}");
+        for &(user, cell, [wrong, help]) in bad.iter().take(TOLD) {
+            let place = self.positions[cell[0] as usize].map(|x| format!("{x:.6e}")).join(", ");
+            let message = format!("element {user} of part \"{name}\" at ({place}) {wrong}");
             faults.push(Fault::new(&BAD_ELEMENT, format!("part[{part}]"), message, help));
         }
         if bad.len() > TOLD {
@@ -271,29 +321,11 @@ impl Mesh<2> {
         }
     }
 
-    /// What is wrong with the form of an element, if anything.
-    fn what_is_wrong_with(&self, cell: &[u32]) -> Option<&'static str> {
-        let n = cell.len();
-        let x = |corner: usize| self.positions[cell[corner % n] as usize];
-        if n == 2 {
-            // NaN too.
-            let [d, e] = [0, 1].map(|k| x(1)[k] - x(0)[k]);
-            return if d * d + e * e > 0.0 { None } else { Some("has no length") };
-        }
-        let turns = || {
-            (0..n).map(|c| {
-                let (a, b, d) = (x(c), x(c + 1), x(c + n - 1));
-                (b[0] - a[0]) * (d[1] - a[1]) - (b[1] - a[1]) * (d[0] - a[0])
-            })
-        };
-        if turns().all(|turn| turn > 0.0) {
-            None
-        } else if turns().all(|turn| turn < 0.0) {
-            Some(CLOCKWISE)
-        } else {
-            // NaN too.
-            Some("is degenerate or not convex")
-        }
+    /// What is wrong with the form of an element, if anything, and what to do about it.
+    fn what_is_wrong_with(&self, cell: &[u32]) -> Option<[&'static str; 2]> {
+        let mut corners = [[0.0; D]; 8];
+        cell.iter().zip(&mut corners).for_each(|(&node, corner)| *corner = self.positions[node as usize]);
+        Dim::<D>::wrong_form(&corners[..cell.len().min(8)])
     }
 
     /// Elements that are degenerate or not convex, after nodes have been moved.
@@ -310,8 +342,8 @@ impl Mesh<2> {
         if let Some(part) = self.parts.iter().find(|part| part.name == name) {
             return Some(sorted(part.nodes.iter().copied()));
         }
-        if let Some(lines) = self.lines.get(name) {
-            return Some(sorted(lines.iter().flatten().copied()));
+        if let Some(facets) = self.sides.get(name) {
+            return Some(sorted(facets.iter().flat_map(Corners::corners).copied()));
         }
         self.points.get(name).cloned()
     }
@@ -343,48 +375,50 @@ impl Mesh<2> {
         numbers
     }
 
-    /// Outside of some parts together (all when `parts` is empty): an edge between two of them is inside.
+    /// Outside of some parts together (all when `parts` is empty): what lies between two of them is inside.
     ///
     /// # Errors
     /// A fault without path when elements overlap.
-    pub fn outside(&self, parts: &[String]) -> Result<Surface, Fault> {
-        Surface::outside(self.cells(parts))
+    pub fn outside(&self, parts: &[String]) -> Result<Surface<D>, Fault> {
+        self.outside_without(parts, |_| false)
     }
 
-    /// The same without the segments that `leave_out` names (those on a symmetry line, which are no outside of the whole body).
+    /// The same without the segments or facets that `leave_out` names (those on a symmetry, which are no outside of the whole body).
     ///
     /// # Errors
     /// As [`Mesh::outside`].
-    pub fn outside_without(&self, parts: &[String], leave_out: impl Fn([u32; 2]) -> bool) -> Result<Surface, Fault> {
-        Surface::outside_without(self.cells(parts), leave_out)
+    pub fn outside_without(&self, parts: &[String], leave_out: impl Fn(Facet<D>) -> bool) -> Result<Surface<D>, Fault> {
+        Dim::<D>::outside_without(self.cells(parts), leave_out)
     }
 
-    /// Surface of a part (its whole outside), a `part.side` or a one-dimensional group, without the segments that `leave_out` names (those on
-    /// a symmetry line, which are no outside of the whole body).
+    /// Surface of a part (its whole outside), a `part.side` or a group of lines (in space of surfaces), without the segments or facets that `leave_out` names (those
+    /// on a symmetry, which are no outside of the whole body).
     ///
     /// # Errors
     /// A fault without path when there is no such surface.
-    pub fn surface(&self, name: &str, leave_out: impl Fn([u32; 2]) -> bool) -> Result<Surface, Fault> {
+    pub fn surface(&self, name: &str, leave_out: impl Fn(Facet<D>) -> bool) -> Result<Surface<D>, Fault> {
         let only = |name: &str| [name.to_string()];
         let is_part = |name: &str| self.parts.iter().any(|part| part.name == name);
-        let (segments, of) = if is_part(name) {
-            return Surface::outside_without(self.cells(&only(name)), leave_out);
-        } else if let Some(lines) = self.lines.get(name) {
-            let owner = name.split_once('.').map(|(part, _)| part).filter(|part| is_part(part));
-            let of = owner.map_or(Vec::new(), |part| only(part).to_vec());
-            let mut lines = lines.clone();
-            if self.groups.iter().any(|group| !group.eroded.is_empty()) {
-                let mut outside = surface::exterior(self.cells(&of))?;
-                outside.sort_unstable();
-                lines.retain(|segment| outside.binary_search(segment).is_ok());
-            }
-            (lines, of)
-        } else {
-            let help = "name a part, a side as part.side, or a one-dimensional group of a mesh file";
+        if is_part(name) {
+            return self.outside_without(&only(name), leave_out);
+        }
+        let Some(side) = self.sides.get(name) else {
+            let help = match D {
+                2 => "name a part, a side as part.side, or a one-dimensional group of a mesh file",
+                _ => "name a part, a side as part.side, or a two-dimensional group of a mesh file",
+            };
             return Err(Fault::new(&UNKNOWN_NAME, "", format!("there is no surface \"{name}\""), help));
         };
-        let kept: Vec<[u32; 2]> = segments.into_iter().filter(|&segment| !leave_out(segment)).collect();
-        Surface::new(kept, self.cells(&of))
+        let owner = name.split_once('.').map(|(part, _)| part).filter(|part| is_part(part));
+        let of = owner.map_or(Vec::new(), |part| only(part).to_vec());
+        let mut facets = side.clone();
+        if self.groups.iter().any(|group| !group.eroded.is_empty()) {
+            let mut outside = surface::exterior::<D>(self.cells(&of))?;
+            outside.sort_unstable();
+            facets.retain(|facet| outside.binary_search(facet).is_ok());
+        }
+        facets.retain(|&facet| !leave_out(facet));
+        Dim::<D>::surface(facets, self.cells(&of))
     }
 }
 

@@ -5,13 +5,17 @@
 //!
 //! Nodes on outlines come before all others, each kind in the order of the curve: what contact reads of them lies side by side and stays in the caches, however large the bodies are.
 
-use super::{ElementGroup, Mesh};
+use super::surface::Corners;
+use super::{Dim, ElementGroup, Mesh, Meshed};
 use std::cmp::Ordering;
 
-/// Bits per coordinate of the curve.
-const BITS: u32 = 31;
+/// Bits per coordinate of the curve in the plane.
+const BITS: u32 = <Dim<2> as Meshed<2>>::CURVE_BITS;
 
-impl Mesh<2> {
+impl<const D: usize> Mesh<D>
+where
+    Dim<D>: Meshed<D>,
+{
     /// Renumbers nodes, elements and corners; `user_nodes` and `user_elements` lead back.
     pub(super) fn reorder(&mut self) {
         let mut owner = vec![u32::MAX; self.positions.len()];
@@ -22,7 +26,7 @@ impl Mesh<2> {
         let order = sorted(codes(self.positions.iter().copied()), |a, b| {
             let (a, b) = (a as usize, b as usize);
             let place = |n: usize| self.positions[n];
-            let exact = || place(a)[0].total_cmp(&place(b)[0]).then(place(a)[1].total_cmp(&place(b)[1]));
+            let exact = || (0..D).fold(Ordering::Equal, |order, d| order.then(place(a)[d].total_cmp(&place(b)[d])));
             owner[a].cmp(&owner[b]).then_with(exact)
         });
         drop(owner);
@@ -44,7 +48,9 @@ impl Mesh<2> {
         let rename = |nodes: &mut [u32]| nodes.iter_mut().for_each(|node| *node = number[*node as usize]);
         self.parts.iter_mut().for_each(|part| rename(&mut part.nodes));
         self.groups.iter_mut().for_each(|group| rename(&mut group.connectivity));
-        self.lines.values_mut().flatten().for_each(|line| rename(line));
+        for facet in self.sides.values_mut().flatten() {
+            *facet = facet.renamed(|node| number[node as usize]).canonical();
+        }
         for nodes in self.points.values_mut() {
             rename(nodes);
             nodes.sort_unstable();
@@ -53,14 +59,9 @@ impl Mesh<2> {
 
     /// Moves the nodes on outlines before the others.
     fn put_outlines_first(&mut self) {
-        // Around a node inside each neighbour is once the next one and once the one before. (Where two fans meet in a point it may look as if it were inside: it only lies elsewhere.)
         let mut around = vec![0u64; self.positions.len()];
         for cell in self.groups.iter().flat_map(ElementGroup::cells) {
-            for (corner, &node) in cell.iter().enumerate() {
-                let [before, next] = [cell.len() - 1, 1].map(|by| u64::from(cell[(corner + by) % cell.len()]));
-                let sum = &mut around[node as usize];
-                *sum = sum.wrapping_add(next).wrapping_sub(before);
-            }
+            Dim::<D>::add_around(cell, &mut around);
         }
         self.outlines = around.iter().map(|&sum| sum != 0).collect();
         drop(around);
@@ -83,19 +84,18 @@ impl Mesh<2> {
 
 impl ElementGroup {
     /// Puts the elements in the order of the curve, given the new positions.
-    fn reorder(&mut self, positions: &[[f64; 2]]) {
+    fn reorder<const D: usize>(&mut self, positions: &[[f64; D]])
+    where
+        Dim<D>: Meshed<D>,
+    {
         let n = self.nodes_per_element;
-        // Each element begins with its lowest node; the direction of turning stays.
-        for cell in self.connectivity.chunks_exact_mut(n) {
-            let lowest = (0..n).min_by_key(|&corner| cell[corner]).unwrap_or(0);
-            cell.rotate_left(lowest);
-        }
+        self.connectivity.chunks_exact_mut(n).for_each(Dim::<D>::begin_with_lowest);
         let centre = |cell: &[u32]| {
-            let sum = cell.iter().fold([0.0; 2], |sum: [f64; 2], &node| {
+            let sum = cell.iter().fold([0.0; D], |sum: [f64; D], &node| {
                 let x = positions[node as usize];
-                [sum[0] + x[0], sum[1] + x[1]]
+                std::array::from_fn(|d| sum[d] + x[d])
             });
-            [sum[0] / n as f64, sum[1] / n as f64]
+            sum.map(|sum| sum / n as f64)
         };
         let codes = codes(self.connectivity.chunks_exact(n).map(centre));
         let order = sorted(codes, |a, b| {
@@ -121,23 +121,26 @@ fn sorted(codes: Vec<u64>, tie: impl Fn(u32, u32) -> Ordering) -> Vec<u32> {
 }
 
 /// Place of each point on a Hilbert curve through the box of all of them; points that are not finite come first.
-fn codes(points: impl Iterator<Item = [f64; 2]> + Clone) -> Vec<u64> {
-    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+fn codes<const D: usize>(points: impl Iterator<Item = [f64; D]> + Clone) -> Vec<u64>
+where
+    Dim<D>: Meshed<D>,
+{
+    let (mut low, mut high) = ([f64::INFINITY; D], [f64::NEG_INFINITY; D]);
     for point in points.clone() {
-        for d in 0..2 {
+        for d in 0..D {
             low[d] = low[d].min(point[d]);
             high[d] = high[d].max(point[d]);
         }
     }
-    // One scale for both directions, so that neighbours along the curve are near in space.
-    let size = (high[0] - low[0]).max(high[1] - low[1]);
-    let scale = if size > 0.0 { f64::from((1u32 << BITS) - 1) / size } else { 0.0 };
+    // One scale for all directions, so that neighbours along the curve are near in space.
+    let size = (1..D).fold(high[0] - low[0], |size, d| size.max(high[d] - low[d]));
+    let scale = if size > 0.0 { f64::from((1u32 << Dim::<D>::CURVE_BITS) - 1) / size } else { 0.0 };
     // A float becomes a whole number by rounding towards zero; NaN becomes 0.
-    points.map(|point| hilbert([0, 1].map(|d| ((point[d] - low[d]) * scale) as u32))).collect()
+    points.map(|point| Dim::<D>::along_curve(std::array::from_fn(|d| ((point[d] - low[d]) * scale) as u32))).collect()
 }
 
 /// Distance along the Hilbert curve of the cell (x, y) of a grid of 2^31 by 2^31 cells. Hilbert, Math. Annalen 38 (1891) 459-460.
-fn hilbert([x, y]: [u32; 2]) -> u64 {
+pub(super) fn hilbert([x, y]: [u32; 2]) -> u64 {
     let (mut distance, mut sense) = (0u64, 0usize);
     // The curve in a quarter is that of the whole, turned: 31 bits of each coordinate, one by one and then three at a time.
     let mut low = BITS - 1;
@@ -150,6 +153,43 @@ fn hilbert([x, y]: [u32; 2]) -> u64 {
         low = low.saturating_sub(3);
     }
     distance
+}
+
+/// Distance along a Hilbert curve of the cell (x, y, z) of a grid of 2^21 cells in each direction: coordinates are turned into the curve's digits in place.
+/// Skilling, AIP Conf. Proc. 707 (2004) 381-387.
+pub(super) fn hilbert_in_space(mut cell: [u32; 3]) -> u64 {
+    const HIGHEST: u32 = 1 << (<Dim<3> as Meshed<3>>::CURVE_BITS - 1);
+    // Each cube of the curve is the whole one, turned and mirrored: undone from the largest cubes to the smallest.
+    let mut bit = HIGHEST;
+    while bit > 1 {
+        let below = bit - 1;
+        for d in 0..3 {
+            if cell[d] & bit != 0 {
+                cell[0] ^= below;
+            } else {
+                let exchanged = (cell[0] ^ cell[d]) & below;
+                cell[0] ^= exchanged;
+                cell[d] ^= exchanged;
+            }
+        }
+        bit >>= 1;
+    }
+    // Gray code.
+    cell[1] ^= cell[0];
+    cell[2] ^= cell[1];
+    let mut turned = 0;
+    let mut bit = HIGHEST;
+    while bit > 1 {
+        if cell[2] & bit != 0 {
+            turned ^= bit - 1;
+        }
+        bit >>= 1;
+    }
+    let cell = cell.map(|x| x ^ turned);
+    (0..<Dim<3> as Meshed<3>>::CURVE_BITS).rev().fold(0, |distance, bit| {
+        let digit = cell.iter().fold(0, |digit, x| digit << 1 | (x >> bit & 1));
+        distance << 3 | u64::from(digit)
+    })
 }
 
 /// By bits per coordinate (1 or 3), sense and place (x · 8 + y): the way along the curve through the squares of those bits, and the sense in the last one.
@@ -196,6 +236,19 @@ mod tests {
         for pair in cells.windows(2) {
             assert_eq!(pair[0][0].abs_diff(pair[1][0]) + pair[0][1].abs_diff(pair[1][1]), 1, "{pair:?}");
         }
+    }
+
+    #[test]
+    fn neighbours_on_the_curve_are_neighbours_in_space_also_in_three_dimensions() {
+        let n = 8;
+        let mut cells: Vec<[u32; 3]> = (0..n * n * n).map(|k| [k % n, k / n % n, k / n / n]).collect();
+        for shift in [0, <Dim<3> as Meshed<3>>::CURVE_BITS - 3] {
+            cells.sort_by_key(|cell| hilbert_in_space(cell.map(|x| x << shift)));
+            for pair in cells.windows(2) {
+                assert_eq!((0..3).map(|d| pair[0][d].abs_diff(pair[1][d])).sum::<u32>(), 1, "{pair:?}");
+            }
+        }
+        assert_eq!(hilbert_in_space([0; 3]), 0);
     }
 
     #[test]

@@ -1,111 +1,174 @@
 //! Where the body of a built-in shape goes: mirrored, turned, moved, copied.
 //!
-//! Bodies come from the shapes, placements from the model; placed bodies go to the mesh. Turns use the shapes' own sine: the same bits everywhere.
+//! Bodies come from the shapes, placements from the model; placed bodies go to the mesh. Turns use the shapes' own sine: the same bits everywhere. In the plane the
+//! third components are zero, and turns are about z.
 
-use super::shapes::{Body, cos_sin, quarters};
-use crate::load::constraint::unit;
+use super::shapes::{Body, cos_sin, quarters, unit};
+use super::surface::Corners;
+use super::{Dim, Meshed};
 
 /// Where the body of a built-in shape goes: it is mirrored, then turned, then moved, then copied.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Placement {
-    /// A line that it is mirrored on.
+    /// A line, in space a plane, that it is mirrored on.
     pub mirror: Option<Mirror>,
-    /// Angle by which it is turned, rad, counter-clockwise.
+    /// Angle by which it is turned, rad, counter-clockwise (in space by the right-hand rule about the axis).
     pub rotation: f64,
-    /// Point about which it is turned, m.
-    pub rotation_point: [f64; 2],
+    /// Point about which it is turned, in space one of the axis, m.
+    pub rotation_point: [f64; 3],
+    /// Direction of the axis about which it is turned, of any length but zero; z in the plane.
+    pub rotation_axis: [f64; 3],
     /// How far it is moved, m.
-    pub translation: [f64; 2],
+    pub translation: [f64; 3],
     /// How often it is there.
     pub copies: Option<Copies>,
 }
 
-/// A line to mirror on.
+/// The direction that turns of the plane are about.
+const ALONG_Z: [f64; 3] = [0.0, 0.0, 1.0];
+
+impl Default for Placement {
+    fn default() -> Self {
+        Self { mirror: None, rotation: 0.0, rotation_point: [0.0; 3], rotation_axis: ALONG_Z, translation: [0.0; 3], copies: None }
+    }
+}
+
+/// A line, in space a plane, to mirror on.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Mirror {
     /// A point of it, m.
-    pub point: [f64; 2],
+    pub point: [f64; 3],
     /// Its normal, of any length but zero.
-    pub normal: [f64; 2],
+    pub normal: [f64; 3],
 }
 
 /// Bodies of one part that follow each other: each is turned and then moved as often as there are others before it.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Copies {
     /// How many bodies there are in all.
     pub count: usize,
     /// How far each is moved from the one before, m.
-    pub translation: [f64; 2],
-    /// Angle by which each is turned from the one before, rad, counter-clockwise.
+    pub translation: [f64; 3],
+    /// Angle by which each is turned from the one before, rad, counter-clockwise (in space by the right-hand rule about the axis).
     pub angle: f64,
-    /// Point about which they are turned, m.
-    pub point: [f64; 2],
+    /// Point about which they are turned, in space one of the axis, m.
+    pub point: [f64; 3],
+    /// Direction of the axis about which they are turned, of any length but zero; z in the plane.
+    pub axis: [f64; 3],
+}
+
+impl Default for Copies {
+    fn default() -> Self {
+        Self { count: 0, translation: [0.0; 3], angle: 0.0, point: [0.0; 3], axis: ALONG_Z }
+    }
+}
+
+/// A turn by an angle (rad) about an axis.
+struct Turn {
+    angle: f64,
+    about: [f64; 3],
+    axis: [f64; 3],
 }
 
 impl Placement {
     /// The body, placed: first mirrored, then turned, then moved; copies follow each other, and their elements and nodes are numbered so.
-    pub(super) fn applied(&self, mut body: Body) -> Body {
+    pub(super) fn applied<const D: usize>(&self, mut body: Body<D>) -> Body<D>
+    where
+        Dim<D>: Meshed<D>,
+    {
         if let Some(mirror) = &self.mirror {
             let n = unit(mirror.normal).unwrap_or_default();
             for x in &mut body.positions {
-                let twice = 2.0 * ((x[0] - mirror.point[0]) * n[0] + (x[1] - mirror.point[1]) * n[1]);
-                *x = [x[0] - twice * n[0], x[1] - twice * n[1]];
+                let along = (1..D).fold((x[0] - mirror.point[0]) * n[0], |sum, d| sum + (x[d] - mirror.point[d]) * n[d]);
+                *x = std::array::from_fn(|d| x[d] - 2.0 * along * n[d]);
             }
-            // What was on the left is on the right now.
-            body.quads.iter_mut().for_each(|quad| quad.reverse());
-            body.triangles.iter_mut().for_each(|triangle| triangle.reverse());
-            for (_, segments) in &mut body.sides {
-                segments.reverse();
-                segments.iter_mut().for_each(|segment| segment.reverse());
-            }
+            body.turn_over();
         }
-        turn(&mut body.positions, self.rotation, self.rotation_point, 1);
+        turn(&mut body.positions, &Turn { angle: self.rotation, about: self.rotation_point, axis: self.rotation_axis }, 1);
         shift(&mut body.positions, self.translation, 1);
         let Some(copies) = &self.copies else { return body };
         let one = body.clone();
-        let nodes = one.positions.len() as u32;
+        let by = Turn { angle: copies.angle, about: copies.point, axis: copies.axis };
         for copy in 1..copies.count {
-            let first = copy as u32 * nodes;
-            let mut positions = one.positions.clone();
-            turn(&mut positions, copies.angle, copies.point, copy);
-            shift(&mut positions, copies.translation, copy);
-            body.positions.extend(positions);
-            body.quads.extend(one.quads.iter().map(|quad| quad.map(|node| node + first)));
-            body.triangles.extend(one.triangles.iter().map(|triangle| triangle.map(|node| node + first)));
-            body.bars.extend(one.bars.iter().map(|bar| bar.map(|node| node + first)));
-            for ((_, all), (_, own)) in body.points.iter_mut().zip(&one.points) {
-                all.extend(own.iter().map(|node| node + first));
-            }
-            for ((_, all), (_, own)) in body.sides.iter_mut().zip(&one.sides) {
-                all.extend(own.iter().map(|segment| segment.map(|node| node + first)));
-            }
+            let mut next = one.clone();
+            turn(&mut next.positions, &by, copy);
+            shift(&mut next.positions, copies.translation, copy);
+            body.append(next);
         }
         body
     }
 }
 
-/// Turns points `times` times by an angle (rad) about a point.
-fn turn(positions: &mut [[f64; 2]], angle: f64, about: [f64; 2], times: usize) {
-    if angle == 0.0 {
-        return;
+impl<const D: usize> Body<D>
+where
+    Dim<D>: Meshed<D>,
+{
+    /// Numbers the nodes of elements and sides anew after positions were mirrored: what was on the left is on the right now.
+    fn turn_over(&mut self) {
+        self.quads.iter_mut().for_each(|cell| Dim::<D>::turn_over(cell));
+        self.triangles.iter_mut().for_each(|cell| Dim::<D>::turn_over(cell));
+        self.hexahedra.iter_mut().for_each(|cell| Dim::<D>::turn_over(cell));
+        self.wedges.iter_mut().for_each(|cell| Dim::<D>::turn_over(cell));
+        self.tetrahedra.iter_mut().for_each(|cell| Dim::<D>::turn_over(cell));
+        for (_, facets) in &mut self.sides {
+            facets.reverse();
+            facets.iter_mut().for_each(|facet| *facet = facet.reversed());
+        }
     }
-    let [c, s] = cos_sin(quarters(angle) * times as f64);
-    for x in positions {
-        let [a, b] = [x[0] - about[0], x[1] - about[1]];
-        *x = [about[0] + (c * a - s * b), about[1] + (s * a + c * b)];
+
+    /// Adds another body of the same shape: its elements after those that there are, its sides to those of the same name.
+    fn append(&mut self, other: Self) {
+        let first = self.positions.len() as u32;
+        self.positions.extend(other.positions);
+        self.quads.extend(other.quads.iter().map(|cell| cell.map(|node| node + first)));
+        self.triangles.extend(other.triangles.iter().map(|cell| cell.map(|node| node + first)));
+        self.hexahedra.extend(other.hexahedra.iter().map(|cell| cell.map(|node| node + first)));
+        self.wedges.extend(other.wedges.iter().map(|cell| cell.map(|node| node + first)));
+        self.tetrahedra.extend(other.tetrahedra.iter().map(|cell| cell.map(|node| node + first)));
+        self.bars.extend(other.bars.iter().map(|bar| bar.map(|node| node + first)));
+        for ((_, all), (_, own)) in self.points.iter_mut().zip(other.points) {
+            all.extend(own.iter().map(|node| node + first));
+        }
+        for ((_, all), (_, own)) in self.sides.iter_mut().zip(other.sides) {
+            all.extend(own.into_iter().map(|facet| facet.renamed(|node| node + first)));
+        }
     }
 }
 
-fn shift(positions: &mut [[f64; 2]], by: [f64; 2], times: usize) {
-    if by != [0.0; 2] {
-        positions.iter_mut().for_each(|x| *x = [x[0] + times as f64 * by[0], x[1] + times as f64 * by[1]]);
+/// Turns points `times` times: x ← p + (r·u) u + cos α (r − (r·u) u) + sin α u × r with r = x − p.
+fn turn<const D: usize>(positions: &mut [[f64; D]], turn: &Turn, times: usize) {
+    if turn.angle == 0.0 {
+        return;
+    }
+    let ([c, s], about) = (cos_sin(quarters(turn.angle) * times as f64), turn.about);
+    let [u, v, w] = unit(turn.axis).unwrap_or(ALONG_Z);
+    for x in positions {
+        let mut r = [0.0; 3];
+        (0..D).for_each(|d| r[d] = x[d] - about[d]);
+        let [a, b, z] = r;
+        if D == 2 {
+            (x[0], x[1]) = (about[0] + (c * a - s * b), about[1] + (s * a + c * b));
+            continue;
+        }
+        let along = a * u + b * v + z * w;
+        let (axis, crossed) = ([u, v, w], [v * z - w * b, w * a - u * z, u * b - v * a]);
+        for d in 0..D {
+            let fixed = along * axis[d];
+            x[d] = about[d] + (fixed + c * (r[d] - fixed) + s * crossed[d]);
+        }
+    }
+}
+
+fn shift<const D: usize>(positions: &mut [[f64; D]], by: [f64; 3], times: usize) {
+    if by != [0.0; 3] {
+        positions.iter_mut().for_each(|x| *x = std::array::from_fn(|d| x[d] + times as f64 * by[d]));
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::shapes::{rectangle, ring};
+    use crate::mesh::shapes::{BuiltIn, Cuboid, rectangle, ring};
     use crate::mesh::surface::{Surface, exterior};
 
     fn is_sound(body: &Body) {
@@ -116,23 +179,23 @@ mod tests {
                 assert!((b[0] - a[0]) * (d[1] - a[1]) - (b[1] - a[1]) * (d[0] - a[0]) > 0.0);
             }
         }
-        let mut outside = exterior(body.cells()).unwrap();
+        let mut outside = exterior::<2>(body.cells()).unwrap();
         let mut sides: Vec<_> = body.sides.iter().flat_map(|side| side.1.clone()).collect();
         outside.sort_unstable();
         sides.sort_unstable();
         assert_eq!(outside, sides);
-        assert!(body.sides.iter().all(|(_, segments)| Surface::new(segments.clone(), body.cells()).is_ok()));
+        assert!(body.sides.iter().all(|(_, segments)| Surface::<2>::new(segments.clone(), body.cells()).is_ok()));
     }
 
     #[test]
     fn a_mirrored_body_keeps_its_orientation_and_its_sides_their_names() {
-        let mirror = Some(Mirror { point: [1.0, 0.0], normal: [2.0, 0.0] });
+        let mirror = Some(Mirror { point: [1.0, 0.0, 0.0], normal: [2.0, 0.0, 0.0] });
         let body = Placement { mirror, ..Placement::default() }.applied(rectangle([0.0, 0.0], [0.5, 1.0], [2, 3]));
         is_sound(&body);
         let left = &body.sides.iter().find(|side| side.0 == "left").unwrap().1;
         assert!(left.iter().flatten().all(|&node| body.positions[node as usize][0] == 2.0), "what was left is on the right");
         assert!(left.windows(2).all(|pair| pair[0][1] == pair[1][0]));
-        let skew = Some(Mirror { point: [0.0, 0.0], normal: [1.0, -1.0] });
+        let skew = Some(Mirror { point: [0.0; 3], normal: [1.0, -1.0, 0.0] });
         let body = Placement { mirror: skew, ..Placement::default() }.applied(rectangle([1.0, 0.0], [2.0, 0.5], [1, 1]));
         let far = body.positions[3];
         assert!((far[0] - 0.5).abs() < 1e-15 && (far[1] - 3.0).abs() < 1e-15, "x and y change places: {far:?}");
@@ -141,23 +204,52 @@ mod tests {
     #[test]
     fn a_quarter_turn_is_exact() {
         let rotation = std::f64::consts::FRAC_PI_2;
-        let placement = Placement { rotation, rotation_point: [1.0, 1.0], translation: [0.0, -1.0], ..Placement::default() };
+        let placement = Placement { rotation, rotation_point: [1.0, 1.0, 0.0], translation: [0.0, -1.0, 0.0], ..Placement::default() };
         let body = placement.applied(rectangle([1.0, 1.0], [2.0, 0.5], [2, 1]));
         is_sound(&body);
         assert_eq!([body.positions[2], body.positions[5]], [[1.0, 2.0], [0.5, 2.0]]);
     }
 
     #[test]
+    fn a_solid_is_mirrored_turned_about_any_axis_and_copied() {
+        let cuboid = || Cuboid { corner: [1.0, 0.0, 0.0], size: [1.0, 2.0, 3.0], elements: [2, 2, 2], ..Cuboid::default() }.body().unwrap();
+        let is_sound = |body: &Body<3>| {
+            let at = |cell: &[u32]| cell.iter().map(|&node| body.positions[node as usize]).collect::<Vec<_>>();
+            assert!(body.cells().all(|cell| Dim::<3>::wrong_form(&at(cell)).is_none()));
+            let mut outside = exterior::<3>(body.cells()).unwrap();
+            let mut sides: Vec<_> = body.sides.iter().flat_map(|side| side.1.iter().map(|facet| facet.canonical())).collect();
+            outside.sort_unstable();
+            sides.sort_unstable();
+            assert_eq!(outside, sides);
+        };
+        let mirror = Some(Mirror { point: [0.0; 3], normal: [1.0, 0.0, 0.0] });
+        let body = Placement { mirror, ..Placement::default() }.applied(cuboid());
+        is_sound(&body);
+        let left = &body.sides.iter().find(|side| side.0 == "left").unwrap().1;
+        assert!(left.iter().flatten().all(|&node| body.positions[node as usize][0] == -1.0));
+        // A third of a turn about the diagonal exchanges the axes.
+        let rotation = std::f64::consts::TAU / 3.0;
+        let body = Placement { rotation, rotation_axis: [1.0; 3], ..Placement::default() }.applied(cuboid());
+        is_sound(&body);
+        assert!(cuboid().positions.iter().zip(&body.positions).all(|(x, y)| (0..3).all(|d| (y[d] - x[(d + 2) % 3]).abs() < 4e-15)));
+        let angle = std::f64::consts::FRAC_PI_2;
+        let copies = Some(Copies { count: 4, angle, axis: [0.0, 2.0, 0.0], point: [-1.0, 0.0, -1.0], ..Copies::default() });
+        let body = Placement { copies, translation: [0.5, 0.5, 0.5], ..Placement::default() }.applied(cuboid());
+        is_sound(&body);
+        assert_eq!((body.positions.len(), body.positions[0], body.positions[27]), (108, [1.5, 0.5, 0.5], [0.5, 0.5, -3.5]));
+    }
+
+    #[test]
     fn copies_stand_in_a_row_or_around_a_point() {
         let one = ring([3.0, 0.0], 0.2, 0.5, 0.0, std::f64::consts::TAU, [1, 8]);
         let angle = std::f64::consts::FRAC_PI_2;
-        let around = Copies { count: 4, angle, point: [0.0; 2], translation: [0.0; 2] };
+        let around = Copies { count: 4, angle, ..Copies::default() };
         let body = Placement { copies: Some(around), ..Placement::default() }.applied(one.clone());
         is_sound(&body);
         let (nodes, elements) = (one.positions.len(), one.quads.len());
         assert_eq!((body.positions.len(), body.quads.len()), (4 * nodes, 4 * elements));
         assert_eq!(body.positions[2 * nodes], [-one.positions[0][0], 0.0 - one.positions[0][1]]);
-        let row = Copies { count: 3, angle: 0.0, point: [0.0; 2], translation: [2.0, 0.25] };
+        let row = Copies { count: 3, translation: [2.0, 0.25, 0.0], ..Copies::default() };
         let body = Placement { copies: Some(row), ..Placement::default() }.applied(one.clone());
         assert_eq!(body.positions[2 * nodes], [one.positions[0][0] + 4.0, one.positions[0][1] + 0.5]);
     }

@@ -206,7 +206,7 @@ impl Contact {
 /// Shape of a rigid obstacle. Its free side is where the normal points.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ObstacleShape {
-    /// A straight line.
+    /// A straight line; in space a plane without end.
     Plane {
         /// A point of the line, m; its middle where it has a length.
         point: [f64; 3],
@@ -219,6 +219,26 @@ pub enum ObstacleShape {
     Circle {
         /// Centre, m.
         centre: [f64; 3],
+        /// Radius, m.
+        radius: f64,
+        /// Whether bodies are inside of it.
+        hollow: bool,
+    },
+    /// In space: a sphere.
+    Sphere {
+        /// Centre, m.
+        centre: [f64; 3],
+        /// Radius, m.
+        radius: f64,
+        /// Whether bodies are inside of it.
+        hollow: bool,
+    },
+    /// In space: a cylinder without ends.
+    Cylinder {
+        /// A point of its axis, m.
+        point: [f64; 3],
+        /// Direction of the axis; any length.
+        axis: [f64; 3],
         /// Radius, m.
         radius: f64,
         /// Whether bodies are inside of it.

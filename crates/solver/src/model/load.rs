@@ -3,7 +3,7 @@
 //!
 //! Part of the [`Model`](super::Model); curves and rigid motion are in `mod.rs`.
 
-use super::Drive;
+use super::{Drive, in_space};
 
 /// `[[symmetry]]`: nodes that lie on a line (in space: on a plane) at the start stay on it.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -31,13 +31,37 @@ pub struct Constraint {
     pub rotation: Option<Rotation>,
 }
 
-/// Prescribed rotation of nodes about a fixed point.
+/// Prescribed rotation of nodes about a fixed axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rotation {
-    /// The point, m.
-    pub centre: [f64; 2],
-    /// Angular velocity, rad/s, counter-clockwise.
+    /// The axis.
+    pub about: Axis,
+    /// Angular velocity, rad/s, counter-clockwise where the axis points to the reader.
     pub speed: Drive,
+}
+
+/// What something turns about: in the plane a point, in space the line through it along a direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Axis {
+    /// A point of it, m.
+    pub centre: [f64; 3],
+    /// Its direction, of any length but zero; in the plane that of z.
+    pub direction: [f64; 3],
+}
+
+impl Axis {
+    /// Along z through a point, m.
+    #[must_use]
+    pub fn through<const D: usize>(centre: [f64; D]) -> Self {
+        Self { centre: in_space(centre), direction: [0.0, 0.0, 1.0] }
+    }
+}
+
+/// Along z through the origin.
+impl Default for Axis {
+    fn default() -> Self {
+        Self::through([0.0; 3])
+    }
 }
 
 /// `[[load]]`.
@@ -56,8 +80,8 @@ pub enum Load {
     Centrifugal {
         /// Parts; empty: all.
         parts: Vec<String>,
-        /// The point, m; an axisymmetric model turns about its axis.
-        centre: [f64; 2],
+        /// What it turns about; an axisymmetric model turns about its axis.
+        about: Axis,
         /// Angular velocity of the frame, rad/s.
         speed: f64,
         /// Key of [`super::Model::curves`]: a factor of the angular velocity.
@@ -124,11 +148,11 @@ pub enum Image {
     #[default]
     Same,
     /// Moved by this, m.
-    Translated([f64; 2]),
-    /// Turned about a point.
+    Translated([f64; 3]),
+    /// Turned about an axis.
     Turned {
-        /// The point, m.
-        centre: [f64; 2],
+        /// The axis.
+        about: Axis,
         /// By this angle, rad, counter-clockwise.
         angle: f64,
     },

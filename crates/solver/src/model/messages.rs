@@ -15,6 +15,8 @@ pub(crate) static MESSAGES: &[&Message] = &[
     &OF_REVOLUTION,
     &OUTPUT_TOO_MUCH,
     &NOTHING,
+    &NOT_IN_SPACE,
+    &THIRD,
 ];
 
 /// A number is out of its range.
@@ -90,7 +92,7 @@ pub(crate) static NO_DIRECTION: Message = Message {
     code: "E0120",
     title: "a direction is a zero vector",
     example: Example::Model("[[obstacle]]\nname = \"ground\"\nplane = { point = [0, \"-1 mm\"], normal = [0, 0] }\n"),
-    cause: "A normal of [0, 0] points nowhere.",
+    cause: "A normal of [0, 0] points nowhere. A camera whose `up` is the direction from which it looks does not know what is up.",
     cure: "Give a vector such as [0, 1]; its length does not matter.",
 };
 
@@ -122,4 +124,24 @@ pub(crate) static NOTHING: Message = Message {
     example: Example::Words("A program that makes its models itself leaves out all parts; of a model file that is E0104."),
     cause: "A model without parts, a part without elements, or a count of 0.",
     cure: "Give at least one.",
+};
+
+pub(crate) static NOT_IN_SPACE: Message = Message {
+    code: "E0125",
+    title: "models in space don't have this",
+    example: Example::Model(
+        "[[part]]\nname = \"solid\"\nmaterial = \"steel\"\nbox = { corner = [0, 0, 0], size = [1, 1, 1], elements = [1, 1, 1] }\n\n\
+         [[contact]]\nname = \"hit\"\nbodies = \"all\"\n\n\
+         [[obstacle]]\nname = \"ball\"\nparts = \"solid\"\ncircle = { centre = [0, -2], radius = 1 }\n",
+    ),
+    cause: "A table or key is one of models of the plane, and solids don't know it.",
+    cure: "Leave it out, or do what the message proposes.",
+};
+
+pub(crate) static THIRD: Message = Message {
+    code: "E0126",
+    title: "a third component in the plane",
+    example: Example::Model("[[load]]\ngravity = [0, -9.81, 1]\n"),
+    cause: "All parts lie in the plane, but a vector has a component along z, or something is held, moved or turned out of the plane.",
+    cure: "Leave it out, or make the parts solid: `extrude` them, or give them a shape of space.",
 };

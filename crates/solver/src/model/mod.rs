@@ -17,14 +17,17 @@ pub use contact::{
 };
 pub use discrete::{PointMass, Spring};
 pub use initial::InitialStress;
-pub use load::{Constraint, Image, Join, Load, NonReflecting, Rotation, Symmetry};
+pub use load::{Axis, Constraint, Image, Join, Load, NonReflecting, Rotation, Symmetry};
 pub use motion::{Curve, CurveShape, Drive, Motion};
 
 use crate::block::stress_state::STRESS_STATES;
-use crate::element::{BARS, ELEMENTS, ElementKind};
+use crate::element::{BARS, ELEMENTS, ElementKind, elements_of};
 pub use crate::mesh::placement::{Copies, Mirror, Placement};
 use crate::mesh::shapes::Count;
-pub use crate::mesh::shapes::{Disk, Edge, Path, Polygon, Quadrilateral, Rectangle, Ring, Shape, Trapezoid, Truss};
+pub use crate::mesh::shapes::{
+    Cuboid, Cylinder, Disk, Edge, Extrude, Path, Polygon, Quadrilateral, Rectangle, Revolve, Ring, Shape, Sphere, Sweep, Trapezoid, Truss,
+    Tube,
+};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -128,6 +131,42 @@ pub struct MassScaling {
 }
 
 impl Model {
+    /// 2 in the plane, 3 in space: what its first part is; the check finds models with parts of both kinds.
+    #[must_use]
+    pub fn dimension(&self) -> usize {
+        self.parts.first().map_or(2, |part| self.dimension_of(part))
+    }
+
+    /// Dimension of a part: of a group of a mesh file that of the file, unless it is swept.
+    #[must_use]
+    pub fn dimension_of(&self, part: &Part) -> usize {
+        match &part.shape {
+            Shape::Group { mesh, .. } if part.sweep.is_none() => self.meshes.get(*mesh).map_or(2, |imported| imported.dimension()),
+            _ => part.dimension(),
+        }
+    }
+
+    /// Dimension of the cells of a mesh file that a part is made of.
+    #[must_use]
+    pub fn cells_dimension(&self, part: &Part) -> u8 {
+        match (part.is_of_bars(), &part.sweep) {
+            (true, _) => 1,
+            (false, Some(_)) => 2,
+            (false, None) => self.dimension_of(part) as u8,
+        }
+    }
+}
+
+impl ImportedMesh {
+    /// 3 where it has volumes or nodes outside of the plane z = 0, else 2.
+    #[must_use]
+    pub fn dimension(&self) -> usize {
+        let is_of_space = self.groups.iter().any(|group| group.dimension == 3) || self.positions.iter().any(|x| x[2] != 0.0);
+        if is_of_space { 3 } else { 2 }
+    }
+}
+
+impl Model {
     /// Whether the model is a body of revolution: its parts are all axisymmetric, or none is.
     #[must_use]
     pub fn is_axisymmetric(&self) -> bool {
@@ -202,6 +241,8 @@ pub struct Part {
     pub stress_state: String,
     /// Where its elements come from.
     pub shape: Shape,
+    /// How a shape of the plane becomes a solid; `None`: it stays in the plane, or is a solid as it is.
+    pub sweep: Option<Sweep>,
     /// Where the body of a built-in shape goes.
     pub placement: Placement,
     /// Initial velocity of the centre of mass, m/s.
@@ -230,6 +271,7 @@ impl Default for Part {
             hourglass: None,
             stress_state: String::new(),
             shape: Shape::Group { mesh: usize::MAX, group: String::new() },
+            sweep: None,
             placement: Placement::default(),
             velocity: [0.0; 3],
             spin: 0.0,
@@ -248,10 +290,10 @@ impl Part {
         STRESS_STATES.iter().any(|kind| kind.name == self.stress_state && kind.axisymmetric)
     }
 
-    /// Dimension of the cells of a mesh file that it is made of.
+    /// 3 where it is swept or has a solid shape, else 2; of a group of a mesh file its model knows ([`Model::dimension_of`]).
     #[must_use]
-    pub fn cells_dimension(&self) -> u8 {
-        if self.is_of_bars() { 1 } else { 2 }
+    pub fn dimension(&self) -> usize {
+        if self.sweep.is_some() || self.shape.solid().is_some() { 3 } else { 2 }
     }
 
     /// Whether it consists of bars: lines without a surface.
@@ -263,23 +305,38 @@ impl Part {
     /// How large its mesh will be, where it has a built-in shape.
     #[must_use]
     pub fn count(&self) -> Option<Count> {
-        Some(self.shape.count()?.times(self.placement.copies.map_or(1, |copies| copies.count)))
+        let shape = self.shape.count()?;
+        let one = self.sweep.as_ref().map_or(shape, |sweep| sweep.count(shape));
+        Some(one.times(self.placement.copies.map_or(1, |copies| copies.count)))
     }
 
-    /// The element that has so many nodes; `None` when the part names none.
+    /// The element of a model of so many dimensions that has so many nodes; `None` when the part names none. In space an element of the plane stands for its counterpart (`quad4_reduced` for
+    /// `hex8_reduced`), and wedges and tetrahedra are the usual ones where none of them is named.
+    #[must_use]
+    pub fn element_in(&self, dimension: usize, nodes: usize) -> Option<&'static ElementKind> {
+        if dimension == 2 {
+            return self.element_of(nodes);
+        }
+        let counterpart = self.element.replacen("quad4", "hex8", 1);
+        let mut kinds = elements_of(dimension).iter().filter(|kind| kind.nodes == nodes);
+        let usual = kinds.clone().next().filter(|_| nodes < 8);
+        kinds.find(|kind| [&self.element, &counterpart, &self.element_triangles].iter().any(|name| *name == kind.name)).or(usual)
+    }
+
+    /// The element of the plane that has so many nodes; `None` when the part names none.
     #[must_use]
     pub fn element_of(&self, nodes: usize) -> Option<&'static ElementKind> {
         ELEMENTS.iter().chain(BARS).find(|kind| kind.nodes == nodes && (kind.name == self.element || kind.name == self.element_triangles))
     }
 }
 
-/// A mesh that came from a file: plane nodes and named groups of cells. Parts that use the same mesh share its nodes.
+/// A mesh that came from a file: nodes and named groups of cells. Parts that use the same mesh share its nodes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ImportedMesh {
     /// Where it came from, for messages.
     pub source: String,
-    /// Node positions, m.
-    pub positions: Vec<[f64; 2]>,
+    /// Node positions, m; z is zero in the plane.
+    pub positions: Vec<[f64; 3]>,
     /// Groups by name.
     pub groups: Vec<MeshGroup>,
 }
@@ -289,9 +346,10 @@ pub struct ImportedMesh {
 pub struct MeshGroup {
     /// Unique name.
     pub name: String,
-    /// 0 points, 1 lines, 2 surfaces.
+    /// 0 points, 1 lines, 2 surfaces, 3 volumes.
     pub dimension: u8,
-    /// Node indices of each cell: 1 for a point, 2 for a line, 3 for a triangle, 4 for a quadrilateral (counter-clockwise or not).
+    /// Node indices of each cell: 1 for a point, 2 for a line, 3 for a triangle, 4 for a quadrilateral (counter-clockwise or not) or a tetrahedron, 6 for a wedge,
+    /// 8 for a hexahedron.
     pub cells: Vec<Vec<u32>>,
 }
 
@@ -348,14 +406,16 @@ pub struct Output {
     pub hash_steps: Option<u64>,
     /// Names of the fields to write; empty: all.
     pub include: Vec<String>,
-    /// Pictures show the mirrored half at x = 0 (`[true, _]`) and at y = 0 (`[_, true]`).
-    pub mirror: [bool; 2],
+    /// Pictures show the mirrored half at x = 0 (the first), at y = 0 and, in space, at z = 0.
+    pub mirror: [bool; 3],
     /// Whether pictures and the animation are made.
     pub pictures: bool,
     /// Field that colours the pictures; empty: chosen from what the model has.
     pub picture_field: String,
     /// What pictures show; none: the bodies, and obstacles near them.
     pub picture_view: Option<PictureView>,
+    /// From where pictures of space look; none: so that three sides are seen.
+    pub camera: Option<Camera>,
 }
 
 /// `output.picture_view`.
@@ -367,6 +427,25 @@ pub struct PictureView {
     pub size: [f64; 2],
 }
 
+/// `output.camera`: how pictures look at a model of space. Lines that are parallel stay so.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    /// Direction from the model to the camera, of any length.
+    pub from: [f64; 3],
+    /// What is in the middle of the picture, m; none: the middle of all that is seen.
+    pub at: Option<[f64; 3]>,
+    /// Direction that is upwards in the picture, of any length.
+    pub up: [f64; 3],
+    /// How many times larger than so that everything is seen.
+    pub zoom: f64,
+}
+
+impl Default for Camera {
+    fn default() -> Self {
+        Self { from: [0.6, -1.0, 0.5], at: None, up: [0.0, 0.0, 1.0], zoom: 1.0 }
+    }
+}
+
 impl Default for Output {
     fn default() -> Self {
         Self {
@@ -374,10 +453,11 @@ impl Default for Output {
             history: Cadence::Count(1000),
             hash_steps: Some(100),
             include: Vec::new(),
-            mirror: [false, false],
+            mirror: [false; 3],
             pictures: true,
             picture_field: String::new(),
             picture_view: None,
+            camera: None,
         }
     }
 }

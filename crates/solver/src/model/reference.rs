@@ -50,7 +50,7 @@ impl Model {
         if let Some((part_name, side_name)) = name.split_once('.')
             && let Some(part) = self.parts.iter().position(|part| part.name == part_name)
         {
-            let sides = self.parts[part].shape.sides();
+            let sides = self.parts[part].sides();
             if let Some(side) = sides.iter().position(|side| side == side_name) {
                 return Ok(Reference::Side { part, side });
             }
@@ -100,7 +100,7 @@ impl Model {
         }
         let plain: Vec<&str> = known.iter().map(String::as_str).filter(|name| !name.is_empty()).collect();
         let sides: Vec<String> =
-            self.parts.iter().flat_map(|part| part.shape.sides().into_iter().map(move |side| format!("{}.{side}", part.name))).collect();
+            self.parts.iter().flat_map(|part| part.sides().into_iter().map(move |side| format!("{}.{side}", part.name))).collect();
         if let Some(near) = nearest(name, plain.iter().copied().chain(sides.iter().map(String::as_str))) {
             return format!("did you mean `{near}`?");
         }

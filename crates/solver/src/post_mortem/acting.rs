@@ -2,7 +2,9 @@
 
 use super::Suspect;
 use crate::model::{Load, Model};
-use crate::simulation::Simulation;
+use crate::simulation::run::Run;
+use crate::tensor::Dim;
+use crate::world::World;
 
 /// A table of the model that acts on the culprit or the elements next to it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -13,10 +15,12 @@ pub struct Acting {
     pub on: String,
 }
 
-impl Simulation {
+impl<const D: usize> Run<D>
+where
+    Dim<D>: World<D>,
+{
     /// Constraints and loads of the model that act on the culprit or the elements next to it.
-    #[must_use]
-    pub fn acting(&self, model: &Model, suspect: &Suspect) -> Vec<Acting> {
+    pub(crate) fn acting(&self, model: &Model, suspect: &Suspect) -> Vec<Acting> {
         let near = self.system.near(suspect).next;
         let mesh = &self.system.mesh;
         let reaches = |on: &str| mesh.nodes(on).is_some_and(|nodes| nodes.iter().any(|node| near.binary_search(node).is_ok()));

@@ -1,10 +1,12 @@
 //! What mass scaling would need: of each element the mass that it must weigh more for a step, the whole as a function of the step, and the longest step within a limit.
 
-use super::trace::size;
 use super::{Neighbourhood, Suspect};
 use crate::error::Error;
-use crate::model::{MassScaling, Model};
-use crate::simulation::{Options, Simulation};
+use crate::model::{MassScaling, Model, in_space};
+use crate::simulation::{Either, Options, Simulation, either};
+use crate::step::System;
+use crate::tensor::Dim;
+use crate::world::World;
 use std::collections::BTreeMap;
 
 /// An element that is too light.
@@ -15,7 +17,7 @@ pub struct Heavy {
     /// Its number in the part.
     pub element: usize,
     /// Mean of its nodes, m.
-    pub at: [f64; 2],
+    pub at: [f64; 3],
     /// Its stable step, `safety` included, s.
     pub time_step: f64,
     /// Its mass, kg/m.
@@ -70,39 +72,9 @@ impl MassNeeded {
         let mut plain = model.clone();
         plain.run.mass_scaling = None;
         let simulation = Simulation::new(&plain, options)?;
-        let (system, safety) = (&simulation.system, model.run.safety);
-        let mut needed = Vec::new();
-        let (mut steps, mut parts) = (Vec::new(), Vec::<PartNeeds>::new());
-        for (g, (group, block)) in system.mesh.groups.iter().zip(&system.blocks).enumerate().filter(|(g, _)| !system.rigid[*g]) {
-            let part = &model.parts[group.part];
-            let density = model.materials.get(&part.material).and_then(|it| it.parameters.get("density")).copied().unwrap_or(f64::NAN);
-            if parts.last().is_none_or(|last| last.part != part.name) {
-                parts.push(PartNeeds { part: part.name.clone(), elements: 0, light: 0, mass: 0.0, added: 0.0 });
-            }
-            let Some(sums) = parts.last_mut() else { continue };
-            for (element, cell) in group.cells().enumerate() {
-                let at = system.centre(cell);
-                let depth = if part.is_axisymmetric() { std::f64::consts::TAU * at[0] } else { 1.0 };
-                let area = part.area.filter(|_| cell.len() == 2).unwrap_or(1.0);
-                let mass = density * area * depth * size(cell, &system.positions) * part.mass_scale;
-                let time_step = safety * block.time_step_squared(element).sqrt();
-                let added = added(scaling.time_step, [time_step, mass]);
-                sums.elements += 1;
-                sums.light += usize::from(added > 0.0);
-                (sums.mass, sums.added) = (sums.mass + mass, sums.added + added);
-                steps.push((group.part, group.user_elements[element] as usize, [time_step, mass]));
-                if added > 0.0 {
-                    let heavy =
-                        Heavy { part: part.name.clone(), element: group.user_elements[element] as usize, at, time_step, mass, added };
-                    needed.push(((g, element), heavy));
-                }
-            }
-        }
-        needed.sort_by(|(_, a), (_, b)| b.added.total_cmp(&a.added));
-        let suspect = needed.first().map_or(Suspect::default(), |(element, _)| system.suspect_element(*element));
+        let Looked { mut parts, steps, heaviest, suspect } = either!(&simulation, run => look(&run.system, model, scaling));
         let mass = parts.iter().map(|part| part.mass).sum();
         parts.retain(|part| part.light > 0);
-        let heaviest = needed.into_iter().take(NAMED).map(|(_, heavy)| heavy).collect();
         Ok(Some(Self { simulation, scaling, suspect, heaviest, parts, mass, steps }))
     }
 
@@ -130,6 +102,51 @@ impl MassNeeded {
         }
         low
     }
+}
+
+/// What elements need, as they are looked at one by one.
+struct Looked {
+    parts: Vec<PartNeeds>,
+    steps: Vec<(usize, usize, [f64; 2])>,
+    heaviest: Vec<Heavy>,
+    suspect: Suspect,
+}
+
+/// What the elements of a model need for a step.
+fn look<const D: usize>(system: &System<D>, model: &Model, scaling: MassScaling) -> Looked
+where
+    Dim<D>: World<D>,
+{
+    let safety = model.run.safety;
+    let mut needed = Vec::new();
+    let (mut steps, mut parts) = (Vec::new(), Vec::<PartNeeds>::new());
+    for (g, (group, block)) in system.mesh.groups.iter().zip(&system.blocks).enumerate().filter(|(g, _)| !system.rigid[*g]) {
+        let part = &model.parts[group.part];
+        let density = model.materials.get(&part.material).and_then(|it| it.parameters.get("density")).copied().unwrap_or(f64::NAN);
+        if parts.last().is_none_or(|last| last.part != part.name) {
+            parts.push(PartNeeds { part: part.name.clone(), elements: 0, light: 0, mass: 0.0, added: 0.0 });
+        }
+        let Some(sums) = parts.last_mut() else { continue };
+        for (element, cell) in group.cells().enumerate() {
+            let at = in_space(system.centre(cell));
+            let depth = if part.is_axisymmetric() { std::f64::consts::TAU * at[0] } else { 1.0 };
+            let area = part.area.filter(|_| cell.len() == 2).unwrap_or(1.0);
+            let mass = density * area * depth * <Dim<D>>::size(cell, &system.positions) * part.mass_scale;
+            let time_step = safety * block.time_step_squared(element).sqrt();
+            let added = added(scaling.time_step, [time_step, mass]);
+            sums.elements += 1;
+            sums.light += usize::from(added > 0.0);
+            (sums.mass, sums.added) = (sums.mass + mass, sums.added + added);
+            let user = group.user_elements[element] as usize;
+            steps.push((group.part, user, [time_step, mass]));
+            if added > 0.0 {
+                needed.push(((g, element), Heavy { part: part.name.clone(), element: user, at, time_step, mass, added }));
+            }
+        }
+    }
+    needed.sort_by(|(_, a), (_, b)| b.added.total_cmp(&a.added));
+    let suspect = needed.first().map_or(Suspect::default(), |(element, _)| system.suspect_element(*element));
+    Looked { parts, steps, heaviest: needed.into_iter().take(NAMED).map(|(_, heavy)| heavy).collect(), suspect }
 }
 
 /// Mass that an element of a stable step and a mass needs for a step, kg/m.

@@ -1,7 +1,7 @@
 //! What a failed run knows of its failure: the culprit, its neighbourhood, and what became of both over the last steps.
 //!
-//! After a failure [`Simulation::suspect`] names the culprit as the state of the failure shows it. A second simulation of the same model, set out from a state before, goes to the failure once more and
-//! [follows](Simulation::follow) the culprit step by step (`trace.rs`); the steps are the same to the last bit. Values only: who writes a page of them is not known here.
+//! After a failure [`suspect`](crate::simulation::Simulation::suspect) names the culprit as the state of the failure shows it. A second simulation of the same model, set out from a state before, goes to the failure once more and
+//! [follows](crate::simulation::Simulation::follow) the culprit step by step (`trace.rs`); the steps are the same to the last bit. Values only: who writes a page of them is not known here.
 
 mod acting;
 mod mass;
@@ -17,8 +17,12 @@ pub(crate) use neighbourhood::Near;
 pub(crate) use trace::Tracer;
 
 use crate::error::Error;
-use crate::simulation::Simulation;
+use crate::model::in_space;
+use crate::simulation::run::Run;
 use crate::step::System;
+use crate::tensor::Dim;
+use crate::vector::dot;
+use crate::world::World;
 use std::fmt;
 
 /// Who is to blame for a failure, by the user's names and numbers.
@@ -31,7 +35,7 @@ pub enum Culprit {
         /// Its number in the part.
         element: usize,
         /// Mean of its nodes, m.
-        at: [f64; 2],
+        at: [f64; 3],
     },
     /// A node.
     Node {
@@ -40,7 +44,7 @@ pub enum Culprit {
         /// Its number in results.
         node: usize,
         /// Where it is, m.
-        at: [f64; 2],
+        at: [f64; 3],
     },
     /// A contact or obstacle, at a node.
     Contact {
@@ -53,7 +57,7 @@ pub enum Culprit {
         /// Number of the node in results.
         node: usize,
         /// Where the node is, m.
-        at: [f64; 2],
+        at: [f64; 3],
     },
     /// Nothing that has a place.
     #[default]
@@ -63,7 +67,7 @@ pub enum Culprit {
 impl Culprit {
     /// Where it is, m.
     #[must_use]
-    pub fn at(&self) -> Option<[f64; 2]> {
+    pub fn at(&self) -> Option<[f64; 3]> {
         match self {
             Self::Element { at, .. } | Self::Node { at, .. } | Self::Contact { at, .. } => Some(*at),
             Self::Nobody => None,
@@ -110,7 +114,10 @@ impl Suspect {
     }
 }
 
-impl System {
+impl<const D: usize> System<D>
+where
+    Dim<D>: World<D>,
+{
     /// Who is to blame for a failure, as the state shows it now.
     fn suspect(&self, error: &Error) -> Suspect {
         match error {
@@ -185,8 +192,8 @@ impl System {
     /// The node whose kinetic energy changed most in the last update, and the contact that pressed most on it.
     fn hottest(&self) -> Suspect {
         let change = |node: usize| {
-            let [[a, b], [c, d]] = [self.velocities_old[node], self.velocities[node]];
-            (self.mass[node] * (c * c + d * d - a * a - b * b)).abs()
+            let (old, new) = (self.velocities_old[node], self.velocities[node]);
+            (self.mass[node] * (0..D).fold(dot(new, new), |sum, d| sum - old[d] * old[d])).abs()
         };
         let nodes = 0..self.mesh.user_nodes.len();
         let Some(node) = nodes.max_by(|&a, &b| change(a).total_cmp(&change(b))) else { return Suspect::default() };
@@ -207,7 +214,7 @@ impl System {
         // What is no number any more is shown where it was.
         let place = |node: usize| {
             let now = self.positions[node];
-            if now.iter().all(|x| x.is_finite()) { now } else { self.positions_old[node] }
+            in_space(if now.iter().all(|x| x.is_finite()) { now } else { self.positions_old[node] })
         };
         match *suspect {
             Suspect { contact: Some(contact), node: Some(node), .. } => {
@@ -219,23 +226,24 @@ impl System {
             Suspect { element: Some((g, element)), .. } => {
                 let group = &self.mesh.groups[g];
                 let part = self.mesh.parts[group.part].name.clone();
-                Culprit::Element { part, element: group.user_elements[element] as usize, at: self.centre(group.cell(element)) }
+                Culprit::Element { part, element: group.user_elements[element] as usize, at: in_space(self.centre(group.cell(element))) }
             }
             _ => Culprit::Nobody,
         }
     }
 }
 
-impl Simulation {
+impl<const D: usize> Run<D>
+where
+    Dim<D>: World<D>,
+{
     /// Who is to blame for the failure that ended the run.
-    #[must_use]
-    pub fn suspect(&self, error: &Error) -> Suspect {
+    pub(crate) fn suspect(&self, error: &Error) -> Suspect {
         self.system.suspect(error)
     }
 
     /// A suspect by the user's names and numbers.
-    #[must_use]
-    pub fn culprit(&self, suspect: &Suspect) -> Culprit {
+    pub(crate) fn culprit(&self, suspect: &Suspect) -> Culprit {
         self.system.culprit(suspect)
     }
 }

@@ -4,8 +4,11 @@
 
 use super::Suspect;
 use crate::material::Variable;
-use crate::simulation::Simulation;
+use crate::simulation::run::Run;
 use crate::step::System;
+use crate::tensor::Dim;
+use crate::vector::{dot, minus};
+use crate::world::World;
 
 /// Rings of elements around the culprit.
 pub const RINGS: u8 = 3;
@@ -25,7 +28,7 @@ pub struct NearCell {
     pub element: usize,
     /// Elements that lie between it and the culprit, plus one; zero: the culprit's own; `None`: it does not hang together with the culprit so closely, but is near.
     pub ring: Option<u8>,
-    /// Its nodes, as places in [`Neighbourhood::nodes`], counter-clockwise.
+    /// Its nodes, as places in [`Neighbourhood::nodes`], in the order of the element.
     pub nodes: Vec<usize>,
 }
 
@@ -58,7 +61,10 @@ pub(crate) struct Near {
     pub(crate) next: Vec<u32>,
 }
 
-impl System {
+impl<const D: usize> System<D>
+where
+    Dim<D>: World<D>,
+{
     /// What is around a suspect now.
     pub(crate) fn near(&self, suspect: &Suspect) -> Near {
         let found = self.cells_near(suspect);
@@ -133,20 +139,22 @@ impl System {
     /// Further elements in the box around those that were found, the nearest to its middle first.
     fn cells_beside(&self, found: &[((usize, usize), Option<u8>)], is_taken: &[Vec<bool>]) -> Vec<(usize, usize)> {
         let seen = |node: u32| Some(self.positions[node as usize]).filter(|x| x.iter().all(|v| v.is_finite()));
-        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        let (mut low, mut high) = ([f64::INFINITY; D], [f64::NEG_INFINITY; D]);
         for x in found.iter().flat_map(|&((g, element), _)| self.mesh.groups[g].cell(element)).filter_map(|&node| seen(node)) {
-            (low, high) = ([low[0].min(x[0]), low[1].min(x[1])], [high[0].max(x[0]), high[1].max(x[1])]);
+            for d in 0..D {
+                (low[d], high[d]) = (low[d].min(x[d]), high[d].max(x[d]));
+            }
         }
-        let more = BEYOND * (high[0] - low[0]).max(high[1] - low[1]);
+        let more = BEYOND * minus(high, low).into_iter().fold(f64::NEG_INFINITY, f64::max);
         (low, high) = (low.map(|v| v - more), high.map(|v| v + more));
-        let is_inside = |x: [f64; 2]| (0..2).all(|k| (low[k]..=high[k]).contains(&x[k]));
+        let is_inside = |x: [f64; D]| (0..D).all(|k| (low[k]..=high[k]).contains(&x[k]));
         let mut beside = Vec::new();
         for (g, group) in self.mesh.groups.iter().enumerate() {
             for (element, cell) in group.cells().enumerate() {
                 if !is_taken[g][element] && group.is_alive(element) && cell.iter().any(|&node| seen(node).is_some_and(is_inside)) {
                     let x = self.centre(cell);
-                    let away = [0, 1].map(|k| x[k] - 0.5 * (low[k] + high[k]));
-                    beside.push((away[0] * away[0] + away[1] * away[1], (g, element)));
+                    let away: [f64; D] = std::array::from_fn(|k| x[k] - 0.5 * (low[k] + high[k]));
+                    beside.push((dot(away, away), (g, element)));
                 }
             }
         }
@@ -156,10 +164,12 @@ impl System {
     }
 }
 
-impl Simulation {
+impl<const D: usize> Run<D>
+where
+    Dim<D>: World<D>,
+{
     /// What is around a suspect now.
-    #[must_use]
-    pub fn neighbourhood(&self, suspect: &Suspect) -> Neighbourhood {
+    pub(crate) fn neighbourhood(&self, suspect: &Suspect) -> Neighbourhood {
         self.system.near(suspect).shown
     }
 }

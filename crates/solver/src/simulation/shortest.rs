@@ -2,6 +2,8 @@
 
 use crate::archive::keep_all;
 use crate::step::{Governor, System};
+use crate::tensor::Dim;
+use crate::world::World;
 
 /// The shortest step so far and who governed it.
 pub(crate) struct Shortest {
@@ -19,7 +21,10 @@ impl Default for Shortest {
 
 impl Shortest {
     /// Takes the step of `system`. Who governs is found by a search: only when the step falls noticeably, and by more than the schedule.
-    pub(crate) fn note(&mut self, system: &System) {
+    pub(crate) fn note<const D: usize>(&mut self, system: &System<D>)
+    where
+        Dim<D>: World<D>,
+    {
         let governed = system.governor != Governor::Schedule || self.time_step.is_infinite();
         if governed && system.time_step < 0.999 * self.time_step {
             self.time_step = system.time_step;

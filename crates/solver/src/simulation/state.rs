@@ -1,10 +1,11 @@
 //! The state of a run: handed out as bytes, and taken over by a simulation that is made anew of the same model.
 
 use super::course::Course;
-use super::{Options, Simulation};
+use super::run::Run;
 use crate::archive::{Archive, Keep, Kept, Section, keep_each};
 use crate::error::Error;
-use crate::model::Model;
+use crate::tensor::Dim;
+use crate::world::World;
 
 /// All that a simulation of the same model needs to go on as if nothing had happened.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -17,7 +18,10 @@ pub struct State {
     pub sections: Vec<Section>,
 }
 
-impl Keep for Simulation {
+impl<const D: usize> Keep for Run<D>
+where
+    Dim<D>: World<D>,
+{
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
         #[rustfmt::skip]
         let Self {
@@ -43,27 +47,28 @@ impl Keep for Simulation {
     }
 }
 
-impl Simulation {
+impl<const D: usize> Run<D>
+where
+    Dim<D>: World<D>,
+{
     /// The state now, between two steps.
     ///
     /// # Errors
     /// None that a state which is there can have; what is written is checked as what is read.
-    pub fn state(&mut self) -> Result<State, Error> {
+    pub(crate) fn state(&mut self) -> Result<State, Error> {
         let mut archive = Archive::new();
         self.keep(&mut archive)?;
         Ok(State { step: self.steps(), time: self.time(), sections: archive.finish()? })
     }
 
-    /// A simulation of a model that stands where another one of the same model stood: what it does from there on is the same to the last bit, whatever the options of both. The model may differ
-    /// in when it ends, in its limits, and in what it tells.
+    /// Takes over the state of another one of the same model.
     ///
     /// # Errors
-    /// Those of [`Simulation::new`]; [`Error::State`] where the state is of another model.
-    pub fn resumed(model: &Model, options: &Options, sections: &[Section]) -> Result<Self, Error> {
-        let mut simulation = Self::new(model, options)?;
+    /// [`Error::State`] where the state is of another model.
+    pub(crate) fn take_over(&mut self, sections: &[Section]) -> Result<(), Error> {
         let mut archive = Archive::of(sections);
-        simulation.keep(&mut archive)?;
+        self.keep(&mut archive)?;
         archive.finish()?;
-        Ok(simulation)
+        Ok(())
     }
 }

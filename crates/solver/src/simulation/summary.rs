@@ -1,6 +1,7 @@
 //! What a run has to say of itself: its figures, what was checked in its contacts, and what the user should know.
 
-use super::{ContactSearch, Simulation};
+use super::ContactSearch;
+use super::run::Run;
 use crate::contact::Contact;
 use crate::contact::messages::{MISSED, NO_FORCE, TIES_BROKE, UNSOLVED};
 use crate::contact::tracker::Certificate;
@@ -8,8 +9,15 @@ use crate::error::{ERODED, Notice, RELAXED};
 use crate::mesh::PartMesh;
 use crate::output::{Eroded, Erosion, Summary};
 use crate::record::Momentum;
+use crate::tensor::Dim;
+use crate::vector::first;
+use crate::world::World;
+use crate::world::place;
 
-impl Simulation {
+impl<const D: usize> Run<D>
+where
+    Dim<D>: World<D>,
+{
     fn warnings(&self) -> Vec<Notice> {
         let mut warnings: Vec<Notice> = self.model_warnings.iter().map(Notice::from).chain(self.warnings.iter().cloned()).collect();
         warnings.extend(self.watch.notices());
@@ -23,13 +31,14 @@ impl Simulation {
                 tell(&TIES_BROKE, format!("contact \"{}\": its ties bound no node", contact.name));
             }
         }
-        if let Some(Erosion { elements, first: Eroded { part, element, at: [x, y], time, criterion }, .. }) = self.erosion() {
+        if let Some(Erosion { elements, first: Eroded { part, element, at, time, criterion }, .. }) = self.erosion() {
             let all: Vec<String> = elements.iter().map(|(part, count)| format!("{count} of part \"{part}\"")).collect();
             tell(
                 &ERODED,
                 format!(
-                    "elements were eroded: {}; the first was element {element} of part \"{part}\" at ({x:.6e}, {y:.6e}) m, at {time:.6e} s by `{criterion}`",
-                    all.join(", ")
+                    "elements were eroded: {}; the first was element {element} of part \"{part}\" at {} m, at {time:.6e} s by `{criterion}`",
+                    all.join(", "),
+                    place::<D>(first(at))
                 ),
             );
         }
@@ -87,9 +96,8 @@ impl Simulation {
     }
 
     /// What the global search of each contact between surfaces did so far.
-    #[must_use]
-    pub fn searches(&self) -> Vec<ContactSearch> {
-        let of = |contact: &Contact| {
+    pub(crate) fn searches(&self) -> Vec<ContactSearch> {
+        let of = |contact: &Contact<D>| {
             let report = contact.search_report()?;
             let search = self.search_names.get(&contact.name).cloned().unwrap_or_default();
             Some(ContactSearch { contact: contact.name.clone(), search, report, pairs_swept: contact.certificate().pairs_swept })
@@ -98,10 +106,10 @@ impl Simulation {
     }
 
     /// Figures of the run so far (valid after a failure too).
-    #[must_use]
-    pub fn summary(&self) -> Summary {
+    pub(crate) fn summary(&self) -> Summary {
         let system = &self.system;
         Summary {
+            dimension: D,
             elements: self.elements(),
             nodes: system.mesh.positions.len(),
             steps: system.step,

@@ -9,14 +9,18 @@ use crate::archive::{Archive, Keep, Kept, Misfit, keep_each};
 use crate::block::Report;
 use crate::build::{Lent, Origin};
 use crate::failure::{Criterion, by_name};
+use crate::mesh::surface::{Corners, Facet};
+use crate::model::in_space;
 use crate::output::Eroded;
+use crate::tensor::Dim;
+use crate::world::World;
 
 /// What fails and what has failed.
-pub(crate) struct Erosion {
+pub(crate) struct Erosion<const D: usize> {
     /// Criteria of each block.
     criteria: Vec<Vec<Criterion>>,
     /// What contacts are made from.
-    origin: Origin,
+    origin: Origin<D>,
     /// Energy that went with elements and springs, J/m.
     pub(crate) energy: f64,
     /// Blocks without elements.
@@ -31,8 +35,8 @@ pub(crate) struct Erosion {
 /// What fails in a step: block, element, criterion.
 type Failed = (usize, u32, &'static str);
 
-impl Erosion {
-    pub(crate) fn new(criteria: Vec<Vec<Criterion>>, origin: Origin) -> Self {
+impl<const D: usize> Erosion<D> {
+    pub(crate) fn new(criteria: Vec<Vec<Criterion>>, origin: Origin<D>) -> Self {
         let gone = vec![false; criteria.len()];
         Self { criteria, origin, energy: 0.0, gone, springs: None, by_part: Vec::new(), first: None }
     }
@@ -49,7 +53,7 @@ impl Erosion {
     }
 }
 
-impl Keep for Erosion {
+impl<const D: usize> Keep for Erosion<D> {
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
         let Self { criteria: _, origin: _, energy, gone, springs, by_part, first } = self;
         energy.keep(archive)?;
@@ -70,7 +74,10 @@ impl Keep for Erosion {
     }
 }
 
-impl System {
+impl<const D: usize> System<D>
+where
+    Dim<D>: World<D>,
+{
     /// Takes the elements that blocks have lost out of mesh, contacts and loads, as if they failed now: what is left of a state that was filled from outside.
     pub(super) fn take_out_again(&mut self) {
         let Some(mut erosion) = self.erosion.take() else { return };
@@ -106,7 +113,7 @@ impl System {
     }
 
     /// What fails, ascending by block and element. Where an element is `inverted`, all such ones fail that may fail for their step.
-    fn failed(&self, erosion: &Erosion, inverted: bool) -> Vec<Failed> {
+    fn failed(&self, erosion: &Erosion<D>, inverted: bool) -> Vec<Failed> {
         let mut failed = Vec::new();
         for (index, (block, criteria)) in self.blocks.iter().zip(&erosion.criteria).enumerate() {
             if criteria.is_empty() || erosion.gone[index] {
@@ -132,7 +139,7 @@ impl System {
     }
 
     /// Takes elements out of their block and of the mesh.
-    fn take_out(&mut self, failed: &[Failed], erosion: &mut Erosion) {
+    fn take_out(&mut self, failed: &[Failed], erosion: &mut Erosion<D>) {
         let index = failed[0].0;
         let first = self.blocks[..index].iter().map(|block| block.slots().len()).sum::<usize>();
         let slots = first..first + self.blocks[index].slots().len();
@@ -143,7 +150,7 @@ impl System {
             for (corner, &node) in group.cell(element as usize).iter().enumerate() {
                 let force = self.blocks[index].force(element as usize, corner, &self.slots[slots.clone()]);
                 let [x, x_old] = [self.positions[node as usize], self.positions_old[node as usize]];
-                for d in 0..2 {
+                for d in 0..D {
                     work += force[d] * (x[d] - x_old[d]);
                 }
             }
@@ -153,7 +160,7 @@ impl System {
             erosion.first.get_or_insert_with(|| Eroded {
                 part: self.mesh.parts[group.part].name.clone(),
                 element: group.user_elements[element as usize] as usize,
-                at: self.centre(group.cell(element as usize)),
+                at: in_space(self.centre(group.cell(element as usize))),
                 time: self.time,
                 criterion,
             });
@@ -170,15 +177,13 @@ impl System {
     }
 
     /// Lets contacts, traces and loads see the surfaces that are left.
-    fn renew_surfaces(&mut self, erosion: &mut Erosion) {
+    fn renew_surfaces(&mut self, erosion: &mut Erosion<D>) {
         if !self.forces.is_empty() {
             let has_elements = self.has_elements();
-            // Segments run against the elements behind them.
-            let edges = |cell: &[u32]| (0..cell.len()).map(|c| [cell[(c + 1) % cell.len()], cell[c]]).collect::<Vec<_>>();
-            let mut backed: Vec<[u32; 2]> =
-                self.mesh.groups.iter().filter(|group| group.has_surface()).flat_map(|group| group.live_cells()).flat_map(edges).collect();
+            let cells = self.mesh.groups.iter().filter(|group| group.has_surface()).flat_map(|group| group.live_cells());
+            let mut backed: Vec<Facet<D>> = cells.flat_map(<Dim<D>>::facets).collect();
             backed.sort_unstable();
-            self.forces.renew(|node| !has_elements[node as usize], |segment| backed.binary_search(&segment).is_ok());
+            self.forces.renew(|node| !has_elements[node as usize], |facet| backed.binary_search(&facet.canonical()).is_ok());
         }
         if self.contacts.is_empty() {
             return;

@@ -5,8 +5,9 @@
 
 use super::nodes::Nodes;
 use crate::energy::Sums;
-use crate::step::Vector;
-use crate::vector::dot;
+use crate::tensor::Dim;
+use crate::vector::{dot, plus, times};
+use crate::world::World;
 use embate_lanes::{BATCH, Batch, Kernel, Lane};
 
 /// The groups of eight nodes.
@@ -33,11 +34,14 @@ impl Groups {
 
 /// Nodes from `first` on (a multiple of eight) with their new velocities, and with the positions x^{n+1} to which these lead: they are written while everything
 /// is at hand.
-pub(super) struct Free<'a, 'b> {
-    pub(super) nodes: &'b Nodes<'a>,
+pub(super) struct Free<'a, 'b, const D: usize>
+where
+    Dim<D>: World<D>,
+{
+    pub(super) nodes: &'b Nodes<'a, D>,
     pub(super) first: usize,
-    pub(super) velocities: &'b mut [Vector],
-    pub(super) positions_next: &'b mut [Vector],
+    pub(super) velocities: &'b mut [[f64; D]],
+    pub(super) positions_next: &'b mut [[f64; D]],
 }
 
 /// Sums of [`Sums`], one per lane position.
@@ -83,7 +87,10 @@ fn add<L: Lane>(sum: &mut Batch, value: L, at: usize) {
     (L::load(sum, at) + value).store(sum, at);
 }
 
-impl Kernel for Free<'_, '_> {
+impl<const D: usize> Kernel for Free<'_, '_, D>
+where
+    Dim<D>: World<D>,
+{
     type Output = Sums;
 
     #[inline(always)]
@@ -101,7 +108,7 @@ impl Kernel for Free<'_, '_> {
             for at in (0..BATCH).step_by(L::WIDTH) {
                 let v = nodes.advance_free::<L>(first, at, L::load_points(&pulls, at), &mut sums);
                 let x = L::load_points(nodes.positions, first + at);
-                L::store_points([x[0] + dt * v[0], x[1] + dt * v[1]], next, at);
+                L::store_points(plus(x, times(dt, v)), next, at);
                 L::store_points(v, own, at);
             }
         }
@@ -109,10 +116,13 @@ impl Kernel for Free<'_, '_> {
     }
 }
 
-impl Nodes<'_> {
+impl<const D: usize> Nodes<'_, D>
+where
+    Dim<D>: World<D>,
+{
     /// v^{n+½} of the nodes `first + at..` and their part in the books.
     #[inline(always)]
-    fn advance_free<L: Lane>(&self, first: usize, at: usize, internal: [L; 2], sums: &mut LaneSums) -> [L; 2] {
+    fn advance_free<L: Lane>(&self, first: usize, at: usize, internal: [L; D], sums: &mut LaneSums) -> [L; D] {
         let (half, dt) = (L::splat(0.5), L::splat(self.dt));
         let node = first + at;
         let m = L::load(&eight(self.mass, first), at);
@@ -121,25 +131,27 @@ impl Nodes<'_> {
         let mut force = internal;
         if let Some(forces) = self.contact_forces {
             // Adding zeros is for their sign.
-            let zero = [L::splat(0.0); 2];
+            let zero = [L::splat(0.0); D];
             let contact = if forces.has(first / BATCH) { L::load_points(forces.values(), node) } else { zero };
-            force = [force[0] + contact[0], force[1] + contact[1]];
+            force = plus(force, contact);
         }
-        let mut v = [old[0] + scale * force[0], old[1] + scale * force[1]];
+        let mut v = plus(old, times(scale, force));
         let load = if self.loads.is_empty() { None } else { Some(L::load_points(self.loads, node)) };
         if let Some(load) = load {
-            v = [v[0] + scale * load[0], v[1] + scale * load[1]];
+            v = plus(v, times(scale, load));
         }
         let gravity = if self.gravity.is_empty() { None } else { Some(L::load_points(self.gravity, node)) };
         if let Some(g) = gravity {
-            v = [v[0] + dt * g[0], v[1] + dt * g[1]];
+            v = plus(v, times(dt, g));
         }
         let slowing = if self.damping.acts() { Some(L::load(&self.damping.factors(first), at)) } else { None };
         if let Some(a) = slowing {
             let all = L::splat(1.0) + a;
-            v = [(v[0] - a * old[0]) / all, (v[1] - a * old[1]) / all];
+            for d in 0..D {
+                v[d] = (v[d] - a * old[d]) / all;
+            }
         }
-        let mean = [half * (old[0] + v[0]), half * (old[1] + v[1])];
+        let mean = times(half, plus(old, v));
         let square = dot(v, v);
         square.max(L::load(&sums.speed_squared, at)).store(&mut sums.speed_squared, at);
         add(&mut sums.kinetic_half, half * m * square, at);
@@ -155,7 +167,7 @@ impl Nodes<'_> {
         }
         if let Some(a) = slowing {
             let factor = -(L::splat(2.0) * a * m);
-            let impulse = [factor * mean[0], factor * mean[1]];
+            let impulse = times(factor, mean);
             add(&mut sums.damping, dot(impulse, mean), at);
             add(&mut sums.damping_old, dot(impulse, old), at);
         }

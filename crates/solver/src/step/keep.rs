@@ -2,6 +2,9 @@
 
 use super::{Governor, Limits, System};
 use crate::archive::{Archive, Keep, Kept, Misfit, keep_each};
+use crate::tensor::Dim;
+use crate::vector::{plus, times};
+use crate::world::World;
 
 impl Keep for Governor {
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
@@ -21,7 +24,10 @@ impl Keep for Governor {
     }
 }
 
-impl Keep for System {
+impl<const D: usize> Keep for System<D>
+where
+    Dim<D>: World<D>,
+{
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
         (archive.nodes, archive.places) = (self.positions.len(), self.positions.len() + self.bodies.len());
         archive.section("system")?;
@@ -41,7 +47,10 @@ impl Keep for System {
     }
 }
 
-impl System {
+impl<const D: usize> System<D>
+where
+    Dim<D>: World<D>,
+{
     fn keep_system(&mut self, archive: &mut Archive<'_>) -> Kept {
         // Nothing of these is state, or it is kept elsewhere below; loads, dampings and constraints are worked out from the time.
         #[rustfmt::skip]
@@ -73,7 +82,7 @@ impl System {
         if archive.reads() {
             // As the velocity update leaves it where nothing holds a node; elsewhere it is written before it is read.
             for (next, (x, v)) in positions_old.iter_mut().zip(positions.iter().zip(velocities.iter())) {
-                *next = [x[0] + *time_step * v[0], x[1] + *time_step * v[1]];
+                *next = plus(*x, times(*time_step, *v));
             }
         }
         Ok(())
@@ -101,7 +110,7 @@ impl System {
         for (index, block) in self.blocks.iter().enumerate() {
             let count = block.slots().len();
             if self.erosion.as_ref().is_some_and(|erosion| erosion.is_gone(index)) {
-                self.slots[first..first + count].fill([0.0; 2]);
+                self.slots[first..first + count].fill([0.0; D]);
             }
             first += count;
         }

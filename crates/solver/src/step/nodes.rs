@@ -10,33 +10,39 @@ use crate::energy::Sums;
 use crate::load::constraint::{Constraints, Held};
 use crate::load::damping::Damping;
 use crate::load::join::{Group, Joins};
-use crate::load::non_reflecting::{Matrix, NonReflecting, inverse, times};
+use crate::load::non_reflecting::NonReflecting;
+use crate::motion::Motion;
 use crate::rigid::Bodies;
-use crate::step::Vector;
 use crate::step::free::Free;
+use crate::tensor::{Dim, product};
+use crate::vector::{dot, plus, times};
+use crate::world::{Square, World, applied, inverse, transposed, unit_matrix};
 use embate_lanes::{BATCH, Level};
 
 /// What the velocity update reads.
-pub(crate) struct Nodes<'a> {
+pub(crate) struct Nodes<'a, const D: usize>
+where
+    Dim<D>: World<D>,
+{
     /// Δt = ½ (dt^{n−1} + dt^n), s.
     pub(crate) dt: f64,
     pub(crate) assembly: &'a Assembly,
-    pub(crate) slots: &'a [Vector],
+    pub(crate) slots: &'a [[f64; D]],
     /// N/m; `None` without contacts.
-    pub(crate) contact_forces: Option<&'a ContactForces>,
+    pub(crate) contact_forces: Option<&'a ContactForces<D>>,
     /// Forces on nodes, N/m; empty without.
-    pub(crate) loads: &'a [Vector],
+    pub(crate) loads: &'a [[f64; D]],
     /// Accelerations of mass, m/s²; empty without.
-    pub(crate) gravity: &'a [Vector],
+    pub(crate) gravity: &'a [[f64; D]],
     pub(crate) mass: &'a [f64],
-    pub(crate) constraints: &'a Constraints<2>,
+    pub(crate) constraints: &'a Constraints<D>,
     pub(crate) damping: &'a Damping,
-    pub(crate) boundary: &'a NonReflecting,
-    pub(crate) joins: &'a Joins,
-    pub(crate) bodies: &'a Bodies,
-    pub(crate) velocities_old: &'a [Vector],
+    pub(crate) boundary: &'a NonReflecting<D>,
+    pub(crate) joins: &'a Joins<D>,
+    pub(crate) bodies: &'a Bodies<D>,
+    pub(crate) velocities_old: &'a [[f64; D]],
     /// x^n, m, and the step that will lead to x^{n+1}, s.
-    pub(crate) positions: &'a [Vector],
+    pub(crate) positions: &'a [[f64; D]],
     pub(crate) time_step: f64,
     /// Whether each group of eight nodes is free (`free.rs`).
     pub(crate) free: &'a [bool],
@@ -44,53 +50,61 @@ pub(crate) struct Nodes<'a> {
 }
 
 /// What pulls on a node or on a group, seen from its leader.
-struct Pull<'a> {
+struct Pull<'a, const D: usize> {
     mass: f64,
-    old: Vector,
-    internal: Vector,
-    contact: Vector,
-    load: Option<Vector>,
-    gravity: Option<Vector>,
+    old: [f64; D],
+    internal: [f64; D],
+    contact: [f64; D],
+    load: Option<[f64; D]>,
+    gravity: Option<[f64; D]>,
     /// a of damping.
     slowing: f64,
     /// ½ Δt C.
-    dashpot: Option<Matrix>,
-    held: Option<&'a Held<2>>,
+    dashpot: Option<Square<D>>,
+    held: Option<&'a Held<D>>,
 }
 
-impl Pull<'_> {
+impl<const D: usize> Pull<'_, D>
+where
+    Dim<D>: World<D>,
+{
     /// m̃.
-    fn inertia(&self) -> Matrix {
+    fn inertia(&self) -> Square<D> {
         let m = self.mass * (1.0 + self.slowing);
-        self.dashpot.map_or([m, 0.0, m], |[xx, xy, yy]| [m + xx, xy, m + yy])
+        let mut inertia = self.dashpot.unwrap_or([[0.0; D]; D]);
+        (0..D).for_each(|d| inertia[d][d] += m);
+        inertia
     }
 
     /// The velocity that damping and dashpots leave of one without them.
-    fn slowed(&self, mut v: Vector) -> Vector {
+    fn slowed(&self, mut v: [f64; D]) -> [f64; D] {
         let (a, old) = (self.slowing, self.old);
         if a > 0.0 {
-            v = [(v[0] - a * old[0]) / (1.0 + a), (v[1] - a * old[1]) / (1.0 + a)];
+            v = std::array::from_fn(|d| (v[d] - a * old[d]) / (1.0 + a));
         }
         if let Some(dashpot) = self.dashpot {
-            let change = times(inverse(self.inertia()), times(dashpot, [v[0] + old[0], v[1] + old[1]]));
-            v = [v[0] - change[0], v[1] - change[1]];
+            let change = applied(&inverse(&self.inertia()), applied(&dashpot, plus(v, old)));
+            v = std::array::from_fn(|d| v[d] - change[d]);
         }
         v
     }
 
     /// The velocity with what is prescribed.
-    fn held(&self, free: Vector) -> Vector {
+    fn held(&self, free: [f64; D]) -> [f64; D] {
         match (self.held, self.dashpot) {
             (None, _) => free,
             (Some(held), None) => held.apply(free),
-            (Some(held), Some(_)) => held.apply_in(free, inverse(self.inertia())),
+            (Some(held), Some(_)) => held.apply_in(free, inverse(&self.inertia())),
         }
     }
 }
 
-impl<'a> Nodes<'a> {
+impl<'a, const D: usize> Nodes<'a, D>
+where
+    Dim<D>: World<D>,
+{
     /// Of a node that is in no group.
-    fn pull(&self, node: usize) -> Pull<'a> {
+    fn pull(&self, node: usize) -> Pull<'a, D> {
         Pull {
             mass: self.mass[node],
             old: self.velocities_old[node],
@@ -99,16 +113,16 @@ impl<'a> Nodes<'a> {
             load: self.loads.get(node).copied(),
             gravity: self.gravity.get(node).copied(),
             slowing: self.damping.factor(node),
-            dashpot: self.boundary.of(node).map(|matrix| matrix.map(|c| 0.5 * self.dt * c)),
+            dashpot: self.boundary.of(node).map(|matrix| matrix.map(|row| row.map(|c| 0.5 * self.dt * c))),
             held: self.constraints.of(node),
         }
     }
 
-    fn contact_force(&self, node: usize) -> Vector {
-        self.contact_forces.map_or([0.0; 2], |forces| forces.of(node))
+    fn contact_force(&self, node: usize) -> [f64; D] {
+        self.contact_forces.map_or([0.0; D], |forces| forces.of(node))
     }
 
-    fn pull_of(&self, group: &Group) -> Pull<'a> {
+    fn pull_of(&self, group: &Group<D>) -> Pull<'a, D> {
         let whole = |of: &dyn Fn(usize) -> f64| group.members.iter().map(|member| of(member.node as usize)).sum::<f64>();
         let (mass, leader) = (whole(&|node| self.mass[node]), group.members[0].node as usize);
         let weight = |node: usize| self.gravity[node].map(|g| self.mass[node] * g);
@@ -126,31 +140,26 @@ impl<'a> Nodes<'a> {
     }
 
     /// Σ ½ Δt R_iᵀ C_i R_i.
-    fn dashpot_of(&self, group: &Group) -> Option<Matrix> {
-        let mut sum = None;
+    fn dashpot_of(&self, group: &Group<D>) -> Option<Square<D>> {
+        let mut sum: Option<Square<D>> = None;
         for member in &group.members {
-            if let Some([xx, xy, yy]) = self.boundary.of(member.node as usize) {
-                let ([c, s], [a, b, d]) = (member.turn, sum.unwrap_or([0.0; 3]));
-                let turned = [
-                    c * c * xx + 2.0 * c * s * xy + s * s * yy,
-                    c * s * (yy - xx) + (c * c - s * s) * xy,
-                    s * s * xx - 2.0 * c * s * xy + c * c * yy,
-                ];
-                let [xx, xy, yy] = turned.map(|value| 0.5 * self.dt * value);
-                sum = Some([a + xx, b + xy, d + yy]);
+            if let Some(matrix) = self.boundary.of(member.node as usize) {
+                let turned = product(&product(&transposed(&member.turn), &matrix), &member.turn);
+                let own = turned.map(|row| row.map(|value| 0.5 * self.dt * value));
+                sum = Some(sum.map_or(own, |sum| std::array::from_fn(|i| plus(sum[i], own[i]))));
             }
         }
         sum
     }
 
     /// What pulls on whatever a node leads.
-    fn pull_on(&self, leader: usize) -> Pull<'a> {
+    fn pull_on(&self, leader: usize) -> Pull<'a, D> {
         self.joins.of_node(leader as u32).map_or_else(|| self.pull(leader), |(group, _)| self.pull_of(group))
     }
 
     /// Updates the velocities of the nodes from `first` on (a multiple of eight) and sums their works; groups that move as one are left out. The next positions of
     /// free nodes follow at once.
-    pub(crate) fn update(&self, first: usize, velocities: &mut [Vector], positions_next: &mut [Vector]) -> Sums {
+    pub(crate) fn update(&self, first: usize, velocities: &mut [[f64; D]], positions_next: &mut [[f64; D]]) -> Sums {
         let mut sums = self.level.run(Free { nodes: self, first, velocities: &mut *velocities, positions_next });
         for (group, velocities) in velocities.chunks_mut(BATCH).enumerate() {
             let first = first + group * BATCH;
@@ -167,7 +176,7 @@ impl<'a> Nodes<'a> {
     }
 
     /// Updates the velocities of the groups and sums their works.
-    pub(crate) fn update_groups(&self, velocities: &mut [Vector]) -> Sums {
+    pub(crate) fn update_groups(&self, velocities: &mut [[f64; D]]) -> Sums {
         let mut sums = Sums::default();
         for group in self.joins.groups() {
             let velocity = self.advance(&self.pull_of(group), &mut sums);
@@ -177,20 +186,19 @@ impl<'a> Nodes<'a> {
     }
 
     /// v^{n+½}, and its part in the books.
-    fn advance(&self, pull: &Pull<'_>, sums: &mut Sums) -> Vector {
+    fn advance(&self, pull: &Pull<'_, D>, sums: &mut Sums) -> [f64; D] {
         let (m, old, dt) = (pull.mass, pull.old, self.dt);
         let scale = dt / m;
-        let mut v = [old[0] + scale * (pull.internal[0] + pull.contact[0]), old[1] + scale * (pull.internal[1] + pull.contact[1])];
+        let mut v = plus(old, times(scale, plus(pull.internal, pull.contact)));
         if let Some(load) = pull.load {
-            v = [v[0] + scale * load[0], v[1] + scale * load[1]];
+            v = plus(v, times(scale, load));
         }
         if let Some(g) = pull.gravity {
-            v = [v[0] + dt * g[0], v[1] + dt * g[1]];
+            v = plus(v, times(dt, g));
         }
         let free = pull.slowed(v);
         v = pull.held(free);
-        let mean = [0.5 * (old[0] + v[0]), 0.5 * (old[1] + v[1])];
-        let dot = |a: Vector, b: Vector| a[0] * b[0] + a[1] * b[1];
+        let mean = times(0.5, plus(old, v));
         sums.kinetic_half += 0.5 * m * dot(v, v);
         sums.kinetic += 0.5 * m * dot(old, v);
         sums.internal += dt * dot(pull.internal, mean);
@@ -203,13 +211,13 @@ impl<'a> Nodes<'a> {
             sums.external_old += dt * m * dot(g, old);
         }
         if pull.slowing > 0.0 || pull.dashpot.is_some() {
-            let drag = pull.dashpot.map_or([0.0; 2], |dashpot| times(dashpot, mean));
-            let impulse = [0, 1].map(|d| -2.0 * pull.slowing * m * mean[d] - 2.0 * drag[d]);
+            let drag = pull.dashpot.map_or([0.0; D], |dashpot| applied(&dashpot, mean));
+            let impulse = std::array::from_fn(|d| -2.0 * pull.slowing * m * mean[d] - 2.0 * drag[d]);
             sums.damping += dot(impulse, mean);
             sums.damping_old += dot(impulse, old);
         }
         if pull.held.is_some() {
-            let impulse = times(pull.inertia(), [v[0] - free[0], v[1] - free[1]]);
+            let impulse = applied(&pull.inertia(), std::array::from_fn(|d| v[d] - free[d]));
             sums.constraint += dot(impulse, mean);
             sums.external_old += dot(impulse, old);
         }
@@ -217,45 +225,56 @@ impl<'a> Nodes<'a> {
     }
 }
 
-impl Movers for Nodes<'_> {
+impl<const D: usize> Movers<D> for Nodes<'_, D>
+where
+    Dim<D>: World<D>,
+{
     fn count(&self) -> usize {
         self.mass.len()
     }
 
-    fn leader(&self, node: u32) -> (u32, Option<[f64; 2]>) {
+    fn leader(&self, node: u32) -> (u32, Option<<Dim<D> as Motion<D>>::Turn>) {
         let (leader, turn) = self.joins.leader(node);
-        (leader, (turn != [1.0, 0.0]).then_some(turn))
+        (leader, (turn != unit_matrix()).then(|| <Dim<D>>::image(&turn)))
     }
 
-    fn mover(&self, leader: usize) -> Mover {
+    fn mover(&self, leader: usize) -> Mover<D> {
         let pull = self.pull_on(leader);
-        let (f, v, g) = (pull.internal, pull.old, pull.gravity.unwrap_or_default());
-        let mut free = [v[0] + self.dt * (f[0] / pull.mass + g[0]), v[1] + self.dt * (f[1] / pull.mass + g[1])];
+        let (f, v, g) = (pull.internal, pull.old, pull.gravity.unwrap_or([0.0; D]));
+        let mut free = std::array::from_fn(|d| v[d] + self.dt * (f[d] / pull.mass + g[d]));
         if let Some(load) = pull.load {
-            free = [free[0] + self.dt / pull.mass * load[0], free[1] + self.dt / pull.mass * load[1]];
+            free = plus(free, times(self.dt / pull.mass, load));
         }
-        Mover { velocity_old: v, velocity: pull.held(pull.slowed(free)), mobility: self.mobility(&pull) }
+        let mut mobility = <Dim<D> as Motion<D>>::Symmetric::default();
+        for (i, row) in self.mobility(&pull).into_iter().enumerate() {
+            row.into_iter().enumerate().skip(i).for_each(|(j, value)| mobility[<Dim<D>>::AT[i][j]] = value);
+        }
+        Mover { velocity_old: v, velocity: pull.held(pull.slowed(free)), mobility }
     }
 
     fn moves(&self, leader: usize) -> bool {
         let is_held = self.constraints.of(leader).is_some() || self.boundary.of(leader).is_some();
-        !is_held || self.mobility(&self.pull_on(leader)) != [0.0; 3]
+        !is_held || self.mobility(&self.pull_on(leader)) != [[0.0; D]; D]
     }
 }
 
-impl Nodes<'_> {
+impl<const D: usize> Nodes<'_, D>
+where
+    Dim<D>: World<D>,
+{
     /// Change of velocity per force.
-    fn mobility(&self, pull: &Pull<'_>) -> Matrix {
+    fn mobility(&self, pull: &Pull<'_, D>) -> Square<D> {
         if pull.dashpot.is_some() {
-            let free = inverse(pull.inertia());
-            return pull.held.map_or(free, |held| held.mobility(free)).map(|value| self.dt * value);
+            let free = inverse(&pull.inertia());
+            return pull.held.map_or(free, |held| held.mobility(free)).map(|row| row.map(|value| self.dt * value));
         }
         let scale = self.dt / (pull.mass * (1.0 + pull.slowing));
         match pull.held {
-            None => [scale, 0.0, scale],
+            None => unit_matrix::<D>().map(|row| row.map(|value| if value == 0.0 { 0.0 } else { scale })),
             Some(held) => {
-                let (x, y) = (held.free_part([1.0, 0.0]), held.free_part([0.0, 1.0]));
-                [scale * x[0], scale * 0.5 * (x[1] + y[0]), scale * y[1]]
+                let free = unit_matrix::<D>().map(|direction| held.free_part(direction));
+                let entry = |i: usize, j: usize| if i == j { scale * free[i][i] } else { scale * 0.5 * (free[i][j] + free[j][i]) };
+                std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)))
             }
         }
     }

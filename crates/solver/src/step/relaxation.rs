@@ -4,16 +4,19 @@
 //! moves fast dies first, so it falls to that of the slowest mode, whose critical rate is 2 ω. Underwood, "Dynamic relaxation", in Computational Methods for Transient Analysis
 //! (1983) 245-265; Papadrakakis, Comput. Meth. Appl. Mech. Engng 25 (1981) 35-48.
 
-use super::{System, Vector};
+use super::System;
 use crate::archive::{Archive, Keep, Kept, keep_each};
 use crate::model;
+use crate::tensor::Dim;
+use crate::vector::{dot, minus};
+use crate::world::World;
 
 /// What brings everything to rest.
-pub(crate) struct Relaxation {
+pub(crate) struct Relaxation<const D: usize> {
     tolerance: f64,
     from: f64,
     /// Internal forces of the step before, N/m.
-    forces: Vec<Vector>,
+    forces: Vec<[f64; D]>,
     /// ω, 1/s.
     frequency: f64,
     /// Since when kinetic energy has been small, s.
@@ -24,13 +27,13 @@ pub(crate) struct Relaxation {
     pub(crate) rest: Option<f64>,
 }
 
-impl Relaxation {
+impl<const D: usize> Relaxation<D> {
     pub(crate) fn new(model::Relaxation { tolerance, from }: model::Relaxation, nodes: usize) -> Self {
-        Self { tolerance, from, forces: vec![[0.0; 2]; nodes], frequency: 0.0, quiet: None, ratio: f64::INFINITY, rest: None }
+        Self { tolerance, from, forces: vec![[0.0; D]; nodes], frequency: 0.0, quiet: None, ratio: f64::INFINITY, rest: None }
     }
 }
 
-impl Keep for Relaxation {
+impl<const D: usize> Keep for Relaxation<D> {
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
         let Self { tolerance: _, from: _, forces, frequency, quiet, ratio, rest } = self;
         forces[..].keep(archive)?;
@@ -39,7 +42,10 @@ impl Keep for Relaxation {
     }
 }
 
-impl System {
+impl<const D: usize> System<D>
+where
+    Dim<D>: World<D>,
+{
     /// Sets the rate of damping for the coming update.
     pub(super) fn relax(&mut self) {
         let Some(relaxation) = &mut self.relaxation else { return };
@@ -48,8 +54,8 @@ impl System {
             let force = self.assembly.force(node, &self.slots);
             if self.bodies.of_node(node as u32).is_none() {
                 let v = self.velocities[node];
-                power += v[0] * (force[0] - old[0]) + v[1] * (force[1] - old[1]);
-                inertia += self.mass[node] * (v[0] * v[0] + v[1] * v[1]);
+                power += dot(v, minus(force, *old));
+                inertia += self.mass[node] * dot(v, v);
             }
             *old = force;
         }

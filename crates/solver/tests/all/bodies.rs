@@ -81,13 +81,18 @@ pub(crate) fn group(name: &str, dimension: u8, cells: impl Iterator<Item = Vec<u
     MeshGroup { name: name.into(), dimension, cells: cells.collect() }
 }
 
+/// A point of the plane as mesh files have it.
+pub(crate) fn in_space([x, y]: [f64; 2]) -> [f64; 3] {
+    [x, y, 0.0]
+}
+
 /// Image of a grid on the unit square, as a mesh with the group `body`.
 pub(crate) fn mapped([nu, nv]: [usize; 2], place: impl Fn(f64, f64) -> [f64; 2]) -> ImportedMesh {
     let positions = (0..=nv).flat_map(|j| (0..=nu).map(move |i| (i as f64 / nu as f64, j as f64 / nv as f64)));
     let at = |i: usize, j: usize| (j * (nu + 1) + i) as u32;
     let cells = (0..nv).flat_map(|j| (0..nu).map(move |i| vec![at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]));
     let groups = vec![group("body", 2, cells)];
-    ImportedMesh { source: "test".into(), positions: positions.map(|(u, v)| place(u, v)).collect(), groups }
+    ImportedMesh { source: "test".into(), positions: positions.map(|(u, v)| in_space(place(u, v))).collect(), groups }
 }
 
 /// Image of a grid that closes in its second direction: u around from 0 to 1, v through the wall.
@@ -96,7 +101,7 @@ pub(crate) fn closed_ring([through, around]: [usize; 2], place: impl Fn(f64, f64
     let at = |i: usize, j: usize| (j % around * (through + 1) + i) as u32;
     let cells = (0..around).flat_map(|j| (0..through).map(move |i| vec![at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]));
     let groups = vec![group("body", 2, cells)];
-    ImportedMesh { source: "test".into(), positions: positions.map(|(u, v)| place(u, v)).collect(), groups }
+    ImportedMesh { source: "test".into(), positions: positions.map(|(u, v)| in_space(place(u, v))).collect(), groups }
 }
 
 /// Adds the body of a mesh.

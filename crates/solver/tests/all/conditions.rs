@@ -2,7 +2,7 @@
 
 use crate::bodies::*;
 use embate_solver::error::Error;
-use embate_solver::model::{Constraint, Curve, CurveShape, Drive, Load, Model, Obstacle, Penalty, Ring, Rotation, Shape, Symmetry};
+use embate_solver::model::{Axis, Constraint, Curve, CurveShape, Drive, Load, Model, Obstacle, Penalty, Ring, Rotation, Shape, Symmetry};
 
 fn fix(model: &mut Model, on: &str, velocity: [Option<f64>; 2]) {
     model.constraints.push(Constraint {
@@ -141,7 +141,7 @@ fn a_node_that_is_led_around_a_point_is_moved_by_nothing_else() {
     let mut model = model(1e-3);
     add(&mut model, "block", rectangle([0.0, 0.0], [0.1, 0.05], [2, 1]), [0.0, 0.0]);
     let turn = |on: &str| {
-        let rotation = Some(Rotation { centre: [0.0; 2], speed: 3.0.into() });
+        let rotation = Some(Rotation { about: Axis::through([0.0; 2]), speed: 3.0.into() });
         Constraint { on: on.into(), rotation, ..Constraint::default() }
     };
     model.constraints.push(turn("block.left"));
@@ -219,7 +219,7 @@ fn nodes_that_are_led_around_a_point_turn_exactly() {
     });
     add(&mut model, "ring", ring, [0.0, 0.0]);
     model.parts[0].spin = speed;
-    let rotation = Some(Rotation { centre: [0.3, 0.1], speed: speed.into() });
+    let rotation = Some(Rotation { about: Axis::through([0.3, 0.1]), speed: speed.into() });
     model.constraints.push(Constraint { on: "ring.inner".into(), rotation, ..Constraint::default() });
     let mut simulation = simulation(&model);
     let start = simulation.frame().positions::<2>().to_vec();

@@ -39,7 +39,8 @@ fn bar(element: &str, law: &str, size: [f64; 2], elements: [usize; 2], end: f64)
 fn bar_of_parts(law: &str, size: [f64; 2], elements: [usize; 2], end: f64, velocity: impl Fn([f64; 2]) -> [f64; 2]) -> Model {
     let [nx, ny] = elements;
     let place = |i: f64, j: f64| [size[0] * (i / nx as f64 - 0.5), size[1] * (j / ny as f64 - 0.5)];
-    let positions = (0..(nx + 1) * (ny + 1)).map(|k| place((k % (nx + 1)) as f64, (k / (nx + 1)) as f64)).collect();
+    let positions =
+        (0..(nx + 1) * (ny + 1)).map(|k| crate::bodies::in_space(place((k % (nx + 1)) as f64, (k / (nx + 1)) as f64))).collect();
     let mut model = bar("quad4", law, size, elements, end);
     model.parts.clear();
     let mut groups = Vec::new();

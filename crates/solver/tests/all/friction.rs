@@ -28,7 +28,7 @@ fn history_end(simulation: &embate_solver::simulation::Simulation, column: &str)
 fn the_slip_rate_does_not_see_rotation_of_both_surfaces_together() {
     // A node above and below a segment, beyond its end too; every point moves as in a rigid rotation about some centre.
     let cell: [u32; 3] = [1, 2, 3];
-    let surface = Surface::outside([cell.as_slice()]).unwrap();
+    let surface = Surface::<2>::outside([cell.as_slice()]).unwrap();
     let target = Target { surface, mirrors: vec![] };
     for x in [[0.3, 0.2], [0.7, -0.01], [1.4, 0.5], [-0.2, 0.1]] {
         let positions = [x, [0.0, 0.0], [1.0, 0.1], [0.4, 0.9]];
@@ -43,7 +43,7 @@ fn the_slip_rate_does_not_see_rotation_of_both_surfaces_together() {
                 .iter()
                 .map(|end| {
                     let v = velocity(end.at);
-                    (0..2).map(|d| (end.share * t[d] + end.turn[d]) * v[d]).sum::<f64>()
+                    (0..2).map(|d| (end.share * t[d] + end.turn[0][d]) * v[d]).sum::<f64>()
                 })
                 .sum();
             assert!(rate.abs() < 1e-13, "{x:?} on {segment}: {rate}");

@@ -1,7 +1,9 @@
 //! Forces, pressures, centrifugal force, boundaries that reflect nothing, and joined nodes against closed forms and against models that need none of them.
 
 use crate::bodies::*;
-use embate_solver::model::{Constraint, Curve, CurveShape, Drive, Image, Join, Load, Model, Motion, NonReflecting, Obstacle, Symmetry};
+use embate_solver::model::{
+    Axis, Constraint, Curve, CurveShape, Drive, Image, Join, Load, Model, Motion, NonReflecting, Obstacle, Symmetry,
+};
 use embate_solver::simulation::Simulation;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -147,7 +149,7 @@ fn a_rod_in_a_turning_frame_grows_as_the_closed_form_says() {
     });
     let shape = CurveShape::Table { times: vec![0.0, 2e-3], values: vec![0.0, 1.0], smooth: true };
     model.curves.insert("up".into(), Curve { shape, dimension: None });
-    model.loads.push(Load::Centrifugal { parts: vec![], centre: [0.3, 0.005], speed, curve: Some("up".into()) });
+    model.loads.push(Load::Centrifugal { parts: vec![], about: Axis::through([0.3, 0.005]), speed, curve: Some("up".into()) });
     model.loads.push(Load::Damping { parts: vec![], rate: 3e3, active: [0.0, f64::INFINITY] });
     probe(&mut model, "tip", "rod", [0.5, 0.0]);
     let (simulation, history) = run(&model);
@@ -177,13 +179,13 @@ fn bodies_of_revolution_feel_pressure_and_spin_all_around() {
     axisymmetric(&mut ring);
     let shape = CurveShape::Table { times: vec![0.0, 1e-3], values: vec![0.0, 1.0], smooth: true };
     ring.curves.insert("up".into(), Curve { shape, dimension: None });
-    ring.loads.push(Load::Centrifugal { parts: vec![], centre: [0.0; 2], speed: 500.0, curve: Some("up".into()) });
+    ring.loads.push(Load::Centrifugal { parts: vec![], about: Axis::default(), speed: 500.0, curve: Some("up".into()) });
     ring.loads.push(Load::Damping { parts: vec![], rate: 1e4, active: [0.0, f64::INFINITY] });
     let (simulation, history) = run(&ring);
     let (grown, exact) = (history.last("ring.x") - history.first("ring.x"), 1e3 * 500.0 * 500.0 * 1e-3 / 1e9);
     assert!((grown / exact - 1.0).abs() < 0.01, "{grown} {exact}");
     books_are_closed(&simulation);
-    ring.loads[0] = Load::Centrifugal { parts: vec![], centre: [0.0, 1.0], speed: 500.0, curve: None };
+    ring.loads[0] = Load::Centrifugal { parts: vec![], about: Axis::through([0.0, 1.0]), speed: 500.0, curve: None };
     assert!(faults(&ring)[0].contains("turns about its axis"), "{:?}", faults(&ring));
 }
 
@@ -316,7 +318,7 @@ fn one_period_moves_like_two() {
             }
         }
         let last = format!("b{}.right", periods - 1);
-        join(&mut model, ["a0.left", &last], Image::Translated([0.1 * periods as f64, 0.0]));
+        join(&mut model, ["a0.left", &last], Image::Translated([0.1 * periods as f64, 0.0, 0.0]));
         moved(&model)
     };
     let ((_, one), (two, both)) = (strip(1), strip(2));
@@ -337,7 +339,7 @@ fn a_quarter_moves_like_the_whole_that_spins() {
         part.spin = spin;
         part.velocity = [-spin * centre[1], spin * centre[0], 0.0];
     };
-    let turned = Image::Turned { centre: [0.0; 2], angle: FRAC_PI_2 };
+    let turned = Image::Turned { about: Axis::default(), angle: FRAC_PI_2 };
     let square = |quarter: bool| {
         let mut model = model(3e-4);
         let (corner, size, count) = if quarter { (0.0, 0.05, 4) } else { (-0.05, 0.1, 8) };
@@ -400,11 +402,11 @@ fn joins_that_do_not_fit_and_motions_that_tear_them_are_told() {
     );
     // Images must fit in both directions.
     model.joins.clear();
-    join(&mut model, ["a.left", "b.right"], Image::Translated([0.2, 0.0]));
+    join(&mut model, ["a.left", "b.right"], Image::Translated([0.2, 0.0, 0.0]));
     assert_eq!(faults(&model).len(), 3, "one of a, two of b");
     // Two ends of one period that shall move differently; the message names both conditions.
     model.joins.clear();
-    join(&mut model, ["a.left", "a.right"], Image::Translated([0.1, 0.0]));
+    join(&mut model, ["a.left", "a.right"], Image::Translated([0.1, 0.0, 0.0]));
     let hold =
         |on: &str, velocity: f64| Constraint { on: on.into(), velocity: [Some(velocity.into()), None, None], ..Constraint::default() };
     model.constraints = vec![hold("a.left", 0.0), hold("a.right", 2.0)];

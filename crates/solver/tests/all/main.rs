@@ -5,6 +5,7 @@
 // What the tests share.
 mod bodies;
 mod patches;
+mod solids;
 mod point;
 
 mod adding;
@@ -19,6 +20,7 @@ mod elements;
 mod ends;
 mod erosion;
 mod formulations;
+mod extruded;
 mod friction;
 mod free_bodies;
 mod hardening;
@@ -28,6 +30,7 @@ mod loads;
 mod johnson_cook;
 mod materials;
 mod mixed;
+mod models_in_space;
 mod nodal_pressure;
 mod obstacles;
 mod orthotropy;
@@ -47,6 +50,7 @@ mod search;
 mod self_contact;
 mod shocks;
 mod softening;
+mod space;
 mod stress_states;
 mod swept;
 mod trusses;

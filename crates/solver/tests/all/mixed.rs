@@ -25,7 +25,7 @@ fn cells(n: u32) -> Vec<Vec<u32>> {
 /// A square of one metre made of such cells, pulled down by gravity on two lines of symmetry.
 fn block(n: u32, cells: Vec<Vec<u32>>) -> Model {
     let place = |k: u32| f64::from(k) / f64::from(n);
-    let positions = (0..(n + 1) * (n + 1)).map(|k| [place(k % (n + 1)), place(k / (n + 1))]).collect();
+    let positions = (0..(n + 1) * (n + 1)).map(|k| [place(k % (n + 1)), place(k / (n + 1)), 0.0]).collect();
     let line = |name: &str, cells| MeshGroup { name: name.into(), dimension: 1, cells };
     let top = line("top", (0..n).map(|i| vec![n * (n + 1) + i, n * (n + 1) + i + 1]).collect());
     let groups = vec![MeshGroup { name: "body".into(), dimension: 2, cells }, top];
@@ -89,7 +89,8 @@ fn a_part_of_quadrilaterals_and_triangles_keeps_its_numbers_and_its_mass() {
             places.sort_by(|a, b| a.partial_cmp(b).unwrap());
             places
         };
-        let (place, expected) = (places(written.cell(k), frame.positions::<2>()), places(cell, &model.meshes[0].positions));
+        let read: Vec<[f64; 2]> = model.meshes[0].positions.iter().map(|&[x, y, _]| [x, y]).collect();
+        let (place, expected) = (places(written.cell(k), frame.positions::<2>()), places(cell, &read));
         assert_eq!((written.kinds[k], place), (kind, expected), "element {k}");
     }
 }

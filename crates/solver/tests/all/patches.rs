@@ -1,11 +1,12 @@
 //! What the contract tests are made on: numbers, materials for any registered law, patches for any registered element, and a block with its nodes.
 
 use embate_lanes::{Level, Team};
-use embate_solver::block::{Block, BlockInput, Motion, NO_NODE, Report, make};
-use embate_solver::element::{ELEMENTS, Element, ElementVisitor, with_element};
+use embate_solver::block::{Block, BlockInput, Blocks, Motion, NO_NODE, Report, make};
+use embate_solver::element::{ELEMENTS, ELEMENTS_OF_SPACE, Element, ElementKind, ElementVisitor, with_element};
 use embate_solver::material::{LAWS, Law, LawKind, LawVisitor, equation_of_state, with_law};
 use embate_solver::model::Material;
 use embate_solver::quantity::{Parameter, Range};
+use embate_solver::tensor::Dim;
 use std::collections::BTreeMap;
 
 pub(crate) const YOUNG: f64 = 1000.0;
@@ -25,6 +26,9 @@ impl Spread {
     }
     pub(crate) fn vector(&mut self, size: f64) -> [f64; 2] {
         [self.between(-size, size), self.between(-size, size)]
+    }
+    pub(crate) fn in_space(&mut self, size: f64) -> [f64; 3] {
+        std::array::from_fn(|_| self.between(-size, size))
     }
 }
 
@@ -137,8 +141,13 @@ const ONE_OF_EACH_FAMILY: [&str; 2] = ["elastic", "neo_hookean"];
 
 /// Calls `check(element, law)` for every element with a law of each family, and for every law in the first element: elements and laws meet only in what
 /// the contract between them says, so no other pair can fail.
-pub(crate) fn every_pair(mut check: impl FnMut(&'static str, &'static str)) {
-    for (number, element) in ELEMENTS.iter().enumerate() {
+pub(crate) fn every_pair(check: impl FnMut(&'static str, &'static str)) {
+    every_pair_of(ELEMENTS, check);
+}
+
+/// The same of these elements.
+pub(crate) fn every_pair_of(elements: &'static [ElementKind], mut check: impl FnMut(&'static str, &'static str)) {
+    for (number, element) in elements.iter().enumerate() {
         for law in solids().filter(|law| number == 0 || ONE_OF_EACH_FAMILY.contains(&law.name)) {
             check(element.name, law.name);
         }
@@ -147,11 +156,11 @@ pub(crate) fn every_pair(mut check: impl FnMut(&'static str, &'static str)) {
 
 /// Whether hourglass shapes of this element meet dampers, which have no potential and no stiffness.
 pub(crate) fn is_damped(element: &str) -> bool {
-    element == "quad4_reduced_viscous"
+    element.ends_with("_viscous")
 }
 
 pub(crate) fn nodes_of(element: &str) -> usize {
-    ELEMENTS.iter().find(|kind| kind.name == element).unwrap().nodes
+    ELEMENTS.iter().chain(ELEMENTS_OF_SPACE).find(|kind| kind.name == element).unwrap().nodes
 }
 
 struct ReferenceNodes;
@@ -212,8 +221,8 @@ pub(crate) fn distorted(element: &str, roughness: f64, aspect: f64, numbers: &mu
 
 /// A patch of `n` × `n` unit cells with displaced inner nodes.
 #[derive(Clone)]
-pub(crate) struct Patch {
-    pub(crate) positions: Vec<[f64; 2]>,
+pub(crate) struct Patch<const D: usize = 2> {
+    pub(crate) positions: Vec<[f64; D]>,
     pub(crate) connectivity: Vec<u32>,
     pub(crate) inner: Vec<usize>,
 }
@@ -238,10 +247,10 @@ pub(crate) fn patch(element: &str, n: usize, roughness: f64) -> Patch {
 }
 
 /// A block with the state that its nodes have brought it to.
-pub(crate) struct Body {
-    pub(crate) block: Box<dyn Block<2>>,
-    pub(crate) positions: Vec<[f64; 2]>,
-    pub(crate) slots: Vec<[f64; 2]>,
+pub(crate) struct Body<const D: usize = 2> {
+    pub(crate) block: Box<dyn Block<D>>,
+    pub(crate) positions: Vec<[f64; D]>,
+    pub(crate) slots: Vec<[f64; D]>,
     pub(crate) report: Report,
     pub(crate) level: Level,
     pub(crate) team: Team,
@@ -249,16 +258,19 @@ pub(crate) struct Body {
     nodes_per_element: usize,
 }
 
-impl Body {
-    pub(crate) fn new(element: &str, material: &Material, positions: &[[f64; 2]], connectivity: &[u32]) -> Self {
+impl<const D: usize> Body<D>
+where
+    Dim<D>: Blocks<D>,
+{
+    pub(crate) fn new(element: &str, material: &Material, positions: &[[f64; D]], connectivity: &[u32]) -> Self {
         Self::made(&BlockInput::new(element, material, connectivity, positions))
     }
 
     /// Whatever block was asked for.
-    pub(crate) fn made(input: &BlockInput<'_>) -> Self {
+    pub(crate) fn made(input: &BlockInput<'_, D>) -> Self {
         let BlockInput { element, connectivity, positions, .. } = *input;
         let block = make(input).unwrap();
-        let slots = vec![[0.0; 2]; block.slots().len()];
+        let slots = vec![[0.0; D]; block.slots().len()];
         let mut body = Self {
             block,
             positions: positions.to_vec(),
@@ -269,53 +281,53 @@ impl Body {
             connectivity: connectivity.to_vec(),
             nodes_per_element: nodes_of(element),
         };
-        body.go(positions, &vec![[0.0; 2]; positions.len()], 0.0);
+        body.go(positions, &vec![[0.0; D]; positions.len()], 0.0);
         body
     }
 
     /// One element with its own nodes.
-    pub(crate) fn single(element: &str, material: &Material, positions: &[[f64; 2]]) -> Self {
+    pub(crate) fn single(element: &str, material: &Material, positions: &[[f64; D]]) -> Self {
         Self::new(element, material, positions, &(0..positions.len() as u32).collect::<Vec<_>>())
     }
 
-    pub(crate) fn of(element: &str, material: &Material, patch: &Patch) -> Self {
+    pub(crate) fn of(element: &str, material: &Material, patch: &Patch<D>) -> Self {
         Self::new(element, material, &patch.positions, &patch.connectivity)
     }
 
     /// One step to the new positions.
-    pub(crate) fn move_to(&mut self, positions: &[[f64; 2]]) {
+    pub(crate) fn move_to(&mut self, positions: &[[f64; D]]) {
         let time_step = 1.0 / 64.0; // exact, so that velocities are as exact as displacements
-        let velocity = |(x, old): (&[f64; 2], &[f64; 2])| [(x[0] - old[0]) / time_step, (x[1] - old[1]) / time_step];
+        let velocity = |(x, old): (&[f64; D], &[f64; D])| std::array::from_fn(|d| (x[d] - old[d]) / time_step);
         let velocities: Vec<_> = positions.iter().zip(&self.positions).map(velocity).collect();
         self.go(positions, &velocities, time_step);
     }
 
-    fn go(&mut self, positions: &[[f64; 2]], velocities: &[[f64; 2]], time_step: f64) {
+    fn go(&mut self, positions: &[[f64; D]], velocities: &[[f64; D]], time_step: f64) {
         let motion = Motion { positions, velocities, time_step };
         self.report = self.block.advance(&motion, self.level, &mut self.slots, &mut self.team);
         self.positions = positions.to_vec();
     }
 
     /// One step with these velocities.
-    pub(crate) fn advance(&mut self, velocities: &[[f64; 2]], time_step: f64) {
+    pub(crate) fn advance(&mut self, velocities: &[[f64; D]], time_step: f64) {
         for (x, v) in self.positions.iter_mut().zip(velocities) {
-            *x = [x[0] + v[0] * time_step, x[1] + v[1] * time_step];
+            *x = std::array::from_fn(|d| x[d] + v[d] * time_step);
         }
         let motion = Motion { positions: &self.positions, velocities, time_step };
         self.report = self.block.advance(&motion, self.level, &mut self.slots, &mut self.team);
     }
 
     /// One step in which every node goes to `to(x)`.
-    pub(crate) fn map(&mut self, to: impl Fn([f64; 2]) -> [f64; 2]) {
+    pub(crate) fn map(&mut self, to: impl Fn([f64; D]) -> [f64; D]) {
         let positions: Vec<_> = self.positions.iter().map(|&x| to(x)).collect();
         self.move_to(&positions);
     }
 
     /// Sum of the forces at every node.
-    pub(crate) fn forces(&self) -> Vec<[f64; 2]> {
-        let mut forces = vec![[0.0; 2]; self.positions.len()];
+    pub(crate) fn forces(&self) -> Vec<[f64; D]> {
+        let mut forces = vec![[0.0; D]; self.positions.len()];
         for (&node, force) in self.block.slots().iter().zip(&self.slots).filter(|(node, _)| **node != NO_NODE) {
-            for d in 0..2 {
+            for d in 0..D {
                 forces[node as usize][d] += force[d];
             }
         }
@@ -358,20 +370,23 @@ pub(crate) fn is_isotropic(law: &str) -> bool {
 }
 
 /// Tangent stiffness K_ij = −∂f_i/∂x_j by central differences; `make_body` must give the same body every time.
-pub(crate) fn stiffness(make_body: impl Fn() -> Body) -> Vec<Vec<f64>> {
+pub(crate) fn stiffness<const D: usize>(make_body: impl Fn() -> Body<D>) -> Vec<Vec<f64>>
+where
+    Dim<D>: Blocks<D>,
+{
     let start = make_body().positions;
     let size = start.iter().flatten().fold(0.0f64, |size, x| size.max(x.abs()));
     let h = 1e-6 * size;
-    let columns = (0..2 * start.len()).map(|j| {
+    let columns = (0..D * start.len()).map(|j| {
         let side = |sign: f64| {
             let mut body = make_body();
             let mut positions = start.clone();
-            positions[j / 2][j % 2] += sign * h;
+            positions[j / D][j % D] += sign * h;
             body.move_to(&positions);
             body.forces()
         };
         let (plus, minus) = (side(1.0), side(-1.0));
-        (0..2 * start.len()).map(|i| (minus[i / 2][i % 2] - plus[i / 2][i % 2]) / (2.0 * h)).collect()
+        (0..D * start.len()).map(|i| (minus[i / D][i % D] - plus[i / D][i % D]) / (2.0 * h)).collect()
     });
     columns.collect()
 }
@@ -405,7 +420,8 @@ pub(crate) fn eigenvalues(mut a: Vec<Vec<f64>>) -> Vec<f64> {
 
 /// Largest eigenvalue of M⁻¹K.
 pub(crate) fn frequency_squared(stiffness: &[Vec<f64>], masses: &[f64]) -> f64 {
-    let entry = |i: usize, j: usize| 0.5 * (stiffness[i][j] + stiffness[j][i]) / (masses[i / 2] * masses[j / 2]).sqrt();
+    let d = stiffness.len() / masses.len();
+    let entry = |i: usize, j: usize| 0.5 * (stiffness[i][j] + stiffness[j][i]) / (masses[i / d] * masses[j / d]).sqrt();
     let scaled = (0..stiffness.len()).map(|i| (0..stiffness.len()).map(|j| entry(i, j)).collect()).collect();
     eigenvalues(scaled).pop().unwrap()
 }

@@ -57,7 +57,7 @@ fn a_culprit_is_followed_to_its_failure_with_the_same_bits() {
     let (first, error) = failed(&model);
     let suspect = first.suspect(&error);
     let Error::Inverted { part, element, at, step, .. } = &error else { panic!("{error}") };
-    assert_eq!(first.culprit(&suspect), Culprit::Element { part: part.clone(), element: *element, at: [at[0], at[1]] });
+    assert_eq!(first.culprit(&suspect), Culprit::Element { part: part.clone(), element: *element, at: [at[0], at[1], 0.0] });
     assert!(*step > 10, "{error}");
     let (again, trace) = traced(&model, &suspect, &first, step - 5, 2);
     assert_eq!(again.summary().state_hash, first.summary().state_hash);
@@ -70,7 +70,7 @@ fn a_culprit_is_followed_to_its_failure_with_the_same_bits() {
     let mut before = simulation(&shorter);
     before.run(&mut Deaf).unwrap();
     let (frame, good) = (before.frame(), &trace.moments[trace.moments.len() - 2]);
-    assert!(trace.near.nodes.iter().zip(&good.positions).all(|(&node, x)| frame.positions::<2>()[node] == *x));
+    assert!(trace.near.nodes.iter().zip(&good.positions).all(|(&node, x)| frame.place(node) == *x));
     assert!(good.row == before.history_row());
     let pressing = trace.contacts.iter().position(|(kind, name)| *kind == "obstacle" && name == "punch").unwrap();
     assert!(trace.moments.iter().any(|moment| moment.pressing[pressing] > 0.0));

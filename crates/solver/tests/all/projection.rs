@@ -10,7 +10,7 @@ fn chain(points: &[Vector], closed: bool) -> Target {
     let n = points.len() as u32;
     let count = if closed { n } else { n - 1 };
     let link = |ok: bool, s: u32| if ok { s } else { NONE };
-    let surface = Surface {
+    let surface = Surface::<2> {
         segments: (0..count).map(|s| [s, (s + 1) % n]).collect(),
         previous: (0..count).map(|s| link(closed || s > 0, (s + count - 1) % count)).collect(),
         next: (0..count).map(|s| link(closed || s + 1 < count, (s + 1) % count)).collect(),

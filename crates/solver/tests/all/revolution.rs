@@ -255,7 +255,7 @@ fn what_a_body_of_revolution_cannot_do_is_told() {
             m.parts[0].velocity[0] = 1.0;
         }),
         ("join[0].rotation", &|m| {
-            let image = Image::Turned { centre: [0.0; 2], angle: 1.0 };
+            let image = Image::Turned { about: Default::default(), angle: 1.0 };
             m.joins.push(Join { between: ["below.left".into(), "below.right".into()], image, tolerance: None });
         }),
     ];

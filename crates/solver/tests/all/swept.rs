@@ -264,7 +264,7 @@ const MAPS: [Map; 10] = [
 /// A closed chain of corners, body on the right.
 fn closed(corners: usize) -> Target {
     let n = corners as u32;
-    let surface = Surface {
+    let surface = Surface::<2> {
         segments: (0..n).map(|s| [s, (s + 1) % n]).collect(),
         previous: (0..n).map(|s| (s + n - 1) % n).collect(),
         next: (0..n).map(|s| (s + 1) % n).collect(),
@@ -275,7 +275,7 @@ fn closed(corners: usize) -> Target {
 
 /// One segment from node 0 to node 1.
 fn alone() -> Target {
-    let surface = Surface { segments: vec![[0, 1]], previous: vec![NONE], next: vec![NONE], nodes: vec![0, 1] };
+    let surface = Surface::<2> { segments: vec![[0, 1]], previous: vec![NONE], next: vec![NONE], nodes: vec![0, 1] };
     Target { surface, mirrors: Vec::new() }
 }
 

@@ -332,7 +332,7 @@ fn bars_hang_on_a_block_by_joins_and_fall_with_it() {
 fn bars_of_a_mesh_file_share_nodes_with_its_surfaces() {
     let mut model = model(1e-3);
     let mut mesh = mapped([2, 2], |u, v| [u, v]);
-    mesh.positions.push([2.0, 1.0]);
+    mesh.positions.push([2.0, 1.0, 0.0]);
     mesh.groups.push(group("stay", 1, [vec![2, 9], vec![8, 9]].into_iter()));
     add_groups(&mut model, mesh, &["body", "stay"], [1.0, 0.0]);
     let stay = &mut model.parts[1];

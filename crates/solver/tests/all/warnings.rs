@@ -43,7 +43,7 @@ fn softening_is_told_once_for_each_material_that_is_used() {
     let name = model.parts[0].material.clone();
     let mut second = model.parts[0].clone();
     second.name = "second".into();
-    second.placement = Placement { translation: [3.0, 0.0], ..Placement::default() };
+    second.placement = Placement { translation: [3.0, 0.0, 0.0], ..Placement::default() };
     model.parts.push(second);
     model.materials.insert("unused".into(), with("j2", &[("hardening", -20.0)]));
     let found = told(&model);

@@ -85,7 +85,11 @@ pub(crate) fn model(seed: u64) -> Model {
             part.velocity[0] = 0.0;
         } else {
             part.spin = if dice.chance(0.3) { dice.number(-1.0, 1.0) * speed / CELL } else { 0.0 };
-            part.placement = Placement { rotation: dice.number(0.0, 6.3), rotation_point: centre, ..Placement::default() };
+            part.placement = Placement {
+                rotation: dice.number(0.0, 6.3),
+                rotation_point: embate_solver::model::in_space(centre),
+                ..Placement::default()
+            };
             part.rigid = dice.chance(0.08).then(Motion::default);
         }
         model.parts.push(part);

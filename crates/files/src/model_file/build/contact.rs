@@ -106,6 +106,14 @@ fn shape(record: &Record, faults: &mut Faults) -> ObstacleShape {
         let radius = it.number("radius").unwrap_or(f64::NAN);
         return ObstacleShape::Circle { centre: it.spatial("centre"), radius, hollow: it.is("hollow") };
     }
+    if let Some(it) = record.table("sphere") {
+        let radius = it.number("radius").unwrap_or(f64::NAN);
+        return ObstacleShape::Sphere { centre: it.spatial("centre"), radius, hollow: it.is("hollow") };
+    }
+    if let Some(it) = record.table("cylinder") {
+        let radius = it.number("radius").unwrap_or(f64::NAN);
+        return ObstacleShape::Cylinder { point: it.spatial("point"), axis: it.spatial("axis"), radius, hollow: it.is("hollow") };
+    }
     if let Some(it) = record.table("polyline") {
         let points = if let Some(Datum::Points(points)) = it.datum("points") { points.clone() } else { Vec::new() };
         return ObstacleShape::Polyline { points };

@@ -15,7 +15,7 @@ pub(super) fn load(record: &Record, faults: &mut Faults) -> Load {
         faults.cover(&record.key("on"));
     }
     match kind {
-        Some("centrifugal") => Load::Centrifugal { parts, centre: centre(record), speed: number("centrifugal"), curve },
+        Some("centrifugal") => Load::Centrifugal { parts, about: motion::axis(record), speed: number("centrifugal"), curve },
         Some("force") => Load::Force { on, force: record.spatial("force"), curve },
         Some("pressure") => Load::Pressure { on, pressure: number("pressure"), curve },
         Some("damping") => Load::Damping { parts, rate: number("damping"), active: motion::window(record, ["from", "until"], faults) },
@@ -29,11 +29,6 @@ pub(super) fn load(record: &Record, faults: &mut Faults) -> Load {
     }
 }
 
-/// The point `centre`; left out: the origin.
-fn centre(record: &Record) -> [f64; 2] {
-    if record.written("centre").is_some() { record.vector("centre") } else { [0.0; 2] }
-}
-
 pub(super) fn non_reflecting(record: &Record) -> NonReflecting {
     NonReflecting { on: record.text("on") }
 }
@@ -44,9 +39,9 @@ pub(super) fn join(record: &Record, faults: &mut Faults) -> Join {
         faults.cover(&record.key("between"));
     }
     let image = if record.written("rotation").is_some() {
-        Image::Turned { centre: centre(record), angle: record.number("rotation").unwrap_or(f64::NAN) }
+        Image::Turned { about: motion::axis(record), angle: record.number("rotation").unwrap_or(f64::NAN) }
     } else if record.written("translation").is_some() {
-        Image::Translated(record.vector("translation"))
+        Image::Translated(record.spatial("translation"))
     } else {
         Image::Same
     };

@@ -17,8 +17,8 @@ use crate::reach::{Bounds, Reach};
 use crate::{abaqus, gmsh};
 use embate_solver::mesh::shapes::Values;
 use embate_solver::model::{
-    Cadence, Copies, ImportedMesh, InitialStress, MassScaling, Material, Mirror, Model, Output, Part, Partners, PictureView, Placement,
-    Probe, ProbeAt, Relaxation, Run, Shape, Symmetry,
+    Cadence, Camera, Copies, ImportedMesh, InitialStress, MassScaling, Material, Mirror, Model, Output, Part, Partners, PictureView,
+    Placement, Probe, ProbeAt, Relaxation, Run, Shape, Sweep, Symmetry,
 };
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -92,6 +92,7 @@ fn part(record: &Record, meshes: &mut Meshes<'_>, faults: &mut Faults) -> Part {
             .filter(|name| !name.is_empty())
             .unwrap_or(Part::default().element_triangles),
         shape: shape(record, meshes, faults),
+        sweep: record.tables().find_map(|(name, table)| Sweep::read(name, table)),
         placement: placement(record),
         velocity: record.spatial("velocity"),
         spin: record.number("spin").unwrap_or(f64::NAN),
@@ -121,18 +122,20 @@ fn stress_initial(record: &Record) -> InitialStress {
 }
 
 fn placement(part: &Record) -> Placement {
-    let mut placement = Placement { translation: part.vector("translation"), ..Placement::default() };
+    let mut placement = Placement { translation: part.spatial("translation"), ..Placement::default() };
     if let Some(it) = part.table("mirror") {
-        placement.mirror = Some(Mirror { point: it.vector("point"), normal: it.vector("normal") });
+        placement.mirror = Some(Mirror { point: it.spatial("point"), normal: it.spatial("normal") });
     }
     if let Some(it) = part.table("rotation") {
         placement.rotation = it.number("angle").unwrap_or(f64::NAN);
-        placement.rotation_point = it.vector("point");
+        placement.rotation_point = it.spatial("point");
+        placement.rotation_axis = it.spatial("axis");
     }
     if let Some(it) = part.table("copies") {
         let angle = it.number("angle").unwrap_or(f64::NAN);
         let count = Values::count(it, "count");
-        placement.copies = Some(Copies { count, translation: it.vector("translation"), angle, point: it.vector("point") });
+        let (translation, point, axis) = (it.spatial("translation"), it.spatial("point"), it.spatial("axis"));
+        placement.copies = Some(Copies { count, translation, angle, point, axis });
     }
     placement
 }
@@ -214,10 +217,20 @@ fn output(record: &Record) -> Output {
         history: cadence("history", Cadence::Count(1)),
         hash_steps: record.integer("hash_steps").filter(|&steps| steps > 0),
         include: record.texts("include"),
-        mirror: ["x", "y"].map(|axis| mirror.iter().any(|it| it == axis)),
+        mirror: ["x", "y", "z"].map(|axis| mirror.iter().any(|it| it == axis)),
         pictures: if let Some(Datum::Flag(flag)) = record.datum("pictures") { *flag } else { default.pictures },
         picture_field: record.text("picture_field"),
         picture_view: record.table("picture_view").map(|it| PictureView { corner: it.vector("corner"), size: it.vector("size") }),
+        camera: record.table("camera").map(camera),
+    }
+}
+
+fn camera(record: &Record) -> Camera {
+    Camera {
+        from: record.spatial("from"),
+        at: record.written("at").map(|_| record.spatial("at")),
+        up: record.spatial("up"),
+        zoom: record.number("zoom").unwrap_or(1.0),
     }
 }
 

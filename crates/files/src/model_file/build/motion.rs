@@ -6,7 +6,7 @@ use crate::model_file::reader::Record;
 use crate::model_file::value::{Course, Datum};
 use embate_solver::load::curve::sine::Sine;
 use embate_solver::model::messages::CLASH;
-use embate_solver::model::{Constraint, Curve, CurveShape, Drive, Motion, Rotation};
+use embate_solver::model::{Axis, Constraint, Curve, CurveShape, Drive, Motion, Rotation};
 use embate_solver::quantity::Dimension;
 
 /// What a part's `rigid` says: `None` for a part that deforms.
@@ -91,7 +91,7 @@ pub(super) fn constraint(record: &Record, faults: &mut Faults) -> Constraint {
     }
     let rotation = record.table("rotation").map(|it| {
         let speed = if let Some(Datum::Drive(drive)) = it.datum("speed") { drive.clone() } else { Drive::Constant(f64::NAN) };
-        Rotation { centre: it.vector("centre"), speed }
+        Rotation { about: axis(it), speed }
     });
     if rotation.is_some() {
         // What else is given has its fault already.
@@ -102,6 +102,13 @@ pub(super) fn constraint(record: &Record, faults: &mut Faults) -> Constraint {
         velocity = [Some(Drive::Constant(0.0)), None, None];
     }
     Constraint { on: record.text("on"), velocity, displacement, acceleration, rotation }
+}
+
+/// What the keys `centre` and `axis` say; left out: along z through the origin.
+pub(super) fn axis(record: &Record) -> Axis {
+    let or = |name: &str, left_out: [f64; 3]| if record.written(name).is_some() { record.spatial(name) } else { left_out };
+    let Axis { centre, direction } = Axis::default();
+    Axis { centre: or("centre", centre), direction: or("axis", direction) }
 }
 
 /// Times of beginning and end; left out: from the start, for ever.

@@ -9,7 +9,7 @@ use std::path::Path;
 fn elements_sets_and_surfaces_become_groups() {
     let mesh = read(FLAT).unwrap();
     assert_eq!(mesh.positions.len(), 7, "the node of no element is left out");
-    assert_eq!(mesh.positions[1], [1.0, 0.0]);
+    assert_eq!(mesh.positions[1], [1.0, 0.0, 0.0]);
     assert_eq!(group(&mesh, "Squares").cells, [vec![0, 1, 4, 3], vec![1, 2, 5, 4]]);
     assert_eq!(group(&mesh, "the triangle").cells, [vec![2, 6, 5]]);
     assert_eq!(group(&mesh, "both").cells, [vec![0, 1, 4, 3], vec![2, 6, 5]]);
@@ -69,7 +69,8 @@ fn instances_are_put_in_place_and_name_their_sets() {
 *End Assembly
 ";
     let mesh = read(deck).unwrap();
-    assert_eq!(mesh.positions, [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [3.0, 0.0], [3.0, 1.0], [2.0, 1.0], [2.0, 0.0]]);
+    let plane = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [3.0, 0.0], [3.0, 1.0], [2.0, 1.0], [2.0, 0.0]];
+    assert_eq!(mesh.positions, plane.map(|[x, y]| [x, y, 0.0]));
     assert_eq!(group(&mesh, "Two.Body").cells, [vec![4, 5, 6, 7]]);
     assert_eq!(group(&mesh, "One.End").cells, [vec![1, 2]]);
     assert_eq!(group(&mesh, "corner").cells, [vec![4]]);
@@ -84,7 +85,7 @@ fn included_files_are_read_from_the_folder_of_the_file_that_includes() {
     fs::write(folder.join("d.inp"), "*INCLUDE, INPUT=inner/nodes.inp\n*ELEMENT, TYPE=CPE3\n1, 1, 2, 3\n").unwrap();
     fs::write(folder.join("inner/nodes.inp"), "*NODE\n*Include, input=\"more nodes.inp\"\n3, 0, 1\n").unwrap();
     fs::write(folder.join("inner/more nodes.inp"), "1, 0, 0\n2, 1, 0\n").unwrap();
-    assert_eq!(abaqus::read(&folder.join("d.inp"), 1e-3).unwrap().positions, [[0.0, 0.0], [1e-3, 0.0], [0.0, 1e-3]]);
+    assert_eq!(abaqus::read(&folder.join("d.inp"), 1e-3).unwrap().positions, [[0.0; 3], [1e-3, 0.0, 0.0], [0.0, 1e-3, 0.0]]);
     fs::write(folder.join("self.inp"), "*INCLUDE, INPUT=self.inp\n").unwrap();
     let faults = abaqus::read(&folder.join("self.inp"), 1.0).unwrap_err();
     assert!(faults[0].message.contains("more than 16 deep"), "{}", faults[0]);

@@ -156,7 +156,7 @@ fn tags_may_be_sparse_large_and_in_any_order() {
     let plain = parse(square(4, |k| k + 1, quadrilateral).as_bytes(), "m.msh", 2.0).unwrap();
     assert_eq!((plain.positions.len(), plain.groups[0].cells.len()), (25, 16));
     assert_eq!(plain.groups[0].cells[0], [0, 1, 6, 5]);
-    assert_eq!(plain.positions[6], [2.0, 2.0]);
+    assert_eq!(plain.positions[6], [2.0, 2.0, 0.0]);
     for tag in [|k: usize| 1000 - 7 * k, |k| 1_usize << (2 * k), |k| k * 7 % 25] {
         assert_eq!(parse(square(4, tag, quadrilateral).as_bytes(), "m.msh", 2.0).unwrap(), plain);
     }

@@ -40,19 +40,19 @@ fn tube_and_plate_lie_where_the_built_in_shapes_put_them() {
     let (tube, plate) = (nodes_of("tube"), nodes_of("plate"));
     assert_eq!((tube.len(), plate.len()), (82, 484));
     for &node in &tube {
-        let [x, y] = mesh.positions[node as usize];
+        let [x, y, _] = mesh.positions[node as usize];
         let r = if x.hypot(y - 0.1) < 0.097 { 0.094 } else { 0.1 };
         let step = std::f64::consts::PI / 40.0;
         let angle = ((y - 0.1).atan2(x) / step).round() * step;
         assert!((x - r * angle.cos()).abs() < 3e-17 && (y - 0.1 - r * angle.sin()).abs() < 3e-17, "({x}, {y})");
     }
     for &node in &plate {
-        let [x, y] = mesh.positions[node as usize];
+        let [x, y, _] = mesh.positions[node as usize];
         assert!((x - (x * 200.0).round() / 200.0).abs() < 2e-16 && (y - (y * 1000.0).round() / 1000.0).abs() < 2e-18, "({x}, {y})");
     }
     let on_axis = |nodes: &[u32]| nodes.iter().filter(|node| mesh.positions[**node as usize][0] == 0.0).count();
     assert_eq!((on_axis(&tube), on_axis(&plate)), (4, 4), "exactly on the line of symmetry");
-    assert!(tube.iter().any(|&node| mesh.positions[node as usize] == [0.0, 0.0]));
+    assert!(tube.iter().any(|&node| mesh.positions[node as usize] == [0.0; 3]));
 }
 
 #[test]
@@ -111,7 +111,7 @@ fn areas_lengths_and_corners_of_the_mixed_mesh_are_right() {
     assert!((length(&mesh, "hole") - 16.0 * 10e-3 * (std::f64::consts::PI / 8.0).sin()).abs() < 1e-10);
     assert!((length(&mesh, "curve-7") - 40e-3).abs() < 1e-13);
     let corners: Vec<_> = group(&mesh, "left corners").cells.iter().map(|cell| mesh.positions[cell[0] as usize]).collect();
-    assert_eq!(corners, [[0.0, 0.0], [0.0, 40.0 * 1e-3]]);
+    assert_eq!(corners, [[0.0; 3], [0.0, 40.0 * 1e-3, 0.0]]);
     assert!(group(&mesh, "plate").cells.iter().any(|cell| cell.len() == 3));
     assert!(group(&mesh, "plate").cells.iter().any(|cell| cell.len() == 4));
 }
@@ -182,7 +182,7 @@ fn binary_files_of_a_32_bit_gmsh_are_read() {
         file.extend([1, 1, 7, 7, 2, 1, 3, 1, 7, 10, 11, 12, 13].map(int).concat());
         file.extend(b"\n$EndElements\n");
         let mesh = parse(&file, "m.msh", 1.0).unwrap();
-        assert_eq!(mesh.positions, [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]]);
+        assert_eq!(mesh.positions, [[0.0; 3], [2.0, 0.0, 0.0], [2.0, 1.0, 0.0], [0.0, 1.0, 0.0]]);
         assert_eq!((mesh.groups[0].name.as_str(), &mesh.groups[0].cells[..]), ("all", &[vec![0, 1, 2, 3]][..]));
     }
 }

@@ -3,8 +3,8 @@
 use super::{MORE, SOUND, changed, faults, read};
 use embate_solver::load::curve::sine::Sine;
 use embate_solver::model::{
-    Constraint, Contact, ContactLaw, Curve, CurveShape, Drive, Formulation, Friction, Image, InitialPenetration, Interface, Join, Load,
-    Model, Motion, NonReflecting, Obstacle, ObstacleShape, Partners, Penalty, PenaltySource, Rotation,
+    Axis, Constraint, Contact, ContactLaw, Curve, CurveShape, Drive, Formulation, Friction, Image, InitialPenetration, Interface, Join,
+    Load, Model, Motion, NonReflecting, Obstacle, ObstacleShape, Partners, Penalty, PenaltySource, Rotation,
 };
 use embate_solver::quantity::Dimension;
 
@@ -191,7 +191,7 @@ fn constraints_move_nodes_in_every_way() {
         ..empty()
     };
     assert_eq!(constraint("fixed = \"y\"\nacceleration = { x = \"3 m/s^2\" }"), both);
-    let rotation = |centre, speed| Constraint { rotation: Some(Rotation { centre, speed }), ..empty() };
+    let rotation = |centre: [f64; 2], speed| Constraint { rotation: Some(Rotation { about: Axis::through(centre), speed }), ..empty() };
     assert_eq!(constraint("rotation = { speed = \"c\", centre = [1, \"2 mm\"] }"), rotation([1.0, 0.002], Drive::Curve("c".into())));
     assert_eq!(constraint("rotation = { speed = \"60 rpm\" }"), rotation([0.0; 2], Drive::Constant(std::f64::consts::TAU)));
     let on = |text: &str| and(&format!("[[constraint]]\non = \"plate.right\"\n{text}"));
@@ -220,7 +220,8 @@ fn loads_boundaries_and_joins_are_read() {
     let curve = || Some("c".to_string());
     let gravity = Load::Gravity { parts: vec!["ball".into()], acceleration: [1.0, 2.0, 0.0], curve: curve() };
     assert_eq!(load("gravity = [1, 2]\nparts = \"ball\"\ncurve = \"c\""), gravity);
-    let spin = |centre, curve| Load::Centrifugal { parts: vec![], centre, speed: std::f64::consts::TAU, curve };
+    let spin =
+        |centre: [f64; 2], curve| Load::Centrifugal { parts: vec![], about: Axis::through(centre), speed: std::f64::consts::TAU, curve };
     assert_eq!(load("centrifugal = \"60 rpm\""), spin([0.0; 2], None));
     assert_eq!(load("centrifugal = \"60 rpm\"\ncentre = [1, 2]\ncurve = \"c\""), spin([1.0, 2.0], curve()));
     let force = Load::Force { on: "plate.top".into(), force: [3.0, -2000.0, 0.0], curve: None };
@@ -230,9 +231,9 @@ fn loads_boundaries_and_joins_are_read() {
         "{MORE}[[join]]\nbetween = [\"plate.top\", \"plate.bottom\"]\ntranslation = [0, \"-3 mm\"]\ntolerance = \"1 um\""
     )));
     assert_eq!(model.non_reflecting, [NonReflecting { on: "ball.outer".into() }]);
-    let image = Image::Turned { centre: [0.0, 0.1], angle: std::f64::consts::PI };
+    let image = Image::Turned { about: Axis::through([0.0, 0.1]), angle: std::f64::consts::PI };
     let turned = Join { between: ["tube.start".into(), "tube.end".into()], image, tolerance: None };
-    let image = Image::Translated([0.0, -0.003]);
+    let image = Image::Translated([0.0, -0.003, 0.0]);
     let moved = Join { between: ["plate.top".into(), "plate.bottom".into()], image, tolerance: Some(1e-6) };
     assert_eq!(model.joins, [turned, moved]);
     let of = |section: &str, lines: &str| and(&format!("{MORE}[[{section}]]\n{lines}"));
@@ -351,7 +352,7 @@ fn obstacles_and_moving_parts_that_make_no_sense_are_refused() {
     let both = SOUND.replace("name = \"tube\"\nm", &format!("name = \"tube\"\n{held}m"));
     let both = both.replace("name = \"ball\"\nm", &format!("name = \"ball\"\n{held}m"));
     each_has(&[
-        (and("[[obstacle]]\nparts = \"ball\""), "obstacle[3]", "needs one of `plane`, `circle` and `polyline`"),
+        (and("[[obstacle]]\nparts = \"ball\""), "obstacle[3]", "needs one of `plane`, `circle`, `polyline`, `sphere` and `cylinder`"),
         (circle("plane.normal = [0, 1]"), "obstacle[3]", "has `plane` and `circle` at once"),
         (circle("motion = { x = \"free\" }"), "obstacle[3].mass", "the obstacle is free to move, so it needs `mass`"),
         (circle("motion = { rotation = \"free\" }"), "obstacle[3].inertia", "the obstacle is free to turn, so it needs `inertia`"),
@@ -375,7 +376,8 @@ fn obstacles_and_moving_parts_that_make_no_sense_are_refused() {
         ),
         (changed("fixed = \"x\"", "velocity.x = \"free\""), "constraint[0].velocity.x", "can't be \"free\" here"),
         (ball("rigid = { x = 0 }\nvelocity = [1, 0]"), "part[2].velocity[0]", "`x` is not free"),
-        (ball("rigid = { z = 0 }"), "part[2].rigid.z", "give `x`, `y`, `rotation`, or some of them"),
+        (ball("rigid = { z = 1 }"), "part[2].rigid.z", "there is no `z` in the plane"),
+        (ball("rigid = { w = 0 }"), "part[2].rigid.w", "give `x`, `y`, `z`, `rotation`, or some of them"),
         (ball("rigid = true\n").replace("\"plate.left\"", "\"ball.outer\""), "constraint[0].on", "part `ball` is rigid"),
         (both.replace("[\"tube\", \"plate\"]", "[\"tube.outer\", \"ball\"]"), "contact[0].between", "nothing can give way"),
         (both.replace(BETWEEN, "bodies = [\"tube\", \"ball\"]\n"), "contact[0].bodies", "nothing can give way"),

@@ -159,10 +159,11 @@ fn values(kind: Kind) -> Vec<Bad> {
             bad("true", "", "must be"),
         ],
         Kind::Integer(least) => whole(least),
-        Kind::Integers(_, least) => {
-            let inside = |it: Bad| Bad { value: format!("[1, {}]", it.value), at: "[1]", ..it };
+        Kind::Integers(count, least) => {
+            let inside = |it: Bad| Bad { value: format!("[1, {}{}]", it.value, ", 1".repeat(count - 2)), at: "[1]", ..it };
             let mut all: Vec<Bad> = whole(least).into_iter().map(inside).collect();
-            all.extend(["5", "[1]", "[1, 2, 3]", "\"12\""].map(|value| bad(value, "", "must be a list of 2 whole numbers")));
+            let says = if count == 2 { "must be a list of 2 whole numbers" } else { "must be a list of 3 whole numbers" };
+            all.extend(["5", "[1]", "[1, 2, 3, 4]", "\"12\""].map(|value| bad(value, "", says)));
             all
         }
         Kind::Cadence => {

@@ -124,7 +124,7 @@ const CASES: &[Case] = &[
         "disk = { centre = [0, 0.1], radius = \"9 mm\", elements = 4 }\n",
         "",
         &[
-            "18:1 [[part]] needs one of `rectangle`, `ring`, `disk`, `trapezoid`, `quadrilateral`, `polygon`, `path`, `truss` and `mesh` | add one of them",
+            "18:1 [[part]] needs one of `rectangle`, `ring`, `disk`, `trapezoid`, `quadrilateral`, `polygon`, `path`, `truss`, `box`, `cylinder`, `tube`, `sphere` and `mesh` | add one of them",
         ],
     ),
     (
@@ -162,7 +162,12 @@ const CASES: &[Case] = &[
         &["25:9 the slave \"ball\" is not one of the two surfaces | take \"tube\" or \"plate\""],
     ),
     ("normal = [1, 0]", "normal = [0.0, 0]", &["26:20 the normal is zero, so it has no direction | give a vector such as [1, 0]"]),
-    ("fixed = \"x\"", "fixed = [\"x\", \"z\"]", &["31:15 `fixed[1]` can't be \"z\" | did you mean `x`?"]),
+    ("fixed = \"x\"", "fixed = [\"x\", \"w\"]", &["31:15 `fixed[1]` can't be \"w\" | did you mean `x`?"]),
+    (
+        "fixed = \"x\"",
+        "fixed = [\"x\", \"z\"]",
+        &["31:9 there is no `z` in the plane | leave it out, or make the parts solid: `extrude` them, or give them a shape of space"],
+    ),
     (
         "fixed = \"x\"",
         "",
@@ -283,7 +288,7 @@ fn parts_and_surfaces_come_from_mesh_files() {
     );
     let base = base.replace("\"plate.left\"", "\"upper\"");
     let model = load_text("m", &base, &folder, &[]).unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
-    assert_eq!((model.meshes.len(), model.meshes[0].positions[2]), (1, [1e-3, 1e-3]));
+    assert_eq!((model.meshes.len(), model.meshes[0].positions[2]), (1, [1e-3, 1e-3, 0.0]));
     let twice = format!(
         "{base}[[part]]\nname = \"more\"\nmaterial = \"steel\"\nmesh = {{ file = \"block.msh\", group = \"block\", scale = 0.001 }}\n"
     );

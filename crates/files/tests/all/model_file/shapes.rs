@@ -22,11 +22,12 @@ fn every_key_of_a_shape_and_its_placement_arrives() {
     let edges = [Edge::Arc([0.5, -0.2]), Edge::Straight, Edge::Line(vec![[0.75, 1.1], [0.25, 1.1]]), Edge::Straight];
     assert_eq!((&it.edges, it.elements, it.grading, it.corners.len()), (&edges, [4, 6], [2.0, 0.5], 4));
     let expected = Placement {
-        mirror: Some(Mirror { normal: [0.0, 1.0], point: [0.0; 2] }),
+        mirror: Some(Mirror { normal: [0.0, 1.0, 0.0], point: [0.0; 3] }),
         rotation: std::f64::consts::FRAC_PI_2,
-        rotation_point: [1.0, 0.0],
-        translation: [1e-3, 0.0],
-        copies: Some(Copies { count: 3, translation: [0.0, 2.0], angle: 10.0_f64.to_radians(), point: [0.0; 2] }),
+        rotation_point: [1.0, 0.0, 0.0],
+        rotation_axis: [0.0, 0.0, 1.0],
+        translation: [1e-3, 0.0, 0.0],
+        copies: Some(Copies { count: 3, translation: [0.0, 2.0, 0.0], angle: 10.0_f64.to_radians(), ..Copies::default() }),
     };
     assert_eq!(part.placement, expected);
     assert_eq!(part.count().unwrap().elements, 3 * 24);
@@ -72,13 +73,67 @@ fn shapes_that_can_not_be_are_refused_with_the_place() {
     }
 }
 
+/// A model of a box, and of a part of this shape.
+fn solids(shape: &str) -> String {
+    format!(
+        "[run]\nend = \"1 ms\"\n[material.steel]\nlaw = \"elastic\"\nyoung = \"200 GPa\"\npoisson = 0.3\ndensity = \"7800 kg/m^3\"\n\
+         [[part]]\nname = \"block\"\nmaterial = \"steel\"\nbox = {{ corner = [9, 9, 9], size = [1, 1, 1], elements = [1, 1, 1] }}\n\
+         [[part]]\nname = \"body\"\nmaterial = \"steel\"\n{shape}\n[[contact]]\nbodies = \"all\"\n"
+    )
+}
+
+#[test]
+fn every_key_of_a_solid_arrives() {
+    let shape = |text: &str| {
+        let found = faults(&solids(text));
+        // No element is named here: shapes are read and checked all the same.
+        assert!(found.iter().all(|fault| fault.message.contains("element")), "{found:#?}");
+    };
+    shape("box = { corner = [0, 0, 1], size = [1, 2, 3], elements = [2, 3, 4], grading = [1, 2, 3] }");
+    shape("cylinder = { centre = [0, 0, 0], axis = [0, 1, 0], radius = 1, length = 2, angle = \"90 deg\", elements = [4, 3] }");
+    shape("tube = { centre = [0, 0, 0], inner = 1, outer = 2, length = 1, to = \"90 deg\", elements = [1, 4, 2] }");
+    shape("sphere = { centre = [0, 0, 0], radius = 1, elements = 4, portion = \"eighth\" }");
+    shape(&format!("{RECTANGLE}extrude = {{ length = 1, elements = 3, from = -1, grading = 2 }}"));
+    shape("rectangle = { corner = [1, 0], size = [1, 1], elements = [2, 2] }\nrevolve = { angle = \"90 deg\", elements = 4 }");
+}
+
+#[test]
+fn solids_that_can_not_be_are_refused_with_the_place() {
+    let cylinder = |keys: &str| format!("cylinder = {{ centre = [0, 0, 0], radius = 1, length = 1, {keys} }}");
+    let sphere = |keys: &str| format!("sphere = {{ centre = [0, 0, 0], radius = 1, {keys} }}");
+    let tube = |keys: &str| format!("tube = {{ centre = [0, 0, 0], length = 1, elements = [1, 8, 1], {keys} }}");
+    let cases = [
+        (cylinder("elements = [3, 1], angle = \"90 deg\""), "cylinder.elements", "3 elements around a quarter"),
+        (cylinder("elements = [2, 1], angle = \"80 deg\""), "cylinder.angle", "the angle is 80 deg"),
+        (cylinder("elements = [2, 1], axis = [0, 0, 0]"), "cylinder.axis", "has no direction"),
+        (sphere("elements = 3, portion = \"half\""), "sphere.elements", "3 elements around a quarter"),
+        (sphere("elements = 2, portion = \"third\""), "sphere.portion", "can't be"),
+        (tube("inner = 2, outer = 1"), "tube.inner", "not smaller than the outer radius"),
+        ("box = { corner = [0, 0, 0], size = [1, 1], elements = [1, 1, 1] }".into(), "box.size[2]", "must be greater than 0"),
+        (format!("{RECTANGLE}revolve = {{ elements = 2 }}"), "revolve.elements", "2 elements can't go all around"),
+        (format!("{RECTANGLE}revolve = {{ elements = 2, angle = 1, axis = [0, 0] }}"), "revolve.axis", "has no direction"),
+        (format!("{}\nextrude = {{ length = 1, elements = 1 }}", sphere("elements = 2")), "extrude", "is a solid as it is"),
+        (RECTANGLE.to_string(), "rectangle", "in the plane, but part `"),
+    ];
+    for (shape, path, message) in cases {
+        let found = faults(&solids(&shape));
+        let path = format!("part[1].{path}");
+        assert!(found.iter().any(|fault| fault.path == path && fault.message.contains(message)), "{shape}: {found:#?}");
+    }
+    // In the plane nothing leads out of it.
+    let found = faults(&with(&format!("translation = [0, 0, 1]\nrotation = {{ angle = 1, axis = [0, 1, 0] }}\n{RECTANGLE}")));
+    for path in ["part[1].translation", "part[1].rotation.axis"] {
+        assert!(found.iter().any(|fault| fault.path == path && fault.message.contains("leads out of the plane")), "{found:#?}");
+    }
+}
+
 #[test]
 fn what_folds_over_or_needs_triangles_is_told_when_it_is_meshed() {
     let folded = "quadrilateral = { corners = [[0, 0], [1, 0], [1, 1], [0, 1]], elements = [8, 8], bottom_arc = [0.5, 2] }";
     let tight = "path = { points = [[0, 0], [1, 0], [1, 0.1], [0, 0.1]], width = 0.5, elements = [2, 8] }";
     for shape in [folded, tight] {
         let model = read(&with(shape)).unwrap();
-        let found = embate_solver::mesh::Mesh::new(&model).unwrap_err();
+        let found = embate_solver::mesh::Mesh::<2>::new(&model).unwrap_err();
         assert!(found.iter().any(|fault| fault.message.contains("folds over at (")), "{found:?}");
         assert!(found.iter().all(|fault| fault.path.starts_with("part[1].")), "{found:?}");
     }

@@ -8,7 +8,7 @@ pub mod pressure_gap;
 pub mod tie;
 
 use super::Tributary;
-use super::springs::{Closing, Spring};
+use super::springs::{Closing, Patch};
 use crate::quantity::Parameter;
 
 /// A law of the normal force in a spring.
@@ -16,13 +16,13 @@ pub trait Law: Send + Sync {
     /// Force F ≥ 0 (of ties: any), N/m, over an update with the steps dt^{n−1}, dt^n. Of an elastic law F (g₊ − g₋) = V(g₋) − V(g₊) with g₊ = free + compliance F.
     fn force(&self, closing: &Closing<'_>, time_steps: [f64; 2]) -> f64;
     /// Energy V of a spring at a gap, J/m.
-    fn stored(&self, spring: &Spring, gap: f64) -> f64;
+    fn stored(&self, spring: &Patch, gap: f64) -> f64;
     /// Stiffness −dF/dg of a spring at a gap, N/m per metre of depth.
-    fn stiffness(&self, spring: &Spring, gap: f64) -> f64;
+    fn stiffness(&self, spring: &Patch, gap: f64) -> f64;
     /// Mean force between two gaps, [V(old) − V(new)] / (new − old), N/m: without the difference of energies, which is round-off where they are near each other.
-    fn mean_force(&self, spring: &Spring, old: f64, new: f64) -> f64;
+    fn mean_force(&self, spring: &Patch, old: f64, new: f64) -> f64;
     /// Stiffness of the elastic slip, N/m per metre of depth.
-    fn slip_stiffness(&self, spring: &Spring) -> f64 {
+    fn slip_stiffness(&self, spring: &Patch) -> f64 {
         spring.stiffness
     }
     /// Whether what the force takes is stored, and given back.
@@ -149,7 +149,7 @@ mod tests {
 
     #[test]
     fn a_mean_force_is_the_difference_of_energies_by_the_way() {
-        let spring = Spring { stiffness: 3.0, area: 1.5, ..Spring::default() };
+        let spring = Patch { stiffness: 3.0, area: 1.5, ..Patch::default() };
         let laws: [Box<dyn Law>; 3] = [
             Box::new(penalty::Penalty),
             Box::new(tie::Tie { rigid: false }),

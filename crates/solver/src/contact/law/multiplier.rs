@@ -5,7 +5,7 @@
 //! vanishes with the size of the elements); it is booked as lost by damping.
 
 use super::{ContactLawKind, Law};
-use crate::contact::springs::{Closing, Spring};
+use crate::contact::springs::{Closing, Patch};
 
 /// Registry entry.
 pub const KIND: ContactLawKind = ContactLawKind {
@@ -25,16 +25,16 @@ impl Law for Multiplier {
         let end = 2.0 * closing.free - closing.spring.gap;
         if closing.compliance > 0.0 { (-end / (2.0 * closing.compliance)).max(0.0) } else { 0.0 }
     }
-    fn stored(&self, _: &Spring, _: f64) -> f64 {
+    fn stored(&self, _: &Patch, _: f64) -> f64 {
         0.0
     }
-    fn stiffness(&self, _: &Spring, _: f64) -> f64 {
+    fn stiffness(&self, _: &Patch, _: f64) -> f64 {
         f64::INFINITY
     }
-    fn mean_force(&self, _: &Spring, _: f64, _: f64) -> f64 {
+    fn mean_force(&self, _: &Patch, _: f64, _: f64) -> f64 {
         0.0
     }
-    fn slip_stiffness(&self, _: &Spring) -> f64 {
+    fn slip_stiffness(&self, _: &Patch) -> f64 {
         f64::INFINITY
     }
     fn is_elastic(&self) -> bool {

@@ -9,7 +9,7 @@
 //!   orders, or say nothing (the "soft constraint" of explicit codes, LS-DYNA Theory Manual, chapter on contact). With m ~ ρ A h / 2 and dt ~ 0.9 h / c it is about 0.06 (K + 4µ/3) A / h.
 
 use super::{ContactLawKind, Law, Node};
-use crate::contact::springs::{Closing, Spring};
+use crate::contact::springs::{Closing, Patch};
 use crate::model;
 use crate::quantity::{Dimension, Parameter, Range};
 
@@ -71,13 +71,13 @@ impl Law for Penalty {
     fn force(&self, closing: &Closing<'_>, _: [f64; 2]) -> f64 {
         force(closing.spring.stiffness, closing.old, closing.free, closing.compliance)
     }
-    fn stored(&self, spring: &Spring, gap: f64) -> f64 {
+    fn stored(&self, spring: &Patch, gap: f64) -> f64 {
         0.5 * spring.stiffness * gap.min(0.0) * gap.min(0.0)
     }
-    fn stiffness(&self, spring: &Spring, _: f64) -> f64 {
+    fn stiffness(&self, spring: &Patch, _: f64) -> f64 {
         spring.stiffness
     }
-    fn mean_force(&self, spring: &Spring, old: f64, new: f64) -> f64 {
+    fn mean_force(&self, spring: &Patch, old: f64, new: f64) -> f64 {
         // The square of the deeper gap counts as far as it is closed.
         let (deep, high) = (old.min(new), old.max(new));
         match (deep < 0.0, high < 0.0) {

@@ -4,7 +4,7 @@
 //! not modelled.
 
 use super::{ContactLawKind, Law, fixed_point};
-use crate::contact::springs::{Closing, Spring};
+use crate::contact::springs::{Closing, Patch};
 
 /// Registry entry.
 pub const KIND: ContactLawKind = ContactLawKind {
@@ -52,13 +52,13 @@ impl Law for PressureGap {
         }
         fixed_point(|force| self.mean_force(spring, old, free + compliance * force))
     }
-    fn stored(&self, spring: &Spring, gap: f64) -> f64 {
+    fn stored(&self, spring: &Patch, gap: f64) -> f64 {
         spring.area * self.at(gap)[1]
     }
-    fn stiffness(&self, spring: &Spring, gap: f64) -> f64 {
+    fn stiffness(&self, spring: &Patch, gap: f64) -> f64 {
         spring.area * self.at(gap)[2]
     }
-    fn mean_force(&self, spring: &Spring, old: f64, new: f64) -> f64 {
+    fn mean_force(&self, spring: &Patch, old: f64, new: f64) -> f64 {
         let (low, high) = (old.min(new), old.max(new));
         if low == high {
             return spring.area * self.at(low)[0];
@@ -72,7 +72,7 @@ impl Law for PressureGap {
         }
         spring.area * sum
     }
-    fn slip_stiffness(&self, spring: &Spring) -> f64 {
+    fn slip_stiffness(&self, spring: &Patch) -> f64 {
         let steepest = self.points.windows(2).map(|two| (two[0][1] - two[1][1]) / (two[1][0] - two[0][0])).fold(0.0, f64::max);
         spring.area * steepest
     }
@@ -104,7 +104,7 @@ mod tests {
     #[test]
     fn a_force_takes_and_gives_what_the_layer_stores() {
         let law = PressureGap::new(&[-2.0, -1.0, 0.5], &[7.0, 2.0, 0.0]);
-        let spring = Spring { area: 1.5, ..Spring::default() };
+        let spring = Patch { area: 1.5, ..Patch::default() };
         for compliance in [1e-6, 0.1, 3.0] {
             for old in [-3.0, -0.3, 0.0, 0.4, 5.0] {
                 for free in [-7.0, -1.0, 0.0, 0.2, 3.0] {

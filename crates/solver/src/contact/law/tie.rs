@@ -3,7 +3,7 @@
 //! No law that a contact names: tied contacts use it, with the stiffness of their penalty.
 
 use super::Law;
-use crate::contact::springs::{Closing, Spring};
+use crate::contact::springs::{Closing, Patch};
 
 /// The law.
 #[derive(Clone, Copy, Debug)]
@@ -20,16 +20,16 @@ impl Law for Tie {
         }
         if compliance > 0.0 { -(2.0 * free - spring.gap) / (2.0 * compliance) } else { 0.0 }
     }
-    fn stored(&self, spring: &Spring, gap: f64) -> f64 {
+    fn stored(&self, spring: &Patch, gap: f64) -> f64 {
         if self.rigid { 0.0 } else { 0.5 * spring.stiffness * gap * gap }
     }
-    fn stiffness(&self, spring: &Spring, _: f64) -> f64 {
+    fn stiffness(&self, spring: &Patch, _: f64) -> f64 {
         self.slip_stiffness(spring)
     }
-    fn mean_force(&self, spring: &Spring, old: f64, new: f64) -> f64 {
+    fn mean_force(&self, spring: &Patch, old: f64, new: f64) -> f64 {
         if self.rigid { 0.0 } else { -0.5 * spring.stiffness * (old + new) }
     }
-    fn slip_stiffness(&self, spring: &Spring) -> f64 {
+    fn slip_stiffness(&self, spring: &Patch) -> f64 {
         if self.rigid { f64::INFINITY } else { spring.stiffness }
     }
     fn is_elastic(&self) -> bool {

@@ -145,7 +145,7 @@ impl RoundSegments {
         let ends = [a, b, End { at: (positions.len() + self.body) as u32, share: 1.0, point, ..End::default() }];
         let (Slave { stiffness, area, .. }, memory) = (self.slave, self.tracker.kept(touch));
         let (slip, gap) = (memory.slip, gap - memory.offset);
-        (Spring { normal, gap, stiffness, area, side: -1.0, slip, ..Spring::default() }, ends)
+        (Spring { normal, gap, stiffness, area, side: -1.0, slip: [slip], ..Spring::default() }, ends)
     }
 }
 
@@ -168,7 +168,7 @@ impl Formulation for RoundSegments {
     fn remember(&mut self, solved: Answers<'_>) {
         for (index, answer) in solved.enumerate() {
             let touch = self.tracker.touches()[index];
-            self.tracker.kept_mut(&touch).slip = answer.solved.slip_new;
+            self.tracker.kept_mut(&touch).slip = answer.solved.slip_new[0];
         }
     }
 

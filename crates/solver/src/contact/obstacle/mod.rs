@@ -5,6 +5,7 @@
 
 pub mod circle;
 pub mod plane;
+pub mod space;
 
 use super::initial::kept;
 use super::node_segment::Slave;
@@ -12,8 +13,12 @@ use super::springs::{Answers, End, Spring, Springs};
 use super::tracker::{Certificate, SearchReport};
 use super::{Formulation, Scene, Vector};
 use crate::archive::{Archive, Keep, Kept, Misfit, keep_all, keep_each};
+use crate::model::in_space;
+use crate::motion::Motion;
 use crate::output::Outline;
 use crate::rigid::Bodies;
+use crate::tensor::Dim;
+use crate::vector::plus;
 use std::any::Any;
 
 /// Shape of an obstacle in the frame of its body.
@@ -65,25 +70,27 @@ const STATES: [State; 5] = [State::Unknown, State::Free, State::Ahead, State::He
 
 /// Outline of an obstacle in the frame of its body.
 #[derive(Clone, Debug, PartialEq)]
-pub struct OutlineShape {
+pub struct OutlineShape<const D: usize = 2> {
     /// Name of the obstacle.
     pub name: String,
     /// Its rigid body.
     pub body: usize,
     /// From point to point, the solid on the right, m.
-    pub points: Vec<Vector>,
+    pub points: Vec<[f64; D]>,
+    /// In space: facets of it, outward; a triangle repeats its last point.
+    pub facets: Vec<[u32; 4]>,
 }
 
-impl OutlineShape {
+impl<const D: usize> OutlineShape<D>
+where
+    Dim<D>: Motion<D>,
+{
     /// Where it is now.
     #[must_use]
-    pub fn now(&self, bodies: &Bodies) -> Outline {
+    pub fn now(&self, bodies: &Bodies<D>) -> Outline {
         let body = bodies.state(self.body);
-        let place = |&point: &Vector| {
-            let arm = body.to_global(point);
-            [body.centre[0] + arm[0], body.centre[1] + arm[1], 0.0]
-        };
-        Outline { name: self.name.clone(), points: self.points.iter().map(place).collect(), facets: Vec::new() }
+        let place = |&point: &[f64; D]| in_space(plus(body.centre, body.to_global(point)));
+        Outline { name: self.name.clone(), points: self.points.iter().map(place).collect(), facets: self.facets.clone() }
     }
 }
 
@@ -192,7 +199,10 @@ impl Formulation for NodeObstacle {
             if gap <= self.reach + 4.0 * (moved[0].abs() + moved[1].abs()) {
                 let Slave { stiffness, area, slip } = slave;
                 let ends = [End::node(node, 1.0), End { at, share: -1.0, point: x, ..End::default() }];
-                springs.push(Spring { normal: body.to_global(normal), gap, stiffness, area, side: 1.0, slip, ..Spring::default() }, &ends);
+                springs.push(
+                    Spring { normal: body.to_global(normal), gap, stiffness, area, side: 1.0, slip: [slip], ..Spring::default() },
+                    &ends,
+                );
                 self.found.push(index as u32);
             }
         }
@@ -221,7 +231,7 @@ impl Formulation for NodeObstacle {
 
     fn remember(&mut self, solved: Answers<'_>) {
         for (&index, answer) in self.found.iter().zip(solved) {
-            self.nodes[index as usize].1.slip = answer.solved.slip_new;
+            self.nodes[index as usize].1.slip = answer.solved.slip_new[0];
             self.memories[index as usize].presses = answer.solved.force != 0.0;
         }
     }

@@ -1,3 +1,4 @@
 //! Local search: where a slave node lies with respect to its target surface. One primitive pair a file.
 
+pub mod node_facet;
 pub mod node_segment;

@@ -75,7 +75,7 @@ impl Common {
         let (weights, slid) = (self.weights(place), self.slides(place, [n, [-n[0], -n[1]]]));
         let end = |k: usize, i: usize| {
             let share = if k == 0 { weights[k][i] } else { -weights[k][i] };
-            End { at: self.nodes[k][i], share, lean: slid[k][i], turn: self.half_angle(k, i).map(|half| gap * half), ..End::default() }
+            End { at: self.nodes[k][i], share, lean: slid[k][i], turn: [self.half_angle(k, i).map(|half| gap * half)], ..End::default() }
         };
         (gap, [end(0, 0), end(0, 1), end(1, 0), end(1, 1)])
     }

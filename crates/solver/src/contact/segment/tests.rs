@@ -21,7 +21,7 @@ fn facing(first: &[f64], second: &[f64], gap: f64, angle: f64) -> Facing2 {
     let chain = |from: usize, count: usize| {
         let segments: Vec<[u32; 2]> = (from..from + count - 1).map(|i| [i as u32, i as u32 + 1]).collect();
         let count = segments.len() as u32;
-        Surface {
+        Surface::<2> {
             previous: (0..count).map(|i| i.checked_sub(1).unwrap_or(NONE)).collect(),
             next: (0..count).map(|i| if i + 1 < count { i + 1 } else { NONE }).collect(),
             nodes: (from as u32..=from as u32 + count).collect(),
@@ -243,7 +243,7 @@ fn rates_are_those_of_the_motion_and_blind_to_rotations() {
             let rates = |v: &dyn Fn(usize) -> Vector| {
                 ends.iter().fold([0.0; 2], |sum: Vector, end| {
                     let v = v(end.at as usize);
-                    let row = [0, 1].map(|d| end.share * t[d] + end.turn[d]);
+                    let row = [0, 1].map(|d| end.share * t[d] + end.turn[0][d]);
                     [sum[0] + end.share * dot(normal, v) + dot(end.lean, v), sum[1] + dot(row, v)]
                 })
             };

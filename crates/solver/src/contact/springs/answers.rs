@@ -6,28 +6,39 @@ use super::book::Books;
 use super::{End, Solved, Spring, Springs, Terms, Totals};
 use crate::contact::forces::ContactForces;
 use crate::contact::traces::Traces;
+use crate::motion::Motion;
 use crate::rigid::Bodies;
+use crate::tensor::Dim;
 use std::ops::Range;
 
 /// Solved springs, in the order in which they were found.
 #[derive(Clone)]
-pub struct Answers<'a> {
-    pub(super) springs: &'a Springs,
+pub struct Answers<'a, const D: usize = 2>
+where
+    Dim<D>: Motion<D>,
+{
+    pub(super) springs: &'a Springs<D>,
     pub(super) range: Range<usize>,
 }
 
 /// A solved spring.
 #[derive(Clone, Copy)]
-pub struct Answer<'a> {
-    springs: &'a Springs,
+pub struct Answer<'a, const D: usize = 2>
+where
+    Dim<D>: Motion<D>,
+{
+    springs: &'a Springs<D>,
     /// The spring.
-    pub spring: &'a Spring,
+    pub spring: &'a Spring<D>,
     /// What was found of it.
-    pub solved: &'a Solved,
+    pub solved: &'a Solved<D>,
     terms: u32,
 }
 
-impl<'a> Answers<'a> {
+impl<const D: usize> Answers<'_, D>
+where
+    Dim<D>: Motion<D>,
+{
     /// Those of the springs from number `from` on and before number `to`, as far as there are so many.
     #[must_use]
     pub fn part(&self, from: usize, to: usize) -> Self {
@@ -36,18 +47,24 @@ impl<'a> Answers<'a> {
     }
 }
 
-impl<'a> Iterator for Answers<'a> {
-    type Item = Answer<'a>;
+impl<'a, const D: usize> Iterator for Answers<'a, D>
+where
+    Dim<D>: Motion<D>,
+{
+    type Item = Answer<'a, D>;
 
     #[inline]
-    fn next(&mut self) -> Option<Answer<'a>> {
+    fn next(&mut self) -> Option<Answer<'a, D>> {
         let (springs, number) = (self.springs, self.range.next()?);
         let solved = &springs.work.solved[springs.work.rank[number] as usize];
         Some(Answer { springs, spring: &springs.list[number], solved, terms: springs.terms_of[number] })
     }
 }
 
-impl<'a> Answer<'a> {
+impl<'a, const D: usize> Answer<'a, D>
+where
+    Dim<D>: Motion<D>,
+{
     /// What acts in it.
     pub(super) fn terms(&self) -> &'a Terms {
         &self.springs.terms[self.terms as usize]
@@ -59,7 +76,7 @@ impl<'a> Answer<'a> {
     }
 
     /// Its ends.
-    pub fn ends(self) -> impl Iterator<Item = End> {
+    pub fn ends(self) -> impl Iterator<Item = End<D>> {
         self.springs.ends(self.spring)
     }
 
@@ -78,20 +95,20 @@ impl<'a> Answer<'a> {
     /// Energy of the gap at n + ½, J/m.
     #[must_use]
     pub fn stored_new(&self) -> f64 {
-        self.terms().law.stored(self.spring, self.gap_new())
+        self.terms().law.stored(&self.spring.patch(), self.gap_new())
     }
 
     /// Adds its force to what is at the ends, and to the resultant.
-    fn push(&self, forces: &mut ContactForces, bodies: &mut Bodies, totals: &mut Totals) {
+    fn push(&self, forces: &mut ContactForces<D>, bodies: &mut Bodies<D>, totals: &mut Totals<D>) {
         let (spring, solved) = (self.spring, self.solved);
-        if solved.force == 0.0 && solved.friction == 0.0 {
+        if solved.force == 0.0 && solved.friction == Default::default() {
             return;
         }
         totals.pressing += solved.force.abs();
         for end in self.ends() {
             let force = end.force(spring, solved);
             if end.share > 0.0 {
-                totals.resultant = [totals.resultant[0] + spring.side * force[0], totals.resultant[1] + spring.side * force[1]];
+                totals.resultant.iter_mut().zip(force).for_each(|(sum, force)| *sum += spring.side * force);
             }
             if !forces.push(end.at, force) {
                 bodies.push_at(end.at as usize - forces.values().len(), force, end.point);
@@ -102,13 +119,16 @@ impl<'a> Answer<'a> {
     /// How far it slides in the coming update, m.
     #[must_use]
     pub fn slides_by(&self) -> f64 {
-        self.solved.slip_rates[1].abs() * self.time_steps()[1]
+        Dim::<D>::size(&self.solved.slip_rates[1]) * self.time_steps()[1]
     }
 }
 
-impl Answers<'_> {
+impl<const D: usize> Answers<'_, D>
+where
+    Dim<D>: Motion<D>,
+{
     /// Sums the springs up: adds their forces to `forces` (of nodes) and `bodies` (of bodies without nodes at the ends), and what they did in the coming update to `traces`.
-    pub fn collect_into(self, forces: &mut ContactForces, bodies: &mut Bodies, traces: &mut Traces) -> Totals {
+    pub fn collect_into(self, forces: &mut ContactForces<D>, bodies: &mut Bodies<D>, traces: &mut Traces<D>) -> Totals<D> {
         let mut totals = Totals::default();
         for answer in self {
             let Books { energy, slip_energy, work, lost, .. } = answer.books();

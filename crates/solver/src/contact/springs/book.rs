@@ -2,7 +2,9 @@
 //!
 //! Springs and what was found of them come from [`super::answers`], which sums up what is booked here.
 
-use super::{Answer, Lost, Tangential};
+use super::{Answer, Lost, Tangential, sum_along};
+use crate::motion::Motion;
+use crate::tensor::Dim;
 
 /// The books of a spring, J/m.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -21,25 +23,29 @@ pub struct Books {
     pub lost: Lost,
 }
 
-impl Answer<'_> {
+impl<const D: usize> Answer<'_, D>
+where
+    Dim<D>: Motion<D>,
+{
     /// Energies and works of the spring.
     #[must_use]
     pub fn books(&self) -> Books {
         let ([before, after], terms, spring, solved) = (self.time_steps(), self.terms(), self.spring, self.solved);
+        let (patch, [slip, friction, slip_new]) = (spring.patch(), [spring.slip, solved.friction, solved.slip_new]);
         let [rate_old, rate] = solved.rates;
         let [slip_rate_old, slip_rate] = solved.slip_rates;
         let mean_step = 0.5 * (before + after);
         let (gap_old, gap_new) = (self.gap_old(), self.gap_new());
-        let (stored_old, stored_new) = (terms.law.stored(spring, gap_old), terms.law.stored(spring, gap_new));
+        let (stored_old, stored_new) = (terms.law.stored(&patch, gap_old), terms.law.stored(&patch, gap_new));
         // Part of the force that the energy explains; the rest is damping, or a multiplier's.
         let elastic = match terms.law.is_elastic() {
             false => 0.0,
             true if terms.damping == 0.0 => solved.force,
-            true => terms.law.mean_force(spring, gap_old, gap_new),
+            true => terms.law.mean_force(&patch, gap_old, gap_new),
         };
         let bend = gap_new + gap_old - 2.0 * spring.gap;
         let rate_mean = 0.5 * (rate_old + rate);
-        let slip_mean = 0.5 * (slip_rate_old + slip_rate);
+        let slip_mean = Dim::<D>::along(|a| 0.5 * (slip_rate_old[a] + slip_rate[a]));
         let inelastic = solved.force - elastic;
         let mut lost = Lost { damping: -mean_step * inelastic * rate_mean, ..Lost::default() };
         lost.old[1] = -mean_step * inelastic * rate_old;
@@ -48,29 +54,31 @@ impl Answer<'_> {
             stored: [stored_new, 0.0],
             stored_before: stored_old,
             slip_energy: 0.0,
-            work: mean_step * (solved.force * rate_mean + solved.friction * slip_mean),
+            work: mean_step * (solved.force * rate_mean + sum_along::<D>(|a| friction[a] * slip_mean[a])),
             lost,
         };
         match terms.tangential {
             Tangential::Free => {}
             Tangential::Friction(_) => {
-                books.lost.friction = -mean_step * solved.friction * slip_mean;
-                books.lost.old[0] = -mean_step * solved.friction * slip_rate_old;
-                let stiffness = terms.law.slip_stiffness(spring);
+                books.lost.friction = sum_along::<D>(|a| -mean_step * friction[a] * slip_mean[a]);
+                books.lost.old[0] = sum_along::<D>(|a| -mean_step * friction[a] * slip_rate_old[a]);
+                let stiffness = terms.law.slip_stiffness(&patch);
                 if stiffness.is_finite() {
-                    books.slip_energy = 0.25 * stiffness * (spring.slip * spring.slip + solved.slip_new * solved.slip_new);
+                    books.slip_energy = 0.25 * stiffness * sum_along::<D>(|a| slip[a] * slip[a] + slip_new[a] * slip_new[a]);
                 }
             }
             Tangential::Tied => {
-                let stiffness = terms.law.slip_stiffness(spring);
+                let stiffness = terms.law.slip_stiffness(&patch);
                 if stiffness.is_finite() {
-                    let (old, new) = (spring.slip - 0.5 * before * slip_rate_old, spring.slip + 0.5 * after * slip_rate);
-                    books.stored[1] = 0.5 * stiffness * new * new;
-                    books.stored_before += 0.5 * stiffness * old * old;
-                    books.energy += 0.25 * stiffness * (old * old + new * new) + 0.5 * solved.friction * (old + new - 2.0 * spring.slip);
+                    let old = Dim::<D>::along(|a| slip[a] - 0.5 * before * slip_rate_old[a]);
+                    let new = Dim::<D>::along(|a| slip[a] + 0.5 * after * slip_rate[a]);
+                    books.stored[1] = sum_along::<D>(|a| 0.5 * stiffness * new[a] * new[a]);
+                    books.stored_before += sum_along::<D>(|a| 0.5 * stiffness * old[a] * old[a]);
+                    books.energy += 0.25 * stiffness * sum_along::<D>(|a| old[a] * old[a] + new[a] * new[a])
+                        + sum_along::<D>(|a| 0.5 * friction[a] * (old[a] + new[a] - 2.0 * slip[a]));
                 } else {
-                    books.lost.damping -= mean_step * solved.friction * slip_mean;
-                    books.lost.old[1] -= mean_step * solved.friction * slip_rate_old;
+                    books.lost.damping -= sum_along::<D>(|a| mean_step * friction[a] * slip_mean[a]);
+                    books.lost.old[1] -= sum_along::<D>(|a| mean_step * friction[a] * slip_rate_old[a]);
                 }
             }
         }

@@ -5,8 +5,10 @@
 //! each other wait for one multiplication, not for a velocity to be written and read again. Where many springs meet (rigid bodies, the nodes of a segment that is much longer than those
 //! on it) pairs would be too many: such hubs keep what the springs have added to their velocity.
 
-use super::link::{Arm, Link, Slot, dot};
+use super::link::{Arm, Link, Slips, Slot};
+use crate::motion::Motion;
 use crate::rows::Rows;
+use crate::tensor::Dim;
 use std::ops::Range;
 
 /// Springs at a node that know each other one by one; with more it is a hub.
@@ -14,7 +16,10 @@ const PAIRS: usize = 8;
 
 /// Springs by what they share.
 #[derive(Default)]
-pub(super) struct Couplings {
+pub(super) struct Couplings<const D: usize>
+where
+    Dim<D>: Motion<D>,
+{
     /// The (link, arm) at each slot, in the order of the links.
     touches: Rows<[u32; 2]>,
     /// Where the neighbours of each link end.
@@ -22,21 +27,47 @@ pub(super) struct Couplings {
     neighbours: Vec<u32>,
     /// Rate of the gap per normal force of each neighbour.
     normal: Vec<f64>,
-    /// Rate of the gap per friction, of the slip per normal force and per friction; empty where nothing cares for slip.
-    along: Vec<[f64; 3]>,
+    /// What has to do with friction and slip; empty where nothing cares for slip.
+    along: Vec<Cross<D>>,
     /// Where each link was last found among the neighbours.
     found: Vec<u32>,
 }
 
-/// Normal force and friction of a spring, N/m.
-pub(super) type Forces = [f64; 2];
-/// Rates of the gap and of the slip, m/s.
-pub(super) type Rates = [f64; 2];
+/// What friction does to a gap, and what forces do to slips.
+#[derive(Clone, Copy)]
+struct Cross<const D: usize>
+where
+    Dim<D>: Motion<D>,
+{
+    /// Rate of the gap per friction along each tangent.
+    gap: <Dim<D> as Motion<D>>::Along<f64>,
+    /// Rate of each slip per normal force.
+    slip: <Dim<D> as Motion<D>>::Along<f64>,
+    /// The same per friction along each tangent.
+    along: <Dim<D> as Motion<D>>::Along<<Dim<D> as Motion<D>>::Along<f64>>,
+}
 
-impl Couplings {
+impl<const D: usize> Default for Cross<D>
+where
+    Dim<D>: Motion<D>,
+{
+    fn default() -> Self {
+        Self { gap: Default::default(), slip: Default::default(), along: Default::default() }
+    }
+}
+
+/// Normal force and friction of a spring along each tangent, N/m.
+pub(super) type Forces<const D: usize> = [f64; D];
+/// Rates of the gap and of the slip along each tangent, m/s.
+pub(super) type Rates<const D: usize> = [f64; D];
+
+impl<const D: usize> Couplings<D>
+where
+    Dim<D>: Motion<D>,
+{
     /// Finds who touches which slot, which slots are hubs, and what springs do to each other; `slides`: whether any of them cares for slip.
-    pub(super) fn find(&mut self, links: &mut [Link], arms: &[Arm], slips: &[[f64; 3]], slots: &mut [Slot], slides: bool) {
-        let at_arms = |(i, link): (usize, &Link)| link.arms().map(move |k| (arms[k].slot, [i as u32, k as u32]));
+    pub(super) fn find(&mut self, links: &mut [Link<D>], arms: &[Arm<D>], slips: &[Slips<D>], slots: &mut [Slot<D>], slides: bool) {
+        let at_arms = |(i, link): (usize, &Link<D>)| link.arms().map(move |k| (arms[k].slot, [i as u32, k as u32]));
         self.touches.fill(slots.len(), links.iter().enumerate().flat_map(at_arms));
         for (number, slot) in slots.iter_mut().enumerate() {
             slot.is_hub = slot.is_body || self.touches.of(number).len() > PAIRS;
@@ -57,8 +88,9 @@ impl Couplings {
                     link.is_at_hub = true;
                     continue;
                 }
-                let response = slot.mobility.response(row);
-                let response_along = if slides { slot.mobility.response(slips[k]) } else { [0.0; 3] };
+                let response = Dim::<D>::response(&slot.mobility, &row);
+                let response_along =
+                    Dim::<D>::along(|a| if slides { Dim::<D>::response(&slot.mobility, &slips[k][a]) } else { Default::default() });
                 for &[j, other] in touches.of(number) {
                     // Ends that move as one leave a spring its own neighbour.
                     if j as usize == i && other as usize == k {
@@ -71,17 +103,21 @@ impl Couplings {
                         neighbours.push(j);
                         normal.push(0.0);
                         if slides {
-                            along.push([0.0; 3]);
+                            along.push(Cross::default());
                         }
                     }
                     // Mobilities are symmetric: what j does to i is what i does to j.
                     let row = &arms[other as usize].row;
-                    normal[place] += dot(response, *row);
+                    normal[place] += Dim::<D>::dot(&response, row);
                     if slides {
-                        let (along, slip) = (&mut along[place], slips[other as usize]);
-                        along[0] += dot(response, slip);
-                        along[1] += dot(response_along, *row);
-                        along[2] += dot(response_along, slip);
+                        let (cross, slip) = (&mut along[place], &slips[other as usize]);
+                        for a in 0..D - 1 {
+                            cross.gap[a] += Dim::<D>::dot(&response, &slip[a]);
+                            cross.slip[a] += Dim::<D>::dot(&response_along[a], row);
+                            for b in 0..D - 1 {
+                                cross.along[a][b] += Dim::<D>::dot(&response_along[a], &slip[b]);
+                            }
+                        }
                     }
                 }
             }
@@ -104,30 +140,46 @@ impl Couplings {
         &self.neighbours[self.row(i)]
     }
 
-    /// What the forces of its neighbours do to the rates of link `i`: rows of the gap's and the slip's rate.
-    pub(super) fn pairs(&self, i: usize) -> impl Iterator<Item = (usize, [[f64; 2]; 2])> {
+    /// What the forces of its neighbours do to the rates of link `i`: rows of the gap's and the slips' rates.
+    pub(super) fn pairs(&self, i: usize) -> impl Iterator<Item = (usize, [[f64; D]; D])> {
         self.row(i).map(|place| {
-            let [cross, cross_along, along] = self.along.get(place).copied().unwrap_or_default();
-            (self.neighbours[place] as usize, [[self.normal[place], cross], [cross_along, along]])
+            let Cross { gap, slip, along } = self.along.get(place).copied().unwrap_or_default();
+            let mut pair = [[0.0; D]; D];
+            pair[0][0] = self.normal[place];
+            for a in 0..D - 1 {
+                (pair[0][a + 1], pair[a + 1][0]) = (gap[a], slip[a]);
+                (0..D - 1).for_each(|b| pair[a + 1][b + 1] = along[a][b]);
+            }
+            (self.neighbours[place] as usize, pair)
         })
     }
 
     /// What the forces of its neighbours add to the rates of link `i`.
     #[inline]
-    pub(super) fn rates(&self, i: usize, forces: &[Forces]) -> Rates {
+    pub(super) fn rates(&self, i: usize, forces: &[Forces<D>]) -> Rates<D> {
         let row = self.row(i);
         let (neighbours, normal) = (&self.neighbours[row.clone()], &self.normal[row.clone()]);
-        let mut rates = [0.0; 2];
+        let mut rates = [0.0; D];
         if self.along.is_empty() {
             for (&j, normal) in neighbours.iter().zip(normal) {
                 rates[0] += normal * forces[j as usize][0];
             }
             return rates;
         }
-        for ((&j, normal), along) in neighbours.iter().zip(normal).zip(&self.along[row]) {
-            let [force, friction] = forces[j as usize];
-            rates[0] += normal * force + along[0] * friction;
-            rates[1] += along[1] * force + along[2] * friction;
+        for ((&j, normal), cross) in neighbours.iter().zip(normal).zip(&self.along[row]) {
+            let forces = &forces[j as usize];
+            let mut sum = normal * forces[0];
+            for b in 0..D - 1 {
+                sum += cross.gap[b] * forces[b + 1];
+            }
+            rates[0] += sum;
+            for a in 0..D - 1 {
+                let mut sum = cross.slip[a] * forces[0];
+                for b in 0..D - 1 {
+                    sum += cross.along[a][b] * forces[b + 1];
+                }
+                rates[a + 1] += sum;
+            }
         }
         rates
     }

@@ -1,36 +1,59 @@
 //! Ends of springs as they are kept: most have a share and a turn, and what few have lies apart. Springs are more than caches hold, so their size is their cost.
 
-use super::{End, Vector};
+use super::End;
+use crate::motion::Motion;
+use crate::tensor::Dim;
 
 /// No more.
 const NONE: u32 = u32::MAX;
 
 /// The ends of all springs, one after the other.
 #[derive(Default)]
-pub(super) struct Ends {
-    list: Vec<Kept>,
-    more: Vec<More>,
+pub(super) struct Ends<const D: usize>
+where
+    Dim<D>: Motion<D>,
+{
+    list: Vec<Kept<D>>,
+    more: Vec<More<D>>,
 }
 
 /// What every end has.
 #[derive(Clone, Copy)]
-struct Kept {
+struct Kept<const D: usize>
+where
+    Dim<D>: Motion<D>,
+{
     at: u32,
     /// Number of what it has beyond, or [`NONE`].
     more: u32,
     share: f64,
-    turn: Vector,
+    turn: <Dim<D> as Motion<D>>::Tangents,
 }
 
 /// What few ends have.
-#[derive(Clone, Copy, Default, PartialEq)]
-struct More {
-    lean: Vector,
-    point: Vector,
-    image: Option<Vector>,
+#[derive(Clone, Copy, PartialEq)]
+struct More<const D: usize>
+where
+    Dim<D>: Motion<D>,
+{
+    lean: [f64; D],
+    point: [f64; D],
+    image: Option<<Dim<D> as Motion<D>>::Turn>,
 }
 
-impl Ends {
+impl<const D: usize> Default for More<D>
+where
+    Dim<D>: Motion<D>,
+{
+    fn default() -> Self {
+        Self { lean: [0.0; D], point: [0.0; D], image: None }
+    }
+}
+
+impl<const D: usize> Ends<D>
+where
+    Dim<D>: Motion<D>,
+{
     pub(super) fn clear(&mut self) {
         self.list.clear();
         self.more.clear();
@@ -41,7 +64,7 @@ impl Ends {
     }
 
     #[inline]
-    pub(super) fn push(&mut self, end: &End) {
+    pub(super) fn push(&mut self, end: &End<D>) {
         let End { at, share, lean, turn, point, image } = *end;
         let more = More { lean, point, image };
         let number = if more == More::default() { NONE } else { self.more.len() as u32 };
@@ -52,7 +75,7 @@ impl Ends {
     }
 
     #[inline]
-    pub(super) fn get(&self, k: usize) -> End {
+    pub(super) fn get(&self, k: usize) -> End<D> {
         let Kept { at, more, share, turn } = self.list[k];
         let More { lean, point, image } = self.more.get(more as usize).copied().unwrap_or_default();
         End { at, share, lean, turn, point, image }
@@ -65,16 +88,16 @@ impl Ends {
     }
 
     /// Lets the end act at a place, m.
-    pub(super) fn set_point(&mut self, k: usize, point: Vector) {
+    pub(super) fn set_point(&mut self, k: usize, point: [f64; D]) {
         self.more_of(k).point = point;
     }
 
     /// Lets another node move in the stead of the end's, turned so.
-    pub(super) fn set_image(&mut self, k: usize, image: Vector) {
+    pub(super) fn set_image(&mut self, k: usize, image: <Dim<D> as Motion<D>>::Turn) {
         self.more_of(k).image = Some(image);
     }
 
-    fn more_of(&mut self, k: usize) -> &mut More {
+    fn more_of(&mut self, k: usize) -> &mut More<D> {
         let number = &mut self.list[k].more;
         if *number == NONE {
             *number = self.more.len() as u32;

@@ -8,6 +8,12 @@
 //! at the limit −T Δs − ½ k (s^{n+½}² − s^{n−½}²) = (s^{n+½} − s^{n−½}) (T_max − ½ k (s^{n+½} + s^{n−½})) + T_max Δs_plastic ≥ 0 (for T < 0).
 //! With a multiplier as normal law k is infinite: the force that stops the slip in v^{n+½}, within ±T_max.
 
+pub mod cone;
+
+use super::Along;
+use crate::motion::Motion;
+use crate::tensor::Dim;
+
 /// Coulomb friction: T_max = min(µ(v) F + c A v, τ_max A) at slip rate v, µ(v) = µ_d + (µ_s − µ_d) exp(−β v).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Friction {
@@ -41,20 +47,26 @@ impl Friction {
 
 /// What a tangential force can do.
 #[derive(Clone, Copy, Debug)]
-pub struct Stick {
-    /// ṡ^{n−½}, m/s.
-    pub old: f64,
+pub struct Stick<const D: usize = 2>
+where
+    Dim<D>: Motion<D>,
+{
+    /// ṡ^{n−½} along each tangent, m/s.
+    pub old: Along<D>,
     /// ṡ^{n+½} without the force, m/s.
-    pub free: f64,
-    /// Change of ṡ^{n+½} per force.
-    pub compliance: f64,
+    pub free: Along<D>,
+    /// Change of ṡ^{n+½} per force: a symmetric matrix.
+    pub compliance: <Dim<D> as Motion<D>>::Along<Along<D>>,
     /// k, N/m per metre of depth; infinite: the slip stops at once.
     pub stiffness: f64,
     /// dt^{n−1}, dt^n, s.
     pub time_steps: [f64; 2],
 }
 
-impl Stick {
+impl<const D: usize> Stick<D>
+where
+    Dim<D>: Motion<D>,
+{
     /// Change of the slip rate per friction that sticks, beside `compliance`, m/s per N/m.
     #[must_use]
     pub fn softness(&self) -> f64 {
@@ -70,26 +82,29 @@ impl Stick {
 
 /// Friction that was found.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Slid {
-    /// T, N/m.
-    pub friction: f64,
+pub struct Slid<const D: usize = 2>
+where
+    Dim<D>: Motion<D>,
+{
+    /// T along each tangent, N/m.
+    pub friction: Along<D>,
     /// Elastic slip s^{n+½}, m.
-    pub slip: f64,
+    pub slip: Along<D>,
     /// Whether T is at its limit.
     pub slides: bool,
 }
 
 /// Friction with the elastic slip `slip` (m, at n − ½) and the limit T_max (N/m).
 #[must_use]
-pub fn slide(stick: &Stick, slip: f64, limit: f64) -> Slid {
-    let Stick { old, free, compliance, stiffness, time_steps: [before, after] } = *stick;
+pub fn slide(stick: &Stick<2>, [slip]: [f64; 1], limit: f64) -> Slid<2> {
+    let Stick { old: [old], free: [free], compliance: [[compliance]], stiffness, time_steps: [before, after] } = *stick;
     if !(limit > 0.0 && compliance > 0.0) {
-        return Slid { friction: 0.0, slip: 0.0, slides: limit <= 0.0 };
+        return Slid { friction: [0.0], slip: [0.0], slides: limit <= 0.0 };
     }
     if stiffness.is_infinite() {
         let trial = -free / compliance;
         let friction = trial.clamp(-limit, limit);
-        return Slid { friction, slip: 0.0, slides: trial.abs() > limit };
+        return Slid { friction: [friction], slip: [0.0], slides: trial.abs() > limit };
     }
     // ½ Δs = quarter (ṡ⁻ + ṡ_free + c T)
     let quarter = 0.25 * 0.5 * (before + after);
@@ -97,24 +112,24 @@ pub fn slide(stick: &Stick, slip: f64, limit: f64) -> Slid {
     let friction = trial.clamp(-limit, limit);
     let slip_new = slip + 2.0 * quarter * (old + free + compliance * friction);
     if trial.abs() <= limit {
-        return Slid { friction, slip: slip_new, slides: false };
+        return Slid { friction: [friction], slip: [slip_new], slides: false };
     }
     let elastic = limit / stiffness;
-    Slid { friction, slip: slip_new.clamp(-elastic, elastic), slides: true }
+    Slid { friction: [friction], slip: [slip_new.clamp(-elastic, elastic)], slides: true }
 }
 
 /// Force of a tie on the slip `slip` (m, at n): a spring that pulls both ways, or with an infinite stiffness what ends the slip in one step.
 #[must_use]
-pub fn tie(stick: &Stick, slip: f64) -> f64 {
-    let Stick { old, free, compliance, stiffness, time_steps: [before, after] } = *stick;
+pub fn tie(stick: &Stick<2>, [slip]: [f64; 1]) -> [f64; 1] {
+    let Stick { old: [old], free: [free], compliance: [[compliance]], stiffness, time_steps: [before, after] } = *stick;
     if compliance <= 0.0 {
-        return 0.0;
+        return [0.0];
     }
     if stiffness.is_infinite() {
-        return -(slip / after + free) / compliance;
+        return [-(slip / after + free) / compliance];
     }
     let sum = 2.0 * slip - 0.5 * before * old + 0.5 * after * free;
-    -0.5 * stiffness * sum / (1.0 + 0.25 * stiffness * after * compliance)
+    [-0.5 * stiffness * sum / (1.0 + 0.25 * stiffness * after * compliance)]
 }
 
 #[cfg(test)]
@@ -129,11 +144,12 @@ mod tests {
                 for old in [-3.0, -0.1, 0.0, 0.2, 2.0] {
                     for free in [-2.0, -0.2, 0.0, 0.1, 3.0] {
                         for limit in [0.05, 0.4, 3.0] {
-                            let stick = Stick { old, free, compliance: 0.7, stiffness: k, time_steps: [0.9, 1.1] };
-                            let slid = slide(&stick, slip, limit);
-                            let moved = 0.5 * (old + free + 0.7 * slid.friction);
-                            let lost = -slid.friction * moved - 0.5 * k * (slid.slip * slid.slip - slip * slip);
-                            assert!(slid.friction.abs() <= limit);
+                            let stick = Stick { old: [old], free: [free], compliance: [[0.7]], stiffness: k, time_steps: [0.9, 1.1] };
+                            let slid = slide(&stick, [slip], limit);
+                            let (friction, [slid_to]) = (slid.friction[0], slid.slip);
+                            let moved = 0.5 * (old + free + 0.7 * friction);
+                            let lost = -friction * moved - 0.5 * k * (slid_to * slid_to - slip * slip);
+                            assert!(friction.abs() <= limit);
                             let scale = 1.0 + k * slip * slip;
                             if slid.slides {
                                 least = least.min(lost / scale);
@@ -151,9 +167,9 @@ mod tests {
 
     #[test]
     fn a_multiplier_stops_the_slip_within_its_limit() {
-        let stick = |free| Stick { old: 1.0, free, compliance: 0.5, stiffness: f64::INFINITY, time_steps: [1.0; 2] };
-        assert_eq!(slide(&stick(0.3), 0.0, 1.0), Slid { friction: -0.6, slip: 0.0, slides: false });
-        assert_eq!(slide(&stick(-2.0), 0.0, 1.0), Slid { friction: 1.0, slip: 0.0, slides: true });
+        let stick = |free| Stick { old: [1.0], free: [free], compliance: [[0.5]], stiffness: f64::INFINITY, time_steps: [1.0; 2] };
+        assert_eq!(slide(&stick(0.3), [0.0], 1.0), Slid { friction: [-0.6], slip: [0.0], slides: false });
+        assert_eq!(slide(&stick(-2.0), [0.0], 1.0), Slid { friction: [1.0], slip: [0.0], slides: true });
     }
 
     #[test]

@@ -4,38 +4,76 @@
 
 use super::{End, Lost, Solved, Spring, Springs, Totals};
 use crate::archive::{Archive, Keep, Kept, keep_all, keep_each};
+use crate::motion::Motion;
+use crate::tensor::Dim;
 
 keep_all!(Lost { friction, damping, old, freed, let_go });
-keep_all!(Totals { resultant, pressing, energy, slip_energy, work, lost });
-keep_all!(Solved { force, friction, slip_new, slides, rates, slip_rates });
-keep_all!(End { at, share, lean, turn, point, image });
 
-/// A spring with its terms and ends, and what was found of it.
-#[derive(Default)]
-struct Whole {
-    spring: Spring,
-    terms: u32,
-    ends: Vec<End>,
-    solved: Solved,
-}
-
-impl Keep for Whole {
+impl<const D: usize> Keep for Totals<D> {
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
-        let Self { spring: Spring { normal, gap, stiffness, area, side, slip, first: _, count: _ }, terms, ends, solved } = self;
-        keep_each!(archive; normal, gap, stiffness, area, side, slip, terms, ends, solved);
+        let Self { resultant, pressing, energy, slip_energy, work, lost } = self;
+        keep_each!(archive; resultant, pressing, energy, slip_energy, work, lost);
         Ok(())
     }
 }
 
-impl Keep for Springs {
+impl<const D: usize> Keep for Solved<D>
+where
+    Dim<D>: Motion<D>,
+{
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        let Self { force, friction, slip_new, slides, rates, slip_rates } = self;
+        keep_each!(archive; force, friction, slip_new, slides, rates, slip_rates);
+        Ok(())
+    }
+}
+
+impl<const D: usize> Keep for End<D>
+where
+    Dim<D>: Motion<D>,
+{
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        let Self { at, share, lean, turn, point, image } = self;
+        keep_each!(archive; at, share, lean, turn, point, image);
+        Ok(())
+    }
+}
+
+/// A spring with its terms and ends, and what was found of it.
+#[derive(Default)]
+struct Whole<const D: usize>
+where
+    Dim<D>: Motion<D>,
+{
+    spring: Spring<D>,
+    terms: u32,
+    ends: Vec<End<D>>,
+    solved: Solved<D>,
+}
+
+impl<const D: usize> Keep for Whole<D>
+where
+    Dim<D>: Motion<D>,
+{
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        let Self { spring: Spring { normal, gap, stiffness, area, side, slip, tangent, first: _, count: _ }, terms, ends, solved } = self;
+        keep_each!(archive; normal, gap, stiffness, area, side, slip, tangent, terms, ends, solved);
+        Ok(())
+    }
+}
+
+impl<const D: usize> Keep for Springs<D>
+where
+    Dim<D>: Motion<D>,
+{
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
         keep_each!(archive; &mut self.time_steps, &mut self.sweeps_max, &mut self.unsolved);
-        let whole = |(answer, &terms): (super::Answer<'_>, &u32)| {
+        let whole = |(answer, &terms): (super::Answer<'_, D>, &u32)| {
             let ends = self.ends(answer.spring).collect();
             Whole { spring: *answer.spring, terms, ends, solved: *answer.solved }
         };
         // What is read replaces those of the start.
-        let mut all: Vec<Whole> = self.answers(0..self.list.len()).zip(&self.terms_of).map(whole).collect();
+        let mut all: Vec<Whole<D>> = self.answers(0..self.list.len()).zip(&self.terms_of).map(whole).collect();
         all.keep(archive)?;
         if !archive.reads() {
             return Ok(());

@@ -6,90 +6,107 @@
 use super::couple::{Couplings, Forces};
 use super::ends::Ends;
 use super::islands::NONE;
-use super::{End, Mover, Movers, Spring, Tangential, Update, Vector, tangent};
-use crate::load::join;
+use super::{Along, End, Mover, Movers, Spring, Tangential, Update, sum_along};
+use crate::motion::Motion;
+use crate::tensor::Dim;
 use std::ops::Range;
 
+/// A value for each velocity of a node or rigid body.
+pub(super) type Row<const D: usize> = <Dim<D> as Motion<D>>::Row<f64>;
+/// Rows of the slip along each tangent.
+pub(super) type Slips<const D: usize> = <Dim<D> as Motion<D>>::Along<Row<D>>;
+
 /// A node or rigid body that springs act on.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Movable {
-    /// x, y and, of a rigid body, angular.
-    velocity_old: [f64; 3],
+#[derive(Clone, Copy)]
+pub(super) struct Movable<const D: usize>
+where
+    Dim<D>: Motion<D>,
+{
+    /// x, y (and z) and, of a rigid body, angular.
+    velocity_old: Row<D>,
     /// v^{n+½} without springs.
-    velocity_free: [f64; 3],
-    mobility: Mobility,
+    velocity_free: Row<D>,
+    mobility: <Dim<D> as Motion<D>>::Mobility,
     /// Centre of a rigid body; `None`: a node.
-    centre: Option<Vector>,
+    centre: Option<[f64; D]>,
 }
 
-/// Change of velocity per force: xx, xy, yy and, of a rigid body, angular.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Mobility(pub(super) [f64; 4]);
-
-impl Mobility {
-    #[inline]
-    pub(super) fn response(&self, row: [f64; 3]) -> [f64; 3] {
-        let [xx, xy, yy, spin] = self.0;
-        [xx * row[0] + xy * row[1], xy * row[0] + yy * row[1], spin * row[2]]
+impl<const D: usize> Default for Movable<D>
+where
+    Dim<D>: Motion<D>,
+{
+    fn default() -> Self {
+        Self { velocity_old: Default::default(), velocity_free: Default::default(), mobility: Default::default(), centre: None }
     }
 }
 
-impl Movable {
+impl<const D: usize> Movable<D>
+where
+    Dim<D>: Motion<D>,
+{
     /// The node or (from `nodes` on) rigid body `at` at the beginning of the solution.
-    pub(super) fn new<M: Movers>(at: u32, nodes: usize, update: &Update<'_, M>) -> Self {
-        let mean_step = 0.5 * (update.time_steps[0] + update.time_steps[1]);
+    pub(super) fn new<M: Movers<D>>(at: u32, nodes: usize, update: &Update<'_, M, D>) -> Self {
         let node = at as usize;
         if node >= nodes {
+            let mean_step = 0.5 * (update.time_steps[0] + update.time_steps[1]);
             let body = update.bodies.state(node - nodes);
-            let [x, y, spin] = body.inverse_mass.map(|inverse| mean_step * inverse);
             let (velocity_old, velocity_free) = (body.velocity_old, body.velocity_free);
-            return Self { velocity_old, velocity_free, mobility: Mobility([x, 0.0, y, spin]), centre: Some(body.centre) };
+            return Self { velocity_old, velocity_free, mobility: Dim::<D>::mobility_of_body(body, mean_step), centre: Some(body.centre) };
         }
-        let Mover { velocity_old: [ox, oy], velocity: [vx, vy], mobility: [xx, xy, yy] } = update.nodes.mover(node);
-        Self { velocity_old: [ox, oy, 0.0], velocity_free: [vx, vy, 0.0], mobility: Mobility([xx, xy, yy, 0.0]), centre: None }
+        let Mover { velocity_old, velocity, mobility } = update.nodes.mover(node);
+        let [velocity_old, velocity_free] = [velocity_old, velocity].map(|velocity| Dim::<D>::row_of(velocity, None));
+        Self { velocity_old, velocity_free, mobility: Dim::<D>::mobility_of_node(&mobility), centre: None }
     }
 
     /// Whether forces move the node or rigid body `at` at all.
-    pub(super) fn moves<M: Movers>(at: u32, nodes: usize, update: &Update<'_, M>) -> bool {
+    pub(super) fn moves<M: Movers<D>>(at: u32, nodes: usize, update: &Update<'_, M, D>) -> bool {
         if (at as usize) < nodes {
             return update.nodes.moves(at as usize);
         }
-        Self::new(at, nodes, update).mobility != Mobility::default()
+        Self::new(at, nodes, update).mobility != Default::default()
     }
 
     /// A row of force `row` at an end, with its moment on a rigid body; of the image of a node as its leader feels it.
     #[inline]
-    fn row(&self, mut row: Vector, end: &End) -> [f64; 3] {
-        let point = end.point;
-        if let Some(turn) = end.image {
-            row = join::back(turn, row);
+    fn row(&self, mut row: [f64; D], end: &End<D>) -> Row<D> {
+        if let Some(turn) = &end.image {
+            row = Dim::<D>::back(turn, row);
         }
-        let moment = self.centre.map_or(0.0, |centre| (point[0] - centre[0]) * row[1] - (point[1] - centre[1]) * row[0]);
-        [row[0], row[1], moment]
+        let arm = |centre: [f64; D]| std::array::from_fn(|d| end.point[d] - centre[d]);
+        Dim::<D>::row_of(row, self.centre.map(arm))
     }
 }
 
 /// A node or rigid body of an island, as the springs move it.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Slot {
+#[derive(Clone, Copy)]
+pub(super) struct Slot<const D: usize>
+where
+    Dim<D>: Motion<D>,
+{
     /// Of a hub, what the springs have added to the velocity.
-    pub(super) change: [f64; 3],
-    pub(super) mobility: Mobility,
+    pub(super) change: Row<D>,
+    pub(super) mobility: <Dim<D> as Motion<D>>::Mobility,
     pub(super) is_body: bool,
     /// Whether springs there know the slot instead of each other; see [`super::couple`].
     pub(super) is_hub: bool,
 }
 
 /// A spring's row of the gap on something that moves.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Arm {
+#[derive(Clone, Copy)]
+pub(super) struct Arm<const D: usize>
+where
+    Dim<D>: Motion<D>,
+{
     pub(super) slot: u32,
-    pub(super) row: [f64; 3],
+    pub(super) row: Row<D>,
 }
 
 /// A spring while it is solved.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Link {
+#[derive(Clone, Copy)]
+pub(super) struct Link<const D: usize>
+where
+    Dim<D>: Motion<D>,
+{
     /// Number of the spring.
     pub(super) spring: u32,
     /// Its arms in the island.
@@ -97,25 +114,50 @@ pub(super) struct Link {
     pub(super) count: u32,
     /// Change of g^{n+½} per normal force.
     pub(super) compliance: f64,
-    /// What its own forces do to its rates, arm by arm: the gap's per normal force, either per the other, the slip's per friction.
-    pub(super) own: [f64; 3],
+    /// What its own forces do to its rates, arm by arm: the gap's per normal force, either per the other, the slips' per friction.
+    pub(super) own: <Dim<D> as Motion<D>>::Symmetric,
     pub(super) is_at_hub: bool,
     pub(super) gap_old: f64,
     /// g^{n+½} without any force.
     pub(super) gap_free: f64,
     pub(super) rate_old: f64,
     pub(super) rate_free: f64,
-    pub(super) slip_rate_old: f64,
-    pub(super) slip_rate_free: f64,
+    pub(super) slip_rate_old: Along<D>,
+    pub(super) slip_rate_free: Along<D>,
     /// Compliances of normal force and friction beyond the spring's own, and the forces at which they change nothing; see [`super::relax`].
     pub(super) lent: [f64; 2],
-    pub(super) centre: [f64; 2],
+    pub(super) centre: Forces<D>,
     /// Elastic slip at n + ½.
-    pub(super) slip_new: f64,
+    pub(super) slip_new: Along<D>,
     pub(super) slides: bool,
 }
 
-impl Link {
+impl<const D: usize> Link<D>
+where
+    Dim<D>: Motion<D>,
+{
+    /// Of a spring whose arms begin at number `first`.
+    fn new(spring: u32, first: u32) -> Self {
+        let (own, [slip_rate_old, slip_rate_free, slip_new]) = Default::default();
+        #[rustfmt::skip]
+        let link = Self {
+            spring, first, own, slip_rate_old, slip_rate_free, slip_new, count: 0, compliance: 0.0, is_at_hub: false, gap_old: 0.0, gap_free: 0.0, rate_old: 0.0, rate_free: 0.0,
+            lent: [0.0; 2], centre: [0.0; D], slides: false,
+        };
+        link
+    }
+
+    /// What its own force number `by` does to its rate number `on`; 0 is the normal.
+    #[inline(always)]
+    pub(super) fn own(&self, on: usize, by: usize) -> f64 {
+        self.own[Dim::<D>::AT[on][by]]
+    }
+
+    /// What friction in a direction along the surface does to the slip's rate in that direction.
+    pub(super) fn own_along(&self, direction: &Along<D>) -> f64 {
+        sum_along::<D>(|a| direction[a] * sum_along::<D>(|b| self.own(a + 1, b + 1) * direction[b]))
+    }
+
     #[inline]
     pub(super) fn arms(&self) -> Range<usize> {
         self.first as usize..(self.first + self.count) as usize
@@ -123,35 +165,44 @@ impl Link {
 }
 
 /// Ends of springs, and what is at them.
-pub(super) struct Joints<'a, M: Movers> {
-    pub(super) list: &'a [Spring],
-    pub(super) ends: &'a Ends,
+pub(super) struct Joints<'a, M: Movers<D>, const D: usize>
+where
+    Dim<D>: Motion<D>,
+{
+    pub(super) list: &'a [Spring<D>],
+    pub(super) ends: &'a Ends<D>,
     /// Place of each end.
     pub(super) places: &'a [u32],
     /// Node or rigid body of each place.
     pub(super) at: &'a [u32],
     /// Slot of each place in its island; [`NONE`]: it does not move.
     pub(super) slots: &'a [u32],
-    pub(super) update: &'a Update<'a, M>,
+    pub(super) update: &'a Update<'a, M, D>,
 }
 
 /// An island while it is solved. It stays in the caches where islands are small.
 #[derive(Default)]
-pub(super) struct Bench {
-    pub(super) links: Vec<Link>,
-    pub(super) arms: Vec<Arm>,
-    /// Rows of the slip, as `arms`.
-    pub(super) slips: Vec<[f64; 3]>,
-    pub(super) slots: Vec<Slot>,
-    pub(super) forces: Vec<Forces>,
-    pub(super) couplings: Couplings,
+pub(super) struct Bench<const D: usize>
+where
+    Dim<D>: Motion<D>,
+{
+    pub(super) links: Vec<Link<D>>,
+    pub(super) arms: Vec<Arm<D>>,
+    /// Rows of the slips, as `arms`.
+    pub(super) slips: Vec<Slips<D>>,
+    pub(super) slots: Vec<Slot<D>>,
+    pub(super) forces: Vec<Forces<D>>,
+    pub(super) couplings: Couplings<D>,
     /// Whether a spring cares for slip.
     slides: bool,
     /// What is in each slot.
-    movables: Vec<Movable>,
+    movables: Vec<Movable<D>>,
 }
 
-impl Bench {
+impl<const D: usize> Bench<D>
+where
+    Dim<D>: Motion<D>,
+{
     pub(super) fn clear(&mut self) {
         self.links.clear();
         self.arms.clear();
@@ -164,38 +215,54 @@ impl Bench {
     /// Once all links are there: what they do to each other; no force acts yet.
     pub(super) fn close(&mut self) {
         self.forces.clear();
-        self.forces.resize(self.links.len(), [0.0; 2]);
+        self.forces.resize(self.links.len(), [0.0; D]);
         self.couplings.find(&mut self.links, &self.arms, &self.slips, &mut self.slots, self.slides);
     }
 }
 
-impl<M: Movers> Joints<'_, M> {
+impl<M: Movers<D>, const D: usize> Joints<'_, M, D>
+where
+    Dim<D>: Motion<D>,
+{
     /// Adds the link of a spring, with its arms and the slots that come with it.
-    pub(super) fn link(&self, number: u32, tangential: Tangential, bench: &mut Bench) {
+    pub(super) fn link(&self, number: u32, tangential: Tangential, bench: &mut Bench<D>) {
         let spring = &self.list[number as usize];
         let [before, after] = self.update.time_steps;
-        let t = tangent(spring.normal);
+        let tangents = spring.tangents();
         let has_slip = !matches!(tangential, Tangential::Free);
         let mut held = Movable::default();
         bench.slides |= has_slip;
-        let mut link = Link { spring: number, first: bench.arms.len() as u32, ..Link::default() };
+        let mut link = Link::new(number, bench.arms.len() as u32);
         for k in spring.ends() {
             let (end, slot) = (self.ends.get(k), self.slots[self.places[k] as usize]);
             let movable = self.movable(k, slot, &mut held, bench);
             let row = movable.row(end.gap_row(spring.normal), &end);
-            let slip_row = if has_slip { movable.row(end.slip_row(t), &end) } else { [0.0; 3] };
-            link.rate_old += dot(row, movable.velocity_old);
-            link.rate_free += dot(row, movable.velocity_free);
-            link.slip_rate_old += dot(slip_row, movable.velocity_old);
-            link.slip_rate_free += dot(slip_row, movable.velocity_free);
+            let mut slip_row = Slips::<D>::default();
+            link.rate_old += Dim::<D>::dot(&row, &movable.velocity_old);
+            link.rate_free += Dim::<D>::dot(&row, &movable.velocity_free);
+            if has_slip {
+                let rows = end.slip_rows(&tangents);
+                for a in 0..D - 1 {
+                    slip_row[a] = movable.row(rows[a], &end);
+                    link.slip_rate_old[a] += Dim::<D>::dot(&slip_row[a], &movable.velocity_old);
+                    link.slip_rate_free[a] += Dim::<D>::dot(&slip_row[a], &movable.velocity_free);
+                }
+            }
             if slot == NONE {
                 continue;
             }
-            let response = movable.mobility.response(row);
-            link.own[0] += dot(row, response);
+            let response = Dim::<D>::response(&movable.mobility, &row);
+            link.own[0] += Dim::<D>::dot(&row, &response);
             if has_slip {
-                link.own[1] += dot(slip_row, response);
-                link.own[2] += dot(slip_row, movable.mobility.response(slip_row));
+                for a in 0..D - 1 {
+                    link.own[Dim::<D>::AT[0][a + 1]] += Dim::<D>::dot(&slip_row[a], &response);
+                }
+                for a in 0..D - 1 {
+                    let response = Dim::<D>::response(&movable.mobility, &slip_row[a]);
+                    for b in a..D - 1 {
+                        link.own[Dim::<D>::AT[a + 1][b + 1]] += Dim::<D>::dot(&slip_row[b], &response);
+                    }
+                }
             }
             bench.arms.push(Arm { slot, row });
             bench.slips.push(slip_row);
@@ -208,7 +275,7 @@ impl<M: Movers> Joints<'_, M> {
     }
 
     /// What is at the end `k`. Slots are filled in the order in which they are met, which is that of their numbers.
-    fn movable<'b>(&self, k: usize, slot: u32, held: &'b mut Movable, bench: &'b mut Bench) -> &'b Movable {
+    fn movable<'b>(&self, k: usize, slot: u32, held: &'b mut Movable<D>, bench: &'b mut Bench<D>) -> &'b Movable<D> {
         let make = || Movable::new(self.at[self.places[k] as usize], self.update.nodes.count(), self.update);
         if slot == NONE {
             *held = make();
@@ -216,14 +283,14 @@ impl<M: Movers> Joints<'_, M> {
         }
         if slot as usize == bench.movables.len() {
             let movable = make();
-            bench.slots.push(Slot { change: [0.0; 3], mobility: movable.mobility, is_body: movable.centre.is_some(), is_hub: false });
+            bench.slots.push(Slot {
+                change: Default::default(),
+                mobility: movable.mobility,
+                is_body: movable.centre.is_some(),
+                is_hub: false,
+            });
             bench.movables.push(movable);
         }
         &bench.movables[slot as usize]
     }
-}
-
-#[inline]
-pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }

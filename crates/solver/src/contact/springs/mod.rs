@@ -34,19 +34,25 @@ mod solve;
 pub use answers::{Answer, Answers};
 
 use super::law::Law;
+use crate::motion::Motion;
 use crate::rigid::Bodies;
+use crate::tensor::Dim;
 use ends::Ends;
 use friction::Friction;
 use std::ops::Range;
 
-/// A vector of the plane.
-pub type Vector = [f64; 2];
+/// A value for each direction along a surface.
+pub type Along<const D: usize> = <Dim<D> as Motion<D>>::Along<f64>;
 
-/// A spring between two surfaces: it pushes along `normal` on the ends with positive shares and against it on the others. A cache line: there is one for every node that touches.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Spring {
+/// A spring between two surfaces: it pushes along `normal` on the ends with positive shares and against it on the others. In the plane a cache line: there is one for every node that
+/// touches.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spring<const D: usize = 2>
+where
+    Dim<D>: Motion<D>,
+{
     /// Unit vector.
-    pub normal: Vector,
+    pub normal: [f64; D],
     /// g^n, m.
     pub gap: f64,
     /// k, N/m per metre of depth, of laws that have one.
@@ -56,12 +62,52 @@ pub struct Spring {
     /// 1 where the ends with positive shares belong to the first surface, −1 where to the second, 0 in a contact of bodies with themselves.
     pub side: f64,
     /// Friction: elastic slip at n − ½ (memory of the contact), m. Tie: slip at n, m.
-    pub slip: f64,
+    pub slip: Along<D>,
+    /// In space the first of the tangents along which the slip is; zero: any.
+    pub tangent: <Dim<D> as Motion<D>>::Tangent,
     pub(super) first: u32,
     pub(super) count: u32,
 }
 
-impl Spring {
+impl<const D: usize> Default for Spring<D>
+where
+    Dim<D>: Motion<D>,
+{
+    fn default() -> Self {
+        let (slip, tangent) = Default::default();
+        Self { normal: [0.0; D], gap: 0.0, stiffness: 0.0, area: 0.0, side: 0.0, slip, tangent, first: 0, count: 0 }
+    }
+}
+
+/// What a spring stands for, as laws of the normal force see it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Patch {
+    /// g^n, m.
+    pub gap: f64,
+    /// k, N/m per metre of depth, of laws that have one.
+    pub stiffness: f64,
+    /// Area of surface, m (in space m²).
+    pub area: f64,
+}
+
+impl<const D: usize> Spring<D>
+where
+    Dim<D>: Motion<D>,
+{
+    /// What laws see of it.
+    #[must_use]
+    #[inline]
+    pub fn patch(&self) -> Patch {
+        Patch { gap: self.gap, stiffness: self.stiffness, area: self.area }
+    }
+
+    /// The directions along the surface.
+    #[must_use]
+    #[inline]
+    pub fn tangents(&self) -> <Dim<D> as Motion<D>>::Tangents {
+        Dim::<D>::tangents(self.normal, &self.tangent)
+    }
+
     /// Where its ends are among all.
     #[inline]
     fn ends(&self) -> Range<usize> {
@@ -71,19 +117,22 @@ impl Spring {
 
 /// What the solution found of a spring: what the books and the contacts need of it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Solved {
+pub struct Solved<const D: usize = 2>
+where
+    Dim<D>: Motion<D>,
+{
     /// F, N/m.
     pub force: f64,
-    /// T, N/m: friction along the tangent.
-    pub friction: f64,
+    /// T, N/m: friction along each tangent.
+    pub friction: Along<D>,
     /// Elastic slip at n + ½, m.
-    pub slip_new: f64,
+    pub slip_new: Along<D>,
     /// Whether friction is at its limit, or there is none.
     pub slides: bool,
     /// Rates of the gap in v^{n−½} and v^{n+½}, m/s.
     pub rates: [f64; 2],
     /// The same of the slip along the tangent, m/s.
-    pub slip_rates: [f64; 2],
+    pub slip_rates: [Along<D>; 2],
 }
 
 /// Work that no normal spring stores, J/m: positive is taken from the motion.
@@ -115,23 +164,38 @@ impl std::ops::AddAssign for Lost {
 /// What a spring does to one node or rigid body: rows of the rates of gap and slip.
 ///
 /// ġ = Σ (share n + lean)·v, ṡ = Σ (share t + turn)·v with t = (n₂, −n₁). On a rigid body v is its velocity at `point`.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct End {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct End<const D: usize = 2>
+where
+    Dim<D>: Motion<D>,
+{
     /// Node, or number of nodes + rigid body.
     pub at: u32,
     /// Share in the gap.
     pub share: f64,
     /// What the gap's rate has beyond: of points that move along segments which are inclined to the tangent.
-    pub lean: Vector,
-    /// What makes the slip rate blind to rotation of both surfaces together, and friction keep the angular momentum.
-    pub turn: Vector,
+    pub lean: [f64; D],
+    /// What makes the rate of each slip blind to rotation of both surfaces together, and friction keep the angular momentum.
+    pub turn: <Dim<D> as Motion<D>>::Tangents,
     /// Where the forces act on a rigid body without nodes, m.
-    pub point: Vector,
-    /// Cosine and sine of the rotation from the motion of the node that moves in its stead; `None`: no rotation.
-    pub image: Option<Vector>,
+    pub point: [f64; D],
+    /// Rotation from the motion of the node that moves in its stead; `None`: no rotation.
+    pub image: Option<<Dim<D> as Motion<D>>::Turn>,
 }
 
-impl End {
+impl<const D: usize> Default for End<D>
+where
+    Dim<D>: Motion<D>,
+{
+    fn default() -> Self {
+        Self { at: 0, share: 0.0, lean: [0.0; D], turn: Default::default(), point: [0.0; D], image: None }
+    }
+}
+
+impl<const D: usize> End<D>
+where
+    Dim<D>: Motion<D>,
+{
     /// A node with a share of the gap.
     #[must_use]
     pub fn node(node: u32, share: f64) -> Self {
@@ -141,27 +205,33 @@ impl End {
     /// Force of a solved spring on this end, N/m.
     #[must_use]
     #[inline]
-    pub fn force(&self, spring: &Spring, solved: &Solved) -> Vector {
-        let (gap_row, slip_row) = (self.gap_row(spring.normal), self.slip_row(tangent(spring.normal)));
-        [0, 1].map(|d| gap_row[d] * solved.force + slip_row[d] * solved.friction)
+    pub fn force(&self, spring: &Spring<D>, solved: &Solved<D>) -> [f64; D] {
+        let (gap_row, slip_rows) = (self.gap_row(spring.normal), self.slip_rows(&spring.tangents()));
+        std::array::from_fn(|d| {
+            let mut sum = gap_row[d] * solved.force;
+            for a in 0..D - 1 {
+                sum += slip_rows[a][d] * solved.friction[a];
+            }
+            sum
+        })
     }
 
     /// Row of the gap's rate.
     #[inline]
-    fn gap_row(&self, normal: Vector) -> Vector {
-        [0, 1].map(|d| self.share * normal[d] + self.lean[d])
+    fn gap_row(&self, normal: [f64; D]) -> [f64; D] {
+        std::array::from_fn(|d| self.share * normal[d] + self.lean[d])
     }
 
-    /// Row of the slip's rate.
+    /// Rows of the slip's rates.
     #[inline]
-    fn slip_row(&self, tangent: Vector) -> Vector {
-        [0, 1].map(|d| self.share * tangent[d] + self.turn[d])
+    fn slip_rows(&self, tangents: &<Dim<D> as Motion<D>>::Tangents) -> <Dim<D> as Motion<D>>::Tangents {
+        Dim::<D>::vectors(|a| std::array::from_fn(|d| self.share * tangents[a][d] + self.turn[a][d]))
     }
 }
 
-/// Tangent of a spring: the normal turned clockwise, along the target segment.
+/// Tangent of a spring of the plane: the normal turned clockwise, along the target segment.
 #[must_use]
-pub fn tangent(normal: Vector) -> Vector {
+pub fn tangent(normal: [f64; 2]) -> [f64; 2] {
     [normal[1], -normal[0]]
 }
 
@@ -188,17 +258,20 @@ pub enum Tangential {
 
 /// The springs of all contacts and obstacles in one step.
 #[derive(Default)]
-pub struct Springs {
+pub struct Springs<const D: usize = 2>
+where
+    Dim<D>: Motion<D>,
+{
     /// In the order in which contacts and obstacles found them.
-    pub list: Vec<Spring>,
-    ends: Ends,
+    pub list: Vec<Spring<D>>,
+    ends: Ends<D>,
     /// What acts in springs, by number.
     pub terms: Vec<Terms>,
     /// Terms of each spring.
     terms_of: Vec<u32>,
     /// dt^{n−1}, dt^n of the last solution, s.
     time_steps: [f64; 2],
-    work: solve::Workspace,
+    work: solve::Workspace<D>,
     /// Most sweeps that a step took so far.
     pub sweeps_max: usize,
     /// Steps whose forces still changed after the last sweep that is allowed.
@@ -206,47 +279,56 @@ pub struct Springs {
 }
 
 /// What the solution needs of the model.
-pub struct Update<'a, M: Movers> {
+pub struct Update<'a, M: Movers<D>, const D: usize = 2>
+where
+    Dim<D>: Motion<D>,
+{
     /// Steps before and after, s: v^{n+½} = v^{n−½} + ½ (dt^{n−1} + dt^n) F / m, x^{n+1} = x^n + dt^n v^{n+½}.
     pub time_steps: [f64; 2],
     /// x^n, m.
-    pub positions: &'a [Vector],
+    pub positions: &'a [[f64; D]],
     /// How nodes move and give way.
     pub nodes: &'a M,
     /// Rigid bodies.
-    pub bodies: &'a Bodies,
+    pub bodies: &'a Bodies<D>,
 }
 
 /// Nodes as springs see them.
-pub trait Movers {
+pub trait Movers<const D: usize = 2>
+where
+    Dim<D>: Motion<D>,
+{
     /// How many nodes there are.
     fn count(&self) -> usize;
     /// The node that moves in the stead of `node`, and the rotation from its motion to that of `node`, if any.
-    fn leader(&self, node: u32) -> (u32, Option<Vector>);
+    fn leader(&self, node: u32) -> (u32, Option<<Dim<D> as Motion<D>>::Turn>);
     /// Motion of a node that leads itself.
-    fn mover(&self, leader: usize) -> Mover;
+    fn mover(&self, leader: usize) -> Mover<D>;
     /// Whether forces move it at all.
     fn moves(&self, leader: usize) -> bool {
-        self.mover(leader).mobility != [0.0; 3]
+        self.mover(leader).mobility != Default::default()
     }
 }
 
 /// A node without springs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Mover {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mover<const D: usize = 2>
+where
+    Dim<D>: Motion<D>,
+{
     /// v^{n−½}, m/s.
-    pub velocity_old: Vector,
+    pub velocity_old: [f64; D],
     /// v^{n+½} without springs, prescribed motion included, m/s.
-    pub velocity: Vector,
-    /// Change of v^{n+½} per force: xx, xy, yy.
-    pub mobility: [f64; 3],
+    pub velocity: [f64; D],
+    /// Change of v^{n+½} per force: xx, xy, yy; in space xx, xy, xz, yy, yz, zz.
+    pub mobility: <Dim<D> as Motion<D>>::Symmetric,
 }
 
 /// A spring as laws of the normal force see it.
 #[derive(Clone, Copy, Debug)]
 pub struct Closing<'a> {
     /// The spring.
-    pub spring: &'a Spring,
+    pub spring: &'a Patch,
     /// g^{n−½}, m.
     pub old: f64,
     /// g^{n+½} without the force, m.
@@ -256,10 +338,10 @@ pub struct Closing<'a> {
 }
 
 /// Sums over the springs of a contact.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Totals {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Totals<const D: usize = 2> {
     /// Force on the first surface, N/m.
-    pub resultant: Vector,
+    pub resultant: [f64; D],
     /// Sum of the normal forces, N/m: what is transmitted, also where the resultant vanishes.
     pub pressing: f64,
     /// Energy of the springs, J/m.
@@ -272,7 +354,16 @@ pub struct Totals {
     pub lost: Lost,
 }
 
-impl Springs {
+impl<const D: usize> Default for Totals<D> {
+    fn default() -> Self {
+        Self { resultant: [0.0; D], pressing: 0.0, energy: 0.0, slip_energy: 0.0, work: 0.0, lost: Lost::default() }
+    }
+}
+
+impl<const D: usize> Springs<D>
+where
+    Dim<D>: Motion<D>,
+{
     /// For `nodes` nodes and `bodies` rigid bodies; springs follow one of the `terms`.
     #[must_use]
     pub fn new(nodes: usize, bodies: usize, terms: Vec<Terms>) -> Self {
@@ -287,7 +378,7 @@ impl Springs {
     }
 
     /// Adds a spring with its ends.
-    pub fn push(&mut self, spring: Spring, ends: &[End]) {
+    pub fn push(&mut self, spring: Spring<D>, ends: &[End<D>]) {
         let first = self.ends.len();
         ends.iter().for_each(|end| self.ends.push(end));
         self.list.push(Spring { first, count: ends.len() as u32, ..spring });
@@ -299,16 +390,29 @@ impl Springs {
     }
 
     /// The ends of a spring.
-    pub fn ends(&self, spring: &Spring) -> impl Iterator<Item = End> {
+    pub fn ends(&self, spring: &Spring<D>) -> impl Iterator<Item = End<D>> {
         spring.ends().map(|k| self.ends.get(k))
     }
 
     /// What the last solution found of the springs `range`.
     #[must_use]
-    pub fn answers(&self, range: Range<usize>) -> Answers<'_> {
+    pub fn answers(&self, range: Range<usize>) -> Answers<'_, D> {
         Answers { springs: self, range }
     }
 }
 
+/// Σ over the directions along a surface, from the first one on.
+#[inline(always)]
+fn sum_along<const D: usize>(of: impl Fn(usize) -> f64) -> f64 {
+    let mut sum = of(0);
+    for a in 1..D - 1 {
+        sum += of(a);
+    }
+    sum
+}
+
 #[cfg(test)]
 mod tests;
+
+#[cfg(test)]
+mod space_tests;

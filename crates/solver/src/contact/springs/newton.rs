@@ -6,15 +6,18 @@
 //!
 //! (d_i + A_ii) ΔF_i + Σ_j A_ij ΔF_j = r_i / s_i,   A_ij = ½ dt row_i · response_j,   r_i what the law would change,
 //!
-//! with friction that sticks as unknowns of the same kind and friction that slides as a multiple of its normal force. Springs in line along a surface only know their
+//! with friction that sticks as unknowns of the same kind and friction that slides as a multiple of its normal force; in space it has an unknown across itself. Springs in line along a surface only know their
 //! neighbours: they are ordered from one end to the other (Cuthill and McKee), rigid bodies come last as unknowns of their own, and the solution costs as much as a few sweeps.
 //! Where springs say the same twice the forces are not unique (the motion is); [`SOFTNESS`] keeps the factors then. Nothing is trusted: sweeps confirm or go on.
 
-use super::Tangential;
-use super::couple::Rates;
-use super::link::{Link, dot};
+use super::couple::{Forces, Rates};
+use super::friction::Stick;
+use super::link::Link;
 use super::relax::Island;
 use super::skyline::Skyline;
+use super::{Tangential, sum_along};
+use crate::motion::Motion;
+use crate::tensor::Dim;
 
 /// Least d of an unknown, as a fraction of its c.
 const SOFTNESS: f64 = 1e-10;
@@ -27,13 +30,16 @@ const NONE: u32 = u32::MAX;
 
 /// Memory for predictions.
 #[derive(Default)]
-pub(super) struct Newton {
-    state: Vec<State>,
+pub(super) struct Newton<const D: usize>
+where
+    Dim<D>: Motion<D>,
+{
+    state: Vec<State<D>>,
     /// Links in the order of the unknowns.
     order: Vec<u32>,
     seen: Vec<bool>,
-    /// First unknown of a rigid body by slot, for x, y and spin.
-    bodies: Vec<[u32; 3]>,
+    /// Unknowns of a rigid body by slot, one for each velocity.
+    bodies: Vec<<Dim<D> as Motion<D>>::Row<u32>>,
     first: Vec<u32>,
     matrix: Skyline,
     right: Vec<f64>,
@@ -41,22 +47,30 @@ pub(super) struct Newton {
 
 /// What a spring is in the linearized system.
 #[derive(Clone, Copy)]
-struct State {
-    /// Unknowns of the normal force and of the friction.
-    unknown: [u32; 2],
-    /// d of both; `NAN`: no unknown.
-    softness: [f64; 2],
+struct State<const D: usize>
+where
+    Dim<D>: Motion<D>,
+{
+    /// Unknowns of the normal force and of the friction along each tangent.
+    unknown: [u32; D],
+    /// d of each; `NAN`: no unknown.
+    softness: [f64; D],
     /// From forces to the units of the gap.
-    scale: [f64; 2],
+    scale: [f64; D],
     /// What is wanted, in units of the gap.
-    wanted: [f64; 2],
+    wanted: [f64; D],
     /// Change of a sliding friction per normal force.
-    follow: f64,
+    follow: <Dim<D> as Motion<D>>::Along<f64>,
+    /// Direction of each unknown of the friction along the surface.
+    along: <Dim<D> as Motion<D>>::Along<<Dim<D> as Motion<D>>::Along<f64>>,
 }
 
-impl Newton {
+impl<const D: usize> Newton<D>
+where
+    Dim<D>: Motion<D>,
+{
     /// Moves the forces of an island by a `fraction` of the way to where its springs agree, were they as they are now.
-    pub(super) fn predict(&mut self, island: &mut Island<'_>, fraction: f64) {
+    pub(super) fn predict(&mut self, island: &mut Island<'_, D>, fraction: f64) {
         self.look(island);
         self.arrange(island);
         if self.number(island) {
@@ -69,13 +83,13 @@ impl Newton {
     }
 
     /// Who pushes, and how stiff. Forces that want to vanish do.
-    fn look(&mut self, island: &mut Island<'_>) {
+    fn look(&mut self, island: &mut Island<'_, D>) {
         self.state.clear();
         let mut moved = false;
         for i in 0..island.links.len() {
-            let mut state = State { unknown: [NONE; 2], softness: [f64::NAN; 2], scale: [0.0; 2], wanted: [0.0; 2], follow: 0.0 };
+            let mut state = State::none();
             let tied = matches!(island.terms_of(i).tangential, Tangential::Tied);
-            if (island.forces[i] != [0.0; 2] || tied) && island.links[i].compliance > 0.0 {
+            if (island.forces[i] != [0.0; D] || tied) && island.links[i].compliance > 0.0 {
                 let before = island.forces[i];
                 let rates = island.rates(i);
                 self.look_across(island, i, rates, &mut state);
@@ -90,7 +104,7 @@ impl Newton {
     }
 
     /// Across the surface, where the other springs add `rates`.
-    fn look_across(&self, island: &mut Island<'_>, i: usize, rates: Rates, state: &mut State) {
+    fn look_across(&self, island: &mut Island<'_, D>, i: usize, rates: Rates<D>, state: &mut State<D>) {
         let free = island.gap_from(i, rates);
         let Link { compliance, gap_old, .. } = island.links[i];
         let before = island.forces[i][0];
@@ -102,61 +116,93 @@ impl Newton {
             state.scale[0] = compliance + state.softness[0];
             state.wanted[0] = state.scale[0] * (force - before);
         } else {
-            island.push(i, [force - before, 0.0]);
+            let mut step = [0.0; D];
+            step[0] = force - before;
+            island.push(i, step);
             island.forces[i][0] = force;
         }
     }
 
     /// The same along the surface.
-    fn look_along(&self, island: &mut Island<'_>, i: usize, rates: Rates, state: &mut State) {
+    fn look_along(&self, island: &mut Island<'_, D>, i: usize, rates: Rates<D>, state: &mut State<D>) {
         let half = 0.5 * island.time_steps[1];
         let tangential = island.terms_of(i).tangential;
         if matches!(tangential, Tangential::Free) {
             return;
         }
-        let ([force, friction], stick) = (island.forces[i], island.stick_from(i, rates));
+        let (forces, stick) = (island.forces[i], island.stick_from(i, rates));
+        let force = forces[0];
+        let gives = |a: usize| stick.compliance[a][a] > 0.0;
         let (softness, found) = match tangential {
             Tangential::Friction(_) => {
                 let found = island.slide_from(i, rates);
-                if found.slides || force == 0.0 || stick.compliance <= 0.0 {
-                    island.push(i, [0.0, found.friction - friction]);
-                    island.forces[i][1] = found.friction;
+                if found.slides || force == 0.0 || !(0..D - 1).any(gives) {
+                    give(island, i, |a| Some(found.friction[a]));
                     let more = 1.0 + DIFFERENCE;
                     if found.slides && force > 0.0 {
                         let limits = [force, more * force].map(|force| island.limit(i, force));
-                        state.follow = found.friction.signum() * (limits[1] - limits[0]) / (DIFFERENCE * force);
+                        let direction = Dim::<D>::direction(&found.friction);
+                        state.follow = Dim::<D>::along(|a| direction[a] * (limits[1] - limits[0]) / (DIFFERENCE * force));
+                        self.look_aside(island, i, &stick, &found.friction, state);
                     }
                     return;
                 }
                 (stick.softness(), found.friction)
             }
-            _ if stick.compliance > 0.0 => (stick.tie_softness(), island.tie_from(i, rates)),
+            _ if (0..D - 1).any(gives) => (stick.tie_softness(), island.tie_from(i, rates)),
             _ => return,
         };
-        let Link { lent, own, .. } = island.links[i];
-        let softness = (softness + lent[1]).max(SOFTNESS * stick.compliance);
-        state.softness[1] = half * softness;
-        state.scale[1] = half * (softness + own[2]);
-        state.wanted[1] = state.scale[1] * (found - friction);
+        // Where nothing gives way the force is what it is.
+        if matches!(tangential, Tangential::Friction(_)) && !(0..D - 1).all(gives) {
+            give(island, i, |a| (!gives(a)).then_some(found[a]));
+        }
+        let Link { lent, .. } = island.links[i];
+        for a in (0..D - 1).filter(|&a| gives(a)) {
+            let softness = (softness + lent[1]).max(SOFTNESS * stick.compliance[a][a]);
+            state.softness[a + 1] = half * softness;
+            state.scale[a + 1] = half * (softness + island.links[i].own(a + 1, a + 1));
+        }
+        state.want_along(&island.links[i], half, |a| found[a] - forces[a + 1]);
+    }
+
+    /// Across a friction that slides.
+    fn look_aside(
+        &self,
+        island: &Island<'_, D>,
+        i: usize,
+        stick: &Stick<D>,
+        friction: &<Dim<D> as Motion<D>>::Along<f64>,
+        state: &mut State<D>,
+    ) {
+        let link = &island.links[i];
+        let slip = island.list[link.spring as usize].slip;
+        let Some((direction, softness)) = Dim::<D>::gives_aside(stick, slip, friction) else { return };
+        let (half, own) = (0.5 * island.time_steps[1], link.own_along(&direction));
+        if own > 0.0 {
+            let softness = (softness + link.lent[1]).max(SOFTNESS * own);
+            state.along[0] = direction;
+            state.softness[1] = half * softness;
+            state.scale[1] = half * (softness + own);
+        }
     }
 
     /// What is wanted once all that is given is given.
-    fn look_again(&mut self, island: &Island<'_>) {
+    fn look_again(&mut self, island: &Island<'_, D>) {
         for (i, state) in self.state.iter_mut().enumerate().filter(|(_, state)| state.is_unknown()) {
-            let (rates, [force, friction]) = (island.rates(i), island.forces[i]);
+            let (rates, forces) = (island.rates(i), island.forces[i]);
             if !state.softness[0].is_nan() {
-                state.wanted[0] = state.scale[0] * (island.normal_force(i, island.gap_from(i, rates)) - force);
+                state.wanted[0] = state.scale[0] * (island.normal_force(i, island.gap_from(i, rates)) - forces[0]);
             }
-            if !state.softness[1].is_nan() {
+            if state.softness[1..].iter().any(|softness| !softness.is_nan()) {
                 let tied = matches!(island.terms_of(i).tangential, Tangential::Tied);
                 let found = if tied { island.tie_from(i, rates) } else { island.slide_from(i, rates).friction };
-                state.wanted[1] = state.scale[1] * (found - friction);
+                state.want_along(&island.links[i], 0.5 * island.time_steps[1], |a| found[a] - forces[a + 1]);
             }
         }
     }
 
     /// The springs from neighbour to neighbour, each part of the island from one of its ends.
-    fn arrange(&mut self, island: &Island<'_>) {
+    fn arrange(&mut self, island: &Island<'_, D>) {
         self.order.clear();
         self.seen.clear();
         self.seen.resize(island.links.len() + island.slots.len(), false);
@@ -182,7 +228,7 @@ impl Newton {
     }
 
     /// Appends what is connected to `from` by nodes, the nearest first.
-    fn spread(&mut self, island: &Island<'_>, from: usize) {
+    fn spread(&mut self, island: &Island<'_, D>, from: usize) {
         let links = island.links.len();
         let mut next = self.order.len();
         self.order.push(from as u32);
@@ -212,11 +258,11 @@ impl Newton {
     }
 
     /// Numbers the unknowns and finds the profile; `false`: there are none, or too much work.
-    fn number(&mut self, island: &Island<'_>) -> bool {
+    fn number(&mut self, island: &Island<'_, D>) -> bool {
         let mut count = 0;
         for &link in &self.order {
             let state = &mut self.state[link as usize];
-            for axis in 0..2 {
+            for axis in 0..D {
                 if !state.softness[axis].is_nan() {
                     state.unknown[axis] = count;
                     count += 1;
@@ -232,7 +278,7 @@ impl Newton {
             begin_at(&mut self.first, self.state[link as usize].unknown, low);
         }
         for (slot, hub) in island.slots.iter().enumerate() {
-            self.bodies.push([NONE; 3]);
+            self.bodies.push(Dim::<D>::row(|_| NONE));
             if !hub.is_hub {
                 continue;
             }
@@ -245,31 +291,30 @@ impl Newton {
                 touches.iter().for_each(|&[link, _]| begin_at(&mut self.first, self.state[link as usize].unknown, low));
                 continue;
             }
-            let [x, _, y, spin] = hub.mobility.0;
-            for (axis, mobility) in [x, y, spin].into_iter().enumerate() {
-                if mobility > 0.0 {
-                    self.bodies[slot][axis] = self.first.len() as u32;
-                    self.first.push(low);
-                }
+            for axis in (0..Dim::<D>::ROW).filter(|&axis| Dim::<D>::gives(&hub.mobility, axis)) {
+                self.bodies[slot][axis] = self.first.len() as u32;
+                self.first.push(low);
             }
         }
         // Normal force and friction of a spring know each other.
-        for state in self.state.iter().filter(|state| !state.unknown.contains(&NONE)) {
-            let [normal, along] = state.unknown.map(|u| u as usize);
-            self.first[along] = self.first[along].min(self.first[normal]);
+        for state in &self.state {
+            let mut known = state.unknown.into_iter().filter(|&u| u != NONE).map(|u| u as usize);
+            if let Some(lowest) = known.next() {
+                known.for_each(|along| self.first[along] = self.first[along].min(self.first[lowest]));
+            }
         }
         let work = self.first.iter().enumerate().map(|(row, &first)| (row - first as usize + 1).pow(2)).fold(0usize, usize::saturating_add);
         count > 0 && work <= (WORK[0] * self.first.len()).min(WORK[1])
     }
 
     /// Matrix and right side.
-    fn fill(&mut self, island: &Island<'_>) {
+    fn fill(&mut self, island: &Island<'_, D>) {
         let half = 0.5 * island.time_steps[1];
         self.matrix.reset(&self.first);
         self.right.clear();
         self.right.resize(self.first.len(), 0.0);
         for state in &self.state {
-            for axis in 0..2 {
+            for axis in 0..D {
                 if state.unknown[axis] != NONE {
                     let u = state.unknown[axis] as usize;
                     self.matrix.add(u, u, state.softness[axis]);
@@ -289,66 +334,109 @@ impl Newton {
             }
             let (mobility, touches) = (island.slots[slot].mobility, island.couplings.touches(slot));
             for &[j, l] in touches.iter().filter(|&&[j, _]| self.state[j as usize].is_unknown()) {
-                let responses = island.rows(l as usize).map(|row| mobility.response(row));
+                let responses = island.rows(l as usize).map(|row| Dim::<D>::response(&mobility, &row));
                 for &[i, k] in touches {
                     let states = [i, j].map(|link| &self.state[link as usize]);
-                    add(&mut self.matrix, states, half, island.rows(k as usize).map(|row| responses.map(|response| dot(row, response))));
+                    add(
+                        &mut self.matrix,
+                        states,
+                        half,
+                        island.rows(k as usize).map(|row| responses.map(|response| Dim::<D>::dot(&row, &response))),
+                    );
                 }
             }
         }
     }
 
     /// A rigid body as unknowns of its own.
-    fn fill_body(&mut self, island: &Island<'_>, slot: usize) {
+    fn fill_body(&mut self, island: &Island<'_, D>, slot: usize) {
         let half = 0.5 * island.time_steps[1];
         let unknowns = self.bodies[slot];
         for &[i, k] in island.couplings.touches(slot) {
-            let (state, [row, slip]) = (self.state[i as usize], island.rows(k as usize));
-            let columns = [[0, 1, 2].map(|d| row[d] + state.follow * slip[d]), slip];
-            for (axis, body) in unknowns.into_iter().enumerate().filter(|(_, body)| *body != NONE) {
+            let (state, rows) = (self.state[i as usize], island.rows(k as usize));
+            let row = |own: usize, axis: usize| match own {
+                0 => rows[0][axis],
+                own => sum_along::<D>(|a| state.along[own - 1][a] * rows[a + 1][axis]),
+            };
+            let column = |own: usize, axis: usize| match own {
+                0 => (1..D).fold(rows[0][axis], |sum, a| sum + state.follow[a - 1] * rows[a][axis]),
+                own => row(own, axis),
+            };
+            for (axis, &body) in unknowns.as_ref().iter().enumerate().filter(|(_, body)| **body != NONE) {
                 for (own, u) in state.unknown.into_iter().enumerate().filter(|(_, u)| *u != NONE) {
-                    self.matrix.add(u as usize, body as usize, half * [row, slip][own][axis]);
-                    self.matrix.add(body as usize, u as usize, half * columns[own][axis]);
+                    self.matrix.add(u as usize, body as usize, half * row(own, axis));
+                    self.matrix.add(body as usize, u as usize, half * column(own, axis));
                 }
             }
         }
-        let [x, _, y, spin] = island.slots[slot].mobility.0;
-        for (body, mobility) in unknowns.into_iter().zip([x, y, spin]).filter(|(body, _)| *body != NONE) {
-            self.matrix.add(body as usize, body as usize, -half / mobility);
-        }
+        let matrix = &mut self.matrix;
+        Dim::<D>::inverse(&island.slots[slot].mobility, -half, |i, j, value| {
+            if unknowns[i] != NONE && unknowns[j] != NONE {
+                matrix.add(unknowns[i] as usize, unknowns[j] as usize, value);
+            }
+        });
     }
 
     /// Adds the steps to the forces, within their bounds.
-    fn apply(&self, island: &mut Island<'_>, fraction: f64) {
+    fn apply(&self, island: &mut Island<'_, D>, fraction: f64) {
         for (i, state) in self.state.iter().enumerate() {
             let mut step = state.unknown.map(|u| if u == NONE { 0.0 } else { fraction * self.right[u as usize] });
-            if step == [0.0; 2] || !(step[0] + step[1]).is_finite() {
+            if step == [0.0; D] || !(1..D).fold(step[0], |sum, axis| sum + step[axis]).is_finite() {
                 continue;
             }
-            let [force, friction] = island.forces[i];
+            let forces = island.forces[i];
             if !matches!(island.terms_of(i).tangential, Tangential::Tied) {
-                step[0] = step[0].max(-force);
-                let limit = island.limit(i, force + step[0]);
-                step[1] = (friction + step[1] + state.follow * step[0]).clamp(-limit, limit) - friction;
+                step[0] = step[0].max(-forces[0]);
+                let limit = island.limit(i, forces[0] + step[0]);
+                let wanted =
+                    Dim::<D>::along(|a| forces[a + 1] + sum_along::<D>(|u| step[u + 1] * state.along[u][a]) + state.follow[a] * step[0]);
+                let within = Dim::<D>::within(wanted, limit);
+                (1..D).for_each(|axis| step[axis] = within[axis - 1] - forces[axis]);
             }
             island.push(i, step);
         }
     }
 }
 
-impl State {
+impl<const D: usize> State<D>
+where
+    Dim<D>: Motion<D>,
+{
+    /// Of a spring without unknowns.
+    fn none() -> Self {
+        Self {
+            unknown: [NONE; D],
+            softness: [f64::NAN; D],
+            scale: [0.0; D],
+            wanted: [0.0; D],
+            follow: Default::default(),
+            along: Dim::<D>::along(|a| Dim::<D>::along(|b| f64::from(u8::from(a == b)))),
+        }
+    }
+
+    /// Notes what friction would change, as far as it is unknown.
+    fn want_along(&mut self, link: &Link<D>, half: f64, change: impl Fn(usize) -> f64) {
+        let known = self.softness;
+        let part = |along: &<Dim<D> as Motion<D>>::Along<f64>| sum_along::<D>(|a| along[a] * change(a));
+        for u in (0..D - 1).filter(|&u| !known[u + 1].is_nan()) {
+            let others =
+                (0..D - 1).filter(|&v| v != u && !known[v + 1].is_nan()).map(|v| half * link.own(u + 1, v + 1) * part(&self.along[v]));
+            self.wanted[u + 1] = others.fold(self.scale[u + 1] * part(&self.along[u]), |sum, other| sum + other);
+        }
+    }
+
     fn is_unknown(&self) -> bool {
         self.softness.iter().any(|softness| !softness.is_nan())
     }
 
     /// The first of its unknowns; [`NONE`]: it has none.
     fn lowest(&self) -> u32 {
-        self.unknown[0].min(self.unknown[1])
+        self.unknown.into_iter().fold(NONE, u32::min)
     }
 }
 
 /// Rows of unknowns begin not after the column `low`.
-fn begin_at(first: &mut [u32], unknowns: [u32; 2], low: u32) {
+fn begin_at<const D: usize>(first: &mut [u32], unknowns: [u32; D], low: u32) {
     for u in unknowns.into_iter().filter(|&u| u != NONE) {
         let first = &mut first[u as usize];
         *first = low.min(*first);
@@ -357,36 +445,61 @@ fn begin_at(first: &mut [u32], unknowns: [u32; 2], low: u32) {
 
 /// Adds what the forces of the second of two springs do to the rates of gap and slip of the first, times `half` a step.
 #[inline]
-fn add(matrix: &mut Skyline, [on, by]: [&State; 2], half: f64, pair: [[f64; 2]; 2]) {
-    for axis in [0, 1] {
-        let (row, [by_normal, by_along]) = (on.unknown[axis], pair[axis]);
+fn add<const D: usize>(matrix: &mut Skyline, [on, by]: [&State<D>; 2], half: f64, pair: [[f64; D]; D])
+where
+    Dim<D>: Motion<D>,
+{
+    for axis in 0..D {
+        let row = on.unknown[axis];
         if row == NONE {
             continue;
         }
+        let seen = |by: usize| match axis {
+            0 => pair[0][by],
+            axis => sum_along::<D>(|a| on.along[axis - 1][a] * pair[a + 1][by]),
+        };
         if by.unknown[0] != NONE {
-            matrix.add(row as usize, by.unknown[0] as usize, half * (by_normal + by.follow * by_along));
+            let sum = (1..D).fold(seen(0), |sum, a| sum + by.follow[a - 1] * seen(a));
+            matrix.add(row as usize, by.unknown[0] as usize, half * sum);
         }
-        if by.unknown[1] != NONE {
-            matrix.add(row as usize, by.unknown[1] as usize, half * by_along);
+        for u in 1..D {
+            if by.unknown[u] != NONE {
+                matrix.add(row as usize, by.unknown[u] as usize, half * sum_along::<D>(|a| by.along[u - 1][a] * seen(a + 1)));
+            }
         }
     }
 }
 
+/// Gives a spring the friction that is named along its tangents.
+fn give<const D: usize>(island: &mut Island<'_, D>, i: usize, named: impl Fn(usize) -> Option<f64>)
+where
+    Dim<D>: Motion<D>,
+{
+    let (mut step, before): (Forces<D>, Forces<D>) = ([0.0; D], island.forces[i]);
+    (0..D - 1).for_each(|a| step[a + 1] = named(a).map_or(0.0, |friction| friction - before[a + 1]));
+    island.push(i, step);
+    (0..D - 1).for_each(|a| island.forces[i][a + 1] = named(a).unwrap_or(before[a + 1]));
+}
+
 /// What the forces of a spring do to its own rates by way of what is no hub.
-fn own(island: &Island<'_>, i: usize) -> [[f64; 2]; 2] {
+fn own<const D: usize>(island: &Island<'_, D>, i: usize) -> [[f64; D]; D]
+where
+    Dim<D>: Motion<D>,
+{
     let link = &island.links[i];
-    let [mut gap, mut cross, mut slip] = link.own;
-    if link.is_at_hub {
-        [gap, cross, slip] = [0.0; 3];
-        for k in link.arms() {
-            let (slot, [row, along]) = (&island.slots[island.arms[k].slot as usize], island.rows(k));
-            if !slot.is_hub {
-                let response = slot.mobility.response(row);
-                gap += dot(row, response);
-                cross += dot(along, response);
-                slip += dot(along, slot.mobility.response(along));
-            }
+    if !link.is_at_hub {
+        return std::array::from_fn(|on| std::array::from_fn(|by| link.own(on, by)));
+    }
+    let mut sums = [[0.0; D]; D];
+    for k in link.arms() {
+        let (slot, rows) = (&island.slots[island.arms[k].slot as usize], island.rows(k));
+        if slot.is_hub {
+            continue;
+        }
+        for by in 0..D {
+            let response = Dim::<D>::response(&slot.mobility, &rows[by]);
+            (by..D).for_each(|on| sums[on][by] += Dim::<D>::dot(&rows[on], &response));
         }
     }
-    [[gap, cross], [cross, slip]]
+    std::array::from_fn(|on| std::array::from_fn(|by| sums[on.max(by)][on.min(by)]))
 }

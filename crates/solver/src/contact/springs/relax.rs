@@ -4,11 +4,13 @@
 //! matrix (2/k on the diagonal plus compliances) is symmetric and positive definite, so sweeps converge; how fast depends on how much stiffer the springs are than the nodes between them.
 
 use super::couple::{Couplings, Forces, Rates};
-use super::friction::{self, Stick};
-use super::link::{Arm, Link, Slot, dot};
+use super::friction::{Slid, Stick};
+use super::link::{Arm, Link, Row, Slips, Slot};
 use super::newton::Newton;
-use super::{Closing, Solved, Spring, Tangential, Terms};
+use super::{Along, Closing, Solved, Spring, Tangential, Terms};
 use crate::contact::law;
+use crate::motion::Motion;
+use crate::tensor::Dim;
 
 /// An island is solved when a sweep changes no force by more than this fraction of the island's largest.
 pub(super) const TOLERANCE: f64 = 1e-12;
@@ -22,16 +24,19 @@ const EAGER: usize = 16;
 const LENT: f64 = 1e-7;
 
 /// Springs that share what they move.
-pub(super) struct Island<'a> {
-    pub(super) links: &'a mut [Link],
-    pub(super) arms: &'a [Arm],
-    /// Rows of the slip, as `arms`; zero of springs that do not care.
-    pub(super) slips: &'a [[f64; 3]],
-    pub(super) slots: &'a mut [Slot],
-    pub(super) couplings: &'a Couplings,
+pub(super) struct Island<'a, const D: usize>
+where
+    Dim<D>: Motion<D>,
+{
+    pub(super) links: &'a mut [Link<D>],
+    pub(super) arms: &'a [Arm<D>],
+    /// Rows of the slips, as `arms`; zero of springs that do not care.
+    pub(super) slips: &'a [Slips<D>],
+    pub(super) slots: &'a mut [Slot<D>],
+    pub(super) couplings: &'a Couplings<D>,
     /// Of each link, as found so far.
-    pub(super) forces: &'a mut [Forces],
-    pub(super) list: &'a [Spring],
+    pub(super) forces: &'a mut [Forces<D>],
+    pub(super) list: &'a [Spring<D>],
     /// Terms of each spring of the list.
     pub(super) terms_of: &'a [u32],
     pub(super) terms: &'a [Terms],
@@ -115,9 +120,12 @@ impl Effort {
     }
 }
 
-impl Island<'_> {
+impl<const D: usize> Island<'_, D>
+where
+    Dim<D>: Motion<D>,
+{
     /// Finds the forces; `newton` and `live` are memory to work in.
-    pub(super) fn solve(&mut self, newton: &mut Newton, live: &mut Vec<u32>) -> Effort {
+    pub(super) fn solve(&mut self, newton: &mut Newton<D>, live: &mut Vec<u32>) -> Effort {
         // All springs, then those that push until they agree, then all again: open ones are only looked at.
         let mut all = self.sweep_all();
         let mut pace = Pace { sweeps: 1, ..Pace::default() };
@@ -148,9 +156,9 @@ impl Island<'_> {
     }
 
     /// Sweeps over the springs that push, until nothing changes or a prediction has been made; `before` is the change of the sweep before.
-    fn relax_live(&mut self, live: &mut Vec<u32>, before: f64, newton: &mut Newton, pace: &mut Pace) {
+    fn relax_live(&mut self, live: &mut Vec<u32>, before: f64, newton: &mut Newton<D>, pace: &mut Pace) {
         live.clear();
-        live.extend((0..self.links.len() as u32).filter(|&i| self.forces[i as usize] != [0.0; 2]));
+        live.extend((0..self.links.len() as u32).filter(|&i| self.forces[i as usize] != [0.0; D]));
         pace.judge(before);
         let mut last = before;
         for sweep in 1.. {
@@ -176,7 +184,8 @@ impl Island<'_> {
         for i in 0..self.links.len() {
             if !self.terms_of(i).law.is_elastic() {
                 let link = &mut self.links[i];
-                link.lent = [LENT * link.compliance, LENT * link.own[2]];
+                let along = (2..D).fold(link.own(1, 1), |most, a| most.max(link.own(a, a)));
+                link.lent = [LENT * link.compliance, LENT * along];
                 link.centre = self.forces[i];
             }
         }
@@ -219,20 +228,23 @@ impl Island<'_> {
         self.forces[i][0] = force;
         sum.see(force - old[0], force);
         let friction = self.friction_from(i, rates);
-        self.forces[i][1] = friction;
-        sum.see(friction - old[1], friction);
+        for a in 0..D - 1 {
+            self.forces[i][a + 1] = friction[a];
+            sum.see(friction[a] - old[a + 1], friction[a]);
+        }
         if self.links[i].is_at_hub {
-            self.tell_hubs(i, [force - old[0], friction - old[1]]);
+            let forces = self.forces[i];
+            self.tell_hubs(i, std::array::from_fn(|k| forces[k] - old[k]));
         }
     }
 
     /// Friction that a spring wants where the others add `rates` to its own.
     #[inline]
-    fn friction_from(&mut self, i: usize, rates: Rates) -> f64 {
+    fn friction_from(&mut self, i: usize, rates: Rates<D>) -> Along<D> {
         let tangential = self.terms_of(i).tangential;
         match tangential {
-            Tangential::Free => 0.0,
-            Tangential::Friction(_) if self.forces[i] == [0.0; 2] => 0.0,
+            Tangential::Free => Along::<D>::default(),
+            Tangential::Friction(_) if self.forces[i] == [0.0; D] => Along::<D>::default(),
             Tangential::Friction(_) => {
                 let found = self.slide_from(i, rates);
                 (self.links[i].slip_new, self.links[i].slides) = (found.slip, found.slides);
@@ -244,59 +256,71 @@ impl Island<'_> {
 
     /// What the forces of the others add to the rates of a spring.
     #[inline]
-    pub(super) fn rates(&self, i: usize) -> Rates {
+    pub(super) fn rates(&self, i: usize) -> Rates<D> {
         let mut rates = self.couplings.rates(i, self.forces);
         let link = &self.links[i];
         if link.is_at_hub {
             for k in link.arms() {
                 let slot = &self.slots[self.arms[k].slot as usize];
                 if slot.is_hub {
-                    let own = slot.mobility.response(self.pull(k, self.forces[i]));
-                    let others = [0, 1, 2].map(|d| slot.change[d] - own[d]);
-                    rates[0] += dot(self.arms[k].row, others);
-                    rates[1] += dot(self.slips[k], others);
+                    let own = Dim::<D>::response(&slot.mobility, &self.pull(k, self.forces[i]));
+                    let others = Dim::<D>::row(|d| slot.change[d] - own[d]);
+                    rates[0] += Dim::<D>::dot(&self.arms[k].row, &others);
+                    for a in 0..D - 1 {
+                        rates[a + 1] += Dim::<D>::dot(&self.slips[k][a], &others);
+                    }
                 }
             }
         }
         rates
     }
 
-    /// Rows of the gap and of the slip at the arm `k`.
+    /// Rows of the gap and of the slips at the arm `k`.
     #[inline]
-    pub(super) fn rows(&self, k: usize) -> [[f64; 3]; 2] {
-        [self.arms[k].row, self.slips[k]]
+    pub(super) fn rows(&self, k: usize) -> [Row<D>; D] {
+        std::array::from_fn(|axis| if axis == 0 { self.arms[k].row } else { self.slips[k][axis - 1] })
     }
 
     /// Force of a spring on what is at its arm `k`.
-    fn pull(&self, k: usize, [force, friction]: Forces) -> [f64; 3] {
-        let [row, slip] = self.rows(k);
-        [0, 1, 2].map(|d| row[d] * force + slip[d] * friction)
+    fn pull(&self, k: usize, forces: Forces<D>) -> Row<D> {
+        let rows = self.rows(k);
+        Dim::<D>::row(|d| {
+            let mut sum = rows[0][d] * forces[0];
+            for axis in 1..D {
+                sum += rows[axis][d] * forces[axis];
+            }
+            sum
+        })
     }
 
     /// Velocities of hubs follow the changes of a spring's forces.
-    fn tell_hubs(&mut self, i: usize, step: Forces) {
+    fn tell_hubs(&mut self, i: usize, step: Forces<D>) {
         for k in self.links[i].arms() {
             let pull = self.pull(k, step);
             let slot = &mut self.slots[self.arms[k].slot as usize];
             if slot.is_hub {
-                let response = slot.mobility.response(pull);
-                slot.change.iter_mut().zip(response).for_each(|(change, response)| *change += response);
+                let response = Dim::<D>::response(&slot.mobility, &pull);
+                (0..Dim::<D>::ROW).for_each(|d| slot.change[d] += response[d]);
             }
         }
     }
 
     /// g^{n+½} of a spring without its own normal force, where the others add `rates` to its own.
     #[inline]
-    pub(super) fn gap_from(&self, i: usize, rates: Rates) -> f64 {
+    pub(super) fn gap_from(&self, i: usize, rates: Rates<D>) -> f64 {
         let link = &self.links[i];
-        link.gap_free + 0.5 * self.time_steps[1] * (rates[0] + link.own[1] * self.forces[i][1])
+        let mut rate = rates[0];
+        for axis in 1..D {
+            rate += link.own(0, axis) * self.forces[i][axis];
+        }
+        link.gap_free + 0.5 * self.time_steps[1] * rate
     }
 
     /// Normal force by the law where the gap without it is `free`.
     #[inline]
     pub(super) fn normal_force(&self, i: usize, free: f64) -> f64 {
         let (link, terms) = (&self.links[i], self.terms_of(i));
-        let spring = &self.list[link.spring as usize];
+        let spring = &self.list[link.spring as usize].patch();
         let closing =
             Closing { spring, old: link.gap_old, free: free - link.lent[0] * link.centre[0], compliance: link.compliance + link.lent[0] };
         if terms.damping > 0.0 {
@@ -308,13 +332,15 @@ impl Island<'_> {
 
     /// What friction can do at a spring where the others add `rates` to its own.
     #[inline]
-    pub(super) fn stick_from(&self, i: usize, rates: Rates) -> Stick {
+    pub(super) fn stick_from(&self, i: usize, rates: Rates<D>) -> Stick<D> {
         let link = &self.links[i];
+        let free = |a| link.slip_rate_free[a] + rates[a + 1] + link.own(a + 1, 0) * self.forces[i][0] - link.lent[1] * link.centre[a + 1];
+        let compliance = |a: usize, b: usize| if a == b { link.own(a + 1, a + 1) + link.lent[1] } else { link.own(a + 1, b + 1) };
         Stick {
             old: link.slip_rate_old,
-            free: link.slip_rate_free + rates[1] + link.own[1] * self.forces[i][0] - link.lent[1] * link.centre[1],
-            compliance: link.own[2] + link.lent[1],
-            stiffness: self.terms_of(i).law.slip_stiffness(&self.list[link.spring as usize]),
+            free: Dim::<D>::along(free),
+            compliance: Dim::<D>::along(|a| Dim::<D>::along(|b| compliance(a, b))),
+            stiffness: self.terms_of(i).law.slip_stiffness(&self.list[link.spring as usize].patch()),
             time_steps: self.time_steps,
         }
     }
@@ -323,36 +349,38 @@ impl Island<'_> {
     pub(super) fn limit(&self, i: usize, force: f64) -> f64 {
         let link = &self.links[i];
         match self.terms_of(i).tangential {
-            Tangential::Friction(law) => law.limit(force, self.list[link.spring as usize].area, link.slip_rate_old),
+            Tangential::Friction(law) => law.limit(force, self.list[link.spring as usize].area, Dim::<D>::size(&link.slip_rate_old)),
             _ => 0.0,
         }
     }
 
     /// Friction by its law where the others add `rates` to its own.
     #[inline]
-    pub(super) fn slide_from(&self, i: usize, rates: Rates) -> friction::Slid {
-        friction::slide(&self.stick_from(i, rates), self.list[self.links[i].spring as usize].slip, self.limit(i, self.forces[i][0]))
+    pub(super) fn slide_from(&self, i: usize, rates: Rates<D>) -> Slid<D> {
+        Dim::<D>::slide(&self.stick_from(i, rates), self.list[self.links[i].spring as usize].slip, self.limit(i, self.forces[i][0]))
     }
 
     /// The same of a tie.
     #[inline]
-    pub(super) fn tie_from(&self, i: usize, rates: Rates) -> f64 {
-        friction::tie(&self.stick_from(i, rates), self.list[self.links[i].spring as usize].slip)
+    pub(super) fn tie_from(&self, i: usize, rates: Rates<D>) -> Along<D> {
+        Dim::<D>::tie(&self.stick_from(i, rates), self.list[self.links[i].spring as usize].slip)
     }
 
     /// Adds to the forces of a spring.
-    pub(super) fn push(&mut self, i: usize, step: Forces) {
+    pub(super) fn push(&mut self, i: usize, step: Forces<D>) {
         self.forces[i].iter_mut().zip(step).for_each(|(force, step)| *force += step);
         self.tell_hubs(i, step);
     }
 
     /// Tells what was found, with the rates that the forces lead to.
-    pub(super) fn settle(&self, solved: &mut [Solved]) {
+    pub(super) fn settle(&self, solved: &mut [Solved<D>]) {
         for (i, (link, solved)) in self.links.iter().zip(solved).enumerate() {
             let is_free = matches!(self.terms_of(i).tangential, Tangential::Free);
-            let ([others, others_along], [force, friction], [own, cross, along]) = (self.rates(i), self.forces[i], link.own);
-            let rate = link.rate_free + (others + (own * force + cross * friction));
-            let slip_rate = if is_free { 0.0 } else { link.slip_rate_free + (others_along + (cross * force + along * friction)) };
+            let (others, forces) = (self.rates(i), self.forces[i]);
+            let own = |axis: usize| (1..D).fold(link.own(axis, 0) * forces[0], |sum, by| sum + link.own(axis, by) * forces[by]);
+            let rate = link.rate_free + (others[0] + own(0));
+            let slip_rate = Dim::<D>::along(|a| if is_free { 0.0 } else { link.slip_rate_free[a] + (others[a + 1] + own(a + 1)) });
+            let (force, friction) = (forces[0], Dim::<D>::along(|a| forces[a + 1]));
             let slides = if is_free { force != 0.0 } else { link.slides };
             let Link { slip_new, rate_old, slip_rate_old, .. } = *link;
             *solved = Solved { force, friction, slip_new, slides, rates: [rate_old, rate], slip_rates: [slip_rate_old, slip_rate] };

@@ -8,6 +8,8 @@ use super::link::{Bench, Joints, Movable};
 use super::newton::Newton;
 use super::relax::{Effort, Island};
 use super::{Movers, Solved, Springs, Terms, Update};
+use crate::motion::Motion;
+use crate::tensor::Dim;
 
 /// Springs (at least) of the islands that one task solves.
 const CHUNK: usize = 256;
@@ -16,7 +18,10 @@ const SERIAL: usize = 4 * CHUNK;
 
 /// Memory of the solution; nothing of it is known from step to step but what was found.
 #[derive(Default)]
-pub(super) struct Workspace {
+pub(super) struct Workspace<const D: usize>
+where
+    Dim<D>: Motion<D>,
+{
     /// Place of each node (then of each rigid body) in `at`; `NONE`: not touched.
     place: Vec<u32>,
     /// Node or rigid body of each place.
@@ -29,17 +34,20 @@ pub(super) struct Workspace {
     /// Where each task's islands end.
     chunks: Vec<u32>,
     /// What was found, island by island.
-    pub(super) solved: Vec<Solved>,
+    pub(super) solved: Vec<Solved<D>>,
     /// Where each spring is among them.
     pub(super) rank: Vec<u32>,
-    desks: Vec<Desk>,
+    desks: Vec<Desk<D>>,
 }
 
 /// What a task works with, and what it tells.
 #[derive(Default)]
-struct Desk {
-    bench: Bench,
-    newton: Newton,
+struct Desk<const D: usize>
+where
+    Dim<D>: Motion<D>,
+{
+    bench: Bench<D>,
+    newton: Newton<D>,
     live: Vec<u32>,
     effort: Effort,
 }
@@ -47,15 +55,21 @@ struct Desk {
 /// A place that moves, until it has a slot.
 const MOVES: u32 = NONE - 1;
 
-impl Workspace {
+impl<const D: usize> Workspace<D>
+where
+    Dim<D>: Motion<D>,
+{
     pub(super) fn new(places: usize) -> Self {
         Self { place: vec![NONE; places], ..Self::default() }
     }
 }
 
-impl Springs {
+impl<const D: usize> Springs<D>
+where
+    Dim<D>: Motion<D>,
+{
     /// Finds the forces of every spring and the rates that they lead to.
-    pub fn solve<M: Movers + Sync>(&mut self, update: &Update<'_, M>) {
+    pub fn solve<M: Movers<D> + Sync>(&mut self, update: &Update<'_, M, D>) {
         self.time_steps = update.time_steps;
         if self.list.is_empty() {
             return;
@@ -72,7 +86,7 @@ impl Springs {
     }
 
     /// The nodes and bodies at the springs.
-    fn gather<M: Movers>(&mut self, update: &Update<'_, M>) {
+    fn gather<M: Movers<D>>(&mut self, update: &Update<'_, M, D>) {
         let nodes = update.nodes.count();
         let Workspace { place, at: all, places, slots, .. } = &mut self.work;
         all.clear();
@@ -128,7 +142,7 @@ impl Springs {
     }
 
     /// The forces of all islands.
-    fn solve_islands<M: Movers + Sync>(&mut self, update: &Update<'_, M>) {
+    fn solve_islands<M: Movers<D> + Sync>(&mut self, update: &Update<'_, M, D>) {
         let parallel = self.list.len() >= SERIAL && rayon::current_thread_index().is_some();
         let Workspace { at, places, slots, islands, chunks, solved, desks, .. } = &mut self.work;
         solved.resize(self.list.len(), Solved::default());
@@ -156,15 +170,21 @@ impl Springs {
 }
 
 /// What all tasks see.
-struct Plan<'a, M: Movers> {
-    joints: Joints<'a, M>,
+struct Plan<'a, M: Movers<D>, const D: usize>
+where
+    Dim<D>: Motion<D>,
+{
+    joints: Joints<'a, M, D>,
     islands: &'a Islands,
     chunks: &'a [u32],
     terms: &'a [Terms],
     terms_of: &'a [u32],
 }
 
-impl<M: Movers + Sync> Plan<'_, M> {
+impl<M: Movers<D> + Sync, const D: usize> Plan<'_, M, D>
+where
+    Dim<D>: Motion<D>,
+{
     /// The first island of a chunk.
     fn begin(&self, chunk: usize) -> usize {
         if chunk == 0 { 0 } else { self.chunks[chunk - 1] as usize }
@@ -181,7 +201,7 @@ impl<M: Movers + Sync> Plan<'_, M> {
     }
 
     /// Solves chunks, halves of them at the same time.
-    fn solve(&self, chunks: std::ops::Range<usize>, solved: &mut [Solved], desks: &mut [Desk]) {
+    fn solve(&self, chunks: std::ops::Range<usize>, solved: &mut [Solved<D>], desks: &mut [Desk<D>]) {
         if let ([desk], 1) = (&mut *desks, chunks.len()) {
             return self.solve_chunk(chunks.start, solved, desk);
         }
@@ -193,7 +213,7 @@ impl<M: Movers + Sync> Plan<'_, M> {
     }
 
     /// Solves the islands of a chunk one after the other.
-    fn solve_chunk(&self, chunk: usize, solved: &mut [Solved], desk: &mut Desk) {
+    fn solve_chunk(&self, chunk: usize, solved: &mut [Solved<D>], desk: &mut Desk<D>) {
         let Desk { bench, newton, live, effort } = desk;
         let base = self.before(self.begin(chunk));
         for island in self.begin(chunk)..self.chunks[chunk] as usize {

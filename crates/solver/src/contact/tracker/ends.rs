@@ -65,7 +65,7 @@ impl Ends {
         }
         self.near.clear();
         self.near.resize(self.lengths.len(), false);
-        let Surface { previous, next, .. } = &target.surface;
+        let Surface::<2> { previous, next, .. } = &target.surface;
         let after = |segment: u32| next.get(segment as usize).copied().unwrap_or(NONE);
         for (segment, (&before, &follower)) in (0..).zip(previous.iter().zip(next)) {
             // An end between two segments is looked at once.

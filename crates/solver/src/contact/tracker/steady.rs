@@ -187,7 +187,7 @@ mod tests {
             let segments: Vec<[u32; 2]> = (0..9).map(|i| [i, i + 1]).collect();
             let previous = (0..9).map(|i| if i == 0 { NONE } else { i - 1 }).collect();
             let next = (0..9).map(|i| if i == 8 { NONE } else { i + 1 }).collect();
-            let target = Target { surface: Surface { segments, previous, next, nodes: (0..10).collect() }, mirrors: Vec::new() };
+            let target = Target { surface: Surface::<2> { segments, previous, next, nodes: (0..10).collect() }, mirrors: Vec::new() };
             let below = (x as usize).min(8);
             let height = heights[below] + (x - below as f64) * (heights[below + 1] - heights[below]);
             let old = scene(&heights, [x, height + depth]);
@@ -218,7 +218,7 @@ mod tests {
     fn who_lies_over_the_middle_of_a_flat_segment_stays() {
         let segments = vec![[0, 1], [1, 2], [2, 3]];
         let target = Target {
-            surface: Surface { segments, previous: vec![NONE, 0, 1], next: vec![1, 2, NONE], nodes: vec![0, 1, 2, 3] },
+            surface: Surface::<2> { segments, previous: vec![NONE, 0, 1], next: vec![1, 2, NONE], nodes: vec![0, 1, 2, 3] },
             mirrors: Vec::new(),
         };
         let positions: Vec<_> = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.1], [3.0, 0.0], [0.5, -0.1], [1.5, -0.05], [2.5, -0.1]].to_vec();

@@ -23,6 +23,7 @@ use super::{ParameterFault, Parameters, points::PointLaw};
 use crate::material::messages::PARAMETERS;
 use crate::model::Material;
 use crate::quantity::{Dimension, Parameter, Range};
+use crate::tensor::{Dim, Space};
 use embate_lanes::Lane;
 
 /// An equation of state as the registry describes it.
@@ -168,14 +169,20 @@ fn limit(parameters: &Parameters<'_>) -> f64 {
 }
 
 /// `law` with the pressure of the material's equation of state; as it is where there is none.
-pub(super) fn around(law: Box<dyn PointLaw>, material: &Material) -> Option<Box<dyn PointLaw>> {
-    struct Make<'a>(Box<dyn PointLaw>, &'a Material);
-    impl EquationVisitor for Make<'_> {
+pub(super) fn around<const D: usize>(law: Box<dyn PointLaw>, material: &Material) -> Option<Box<dyn PointLaw>>
+where
+    Dim<D>: Space<D>,
+{
+    struct Make<'a, const D: usize>(Box<dyn PointLaw>, &'a Material);
+    impl<const D: usize> EquationVisitor for Make<'_, D>
+    where
+        Dim<D>: Space<D>,
+    {
         type Output = Box<dyn PointLaw>;
         fn visit<Q: Equation>(self) -> Self::Output {
             let parameters = Parameters::new(Q::KIND.parameters, &self.1.parameters, &self.1.lists);
-            Box::new(point::WithEquation::new(self.0, Q::new(&parameters), parameters.value("density"), limit(&parameters)))
+            Box::new(point::WithEquation::<Q, D>::new(self.0, Q::new(&parameters), parameters.value("density"), limit(&parameters)))
         }
     }
-    if material.eos.is_empty() { Some(law) } else { with_equation(&material.eos, Make(law, material)) }
+    if material.eos.is_empty() { Some(law) } else { with_equation(&material.eos, Make::<D>(law, material)) }
 }

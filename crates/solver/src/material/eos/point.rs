@@ -15,10 +15,13 @@
 //! so the books close by construction; E itself is stored plus dissipated plus viscous energy, less the deviator's elastic part.
 
 use super::{Equation, Terms};
-use crate::material::points::{PLANE, PointLaw, Points, RESPONSE};
+use crate::material::points::{PointLaw, Points, RESPONSE};
 use crate::material::{Family, Variable};
-use crate::tensor::{Plane, Solid, SymmetricTensor};
+use crate::tensor::{Dim, Solid, Space, SymmetricTensor};
 use embate_lanes::{BATCH, Batch, Kernel, Lane, Level};
+use std::marker::PhantomData;
+
+type Tensor<const D: usize, L> = <Dim<D> as Space<D>>::Tensor<L>;
 
 /// Batches of history per point, after the law's own: density, energy per initial volume, pressure.
 const OWN: usize = 3;
@@ -26,7 +29,7 @@ const OWN: usize = 3;
 const SOFTEST: f64 = 1e-9;
 
 /// A law with an equation of state.
-pub(super) struct WithEquation<Q> {
+pub(super) struct WithEquation<Q, const D: usize> {
     law: Box<dyn PointLaw>,
     equation: Q,
     density: f64,
@@ -35,18 +38,22 @@ pub(super) struct WithEquation<Q> {
     /// At rest.
     bulk: f64,
     variables: Vec<(Variable, usize)>,
+    dimension: PhantomData<Dim<D>>,
 }
 
-impl<Q: Equation> WithEquation<Q> {
+impl<Q: Equation, const D: usize> WithEquation<Q, D> {
     pub(super) fn new(law: Box<dyn PointLaw>, equation: Q, density: f64, tension: f64) -> Self {
         let mut variables = law.variables().to_vec();
         variables.push((Variable::Density, law.state_width()));
         let bulk = equation.terms(1.0).bulk(1.0, equation.energy());
-        Self { law, equation, density, least: -tension, bulk, variables }
+        Self { law, equation, density, least: -tension, bulk, variables, dimension: PhantomData }
     }
 }
 
-impl<Q: Equation> PointLaw for WithEquation<Q> {
+impl<Q: Equation, const D: usize> PointLaw for WithEquation<Q, D>
+where
+    Dim<D>: Space<D>,
+{
     fn family(&self) -> Family {
         Family::Rate
     }
@@ -65,6 +72,9 @@ impl<Q: Equation> PointLaw for WithEquation<Q> {
     fn stiffness(&self) -> [f64; 2] {
         [self.bulk, self.law.stiffness()[1]]
     }
+    fn is_elastic(&self) -> bool {
+        self.law.is_elastic()
+    }
     fn stored(&self) -> f64 {
         self.equation.energy()
     }
@@ -81,7 +91,7 @@ impl<Q: Equation> PointLaw for WithEquation<Q> {
 
     fn respond(&self, level: Level, points: Points<'_>) {
         let Points { time_step, strain, rotation, volume_ratio, viscous_heat, stress, state, response, room } = points;
-        let (inner, count) = (self.law.state_width(), strain.len() / PLANE);
+        let (inner, count) = (self.law.state_width(), strain.len() / <Tensor<D, f64> as SymmetricTensor<f64>>::COMPONENTS);
         let width = inner + OWN;
         // The law's history lies between that of the equation: it gets a copy in one piece.
         let (room, nested) = room.split(count * inner);
@@ -100,8 +110,8 @@ impl<Q: Equation> PointLaw for WithEquation<Q> {
 }
 
 /// Replaces the mean stresses.
-struct Replace<'a, Q> {
-    owner: &'a WithEquation<Q>,
+struct Replace<'a, Q, const D: usize> {
+    owner: &'a WithEquation<Q, D>,
     strain: &'a [Batch],
     volume_ratio: &'a [Batch],
     viscous_heat: &'a [Batch],
@@ -110,7 +120,10 @@ struct Replace<'a, Q> {
     response: &'a mut [Batch],
 }
 
-impl<Q: Equation> Kernel for Replace<'_, Q> {
+impl<Q: Equation, const D: usize> Kernel for Replace<'_, Q, D>
+where
+    Dim<D>: Space<D>,
+{
     type Output = ();
 
     #[inline(always)]
@@ -120,9 +133,10 @@ impl<Q: Equation> Kernel for Replace<'_, Q> {
         let least = L::splat(self.owner.least);
         let softest = L::splat(SOFTEST * self.owner.bulk);
         let width = self.owner.law.state_width() + OWN;
-        for p in 0..self.strain.len() / PLANE {
-            let strain = &self.strain[p * PLANE..(p + 1) * PLANE];
-            let stress = &mut self.stress[p * PLANE..(p + 1) * PLANE];
+        let components = <Tensor<D, L> as SymmetricTensor<L>>::COMPONENTS;
+        for p in 0..self.strain.len() / components {
+            let strain = &self.strain[p * components..(p + 1) * components];
+            let stress = &mut self.stress[p * components..(p + 1) * components];
             let own = &mut self.state[(p + 1) * width - OWN..(p + 1) * width];
             let out = &mut self.response[p * RESPONSE..(p + 1) * RESPONSE];
             for at in (0..BATCH).step_by(L::WIDTH) {
@@ -139,10 +153,10 @@ impl<Q: Equation> Kernel for Replace<'_, Q> {
                 energy.store(&mut own[1], at);
                 pressure.store(&mut own[2], at);
 
-                let found = <Plane<L> as SymmetricTensor<L>>::load(stress, at);
+                let found = <Tensor<D, L> as SymmetricTensor<L>>::load(stress, at);
                 let shift = -(pressure + found.trace() * third);
                 found.plus_isotropic(shift).store(stress, at);
-                let dilatation = <Plane<L> as SymmetricTensor<L>>::load(strain, at).trace();
+                let dilatation = <Tensor<D, L> as SymmetricTensor<L>>::load(strain, at).trace();
                 // (σ_old + σ_new):Δε with the new stress shifted.
                 (L::load(&out[0], at) + shift * dilatation).store(&mut out[0], at);
                 terms.bulk(ratio, energy).max(softest).store(&mut out[2], at);

@@ -106,6 +106,13 @@ impl BuiltIn for Disk {
     }
 }
 
+impl Disk {
+    /// Layers of quadrilaterals around the core.
+    pub(super) fn layers(&self) -> usize {
+        layers_of(self.elements)
+    }
+}
+
 /// How round the sides of a disk's core are: 0 straight, 1 arcs around the centre. This and [`core_fraction`] and [`layers_of`] were
 /// chosen from a scan for large corner angles, sides of equal length, and a large area over longest diagonal (the stable step).
 const ROUND: f64 = 0.5;

@@ -3,41 +3,68 @@
 //! Values come from the model file or from code; bodies go to the mesh builder. To add a shape: one file with `KEY` and `impl BuiltIn`, and its
 //! line in `shapes!`; the model's [`Shape`], the keys, the manual and the contract tests below follow from there.
 
+mod axes;
 mod coons;
+mod cut;
 mod delaunay;
 mod numbers;
+pub(crate) mod sweep;
 
+pub(super) use axes::unit;
 pub(super) use numbers::{cos_sin, quarters};
 pub use quadrilateral::Edge;
+pub use sweep::{Extrude, Revolve, Sweep};
 
+use super::Meshed;
+use super::messages::UNMESHABLE;
+use super::surface::Facet;
+use crate::error::Fault;
+use crate::model::Part;
 use crate::model::check::CheckOf;
 use crate::model::describe::{Form, Group, Key, Kind, Need, Rule, Section, key};
 use crate::quantity::Dimension;
 use crate::quantity::Range::Positive;
+use crate::tensor::Dim;
+use cut::cut;
 use numbers::Steps;
 
-/// The mesh of one body: nodes, elements, and named sides.
+/// The mesh of one body: nodes, elements, and named sides. In the plane it has quadrilaterals and triangles, in space hexahedra, wedges and tetrahedra; elements are
+/// numbered in this order.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Body {
+pub struct Body<const D: usize = 2>
+where
+    Dim<D>: Meshed<D>,
+{
     /// Node positions, m.
-    pub positions: Vec<[f64; 2]>,
+    pub positions: Vec<[f64; D]>,
     /// Quadrilaterals, counter-clockwise.
     pub quads: Vec<[u32; 4]>,
-    /// Triangles, counter-clockwise; elements are numbered after the quadrilaterals.
+    /// Triangles, counter-clockwise.
     pub triangles: Vec<[u32; 3]>,
+    /// Hexahedra: four nodes counter-clockwise seen from the other four, which follow above them.
+    pub hexahedra: Vec<[u32; 8]>,
+    /// Wedges: three nodes counter-clockwise seen from the other three, which follow above them.
+    pub wedges: Vec<[u32; 6]>,
+    /// Tetrahedra: three nodes counter-clockwise seen from the fourth.
+    pub tetrahedra: Vec<[u32; 4]>,
     /// Bars; a body of bars has nothing else.
     pub bars: Vec<[u32; 2]>,
-    /// Named sides as segments with the body on their right.
-    pub sides: Vec<(String, Vec<[u32; 2]>)>,
+    /// Named sides as segments with the body on their right, or facets counter-clockwise seen from outside.
+    pub sides: Vec<(String, Vec<Facet<D>>)>,
     /// Named sets of nodes that are no sides.
     pub points: Vec<(String, Vec<u32>)>,
 }
 
-impl Body {
+impl<const D: usize> Body<D>
+where
+    Dim<D>: Meshed<D>,
+{
     /// Nodes of each element.
     pub fn cells(&self) -> impl Iterator<Item = &[u32]> + Clone {
         let areas = self.quads.iter().map(<[u32; 4]>::as_slice).chain(self.triangles.iter().map(<[u32; 3]>::as_slice));
-        areas.chain(self.bars.iter().map(<[u32; 2]>::as_slice))
+        let volumes = self.hexahedra.iter().map(<[u32; 8]>::as_slice).chain(self.wedges.iter().map(<[u32; 6]>::as_slice));
+        let volumes = volumes.chain(self.tetrahedra.iter().map(<[u32; 4]>::as_slice));
+        areas.chain(volumes).chain(self.bars.iter().map(<[u32; 2]>::as_slice))
     }
 }
 
@@ -74,6 +101,12 @@ pub(crate) struct Wrong {
 }
 
 impl Wrong {
+    /// As a fault of the shape with this key.
+    pub(crate) fn at(self, shape: &str) -> Fault {
+        let dot = if self.key.is_empty() { "" } else { "." };
+        Fault::new(&UNMESHABLE, format!("{shape}{dot}{}", self.key), self.message, self.help)
+    }
+
     fn new(key: &'static str, message: impl Into<String>, help: impl Into<String>) -> Self {
         Self { key, message: message.into(), help: help.into() }
     }
@@ -87,6 +120,8 @@ pub trait Values {
     fn number(&self, key: &str) -> f64;
     /// Two numbers, SI.
     fn vector(&self, key: &str) -> [f64; 2];
+    /// A vector of the plane or of space, SI.
+    fn spatial(&self, key: &str) -> [f64; 3];
     /// Numbers, SI.
     fn numbers(&self, key: &str) -> Vec<f64>;
     /// Points, m.
@@ -97,12 +132,19 @@ pub trait Values {
     fn count(&self, key: &str) -> usize;
     /// Two whole numbers.
     fn counts(&self, key: &str) -> [usize; 2];
+    /// Three whole numbers.
+    fn three_counts(&self, key: &str) -> [usize; 3];
+    /// A text or a name.
+    fn text(&self, key: &str) -> String;
     /// Whether a flag is up.
     fn flag(&self, key: &str) -> bool;
 }
 
-/// A shape that makes its own mesh.
-pub(crate) trait BuiltIn {
+/// A shape that makes its own mesh, in the plane or in space.
+pub(crate) trait BuiltIn<const D: usize = 2>
+where
+    Dim<D>: Meshed<D>,
+{
     /// From its table in the model file.
     fn read(values: &dyn Values) -> Self
     where
@@ -123,11 +165,11 @@ pub(crate) trait BuiltIn {
     }
     /// Nodes per element of what it makes.
     fn nodes_per_element(&self) -> usize {
-        4
+        1 << D
     }
     /// The mesh.
-    fn body(&self) -> Result<Body, Wrong>;
-    /// Shapes for the contract tests, with their areas (m²); the larger `n`, the finer.
+    fn body(&self) -> Result<Body<D>, Wrong>;
+    /// Shapes for the contract tests, with their areas (m²) or volumes (m³); the larger `n`, the finer.
     #[cfg(test)]
     fn examples(n: usize) -> Vec<(Self, f64)>
     where
@@ -136,18 +178,20 @@ pub(crate) trait BuiltIn {
 
 /// The registry: one line per shape.
 macro_rules! shapes {
-    ($($module:ident: $shape:ident),* $(,)?) => {
+    (in the plane: $($module:ident: $shape:ident),*; in space: $($solid_module:ident: $solid:ident),*;) => {
         $(mod $module; pub use $module::$shape;)*
+        $(mod $solid_module; pub use $solid_module::$solid;)*
 
         /// Where the elements of a part come from. Angles in radians, lengths in metres.
         #[derive(Clone, Debug, PartialEq)]
         pub enum Shape {
             $(#[doc = concat!("See [`", stringify!($shape), "`].")] $shape($shape),)*
+            $(#[doc = concat!("See [`", stringify!($solid), "`].")] $solid($solid),)*
             /// A group of an imported mesh.
             Group {
                 /// Index into [`crate::model::Model::meshes`].
                 mesh: usize,
-                /// Name of a two-dimensional group.
+                /// Name of a group of surfaces (of bars: of lines; of solids: of volumes).
                 group: String,
             },
         }
@@ -158,13 +202,34 @@ macro_rules! shapes {
             }
         })*
 
+        $(impl From<$solid> for Shape {
+            fn from(shape: $solid) -> Self {
+                Self::$solid(shape)
+            }
+        })*
+
         impl Shape {
-            /// The built-in shape, and the key of a part that has its table; `None` for a group of an imported mesh.
+            /// The built-in shape of the plane, and the key of a part that has its table; `None` for all others.
             pub(crate) fn built_in(&self) -> Option<(&dyn BuiltIn, &'static str)> {
                 match self {
                     $(Self::$shape(shape) => Some((shape, $module::KEY.name)),)*
+                    $(Self::$solid(_) => None,)*
                     Self::Group { .. } => None,
                 }
+            }
+
+            /// The built-in shape of space, and the key of a part that has its table; `None` for all others.
+            pub(crate) fn solid(&self) -> Option<(&dyn BuiltIn<3>, &'static str)> {
+                match self {
+                    $(Self::$solid(shape) => Some((shape, $solid_module::KEY.name)),)*
+                    _ => None,
+                }
+            }
+
+            /// Whether a key of a part says that it is a solid: a solid shape, or what makes one of a shape of the plane.
+            #[must_use]
+            pub fn is_solid_key(name: &str) -> bool {
+                ["extrude", "revolve", $($solid_module::KEY.name),*].contains(&name)
             }
 
             /// The built-in shape that a key of a part stands for.
@@ -173,7 +238,17 @@ macro_rules! shapes {
                 $(if name == $module::KEY.name {
                     return Some($shape::read(values).into());
                 })*
+                $(if name == $solid_module::KEY.name {
+                    return Some($solid::read(values).into());
+                })*
                 None
+            }
+
+            #[cfg(test)]
+            fn solid_examples(n: usize) -> Vec<(Self, f64)> {
+                let mut all = Vec::new();
+                $(all.extend($solid::examples(n).into_iter().map(|(shape, volume)| (Self::from(shape), volume)));)*
+                all
             }
 
             #[cfg(test)]
@@ -188,40 +263,94 @@ macro_rules! shapes {
         pub(crate) static SHAPES: Group = Group {
             title: "Shapes",
             doc: "Where the elements of a part come from.",
-            keys: &[$($module::KEY,)* MESH],
-            rules: &[Rule::OneOf(&[$($module::KEY.name,)* MESH.name])],
+            keys: &[$($module::KEY,)* $($solid_module::KEY,)* MESH],
+            rules: &[Rule::OneOf(&[$($module::KEY.name,)* $($solid_module::KEY.name,)* MESH.name])],
         };
     };
 }
 
 shapes!(
-    rectangle: Rectangle,
-    ring: Ring,
-    disk: Disk,
-    trapezoid: Trapezoid,
-    quadrilateral: Quadrilateral,
-    polygon: Polygon,
-    path: Path,
-    truss: Truss,
+    in the plane:
+        rectangle: Rectangle,
+        ring: Ring,
+        disk: Disk,
+        trapezoid: Trapezoid,
+        quadrilateral: Quadrilateral,
+        polygon: Polygon,
+        path: Path,
+        truss: Truss;
+    in space:
+        cuboid: Cuboid,
+        cylinder: Cylinder,
+        tube: Tube,
+        sphere: Sphere;
 );
 
 impl Shape {
     /// Names of the sides, then of the sets of nodes, that `part.side` can mean.
     #[must_use]
     pub fn sides(&self) -> Vec<String> {
-        self.built_in().map_or(Vec::new(), |(shape, _)| shape.sides().into_iter().chain(shape.points()).collect())
+        let plane = self.built_in().map(|(shape, _)| (shape.sides(), shape.points()));
+        let (sides, points) = plane.or_else(|| self.solid().map(|(shape, _)| (shape.sides(), shape.points()))).unwrap_or_default();
+        sides.into_iter().chain(points).collect()
+    }
+
+    /// The group that it is of a mesh file's.
+    pub(crate) fn group_of(&self, file: usize) -> Option<&str> {
+        match self {
+            Self::Group { mesh, group } if *mesh == file => Some(group),
+            _ => None,
+        }
     }
 
     /// Path, from the part on, of what decides how many elements there are.
     #[must_use]
     pub fn size_path(&self) -> String {
-        self.built_in().map_or("mesh.group".to_string(), |(shape, key)| format!("{key}.{}", shape.size_key()))
+        let plane = self.built_in().map(|(shape, key)| format!("{key}.{}", shape.size_key()));
+        let either = plane.or_else(|| self.solid().map(|(shape, key)| format!("{key}.{}", shape.size_key())));
+        either.unwrap_or_else(|| "mesh.group".to_string())
     }
 
     /// How large the mesh of a built-in shape will be; `None` for a group of an imported mesh.
     #[must_use]
     pub fn count(&self) -> Option<Count> {
-        self.built_in().map(|(shape, _)| shape.count())
+        self.built_in().map(|(shape, _)| shape.count()).or_else(|| self.solid().map(|(shape, _)| shape.count()))
+    }
+}
+
+impl Part {
+    /// Its body in the plane, placed; `None` for a group of a mesh file.
+    pub(super) fn plane_body(&self) -> Option<Result<Body, Fault>> {
+        let (shape, key) = self.shape.built_in()?;
+        Some(shape.body().map(|body| self.placement.applied(body)).map_err(|wrong| wrong.at(key)))
+    }
+
+    /// Its body in space, placed; `None` for a group of a mesh file.
+    pub(super) fn solid_body(&self) -> Option<Result<Body<3>, Fault>> {
+        let body = if let Some((shape, key)) = self.shape.solid() {
+            shape.body().map_err(|wrong| wrong.at(key))
+        } else {
+            let (shape, key) = self.shape.built_in()?;
+            let sweep = self.sweep.as_ref()?;
+            shape.body().map_err(|wrong| wrong.at(key)).and_then(|body| sweep.swept(&body).map_err(|wrong| wrong.at(sweep.key())))
+        };
+        Some(body.map(|body| self.placement.applied(body)))
+    }
+
+    /// Names of the sides, then of the sets of nodes, that `part.side` can mean.
+    #[must_use]
+    pub fn sides(&self) -> Vec<String> {
+        let swept = self.sweep.as_ref().map_or(Vec::new(), Sweep::sides);
+        self.shape.sides().into_iter().chain(swept).collect()
+    }
+
+    /// Nodes per element of what its built-in shape makes, away from an axis that it is turned about; `None` for a group of a mesh file.
+    pub(crate) fn nodes_per_element(&self) -> Option<usize> {
+        match (self.shape.built_in(), self.shape.solid()) {
+            (Some((shape, _)), _) => Some(self.sweep.as_ref().map_or(1, |_| 2) * shape.nodes_per_element()),
+            (None, Some((shape, _))) => Some(shape.nodes_per_element()),
+            (None, None) => None,
+        }
     }
 }
 
@@ -322,6 +451,9 @@ pub(crate) fn disk(centre: [f64; 2], radius: f64, elements: usize) -> Body {
 }
 
 #[cfg(test)]
+mod solids;
+
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::mesh::surface::exterior;
@@ -394,7 +526,7 @@ mod tests {
         for shape in every_shape() {
             let body = body(&shape);
             let mut of_sides: Vec<_> = body.sides.iter().flat_map(|(_, segments)| segments.iter().copied()).collect();
-            let mut of_cells = exterior(body.cells()).unwrap();
+            let mut of_cells = exterior::<2>(body.cells()).unwrap();
             of_sides.sort_unstable();
             of_sides.dedup(); // a side may be a part of another
             of_cells.sort_unstable();

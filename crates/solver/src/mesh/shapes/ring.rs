@@ -64,6 +64,30 @@ static SECTION: Section = Section {
     ..Section::EMPTY
 };
 
+impl Ring {
+    /// Tells faults of radii and angles.
+    pub(super) fn check_radii(&self, check: &mut CheckOf<'_, '_>) {
+        let Self { inner, outer, from, to, .. } = *self;
+        for (key, value) in [("inner", inner), ("outer", outer), ("from", from), ("to", to)] {
+            check.number(key, value);
+        }
+        if inner >= outer {
+            let message = format!("the inner radius {inner} m is not smaller than the outer radius {outer} m");
+            check.fault("inner", message, "swap or correct the radii");
+        }
+        let degrees = |angle: f64| (angle.to_degrees() * 1e9).round() / 1e9;
+        if to <= from {
+            let message = format!("the ring ends at {} deg, not after its beginning at {} deg", degrees(to), degrees(from));
+            check.fault("to", message, "it runs counter-clockwise: add \"360 deg\" to `to`, or swap the two");
+        } else if to - from > std::f64::consts::TAU + 1e-9 {
+            let message = format!("the ring runs over {} deg, more than a full turn", degrees(to - from));
+            check.fault("to", message, "let `to` exceed `from` by at most 360 deg");
+        } else if self.is_closed() && (1..3).contains(&self.elements[1]) {
+            check.fault(ELEMENTS, format!("{} elements can't go all around", self.elements[1]), "give at least 3 around");
+        }
+    }
+}
+
 impl BuiltIn for Ring {
     fn read(values: &dyn Values) -> Self {
         let number = |key| values.number(key);
@@ -79,25 +103,10 @@ impl BuiltIn for Ring {
     }
 
     fn check(&self, check: &mut CheckOf<'_, '_>) {
-        let Self { inner, outer, from, to, .. } = *self;
         check.vector("centre", self.centre);
-        for (key, value) in [("inner", inner), ("outer", outer), ("from", from), ("to", to)] {
-            check.number(key, value);
-        }
+        self.check_radii(check);
         check.counts(ELEMENTS, &self.elements);
         check.vector("grading", self.grading);
-        if inner >= outer {
-            let message = format!("the inner radius {inner} m is not smaller than the outer radius {outer} m");
-            check.fault("inner", message, "swap or correct the radii");
-        }
-        let degrees = |angle: f64| (angle.to_degrees() * 1e9).round() / 1e9;
-        if to <= from {
-            let message = format!("the ring ends at {} deg, not after its beginning at {} deg", degrees(to), degrees(from));
-            check.fault("to", message, "it runs counter-clockwise: add \"360 deg\" to `to`, or swap the two");
-        } else if to - from > std::f64::consts::TAU + 1e-9 {
-            let message = format!("the ring runs over {} deg, more than a full turn", degrees(to - from));
-            check.fault("to", message, "let `to` exceed `from` by at most 360 deg");
-        }
         if self.is_closed() && self.grading[1] != 1.0 {
             let message = format!("a closed ring can't be graded around, but grading[1] is {}", self.grading[1]);
             check.fault("grading", message, "let it be 1, or make two sectors");

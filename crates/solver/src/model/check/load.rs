@@ -29,11 +29,11 @@ impl Check<'_> {
                     }
                     self.factor(&path, curve);
                 }
-                Load::Centrifugal { parts, centre, speed, curve } => {
+                Load::Centrifugal { parts, about, speed, curve } => {
                     self.part_list(&format!("{path}.parts"), parts);
-                    self.vector(&format!("{path}.centre"), *centre);
+                    self.axis(&path, about);
                     self.number(&format!("{path}.centrifugal"), *speed);
-                    if model.is_axisymmetric() && *centre != [0.0; 2] {
+                    if model.is_axisymmetric() && about.centre != [0.0; 3] {
                         let message = "an axisymmetric model turns about its axis, x = 0";
                         self.fault(&OF_REVOLUTION, format!("{path}.centre"), message, "leave `centre` out");
                     }
@@ -135,7 +135,7 @@ impl Check<'_> {
                             "join sets that lie one above the other along y",
                         );
                     }
-                    if by == [0.0; 2] {
+                    if by == [0.0; 3] {
                         self.fault(
                             &NO_EFFECT,
                             format!("{path}.translation"),
@@ -144,8 +144,8 @@ impl Check<'_> {
                         );
                     }
                 }
-                Image::Turned { centre, angle } => {
-                    self.vector(&format!("{path}.centre"), centre);
+                Image::Turned { about, angle } => {
+                    self.axis(&path, &about);
                     self.number(&format!("{path}.rotation"), angle);
                     if model.is_axisymmetric() {
                         let message = "an axisymmetric model has no sectors: it is the same all around already";

@@ -9,19 +9,21 @@ mod discrete;
 mod load;
 mod motion;
 mod parts;
+mod plane;
 mod warnings;
 
 pub(crate) use parts::CheckOf;
 
 use super::describe::{self, out_of_range, suggestion};
 use super::reference::{Reference, excerpt};
-use super::{Cadence, Material, Model, Part, Probe, ProbeAt, Shape};
+use super::{Cadence, Camera, Material, Model, Part, Probe, ProbeAt, Shape};
 use crate::error::Fault;
 use crate::failure;
 use crate::material::messages::{EQUATION_OF_STATE, PARAMETER_MISSING, PARAMETER_UNKNOWN};
 use crate::material::{self, Parameters};
 use crate::mesh::messages::BARS;
 use crate::message::Message;
+use crate::model::Axis;
 use crate::model::messages::{LIST_LENGTH, NAME, NO_DIRECTION, OUTPUT_TOO_MUCH, PERIOD, RANGE, TWICE, UNKNOWN_NAME};
 use crate::output;
 use crate::quantity::{Dimension, Parameter, Range};
@@ -56,6 +58,9 @@ impl Model {
         check.point_masses();
         check.probes();
         check.output();
+        if self.dimension() == 2 {
+            check.nothing_out_of_the_plane();
+        }
         check.faults
     }
 }
@@ -96,6 +101,34 @@ impl Check<'_> {
         self.vector(path, value);
         if value == [0.0; N] {
             self.fault(&NO_DIRECTION, path, "the normal is zero, so it has no direction", "give a vector such as [1, 0]");
+        }
+    }
+
+    /// What something turns about.
+    fn axis(&mut self, path: &str, axis: &Axis) {
+        self.vector(&format!("{path}.centre"), axis.centre);
+        self.direction(&format!("{path}.axis"), axis.direction);
+    }
+
+    fn camera(&mut self, camera: &Camera) {
+        self.vector("output.camera.from", camera.from);
+        self.vector("output.camera.up", camera.up);
+        self.vector("output.camera.at", camera.at.unwrap_or_default());
+        self.number("output.camera.zoom", camera.zoom);
+        let ([a, b, c], [u, v, w]) = (camera.from, camera.up);
+        let across = [b * w - c * v, c * u - a * w, a * v - b * u];
+        let size = |v: [f64; 3]| v.iter().map(|c| c * c).sum::<f64>().sqrt();
+        if size(across) <= 1e-6 * size(camera.from) * size(camera.up) {
+            let what = "`from` and `up` have one direction, or one of them is zero, so it is open which side is up";
+            self.fault(&NO_DIRECTION, "output.camera.up", what, "give another `up` or another `from`; both have to be longer than zero");
+        }
+        if camera.zoom <= 0.0 {
+            self.fault(
+                &RANGE,
+                "output.camera.zoom",
+                format!("it must be larger than 0, but it is {}", camera.zoom),
+                "give 1 to see everything",
+            );
         }
     }
 
@@ -436,6 +469,9 @@ impl Check<'_> {
             self.vector("output.picture_view.corner", view.corner);
             self.vector("output.picture_view.size", view.size);
         }
+        if let Some(camera) = output.camera {
+            self.camera(&camera);
+        }
     }
 }
 
@@ -460,7 +496,7 @@ pub fn name_is_plain(name: &str) -> Result<(), (String, String)> {
 /// Number of nodes, where it can be told without meshing.
 fn node_count(model: &Model, part: &Part) -> Option<u128> {
     if let Shape::Group { mesh, group } = &part.shape {
-        let it = model.meshes.get(*mesh)?.groups.iter().find(|it| it.name == *group && it.dimension == part.cells_dimension())?;
+        let it = model.meshes.get(*mesh)?.groups.iter().find(|it| it.name == *group && it.dimension == model.cells_dimension(part))?;
         return Some(it.cells.iter().flatten().collect::<BTreeSet<_>>().len() as u128);
     }
     part.count().filter(|count| count.exact).map(|count| count.nodes as u128)

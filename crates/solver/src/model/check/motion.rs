@@ -217,6 +217,15 @@ impl Check<'_> {
                 self.vector(&format!("{path}.circle.centre"), *centre);
                 self.number(&format!("{path}.circle.radius"), *radius);
             }
+            ObstacleShape::Sphere { centre, radius, .. } => {
+                self.vector(&format!("{path}.sphere.centre"), *centre);
+                self.number(&format!("{path}.sphere.radius"), *radius);
+            }
+            ObstacleShape::Cylinder { point, axis, radius, .. } => {
+                self.vector(&format!("{path}.cylinder.point"), *point);
+                self.direction(&format!("{path}.cylinder.axis"), *axis);
+                self.number(&format!("{path}.cylinder.radius"), *radius);
+            }
             ObstacleShape::Polyline { points } => self.polyline(&format!("{path}.polyline.points"), points),
         }
     }
@@ -251,7 +260,7 @@ impl Check<'_> {
         if let Some(reference) = obstacle.reference {
             self.vector(&format!("{path}.reference"), reference);
         }
-        let moves = obstacle.motion.velocity.iter().any(Option::is_none);
+        let moves = obstacle.motion.velocity[..self.model.dimension()].iter().any(Option::is_none);
         let turns = obstacle.motion.spin.is_none();
         for (key, value, free, verb, axes, example) in [
             ("mass", obstacle.mass, moves, "move", "`x` or `y`", "10 kg/m"),
@@ -322,7 +331,7 @@ impl Check<'_> {
         }
         let straight = kinds.iter().any(|(_, drives, _)| drives.iter().any(Option::is_some));
         if let Some(rotation) = &constraint.rotation {
-            self.vector(&format!("{path}.rotation.centre"), rotation.centre);
+            self.axis(&format!("{path}.rotation"), &rotation.about);
             self.drive(&format!("{path}.rotation.speed"), &rotation.speed, Dimension::RATE);
             if straight {
                 let message = "nodes that are led around a point can't be moved along x or y as well";

@@ -7,11 +7,12 @@ use crate::element;
 use crate::error::{Fault, MEMORY};
 use crate::material;
 use crate::material::messages::{INITIAL_STATE, SOFTENS_TOO_STEEPLY};
-use crate::mesh::messages::{BARS, GROUP, NO_ELEMENT, SAME_PLACE, SHAPE, TOO_MANY};
+use crate::mesh::messages::{BARS, DIMENSION, GROUP, NO_ELEMENT, SAME_PLACE, SHAPE, TOO_MANY};
+use crate::mesh::shapes::Count;
 use crate::model::describe::{ELEMENTS_MAX, suggestion};
 use crate::model::messages::{CLASH, NOTHING, OF_REVOLUTION, UNKNOWN_NAME};
 use crate::model::reference::{dimension_word, excerpt};
-use crate::model::{Model, Part, Placement, Shape};
+use crate::model::{Extrude, Model, Part, Placement, Revolve, Shape, Sweep};
 use std::collections::BTreeSet;
 
 impl Check<'_> {
@@ -33,10 +34,11 @@ impl Check<'_> {
             self.part_motion(&path, part);
             self.number(&format!("{path}.mass_scale"), part.mass_scale);
             self.shape(&path, part);
+            self.sweep(&path, part);
             self.initial(&path, part);
             self.bars(&path, part);
             self.falling(&path, part);
-            let count = element_count(model, part);
+            let count = model.element_count(part);
             if total <= ELEMENTS_MAX && total.saturating_add(count) > ELEMENTS_MAX {
                 self.fault(
                     &TOO_MANY,
@@ -161,6 +163,13 @@ impl Check<'_> {
     }
 
     fn shape(&mut self, path: &str, part: &Part) {
+        if let Some((shape, key)) = part.shape.solid() {
+            let key = format!("{path}.{key}");
+            shape.check(&mut CheckOf { check: self, path: &key });
+            self.takes(path, part, shape.nodes_per_element(), &key, "it is made of hexahedra");
+            self.placement(path, &part.placement);
+            return;
+        }
         let Some((shape, key)) = part.shape.built_in() else {
             if let Shape::Group { mesh, group } = &part.shape {
                 self.group(path, part, *mesh, group);
@@ -173,21 +182,65 @@ impl Check<'_> {
         };
         let key = format!("{path}.{key}");
         shape.check(&mut CheckOf { check: self, path: &key });
-        let what = match shape.nodes_per_element() {
-            2 => "it is made of bars",
-            3 => "it is made of triangles",
-            _ => "it is made of quadrilaterals",
+        let what = match (shape.nodes_per_element(), &part.sweep) {
+            (2, _) => "it is made of bars",
+            (3, None) => "it is made of triangles",
+            (_, None) => "it is made of quadrilaterals",
+            (3, Some(_)) => "it is made of wedges",
+            (_, Some(_)) => "it is made of hexahedra",
         };
-        self.takes(path, part, shape.nodes_per_element(), &key, what);
+        self.takes(path, part, part.nodes_per_element().unwrap_or(0), &key, what);
         self.placement(path, &part.placement);
     }
 
+    /// Parts of the plane and of space do not go together; nor does a sweep with what has no area, or is a solid as it is.
+    fn sweep(&mut self, path: &str, part: &Part) {
+        let dimension = self.model.dimension();
+        if self.model.dimension_of(part) != dimension {
+            let first = excerpt(&self.model.parts[0].name);
+            let (own, other) = if dimension == 2 { ("a solid", "in the plane") } else { ("in the plane", "a solid") };
+            let at = part.sweep.as_ref().map_or_else(|| size_key(&part.shape), |sweep| sweep.key().to_string());
+            let at = at.split('.').next().unwrap_or_default().to_string();
+            let help = "make all parts solids, such as by `extrude`, or none";
+            self.fault(&DIMENSION, format!("{path}.{at}"), format!("the part is {own}, but part `{first}` is {other}"), help);
+        }
+        let Some(sweep) = &part.sweep else { return };
+        let path = format!("{path}.{}", sweep.key());
+        if part.shape.solid().is_some() {
+            self.fault(&CLASH, path.as_str(), "the shape is a solid as it is", "leave it out, or take a shape of the plane");
+        } else if part.is_of_bars() || part.shape.built_in().is_some_and(|(shape, _)| shape.nodes_per_element() == 2) {
+            self.fault(&CLASH, path.as_str(), "bars have no area that could become a solid", "leave it out");
+        }
+        match sweep {
+            Sweep::Extrude(Extrude { from, length, elements, grading }) => {
+                for (key, value) in [("from", from), ("length", length), ("grading", grading)] {
+                    self.number(&format!("{path}.{key}"), *value);
+                }
+                self.counts(&format!("{path}.elements"), &[*elements]);
+            }
+            Sweep::Revolve(Revolve { axis, point, angle, elements }) => {
+                self.direction(&format!("{path}.axis"), *axis);
+                self.vector(&format!("{path}.point"), *point);
+                self.number(&format!("{path}.angle"), *angle);
+                self.counts(&format!("{path}.elements"), &[*elements]);
+                if sweep.is_closed() && (1..3).contains(elements) {
+                    let message = format!("{elements} elements can't go all around");
+                    self.fault(&SHAPE, format!("{path}.elements"), message, "give at least 3");
+                }
+            }
+        }
+    }
+
     fn placement(&mut self, path: &str, placement: &Placement) {
+        if self.model.dimension() == 2 {
+            self.placement_in_plane(path, placement);
+        }
         if let Some(mirror) = &placement.mirror {
             self.vector(&format!("{path}.mirror.point"), mirror.point);
             self.direction(&format!("{path}.mirror.normal"), mirror.normal);
         }
         self.number(&format!("{path}.rotation.angle"), placement.rotation);
+        self.direction(&format!("{path}.rotation.axis"), placement.rotation_axis);
         self.vector(&format!("{path}.rotation.point"), placement.rotation_point);
         self.vector(&format!("{path}.translation"), placement.translation);
         let Some(copies) = &placement.copies else { return };
@@ -196,14 +249,34 @@ impl Check<'_> {
         self.vector(&format!("{path}.translation"), copies.translation);
         self.number(&format!("{path}.angle"), copies.angle);
         self.vector(&format!("{path}.point"), copies.point);
+        self.direction(&format!("{path}.axis"), copies.axis);
         let turns = |k: usize| k as f64 * copies.angle / std::f64::consts::TAU;
         let full = |k: &usize| (turns(*k) - turns(*k).round()).abs() < 1e-9;
         // Without angle, or after a full turn, a body without translation lies on the first one.
-        if copies.translation == [0.0; 2]
+        if copies.translation == [0.0; 3]
             && let Some(k) = (1..copies.count.min(10_000)).find(full)
         {
             let message = format!("bodies 1 and {} of the copies lie on each other", k + 1);
             self.fault(&SAME_PLACE, format!("{path}.count"), message, "take fewer copies, another angle, or a translation");
+        }
+    }
+
+    /// In the plane nothing leads out of it.
+    fn placement_in_plane(&mut self, path: &str, placement: &Placement) {
+        let along_z = |[x, y, z]: [f64; 3]| x == 0.0 && y == 0.0 && z != 0.0;
+        let Placement { mirror, rotation_point, rotation_axis, translation, copies, .. } = placement;
+        let mut flat = vec![("translation", translation[2] == 0.0), ("rotation.point", rotation_point[2] == 0.0)];
+        flat.push(("rotation.axis", along_z(*rotation_axis)));
+        if let Some(mirror) = mirror {
+            flat.extend([("mirror.point", mirror.point[2] == 0.0), ("mirror.normal", mirror.normal[2] == 0.0)]);
+        }
+        if let Some(copies) = copies {
+            flat.extend([("copies.translation", copies.translation[2] == 0.0), ("copies.point", copies.point[2] == 0.0)]);
+            flat.push(("copies.axis", along_z(copies.axis)));
+        }
+        for (key, _) in flat.into_iter().filter(|(_, is_flat)| !is_flat) {
+            let (message, help) = ("it leads out of the plane, but the model is one of the plane", "leave z out, or make the parts solids");
+            self.fault(&DIMENSION, format!("{path}.{key}"), message, help);
         }
     }
 
@@ -218,13 +291,13 @@ impl Check<'_> {
             return;
         };
         let path = format!("{part_path}.mesh.group");
-        let dimension = part.cells_dimension();
+        let dimension = self.model.cells_dimension(part);
         let known: Vec<&str> = imported.groups.iter().filter(|it| it.dimension == dimension).map(|it| it.name.as_str()).collect();
         let Some(found) = imported.groups.iter().find(|it| it.name == group && it.dimension == dimension) else {
             let name = excerpt(group);
             match imported.groups.iter().find(|it| it.name == group) {
                 Some(other) => {
-                    let wanted = if dimension == 1 { "not of lines" } else { "not of surfaces" };
+                    let wanted = ["", "not of lines", "not of surfaces", "not of volumes"][usize::from(dimension)];
                     let message = format!("`{name}` in {} is {}, {wanted}", imported.source, dimension_word(other.dimension));
                     self.fault(&GROUP, path, message, suggestion("", &known));
                 }
@@ -259,6 +332,7 @@ impl Check<'_> {
         let lengths: BTreeSet<usize> = found.cells.iter().map(Vec::len).collect();
         for nodes in lengths {
             let count = found.cells.iter().filter(|cell| cell.len() == nodes).count();
+            let nodes = if part.sweep.is_some() { 2 * nodes } else { nodes };
             let what = match nodes {
                 2 => "lines".to_string(),
                 3 => "triangles".to_string(),
@@ -270,10 +344,14 @@ impl Check<'_> {
 
     /// Whether a part has an element for cells of so many nodes; `has` says at `path` that it has such cells.
     fn takes(&mut self, part_path: &str, part: &Part, nodes: usize, path: &str, has: &str) {
-        if part.element_of(nodes).is_some() || (nodes != 3 && !element::registry().iter().any(|kind| kind.name == part.element)) {
+        let dimension = self.model.dimension_of(part);
+        if part.element_in(dimension, nodes).is_some() || (nodes != 3 && !element::registry().iter().any(|kind| kind.name == part.element))
+        {
             return;
         }
-        let known: Vec<&str> = element::registry().iter().filter(|kind| kind.nodes == nodes).map(|kind| kind.name).collect();
+        let known = element::registry();
+        let known: Vec<&str> =
+            known.iter().filter(|kind| kind.nodes == nodes && kind.dimension == dimension).map(|kind| kind.name).collect();
         if known.is_empty() {
             let help =
                 if path.ends_with(".group") { "let the mesh generator make quadrilaterals only (Gmsh: Recombine Surface)" } else { "" };
@@ -297,29 +375,24 @@ impl Check<'_> {
     }
 }
 
-/// Number of elements; about, where a shape can't tell it.
-fn element_count(model: &Model, part: &Part) -> u128 {
-    match (&part.shape, part.count()) {
-        (_, Some(count)) => count.elements as u128,
-        (Shape::Group { mesh, group }, None) => {
-            let found = model
-                .meshes
-                .get(*mesh)
-                .and_then(|imported| imported.groups.iter().find(|it| it.name == *group && it.dimension == part.cells_dimension()));
-            found.map_or(0, |it| it.cells.len() as u128)
-        }
-        _ => 0,
-    }
-}
-
 /// Memory that an element takes with its share of nodes, results and pictures, bytes: about, as measured (`docs/performance.md`, peak of a run of `quad4` and `j2`).
 const BYTES_PER_ELEMENT: f64 = 600.0;
 
 impl Model {
+    /// Number of elements of a part; about, where a shape can't tell it.
+    #[must_use]
+    pub fn element_count(&self, part: &Part) -> u128 {
+        let Shape::Group { mesh, group } = &part.shape else { return part.count().map_or(0, |count| count.elements as u128) };
+        let groups = self.meshes.get(*mesh).map_or(&[][..], |imported| &imported.groups);
+        let found = groups.iter().find(|it| it.name == *group && it.dimension == self.cells_dimension(part));
+        let layers = part.sweep.as_ref().map_or(1, |sweep| sweep.count(Count { nodes: 0, elements: 1, exact: true }).elements);
+        found.map_or(0, |it| it.cells.len() as u128).saturating_mul(layers as u128)
+    }
+
     /// The fault of a model that needs more memory than `limit`, bytes, which is what `whose` says: so many elements, 600 bytes each.
     #[must_use]
     pub fn memory_fault(&self, limit: f64, whose: &str) -> Option<Fault> {
-        let counts = || self.parts.iter().map(|part| element_count(self, part) as f64);
+        let counts = || self.parts.iter().map(|part| self.element_count(part) as f64);
         let needed = BYTES_PER_ELEMENT * counts().sum::<f64>();
         if needed <= limit {
             return None;
@@ -366,8 +439,18 @@ impl CheckOf<'_, '_> {
     }
 
     /// A vector against the range of its key.
-    pub(crate) fn vector(&mut self, key: &str, value: [f64; 2]) {
+    pub(crate) fn vector<const N: usize>(&mut self, key: &str, value: [f64; N]) {
         self.check.vector(&self.at(key), value);
+    }
+
+    /// A vector that must have a direction.
+    pub(crate) fn direction<const N: usize>(&mut self, key: &str, value: [f64; N]) {
+        self.check.direction(&self.at(key), value);
+    }
+
+    /// A name that must be one of these.
+    pub(crate) fn known(&mut self, key: &str, what: &str, name: &str, known: &[&str]) {
+        self.check.known(&self.at(key), what, name, known);
     }
 
     /// Points; whether all are finite.

@@ -3,8 +3,8 @@
 use super::*;
 use crate::load::curve::sine::Sine;
 use crate::model::{
-    Constraint, Contact, ContactLaw, Curve, CurveShape, Drive, Formulation, Friction, Image, ImportedMesh, Join, Load, Material, MeshGroup,
-    Motion, NonReflecting, Obstacle, ObstacleShape, Partners, Penalty, Ring, Rotation, Symmetry,
+    Axis, Constraint, Contact, ContactLaw, Curve, CurveShape, Drive, Formulation, Friction, Image, ImportedMesh, Join, Load, Material,
+    MeshGroup, Motion, NonReflecting, Obstacle, ObstacleShape, Partners, Penalty, Ring, Rotation, Symmetry,
 };
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ fn sound() -> Model {
     let group = |name: &str, dimension, cells| MeshGroup { name: name.into(), dimension, cells };
     let mesh = ImportedMesh {
         source: "block.msh".into(),
-        positions: vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]],
+        positions: vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]],
         groups: vec![group("body", 2, vec![vec![0, 1, 2, 3]]), group("upper", 1, vec![vec![2, 3]])],
     };
     let ring = Shape::Ring(Ring {
@@ -215,7 +215,7 @@ fn loads_and_joins_that_make_no_sense_are_found() {
     assert_eq!(load(Load::Force { on: "upper".into(), force: [1.0, f64::NAN, 0.0], curve: curve("ramp") }), ["load[0].force[1]"]);
     assert_eq!(load(Load::Force { on: "ring".into(), force: [1.0, 0.0, 0.0], curve: None }), ["load[0].on"]);
     assert_eq!(load(Load::Pressure { on: "body".into(), pressure: 1.0, curve: curve("rmap") }), ["load[0].on", "load[0].curve"]);
-    let spin = Load::Centrifugal { parts: vec![], centre: [f64::INFINITY, 0.0], speed: f64::NAN, curve: None };
+    let spin = Load::Centrifugal { parts: vec![], about: Axis::through([f64::INFINITY, 0.0]), speed: f64::NAN, curve: None };
     assert_eq!(load(spin), ["load[0].centre[0]", "load[0].centrifugal"]);
     let quiet = |names: &[&str]| paths(|model| model.non_reflecting = names.iter().map(|on| NonReflecting { on: (*on).into() }).collect());
     assert_eq!(quiet(&["ring.outer", "upper"]), Vec::<String>::new());
@@ -225,10 +225,10 @@ fn loads_and_joins_that_make_no_sense_are_found() {
     };
     assert_eq!(join(["ring.start", "upper"], Image::Same, None), Vec::<String>::new());
     assert_eq!(
-        join(["ring.start", "ring.start"], Image::Translated([0.0; 2]), Some(0.0)),
+        join(["ring.start", "ring.start"], Image::Translated([0.0; 3]), Some(0.0)),
         ["join[0].translation", "join[0].tolerance", "join[0].between"]
     );
-    let turned = Image::Turned { centre: [0.0; 2], angle: f64::NAN };
+    let turned = Image::Turned { about: Axis::default(), angle: f64::NAN };
     assert_eq!(join(["ring.start", "ring.ned"], turned, None), ["join[0].between[1]", "join[0].rotation"]);
 }
 
@@ -248,7 +248,7 @@ fn a_component_is_prescribed_in_one_way_and_a_displacement_begins_with_zero() {
     };
     assert_eq!(begin(0.0), Vec::<String>::new());
     assert_eq!(begin(0.1), ["constraint[0].displacement.y"]);
-    let turn = |speed: Drive| Some(Rotation { centre: [0.0; 2], speed });
+    let turn = |speed: Drive| Some(Rotation { about: Axis::default(), speed });
     let rotation = |speed: f64, beside: bool| {
         paths(|model| {
             model.constraints[0].rotation = turn(speed.into());

@@ -90,10 +90,10 @@ impl Model {
         match &part.shape {
             Shape::Group { mesh, group } => {
                 let groups = self.meshes.get(*mesh).map_or(&[][..], |imported| &imported.groups);
-                let own = groups.iter().find(|it| it.name == *group && it.dimension == part.cells_dimension());
+                let own = groups.iter().find(|it| it.name == *group && it.dimension == self.cells_dimension(part));
                 own.is_some_and(|it| it.cells.iter().any(|cell| is(cell.len())))
             }
-            shape => shape.built_in().is_some_and(|(shape, _)| is(shape.nodes_per_element())),
+            _ => part.nodes_per_element().is_some_and(is),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The sections of the model file about what holds nodes and what acts on them: symmetry, constraints, joins, loads.
 
-use super::Kind::{Angle, Quantity, Reference, References, Spatial, Table, Vector};
+use super::Kind::{Angle, Quantity, Reference, References, Spatial, Table};
 use super::Need::{Default, Optional, Required};
 use super::{Form, Kind, Rule, Section, key};
 use crate::quantity::Dimension;
@@ -64,7 +64,8 @@ static TURN_OF_NODES: Section = Section {
     required: false,
     keys: &[
         key("speed", Kind::Drive(Dimension::RATE), Required, "Angular velocity, counter-clockwise: a number or a curve."),
-        key("centre", Vector(Dimension::LENGTH, Finite), Default("[0, 0]"), "The point."),
+        key("centre", Spatial(Dimension::LENGTH, Finite), Default("[0, 0]"), "The point; in space one of the axis."),
+        key("axis", Spatial(Dimension::NONE, Finite), Optional("along z"), "Direction of the axis, in space."),
     ],
     ..Section::EMPTY
 };
@@ -89,10 +90,11 @@ pub(super) static LOAD: Section = Section {
         ),
         key(
             "centre",
-            Vector(Dimension::LENGTH, Finite),
+            Spatial(Dimension::LENGTH, Finite),
             Optional("[0, 0]"),
-            "The point about which the frame turns; an axisymmetric model turns about its axis.",
+            "The point about which the frame turns, in space one of its axis; an axisymmetric model turns about its axis.",
         ),
+        key("axis", Spatial(Dimension::NONE, Finite), Optional("along z"), "Direction of the axis of `centrifugal`, in space."),
         key(
             "force",
             Spatial(Dimension::FORCE_PER_LENGTH, Finite),
@@ -136,6 +138,7 @@ pub(super) static LOAD: Section = Section {
     rules: &[
         Rule::OneOf(&["gravity", "centrifugal", "force", "pressure", "damping", "damping_stiffness"]),
         Rule::Needs("centre", "centrifugal"),
+        Rule::Needs("axis", "centrifugal"),
         Rule::Needs("force", "on"),
         Rule::Needs("pressure", "on"),
         Rule::NotBoth("on", "gravity"),
@@ -170,7 +173,7 @@ pub(super) static JOIN: Section = Section {
         key("between", References(Some(2)), Required, "The two sets: each a part, a side such as `plate.left`, or a group of a mesh file."),
         key(
             "translation",
-            Vector(Dimension::LENGTH, Finite),
+            Spatial(Dimension::LENGTH, Finite),
             Optional("none"),
             "Leads from the first set to the second: both have the same velocity.",
         ),
@@ -180,7 +183,8 @@ pub(super) static JOIN: Section = Section {
             Optional("none"),
             "Leads from the first set to the second, counter-clockwise: the velocity of the second is that of the first, turned.",
         ),
-        key("centre", Vector(Dimension::LENGTH, Finite), Optional("[0, 0]"), "Centre of the rotation."),
+        key("centre", Spatial(Dimension::LENGTH, Finite), Optional("[0, 0]"), "Centre of the rotation; in space a point of its axis."),
+        key("axis", Spatial(Dimension::NONE, Finite), Optional("along z"), "Direction of the axis, in space."),
         key(
             "tolerance",
             Quantity(Dimension::LENGTH, Positive),
@@ -188,6 +192,6 @@ pub(super) static JOIN: Section = Section {
             "Distance within which nodes are partners.",
         ),
     ],
-    rules: &[Rule::NotBoth("translation", "rotation"), Rule::Needs("centre", "rotation")],
+    rules: &[Rule::NotBoth("translation", "rotation"), Rule::Needs("centre", "rotation"), Rule::Needs("axis", "rotation")],
     ..Section::EMPTY
 };

@@ -41,6 +41,8 @@ pub(super) static OBSTACLE: Section = Section {
         key("plane", Table(&PLANE), Optional("another shape"), "A straight line."),
         key("circle", Table(&CIRCLE), Optional("another shape"), "A circle."),
         key("polyline", Table(&POLYLINE), Optional("another shape"), "Straight lines from point to point."),
+        key("sphere", Table(&SPHERE), Optional("another shape"), "In space: a sphere."),
+        key("cylinder", Table(&CYLINDER), Optional("another shape"), "In space: a cylinder without ends."),
         key(
             "motion",
             Kind::Motion,
@@ -69,13 +71,13 @@ pub(super) static OBSTACLE: Section = Section {
         key("spin", Angle(Dimension::RATE, Finite), Default("0"), "Initial angular velocity where it is free, counter-clockwise."),
     ],
     groups: &[&INTERFACE],
-    rules: &[Rule::OneOf(&["plane", "circle", "polyline"])],
+    rules: &[Rule::OneOf(&["plane", "circle", "polyline", "sphere", "cylinder"])],
     ..Section::EMPTY
 };
 
 static PLANE: Section = Section {
     name: "plane",
-    doc: "A straight line that bodies meet from the side of its normal.",
+    doc: "A straight line (in space a plane) that bodies meet from the side of its normal.",
     keys: &[
         key("point", Spatial(Dimension::LENGTH, Finite), Default("[0, 0]"), "A point of the line; its middle where it has a length."),
         key("normal", Spatial(Dimension::NONE, Finite), Required, "Normal that points to the free side; any length but zero."),
@@ -89,6 +91,29 @@ static CIRCLE: Section = Section {
     doc: "A circle.",
     keys: &[
         key("centre", Spatial(Dimension::LENGTH, Finite), Required, "Centre."),
+        key("radius", Quantity(Dimension::LENGTH, Positive), Required, "Radius."),
+        key("hollow", Flag, Default("false"), "Whether the bodies are inside of it."),
+    ],
+    ..Section::EMPTY
+};
+
+static SPHERE: Section = Section {
+    name: "sphere",
+    doc: "In space: a sphere.",
+    keys: &[
+        key("centre", Spatial(Dimension::LENGTH, Finite), Required, "Centre."),
+        key("radius", Quantity(Dimension::LENGTH, Positive), Required, "Radius."),
+        key("hollow", Flag, Default("false"), "Whether the bodies are inside of it."),
+    ],
+    ..Section::EMPTY
+};
+
+static CYLINDER: Section = Section {
+    name: "cylinder",
+    doc: "In space: a cylinder without ends.",
+    keys: &[
+        key("point", Spatial(Dimension::LENGTH, Finite), Default("[0, 0, 0]"), "A point of its axis."),
+        key("axis", Spatial(Dimension::NONE, Finite), Required, "Direction of the axis; any length but zero."),
         key("radius", Quantity(Dimension::LENGTH, Positive), Required, "Radius."),
         key("hollow", Flag, Default("false"), "Whether the bodies are inside of it."),
     ],

@@ -10,6 +10,7 @@ use super::{Form, Key, Kind, More, Rule, Section, key};
 use crate::block::stress_state::STRESS_STATES;
 use crate::failure::CRITERIA;
 use crate::mesh::shapes::SHAPES;
+use crate::mesh::shapes::sweep::{EXTRUDE, REVOLVE};
 use crate::quantity::Range::{Finite, NotNegative, Positive, UpTo};
 use crate::quantity::{Dimension, Parameter};
 use crate::{element, material, output};
@@ -245,13 +246,31 @@ static PART: Section = Section {
             Default("1"),
             "Factor on the mass of the part where mass resists motion: 100 makes steps ten times as long. What gravity pulls at stays the true mass.",
         ),
-        key("mirror", Table(&MIRROR), Optional("not mirrored"), "A line that the shape is mirrored on, before it is turned."),
+        key(
+            "mirror",
+            Table(&MIRROR),
+            Optional("not mirrored"),
+            "A line, in space a plane, that the shape is mirrored on, before it is turned.",
+        ),
         key("rotation", Table(&ROTATION), Optional("not turned"), "An angle by which the shape is turned, before it is moved."),
-        key("translation", Vector(Dimension::LENGTH, Finite), Default("[0, 0]"), "How far the shape is moved."),
+        key(
+            "extrude",
+            Table(&EXTRUDE),
+            Optional("the part stays in the plane"),
+            "Pulls a shape of the plane along z: the part becomes a solid.",
+        ),
+        key(
+            "revolve",
+            Table(&REVOLVE),
+            Optional("the part stays in the plane"),
+            "Turns a shape of the plane about a line: the part becomes a solid.",
+        ),
+        key("translation", Spatial(Dimension::LENGTH, Finite), Default("[0, 0]"), "How far the shape is moved."),
         key("copies", Table(&COPIES), Optional("one body"), "More bodies of the same shape, in a row or around a point."),
     ],
     groups: &[&SHAPES],
     rules: &[
+        Rule::NotBoth("extrude", "revolve"),
         Rule::NotBoth("mesh", "mirror"),
         Rule::NotBoth("mesh", "rotation"),
         Rule::NotBoth("mesh", "translation"),
@@ -262,20 +281,21 @@ static PART: Section = Section {
 
 static MIRROR: Section = Section {
     name: "mirror",
-    doc: "The shape is mirrored on a line.",
+    doc: "The shape is mirrored on a line, in space on a plane.",
     keys: &[
-        key("normal", Vector(Dimension::NONE, Finite), Required, "Normal of the line; any length but zero."),
-        key("point", Vector(Dimension::LENGTH, Finite), Default("[0, 0]"), "A point of the line."),
+        key("normal", Spatial(Dimension::NONE, Finite), Required, "Normal of the line or plane; any length but zero."),
+        key("point", Spatial(Dimension::LENGTH, Finite), Default("[0, 0]"), "A point of the line or plane."),
     ],
     ..Section::EMPTY
 };
 
 static ROTATION: Section = Section {
     name: "rotation",
-    doc: "The shape is turned about a point.",
+    doc: "The shape is turned about a point, in space about an axis.",
     keys: &[
-        key("angle", Angle(Dimension::NONE, Finite), Required, "Angle, counter-clockwise."),
-        key("point", Vector(Dimension::LENGTH, Finite), Default("[0, 0]"), "The point."),
+        key("angle", Angle(Dimension::NONE, Finite), Required, "Angle, counter-clockwise; about an axis by the right-hand rule."),
+        key("point", Spatial(Dimension::LENGTH, Finite), Default("[0, 0]"), "The point; in space one of the axis."),
+        key("axis", Spatial(Dimension::NONE, Finite), Default("[0, 0, 1]"), "Direction of the axis, of a solid; any length but zero."),
     ],
     ..Section::EMPTY
 };
@@ -285,9 +305,15 @@ static COPIES: Section = Section {
     doc: "The part consists of several bodies of one shape, each turned and moved from the one before. Sides are those of all of them.",
     keys: &[
         key("count", Integer(1), Required, "Number of bodies in all."),
-        key("translation", Vector(Dimension::LENGTH, Finite), Default("[0, 0]"), "How far each is moved."),
+        key("translation", Spatial(Dimension::LENGTH, Finite), Default("[0, 0]"), "How far each is moved."),
         key("angle", Angle(Dimension::NONE, Finite), Default("0"), "Angle by which each is turned, counter-clockwise."),
-        key("point", Vector(Dimension::LENGTH, Finite), Default("[0, 0]"), "Point about which they are turned."),
+        key("point", Spatial(Dimension::LENGTH, Finite), Default("[0, 0]"), "Point about which they are turned; in space one of the axis."),
+        key(
+            "axis",
+            Spatial(Dimension::NONE, Finite),
+            Default("[0, 0, 1]"),
+            "Direction of the axis about which they are turned, of solids; any length but zero.",
+        ),
     ],
     rules: &[Rule::SomeOf(&["translation", "angle"])],
     ..Section::EMPTY
@@ -383,9 +409,9 @@ static OUTPUT: Section = Section {
         key("include", Kind::Choices(fields), Optional("all"), "Fields to write."),
         key(
             "mirror",
-            Kind::Choices(|| vec!["x", "y"]),
+            Kind::Choices(|| vec!["x", "y", "z"]),
             Optional("none"),
-            "Pictures also show the model mirrored at the line x = 0 (`\"x\"`), y = 0 (`\"y\"`), or both.",
+            "Pictures also show the model mirrored at the line (in space the plane) x = 0 (`\"x\"`), y = 0 (`\"y\"`), in space z = 0 (`\"z\"`), or several of them.",
         ),
         key("pictures", Flag, Default("true"), "Whether pictures and the animation are made."),
         key("picture_field", Choice(fields), Optional("what suits the model"), "Field that colours the pictures."),
@@ -395,13 +421,31 @@ static OUTPUT: Section = Section {
             Optional("all bodies, and obstacles near them"),
             "What pictures and animation show; `embate check` draws the whole mesh all the same.",
         ),
+        key("camera", Table(&CAMERA), Optional("three sides are seen"), "From where pictures of a model of space look at it."),
+    ],
+    ..Section::EMPTY
+};
+
+static CAMERA: Section = Section {
+    name: "camera",
+    doc: "How pictures look at a model of space: from afar, so that parallel lines stay parallel, and with everything in sight.",
+    keys: &[
+        key(
+            "from",
+            Spatial(Dimension::NONE, Finite),
+            Default("[0.6, -1, 0.5]"),
+            "Direction from the model to the camera; any length but zero.",
+        ),
+        key("at", Spatial(Dimension::LENGTH, Finite), Optional("the middle of all that is seen"), "What is in the middle of the picture."),
+        key("up", Spatial(Dimension::NONE, Finite), Default("[0, 0, 1]"), "Direction that is upwards in the picture; not that of `from`."),
+        key("zoom", Quantity(Dimension::NONE, Positive), Default("1"), "How many times larger than so that everything is seen."),
     ],
     ..Section::EMPTY
 };
 
 static PICTURE_VIEW: Section = Section {
     name: "picture_view",
-    doc: "The rectangle that pictures show, mirror images included.",
+    doc: "The rectangle that pictures show, mirror images included; in space in the plane of the picture, from the image of the origin.",
     keys: &[
         key("corner", Vector(Dimension::LENGTH, Finite), Required, "Lower left corner."),
         key("size", Vector(Dimension::LENGTH, Positive), Required, "Width and height."),
@@ -418,15 +462,15 @@ fn equations_of_state() -> Vec<&'static str> {
 }
 
 fn elements() -> Vec<&'static str> {
-    [elements_of(4), elements_of(2)].concat()
+    element::registry().iter().filter(|kind| !is_triangle(kind)).map(|kind| kind.name).collect()
 }
 
 fn triangles() -> Vec<&'static str> {
-    elements_of(3)
+    element::registry().iter().filter(|kind| is_triangle(kind)).map(|kind| kind.name).collect()
 }
 
-fn elements_of(nodes: usize) -> Vec<&'static str> {
-    element::registry().iter().filter(|kind| kind.nodes == nodes).map(|kind| kind.name).collect()
+fn is_triangle(kind: &element::ElementKind) -> bool {
+    kind.nodes == 3
 }
 
 fn stress_states() -> Vec<&'static str> {

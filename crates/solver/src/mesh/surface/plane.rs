@@ -1,18 +1,16 @@
-//! The outside of bodies: element edges that occur once, oriented with the body on their right and linked to chains.
+//! The outside of bodies in the plane: element edges that occur once, oriented with the body on their right and linked to chains.
 //!
 //! Cells come from the shapes and mesh files; surfaces go to contact. Where corners of bodies, or two corners of one body, touch in a single
 //! node, each chain stays with its own fan of elements, so that normals never mix across the touching point.
 
+use super::NONE;
 use crate::error::Fault;
 use crate::mesh::messages::{BAD_ELEMENT, NOT_A_SURFACE, OVERLAP};
 use crate::rows::Rows;
 
-/// No neighbour.
-pub const NONE: u32 = u32::MAX;
-
 /// An oriented surface in the plane. Segment `[a, b]` runs a → b with the body on its right.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Surface {
+pub struct PlaneSurface {
     /// Node pairs.
     pub segments: Vec<[u32; 2]>,
     /// Segment that ends where each segment begins, or [`NONE`].
@@ -23,11 +21,16 @@ pub struct Surface {
     pub nodes: Vec<u32>,
 }
 
-impl Surface {
-    /// The whole outside of `cells` (3 or 4 nodes each, counter-clockwise), in the order of [`exterior`].
+impl PlaneSurface {
+    /// The outside segments of `cells`, not linked; see [`exterior`](super::exterior).
+    pub(in crate::mesh) fn exterior<'a>(cells: impl IntoIterator<Item = &'a [u32], IntoIter: Clone>) -> Result<Vec<[u32; 2]>, Fault> {
+        Ok(Edges::new(cells)?.exterior())
+    }
+
+    /// The whole outside of `cells` (3 or 4 nodes each, counter-clockwise), in the order of [`exterior`](super::exterior).
     ///
     /// # Errors
-    /// As [`exterior`].
+    /// As [`exterior`](super::exterior).
     pub fn outside<'a>(cells: impl IntoIterator<Item = &'a [u32], IntoIter: Clone>) -> Result<Self, Fault> {
         Self::outside_without(cells, |_| false)
     }
@@ -35,7 +38,7 @@ impl Surface {
     /// The same without the segments that `leave_out` names, which is asked once for each in this order.
     ///
     /// # Errors
-    /// As [`exterior`].
+    /// As [`exterior`](super::exterior).
     pub fn outside_without<'a>(
         cells: impl IntoIterator<Item = &'a [u32], IntoIter: Clone>,
         leave_out: impl Fn([u32; 2]) -> bool,
@@ -50,8 +53,8 @@ impl Surface {
     /// Segments that don't follow each other along the outside are not linked: a side alone begins and ends with [`NONE`].
     ///
     /// # Errors
-    /// A fault when the cells are wrong (see [`exterior`]), when a segment is no outside edge with the body on its right
-    /// (see [`oriented`]), or when one is given twice.
+    /// A fault when the cells are wrong (see [`exterior`](super::exterior)), when a segment is no outside edge with the body on its right
+    /// (see [`oriented`](super::oriented)), or when one is given twice.
     pub fn new<'a>(segments: Vec<[u32; 2]>, cells: impl IntoIterator<Item = &'a [u32], IntoIter: Clone>) -> Result<Self, Fault> {
         Self::linked(segments, &Edges::new(cells)?)
     }
@@ -90,43 +93,6 @@ impl Surface {
         nodes.dedup();
         Ok(Self { segments, previous, next, nodes })
     }
-}
-
-/// Outside edges of `cells` (3 or 4 nodes each, counter-clockwise): those that occur once, reversed, so that the body is on their right.
-///
-/// Order: closed chains one after another, each following its own element fans, beginning with its lowest node; chains by that node.
-///
-/// # Errors
-/// A fault that names nodes when a cell has not 3 or 4 different nodes, when an edge belongs to more than two cells, or to two cells that
-/// run through it in the same direction (one of them is clockwise, or they overlap).
-pub fn exterior<'a>(cells: impl IntoIterator<Item = &'a [u32], IntoIter: Clone>) -> Result<Vec<[u32; 2]>, Fault> {
-    Ok(Edges::new(cells)?.exterior())
-}
-
-/// `lines` in any direction, turned so that they match the segments of `exterior`; order kept, repeated lines dropped.
-///
-/// # Errors
-/// A fault that names the nodes of the first line that is not on the outside.
-pub fn oriented(lines: &[[u32; 2]], exterior: &[[u32; 2]]) -> Result<Vec<[u32; 2]>, Fault> {
-    let mut sorted = exterior.to_vec();
-    sorted.sort_unstable();
-    let mut taken = vec![false; sorted.len()];
-    let mut result = Vec::with_capacity(lines.len());
-    for &[a, b] in lines {
-        // Where a slit of no width has both directions outside, the line as given wins.
-        let Some(i) = [[a, b], [b, a]].iter().find_map(|s| sorted.binary_search(s).ok()) else {
-            return Err(Fault::new(
-                &NOT_A_SURFACE,
-                "",
-                format!("line {a}-{b} is not on the outside of a body"),
-                "take lines that bound the elements of one part; contact acts on the outside only",
-            ));
-        };
-        if !std::mem::replace(&mut taken[i], true) {
-            result.push(sorted[i]);
-        }
-    }
-    Ok(result)
 }
 
 /// Every directed edge of every cell from each node: (to, node before `from` in the same cell), ascending.
@@ -230,6 +196,7 @@ impl Edges {
 
 #[cfg(test)]
 mod tests {
+    use super::super::oriented;
     use super::*;
     use crate::mesh::shapes::{disk, rectangle, ring};
     use proptest::prelude::*;
@@ -238,7 +205,11 @@ mod tests {
         cells.iter().map(<[u32; 4]>::as_slice)
     }
 
-    fn links_are_consistent(surface: &Surface) {
+    fn exterior<'a>(cells: impl IntoIterator<Item = &'a [u32], IntoIter: Clone>) -> Result<Vec<[u32; 2]>, Fault> {
+        PlaneSurface::exterior(cells)
+    }
+
+    fn links_are_consistent(surface: &PlaneSurface) {
         for s in 0..surface.segments.len() {
             for (there, back, end) in [(&surface.next, &surface.previous, 1), (&surface.previous, &surface.next, 0)] {
                 let other = there[s];
@@ -274,7 +245,7 @@ mod tests {
     #[test]
     fn a_ring_has_two_closed_chains() {
         let body = ring([0.0, 0.0], 1.0, 2.0, 0.0, std::f64::consts::TAU, [2, 12]);
-        let surface = Surface::outside(slices(&body.quads)).unwrap();
+        let surface = PlaneSurface::outside(slices(&body.quads)).unwrap();
         links_are_consistent(&surface);
         let mut lengths = vec![];
         let mut at = 0;
@@ -295,7 +266,7 @@ mod tests {
     fn touching_corners_stay_with_their_own_elements() {
         // Two unit squares that share only node 2, diagonally.
         let cells = [[0, 1, 2, 3], [2, 4, 5, 6]];
-        let surface = Surface::outside(slices(&cells)).unwrap();
+        let surface = PlaneSurface::outside(slices(&cells)).unwrap();
         links_are_consistent(&surface);
         assert_eq!(surface.segments, [[0, 3], [3, 2], [2, 1], [1, 0], [2, 6], [6, 5], [5, 4], [4, 2]]);
         assert_eq!(surface.next, [1, 2, 3, 0, 5, 6, 7, 4]);
@@ -307,7 +278,7 @@ mod tests {
         // A 3 x 3 block without its centre and without the cell to its right below: the hole touches the notch in a node.
         let body = rectangle([0.0, 0.0], [3.0, 3.0], [3, 3]);
         let quads: Vec<_> = body.quads.iter().copied().enumerate().filter(|(i, _)| ![4, 2].contains(i)).map(|(_, q)| q).collect();
-        let surface = Surface::outside(slices(&quads)).unwrap();
+        let surface = PlaneSurface::outside(slices(&quads)).unwrap();
         links_are_consistent(&surface);
         assert!(surface.next.iter().chain(&surface.previous).all(|&n| n != NONE));
         assert!((shoelace(&surface.segments, &body.positions) + 7.0).abs() < 1e-12);
@@ -329,7 +300,7 @@ mod tests {
         let body = rectangle([0.0, 0.0], [4.0, 2.0], [4, 2]);
         let (name, top) = body.sides[3].clone();
         assert_eq!(name, "top");
-        let surface = Surface::new(top, slices(&body.quads)).unwrap();
+        let surface = PlaneSurface::new(top, slices(&body.quads)).unwrap();
         links_are_consistent(&surface);
         assert_eq!((surface.previous[0], surface.next[0]), (NONE, 1));
         assert_eq!((surface.previous[3], surface.next[3]), (2, NONE));
@@ -343,9 +314,9 @@ mod tests {
         assert_eq!(oriented(&[[3, 4], [5, 4], [3, 4]], &outside).unwrap(), [[3, 4], [4, 5]]);
         let fault = oriented(&[[1, 4]], &outside).unwrap_err();
         assert!(fault.message.contains("1-4"), "{fault}");
-        let fault = Surface::new(vec![[4, 3]], slices(&body.quads)).unwrap_err();
+        let fault = PlaneSurface::new(vec![[4, 3]], slices(&body.quads)).unwrap_err();
         assert!(fault.message.contains("4-3"), "{fault}");
-        let fault = Surface::new(vec![[3, 4], [3, 4]], slices(&body.quads)).unwrap_err();
+        let fault = PlaneSurface::new(vec![[3, 4], [3, 4]], slices(&body.quads)).unwrap_err();
         assert!(fault.message.contains("twice"), "{fault}");
     }
 
@@ -364,7 +335,7 @@ mod tests {
     #[test]
     fn the_outside_of_a_disk_is_its_side() {
         let body = disk([0.0, 0.0], 1.0, 5);
-        let surface = Surface::outside(slices(&body.quads)).unwrap();
+        let surface = PlaneSurface::outside(slices(&body.quads)).unwrap();
         assert_eq!(surface.segments.len(), 20);
         assert!((shoelace(&surface.segments, &body.positions) + area(&body.quads, &body.positions)).abs() < 1e-14);
     }
@@ -378,7 +349,7 @@ mod tests {
             let body = rectangle([0.0, 0.0], [nx as f64, ny as f64], [nx, ny]);
             let positions: Vec<_> = body.positions.iter().enumerate().map(|(i, p)| [p[0] + shift[2 * i], p[1] + shift[2 * i + 1]]).collect();
             let quads: Vec<_> = body.quads.iter().zip(&keep).filter(|(_, k)| **k).map(|(q, _)| *q).collect();
-            let surface = Surface::outside(slices(&quads)).unwrap();
+            let surface = PlaneSurface::outside(slices(&quads)).unwrap();
             links_are_consistent(&surface);
             prop_assert!(surface.next.iter().chain(&surface.previous).all(|&n| n != NONE));
             prop_assert!((shoelace(&surface.segments, &positions) + area(&quads, &positions)).abs() < 1e-12);

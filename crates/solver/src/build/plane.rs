@@ -1,0 +1,252 @@
+//! What is built in the plane in a way of its own: the axis of a body of revolution, surfaces as chains of segments, and the contacts between them.
+
+use super::fans::Under;
+use super::{Builder, law_of, mirrors, search_by_name, source_of, terms_of, terms_of_ties};
+use crate::contact::formulation::{self, Setup, Side};
+use crate::contact::law;
+use crate::contact::messages::{ON_SYMMETRY, TIED_TWICE};
+use crate::contact::mirror::Mirrored;
+use crate::contact::projection::node_segment::Target;
+use crate::contact::{self, Contact, ContactKind, Formulation};
+use crate::error::Fault;
+use crate::load::constraint::unit;
+use crate::load::non_reflecting::{Behind, NonReflecting};
+use crate::load::tributary::Depth;
+use crate::mesh::Mesh;
+use crate::mesh::messages::NEGATIVE_RADIUS;
+use crate::mesh::surface::{NONE, Surface};
+use crate::model::messages::UNKNOWN_NAME;
+use crate::model::{self, Interface, Model, Partners, PenaltySource, Symmetry};
+use crate::vector::first;
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+
+/// Nodes nearer to the axis than this fraction of the model's size are on it.
+const ON_AXIS: f64 = 1e-9;
+
+/// An axisymmetric model with its axis as a symmetry line, if it touches that.
+pub(crate) fn with_axis(model: &Model, mesh: &Mesh<2>) -> Result<Option<Model>, Vec<Fault>> {
+    if !model.is_axisymmetric() {
+        return Ok(None);
+    }
+    let size = mesh.positions.iter().flatten().fold(0.0f64, |size, x| size.max(x.abs()));
+    if let Some([x, y]) = mesh.positions.iter().find(|x| x[0] < -ON_AXIS * size) {
+        let message = format!("an axisymmetric part has a node at a negative radius, ({x:.6e}, {y:.6e}) m");
+        return Err(vec![Fault::new(&NEGATIVE_RADIUS, "part", message, "x is the radius: move the part to the right of the axis x = 0")]);
+    }
+    let touches = mesh.positions.iter().any(|x| x[0] <= ON_AXIS * size);
+    let axis = Symmetry { normal: [1.0, 0.0, 0.0], ..Symmetry::default() };
+    let is_there = |symmetry: &Symmetry| symmetry.parts.is_empty() && symmetry.point[0] == 0.0 && symmetry.normal[1] == 0.0;
+    if !touches || model.symmetries.iter().any(is_there) {
+        return Ok(None);
+    }
+    let mut model = model.clone();
+    model.symmetries.push(axis);
+    Ok(Some(model))
+}
+
+impl Builder<'_, 2> {
+    /// Boundaries that reflect nothing.
+    pub(crate) fn boundary(&mut self) -> Result<NonReflecting<2>, Vec<Fault>> {
+        let behind = |segment| {
+            let under = self.under(segment)?;
+            let part = &self.model.parts[self.mesh.groups[under.group].part];
+            let density = *self.model.materials.get(&part.material)?.parameters.get("density")?;
+            Some(Behind { density, moduli: self.moduli[under.group] })
+        };
+        NonReflecting::new(self.model, &self.mesh, |segment| self.constraints.is_mirror(segment), behind)
+    }
+
+    /// What is behind a surface, with the stiffness that an interface asks for.
+    pub(crate) fn side(&self, Outlined { target, lids }: Outlined, interface: &Interface) -> Side<'_> {
+        let (surface, positions, source) = (&target.surface, &self.mesh.positions, source_of(interface));
+        let modulus = |under: Under| self.moduli[under.group][usize::from(source == PenaltySource::BulkModulus)] * under.flatness;
+        let mut segments: Vec<f64> = surface.segments.iter().map(|&segment| self.under(segment).map_or(0.0, modulus)).collect();
+        let mut nodes = contact::tributaries(surface, &segments, positions, Depth::of(self.model));
+        if source == PenaltySource::TimeStep {
+            for (&node, own) in surface.nodes.iter().zip(&mut nodes) {
+                own.stiffness = law::penalty::of_time_step(self.mass[node as usize], self.time_step, own.area);
+            }
+            let of = |node: u32| surface.nodes.binary_search(&node).map_or(0.0, |at| nodes[at].stiffness);
+            segments = surface.segments.iter().map(|&[a, b]| 0.5 * (of(a) + of(b))).collect();
+        }
+        let cell = |&segment: &[u32; 2]| self.under(segment).map_or(&[][..], |under| self.mesh.groups[under.group].cell(under.element));
+        let cells = surface.segments.iter().map(cell).collect();
+        let parts = surface
+            .segments
+            .iter()
+            .map(|&segment| self.under(segment).map_or(0, |under| self.mesh.groups[under.group].part as u32))
+            .collect();
+        Side { lids, segments, parts, nodes, cells, target }
+    }
+
+    pub(crate) fn contacts(&mut self) -> Vec<Contact> {
+        let mut contacts = Vec::new();
+        let mut tied = BTreeMap::new();
+        for (i, contact) in self.model.contacts.iter().enumerate() {
+            match self.contact(contact) {
+                Ok(made) => {
+                    if let Some(ties) = made.ties() {
+                        self.tied_once(&format!("contact[{i}].tied"), &contact.name, &ties.nodes, &mut tied);
+                    }
+                    contacts.push(made);
+                }
+                Err(faults) => self.faults.extend(faults.into_iter().map(|fault| {
+                    let dot = if fault.path.is_empty() { "" } else { "." };
+                    Fault { path: format!("contact[{i}]{dot}{}", fault.path), ..fault }
+                })),
+            }
+        }
+        contacts
+    }
+
+    /// Tells if nodes are bound already (`tied`: which contact binds a node): two ties would hold against each other.
+    fn tied_once<'m>(&mut self, path: &str, contact: &'m str, nodes: &[u32], tied: &mut BTreeMap<u32, &'m str>) {
+        let twice = nodes.iter().find_map(|&node| Some((node, *tied.get(&node)?)));
+        if let Some((node, other)) = twice {
+            let [x, y] = self.mesh.positions[node as usize];
+            self.faults.push(Fault::new(
+                &TIED_TWICE,
+                path,
+                format!("the node at ({x:.6e}, {y:.6e}) m is tied already by contact \"{other}\""),
+                "leave one of the two ties out, name smaller surfaces, or let the other surface be the slave",
+            ));
+        }
+        tied.extend(nodes.iter().map(|&node| (node, contact)));
+    }
+
+    /// A contact; faults have paths relative to it.
+    fn contact(&mut self, contact: &model::Contact) -> Result<Contact, Vec<Fault>> {
+        let (formulation, terms) = self.formulation(contact)?;
+        Ok(Contact::new(contact.name.clone(), ContactKind::Contact, formulation, terms, contact.interface.active))
+    }
+
+    /// What makes the springs of a contact, and the number of the terms that they follow.
+    pub(crate) fn formulation(&mut self, contact: &model::Contact) -> Result<(Box<dyn Formulation>, usize), Vec<Fault>> {
+        let terms = self.add_terms(terms_of(&contact.interface));
+        let tie_terms = if contact.tied.is_some() { self.add_terms(terms_of_ties(&contact.interface)) } else { terms };
+        let mirror_terms = self.add_terms(mirrors::terms_of_mirrors(&contact.interface));
+        let sides: Vec<Side<'_>> = self.outlines_of(contact)?.into_iter().map(|outline| self.side(outline, &contact.interface)).collect();
+        let mirrors = self.mirrors_of(contact, &sides[0]);
+        let Some(search) = search_by_name(&contact.search) else {
+            let message = format!("there is no search \"{}\"", contact.search);
+            return Err(vec![Fault::new(&UNKNOWN_NAME, "search", message, "see `embate list searches`")]);
+        };
+        let Some(kind) = formulation::kind_of(contact) else {
+            let message = format!("there is no formulation \"{}\"", contact.formulation.name());
+            return Err(vec![Fault::new(&UNKNOWN_NAME, "formulation", message, "see `embate list formulations`")]);
+        };
+        let setup = Setup {
+            contact,
+            sides,
+            bodies: &self.body_of_node,
+            positions: &self.mesh.positions,
+            depth: Depth::of(self.model),
+            law: &|| law_of(&contact.interface),
+            passes: (kind.passes)(contact),
+            tie_terms,
+            search: &|| (search.make)(),
+            again: self.again,
+        };
+        let mut made = (kind.make)(setup).map_err(|fault| vec![fault])?;
+        if !mirrors.is_empty() {
+            made = Box::new(Mirrored::new(made, mirrors, mirror_terms));
+        }
+        Ok((made, terms))
+    }
+
+    /// The surfaces of a contact: two, or one that meets itself. Faults have paths relative to the contact.
+    pub(crate) fn outlines_of(&self, contact: &model::Contact) -> Result<Vec<Outlined>, Vec<Fault>> {
+        match &contact.partners {
+            Partners::Between(between) => {
+                let sides = (0..).zip(between).map(|(side, name)| {
+                    let outline = self.outlined(|leave_out| self.mesh.surface(name, leave_out), &format!("surface \"{name}\""));
+                    outline.map_err(|fault| Fault { path: format!("between[{side}]"), ..fault })
+                });
+                let (good, faulty): (Vec<_>, Vec<_>) = sides.partition(Result::is_ok);
+                if faulty.is_empty() {
+                    Ok(good.into_iter().flatten().collect())
+                } else {
+                    Err(faulty.into_iter().filter_map(Result::err).collect())
+                }
+            }
+            Partners::Bodies(parts) => {
+                let outline = self.outlined(|leave_out| self.mesh.outside_without(parts, leave_out), "the outside of the bodies");
+                outline.map(|outline| vec![outline]).map_err(|fault| vec![Fault { path: "bodies".into(), ..fault }])
+            }
+        }
+    }
+
+    /// A surface without the segments on symmetry lines, and the normals of the lines at the ends that this leaves open.
+    pub(crate) fn outlined(
+        &self,
+        surface: impl Fn(&dyn Fn([u32; 2]) -> bool) -> Result<Surface, Fault>,
+        what: &str,
+    ) -> Result<Outlined, Fault> {
+        let lids = RefCell::new(Vec::new());
+        let surface = surface(&|segment| {
+            let is_lid = self.constraints.is_mirror(segment);
+            if is_lid {
+                lids.borrow_mut().push(segment);
+            }
+            is_lid
+        })?;
+        if surface.segments.is_empty() {
+            return Err(Fault::new(&ON_SYMMETRY, "", format!("{what} lies on a symmetry line altogether"), "name another surface"));
+        }
+        Ok(Outlined { target: self.with_mirrors(surface), lids: lids.into_inner() })
+    }
+
+    /// A surface as a target that goes on beyond symmetry lines.
+    fn with_mirrors(&self, surface: Surface) -> Target {
+        let starts =
+            surface.segments.iter().zip(&surface.previous).filter(|(_, previous)| **previous == NONE).map(|(segment, _)| segment[0]);
+        let ends = surface.segments.iter().zip(&surface.next).filter(|(_, next)| **next == NONE).map(|(segment, _)| segment[1]);
+        let open = starts.chain(ends);
+        let mut mirrors: Vec<(u32, [f64; 2])> =
+            open.filter_map(|node| Some((node, self.constraints.mirror_normals(node).next()?))).collect();
+        mirrors.sort_by_key(|&(node, _)| node);
+        Target { surface, mirrors }
+    }
+}
+
+impl Builder<'_, 2> {
+    /// Symmetry lines behind which there is nothing of the parts that they hold: number, a point, and the unit normal that points to the parts.
+    pub(crate) fn mirror_lines(&self) -> impl Iterator<Item = (usize, [f64; 2], [f64; 2])> {
+        let tolerance = contact::initial::TOLERANCE * contact::initial::size(&self.mesh.positions);
+        self.model.symmetries.iter().enumerate().filter_map(move |(number, symmetry)| {
+            let (normal, point) = (unit(first(symmetry.normal))?, first(symmetry.point));
+            let parts = self.mesh.parts.iter().filter(|part| symmetry.parts.is_empty() || symmetry.parts.contains(&part.name));
+            let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+            for &node in parts.flat_map(|part| &part.nodes) {
+                let distance = height(self.mesh.positions[node as usize], point, normal);
+                (low, high) = (low.min(distance), high.max(distance));
+            }
+            if low >= -tolerance {
+                Some((number, point, normal))
+            } else {
+                (high <= tolerance).then_some((number, point, normal.map(|n| -n)))
+            }
+        })
+    }
+
+    /// Whether a point lies on a symmetry line of one of these parts (none: all) or beyond it, where the mirror images of the parts are.
+    pub(crate) fn is_beyond_mirrors(&self, x: [f64; 2], parts: &[String]) -> bool {
+        let tolerance = contact::initial::TOLERANCE * contact::initial::size(&self.mesh.positions);
+        let concerns = |held: &[String]| held.is_empty() || parts.is_empty() || held.iter().any(|part| parts.contains(part));
+        self.mirror_lines()
+            .any(|(number, point, normal)| concerns(&self.model.symmetries[number].parts) && height(x, point, normal) <= tolerance)
+    }
+}
+
+/// How far `x` is from the line through `point`, along its normal, m.
+pub(super) fn height(x: [f64; 2], point: [f64; 2], normal: [f64; 2]) -> f64 {
+    (x[0] - point[0]) * normal[0] + (x[1] - point[1]) * normal[1]
+}
+
+/// A surface of a contact.
+pub(crate) struct Outlined {
+    pub(super) target: Target,
+    /// Segments that were left out because they lie on a symmetry line.
+    pub(super) lids: Vec<[u32; 2]>,
+}

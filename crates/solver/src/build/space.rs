@@ -1,0 +1,82 @@
+//! What is built in space in a way of its own: rigid parts that turn about any axis. What the plane has and space has not is refused here, by its key.
+
+use super::Builder;
+use super::bodies::Bulk;
+use crate::block::Block;
+use crate::error::Fault;
+use crate::load::non_reflecting::NonReflecting;
+use crate::model::messages::NOT_IN_SPACE;
+use crate::model::{Motion, Obstacle};
+use crate::rigid::space::Turning;
+use crate::rigid::{Body, Drive, Member};
+
+impl Builder<'_, 3> {
+    /// Notes that a list of the model has what space has not.
+    fn refuse(&mut self, key: &str, count: usize, what: &str, help: &str) {
+        for index in 0..count {
+            self.faults.push(Fault::new(&NOT_IN_SPACE, format!("{key}[{index}]"), format!("{what} in space"), help));
+        }
+    }
+
+    /// See [`crate::world::World::springs`].
+    pub(crate) fn springs_in_space(&mut self) -> Option<Box<dyn Block<3>>> {
+        self.refuse("spring", self.model.springs.len(), "there are no springs", "join the nodes by a few elements");
+        None
+    }
+
+    /// See [`crate::world::World::boundary`].
+    pub(crate) fn boundary_in_space(&mut self) -> NonReflecting<3> {
+        self.refuse(
+            "non_reflecting",
+            self.model.non_reflecting.len(),
+            "there are no boundaries that reflect nothing",
+            "make the body longer",
+        );
+        NonReflecting::default()
+    }
+
+    /// See [`crate::world::World::rigid_part`].
+    pub(crate) fn rigid_part_in_space(&self, index: usize, motion: &Motion, own: &[(u32, f64)]) -> Body<3> {
+        let (part, positions) = (&self.model.parts[index], &self.mesh.positions);
+        // The whole mass of the nodes: that of other parts at common nodes belongs to the body.
+        let whole: Vec<(u32, f64)> = own.iter().map(|&(node, _)| (node, self.mass[node as usize])).collect();
+        let bulk = Bulk::of(&whole, positions);
+        let drives = self.drives_in_space(motion);
+        let [u, v, w] = Bulk::of(own, positions).velocity(part, bulk.centre);
+        Body {
+            centre: bulk.centre,
+            velocity: [u, v, w, 0.0, 0.0, part.spin],
+            mass: std::array::from_fn(|k| if k < 3 && drives[k].is_none() { bulk.mass } else { 0.0 }),
+            turning: Turning::of_masses(whole.iter().map(|&(node, mass)| (mass, bulk.arm(positions[node as usize])))),
+            drives,
+            of_elements: true,
+            members: self.mesh.parts[index].nodes.iter().map(|&node| Member { node, arm: bulk.arm(positions[node as usize]) }).collect(),
+            shared: own.iter().filter(|&&(node, share)| self.mass[node as usize] != share).map(|&(node, _)| node).collect(),
+            ..Body::default()
+        }
+    }
+
+    /// The rigid body of an obstacle with its reference point, m. The one rotation that a model names is that about z.
+    pub(super) fn obstacle_body_in_space(&self, obstacle: &Obstacle, reference: [f64; 3]) -> Body<3> {
+        let drives = self.drives_in_space(&obstacle.motion);
+        let (mass, inertia) = (obstacle.mass.unwrap_or(0.0), obstacle.inertia.unwrap_or(0.0));
+        let [u, v, w] = obstacle.velocity;
+        Body {
+            centre: reference,
+            velocity: [u, v, w, 0.0, 0.0, obstacle.spin],
+            mass: std::array::from_fn(|k| if k < 3 && drives[k].is_none() { mass } else { 0.0 }),
+            // The same about all axes.
+            turning: Turning { inertia: [inertia, 0.0, 0.0, inertia, 0.0, inertia], ..Turning::default() },
+            drives,
+            ..Body::default()
+        }
+    }
+
+    /// What prescribes the velocities of a body. The one rotation that a model names is that about z; with it those about the other axes are none.
+    fn drives_in_space(&self, motion: &Motion) -> [Drive; 6] {
+        let drive = |drive: &Option<crate::model::Drive>| drive.as_ref().and_then(|drive| self.curves.speed(drive));
+        let around = |axis: usize| if axis == 2 { drive(&motion.spin) } else { motion.spin.as_ref().map(|_| Default::default()) };
+        let [x, y, z] = motion.velocity.each_ref().map(drive);
+        [x, y, z, around(0), around(1), around(2)]
+    }
+}

@@ -1,0 +1,305 @@
+//! Contacts between surfaces in space: nodes against facets, made from the surfaces that a contact names and from the stiffness of the elements behind them.
+
+use super::outline::{self, Outline};
+use super::{Builder, law_of, search_by_name, source_of, stiffness_of, terms_of};
+use crate::contact::formulation::{self, Passes};
+use crate::contact::initial::{self, Penetration};
+use crate::contact::law::{self, Node};
+use crate::contact::messages::ON_SYMMETRY;
+use crate::contact::node_facet::tracker::Tracker;
+use crate::contact::node_facet::{NodeFacet, PassInput, Slave};
+use crate::contact::obstacle::OutlineShape;
+use crate::contact::obstacle::space::{NodeSolid, Solid, Vector};
+use crate::contact::tracker::SKIN;
+use crate::contact::{Contact, ContactKind, Formulation, Sweep, Tributary};
+use crate::error::Fault;
+use crate::load::constraint::unit;
+use crate::load::tributary::{self, Depth};
+use crate::mesh::surface::SpaceSurface;
+use crate::model::messages::{NO_DIRECTION, NOT_IN_SPACE, UNKNOWN_NAME};
+use crate::model::{self, ContactLaw, InitialPenetration, Interface, Obstacle, ObstacleShape, Partners, Penalty, PenaltySource};
+use crate::vector::{dot, minus, plus, times};
+
+/// What a contact of the plane may do and one of space may not (yet).
+fn refused(contact: &model::Contact) -> Option<(&'static str, &'static str, &'static str)> {
+    let name = contact.formulation.name();
+    if contact.tied.is_some() {
+        return Some(("tied", "contacts do not tie", "let the bodies share nodes, or join nodes that coincide"));
+    }
+    if !["double_pass", "single_pass"].contains(&name) {
+        return Some(("formulation", "nodes meet facets", "take `double_pass` or `single_pass`"));
+    }
+    if matches!(contact.interface.law, ContactLaw::Penalty(Penalty::PerNode(_))) {
+        return Some(("penalty", "a penalty is a pressure per depth", "give it in Pa/m, or leave it out"));
+    }
+    if contact.interface.initial_penetration == InitialPenetration::PushOut {
+        return Some(("initial_penetration", "nothing is pushed out", "move the bodies apart, or take \"ignore\""));
+    }
+    None
+}
+
+impl Builder<'_, 3> {
+    /// See [`crate::world::World::contacts`].
+    pub(crate) fn contacts_in_space(&mut self) -> Vec<Contact<3>> {
+        let mut contacts = Vec::new();
+        for (i, contact) in self.model.contacts.iter().enumerate() {
+            match self.node_facet(contact) {
+                Ok((made, terms)) => {
+                    contacts.push(Contact::new(contact.name.clone(), ContactKind::Contact, made, terms, contact.interface.active));
+                }
+                Err(faults) => self.faults.extend(faults.into_iter().map(|fault| below(&format!("contact[{i}]"), fault))),
+            }
+        }
+        contacts
+    }
+
+    /// See [`crate::world::World::renew`].
+    pub(crate) fn renew_in_space(&mut self, contacts: &mut [Contact<3>]) {
+        // Contacts come first, then obstacles, both in model order.
+        let (between, obstacles) = contacts.split_at_mut(self.model.contacts.len());
+        for (model, contact) in self.model.contacts.iter().zip(between) {
+            match self.node_facet(model) {
+                Ok((formulation, _)) => contact.renew(formulation),
+                Err(_) => contact.end(),
+            }
+        }
+        for (model, contact) in self.model.obstacles.iter().zip(obstacles) {
+            match self.node_solid(model) {
+                Ok((_, formulation)) => contact.renew(formulation),
+                Err(_) => contact.end(),
+            }
+        }
+    }
+
+    /// See [`crate::world::World::obstacles`].
+    pub(crate) fn obstacles_in_space(&mut self) -> Vec<Contact<3>> {
+        let mut contacts = Vec::new();
+        for (i, obstacle) in self.model.obstacles.iter().enumerate() {
+            match self.node_solid(obstacle) {
+                Ok((body, formulation)) => {
+                    let (kind, terms) = (ContactKind::Obstacle(body), self.add_terms(terms_of(&obstacle.interface)));
+                    contacts.push(Contact::new(obstacle.name.clone(), kind, formulation, terms, obstacle.interface.active));
+                }
+                Err(fault) => self.faults.push(below(&format!("obstacle[{i}]"), fault)),
+            }
+        }
+        contacts
+    }
+
+    /// The body of an obstacle, and what makes springs at it.
+    fn node_solid(&mut self, obstacle: &Obstacle) -> Result<(usize, Box<dyn Formulation<3>>), Fault> {
+        let (reference, solid, (points, facets)) = self.solid(obstacle)?;
+        let outside = self.mesh.outside_without(&obstacle.parts, |facet| self.constraints.is_mirror(facet));
+        let outside = outside.map_err(|fault| Fault { path: "parts".into(), ..fault })?;
+        let Sided { nodes: own, .. } = self.sided(&outside, &obstacle.interface);
+        let spacing = own.iter().map(|own| own.area.sqrt()).sum::<f64>() / own.len().max(1) as f64;
+        // What a symmetry plane keeps at its distance from a plane needs no spring.
+        let along = if let ObstacleShape::Plane { normal, .. } = obstacle.shape { unit(normal) } else { None };
+        let is_held = |node: u32| along.is_some_and(|n| self.constraints.mirror_normals(node).any(|m| dot(m, n).abs() > 1.0 - 1e-12));
+        let slave = |(&node, &own): (&u32, &Tributary)| {
+            let here = Node { own, other: own.stiffness, share: 1.0 };
+            (!is_held(node)).then(|| (node, Slave { stiffness: stiffness_of(&obstacle.interface, here, 1), area: own.area }))
+        };
+        let nodes = outside.nodes.iter().zip(&own).filter_map(slave).collect();
+        let body = match self.made.get(&obstacle.name) {
+            Some(&body) => body,
+            None => {
+                let body = self.bodies.add(self.obstacle_body_in_space(obstacle, reference));
+                self.outlines.push(OutlineShape { name: obstacle.name.clone(), body, points, facets });
+                body
+            }
+        };
+        let reach = SKIN * spacing + law_of(&obstacle.interface).reach();
+        Ok((body, Box::new(NodeSolid::new(solid, body, nodes, reach, initial::is_ignored(&obstacle.interface)))))
+    }
+
+    /// The shape of an obstacle as its body sees it from a reference point (m), grown by the distance that it keeps; points and facets of its outline.
+    fn solid(&self, obstacle: &Obstacle) -> Result<(Vector, Solid, Outline), Fault> {
+        let thickness = obstacle.interface.thickness;
+        let far = 20.0 * initial::size(&self.mesh.positions);
+        let grown = |radius: f64, hollow: bool| if hollow { radius - thickness } else { radius + thickness };
+        let no_direction = |key: &'static str| Fault::new(&NO_DIRECTION, key, "it has no direction", "give a vector such as [0, 0, 1]");
+        match obstacle.shape {
+            ObstacleShape::Plane { length: Some(_), .. } => {
+                Err(Fault::new(&NOT_IN_SPACE, "plane.length", "a plane of space has no end", "leave `length` out"))
+            }
+            ObstacleShape::Plane { point, normal, .. } => {
+                let normal = unit(normal).ok_or_else(|| no_direction("plane.normal"))?;
+                let reference = obstacle.reference.unwrap_or(point);
+                let at = minus(point, reference);
+                let solid = Solid::HalfSpace { point: plus(at, times(thickness, normal)), normal };
+                Ok((reference, solid, outline::square(at, normal, far)))
+            }
+            ObstacleShape::Sphere { centre, radius, hollow } => {
+                let reference = obstacle.reference.unwrap_or(centre);
+                let at = minus(centre, reference);
+                let ball = Solid::Ball { centre: at, radius: grown(radius, hollow), is_hollow: hollow };
+                Ok((reference, ball, outline::sphere(at, radius, hollow)))
+            }
+            ObstacleShape::Cylinder { point, axis, radius, hollow } => {
+                let axis = unit(axis).ok_or_else(|| no_direction("cylinder.axis"))?;
+                let reference = obstacle.reference.unwrap_or(point);
+                let at = minus(point, reference);
+                let cylinder = Solid::Cylinder { point: at, axis, radius: grown(radius, hollow), is_hollow: hollow };
+                Ok((reference, cylinder, outline::cylinder(at, axis, radius, hollow, initial::size(&self.mesh.positions))))
+            }
+            ObstacleShape::Circle { .. } => {
+                Err(Fault::new(&NOT_IN_SPACE, "circle", "there are no circles in space", "take `sphere` or `cylinder`"))
+            }
+            ObstacleShape::Polyline { .. } => Err(Fault::new(
+                &NOT_IN_SPACE,
+                "polyline",
+                "there are no polylines in space",
+                "take `plane`, `sphere` or `cylinder`, or a rigid part",
+            )),
+        }
+    }
+
+    /// See [`crate::world::World::part_at_start`].
+    pub(crate) fn part_at_start_in_space(&mut self) -> Vec<String> {
+        let tolerance = initial::TOLERANCE * initial::size(&self.mesh.positions);
+        let mut lines = Vec::new();
+        for (i, contact) in self.model.contacts.iter().enumerate() {
+            let Interface { initial_penetration, thickness, active, .. } = contact.interface;
+            // Who begins later can't know. Wrong surfaces are told when contacts are made.
+            if refused(contact).is_some() || active[0] > 0.0 {
+                continue;
+            }
+            let Ok((mut tracker, _)) = self.tracker_in_space(contact) else { continue };
+            let positions = &self.mesh.positions;
+            let touches = tracker.track(Sweep::between(positions, positions), thickness).iter();
+            let deep = touches.filter(|touch| !touch.own && touch.projection.gap - thickness < -tolerance);
+            let found: Vec<Penetration<3>> = deep
+                .map(|touch| Penetration {
+                    node: touch.node,
+                    place: positions[touch.node as usize],
+                    depth: thickness - touch.projection.gap,
+                })
+                .collect();
+            match initial_penetration {
+                InitialPenetration::Ignore => lines.extend(initial::lines(&contact.name, &found, super::start::IGNORED)),
+                InitialPenetration::Error | InitialPenetration::PushOut => {
+                    self.faults.extend(initial::faults(&format!("contact[{i}]"), &contact.name, &found));
+                }
+            }
+        }
+        lines
+    }
+
+    /// What makes the springs of a contact, and the number of the terms that they follow. Faults have paths relative to the contact.
+    fn node_facet(&mut self, contact: &model::Contact) -> Result<(Box<dyn Formulation<3>>, usize), Vec<Fault>> {
+        if let Some((key, message, help)) = refused(contact) {
+            return Err(vec![Fault::new(&NOT_IN_SPACE, key, format!("in space {message}"), help)]);
+        }
+        let terms = self.add_terms(terms_of(&contact.interface));
+        let (tracker, passes) = self.tracker_in_space(contact)?;
+        let sides: Vec<Sided> = tracker.surfaces().iter().map(|surface| self.sided(surface, &contact.interface)).collect();
+        let own = if matches!(contact.partners, Partners::Bodies(_)) { 2 } else { passes.len() };
+        let inputs = passes.iter().map(|&(slave, target)| sides[slave].against(&sides[target], &contact.interface, own)).collect();
+        let reach = law_of(&contact.interface).reach();
+        Ok((Box::new(NodeFacet::new(tracker, inputs, &contact.interface, reach, &self.mesh.positions)), terms))
+    }
+
+    /// What follows the nodes of a contact, and its passes.
+    fn tracker_in_space(&self, contact: &model::Contact) -> Result<(Tracker, Passes), Vec<Fault>> {
+        let Some(search) = search_by_name::<3>(&contact.search) else {
+            let message = format!("there is no search \"{}\"", contact.search);
+            return Err(vec![Fault::new(&UNKNOWN_NAME, "search", message, "see `embate list searches`")]);
+        };
+        let Some(kind) = formulation::kind_of(contact) else {
+            let message = format!("there is no formulation \"{}\"", contact.formulation.name());
+            return Err(vec![Fault::new(&UNKNOWN_NAME, "formulation", message, "see `embate list formulations`")]);
+        };
+        let passes = (kind.passes)(contact);
+        let surfaces = self.surfaces_in_space(contact)?;
+        Ok((Tracker::new(surfaces, passes, &self.body_of_node, (search.make)(), &self.mesh.positions), passes))
+    }
+
+    /// The surfaces of a contact: two, or one that meets itself.
+    fn surfaces_in_space(&self, contact: &model::Contact) -> Result<Vec<SpaceSurface>, Vec<Fault>> {
+        let is_mirror = |facet: [u32; 4]| self.constraints.is_mirror(facet);
+        let whole = |surface: Result<SpaceSurface, Fault>, path: String, what: String| match surface {
+            Ok(surface) if surface.facets.is_empty() => {
+                Err(Fault::new(&ON_SYMMETRY, path, format!("{what} lies on a symmetry plane altogether"), "name another surface"))
+            }
+            Ok(surface) => Ok(surface),
+            Err(fault) => Err(Fault { path, ..fault }),
+        };
+        let made: Vec<Result<SpaceSurface, Fault>> = match &contact.partners {
+            Partners::Between(between) => (0..)
+                .zip(between)
+                .map(|(side, name)| whole(self.mesh.surface(name, is_mirror), format!("between[{side}]"), format!("surface \"{name}\"")))
+                .collect(),
+            Partners::Bodies(parts) => {
+                vec![whole(self.mesh.outside_without(parts, is_mirror), "bodies".into(), "the outside of the bodies".into())]
+            }
+        };
+        let (good, faulty): (Vec<_>, Vec<_>) = made.into_iter().partition(Result::is_ok);
+        if faulty.is_empty() { Ok(good.into_iter().flatten().collect()) } else { Err(faulty.into_iter().filter_map(Result::err).collect()) }
+    }
+
+    /// What a surface has behind it.
+    fn sided(&self, surface: &SpaceSurface, interface: &Interface) -> Sided {
+        let source = source_of(interface);
+        let mut softest: Vec<f64> = vec![f64::INFINITY; self.mesh.parts.len()];
+        let mut behind = Vec::with_capacity(surface.facets.len());
+        let mut nodes = vec![Tributary::default(); surface.nodes.len()];
+        for &facet in &surface.facets {
+            let (modulus, part) = self.under(facet).map_or((0.0, 0), |under| {
+                let modulus = self.moduli[under.group][usize::from(source == PenaltySource::BulkModulus)] * under.flatness;
+                (modulus, self.mesh.groups[under.group].part)
+            });
+            softest[part] = softest[part].min(modulus);
+            behind.push(part);
+            for (node, area) in tributary::shares::<3>(Depth::Plane, facet, &self.mesh.positions) {
+                if let Ok(at) = surface.nodes.binary_search(&node) {
+                    nodes[at].area += area;
+                    nodes[at].stiffness += area * modulus;
+                }
+            }
+        }
+        for (&node, own) in surface.nodes.iter().zip(&mut nodes) {
+            own.stiffness /= own.area;
+            own.length = own.area;
+            if source == PenaltySource::TimeStep {
+                own.stiffness = law::penalty::of_time_step(self.mass[node as usize], self.time_step, own.area);
+            }
+        }
+        let mut moduli: Vec<f64> = behind.into_iter().map(|part| softest[part]).collect();
+        if source == PenaltySource::TimeStep {
+            let of = |node: &u32| surface.nodes.binary_search(node).map_or(f64::INFINITY, |at| nodes[at].stiffness);
+            moduli = surface.facets.iter().map(|facet| facet.iter().map(of).fold(f64::INFINITY, f64::min)).collect();
+        }
+        Sided { nodes, moduli }
+    }
+}
+
+/// A surface, and what contact needs of the elements behind it.
+struct Sided {
+    /// What each node stands for.
+    nodes: Vec<Tributary>,
+    /// Pressure stiffness κ behind each facet, Pa/m: the softest of its part.
+    moduli: Vec<f64>,
+}
+
+impl Sided {
+    /// Its nodes as slaves against another surface, in one of so many `passes` that carry the pressure together.
+    fn against(&self, target: &Self, interface: &Interface, passes: usize) -> PassInput {
+        let penalty = if let ContactLaw::Penalty(penalty) = interface.law { penalty } else { Penalty::default() };
+        let slave = |&own: &Tributary| {
+            let node = Node { own, other: f64::INFINITY, share: 1.0 };
+            Slave { stiffness: law::penalty::stiffness(penalty, node, passes), area: own.area / passes as f64 }
+        };
+        let per_modulus = match penalty {
+            Penalty::Automatic { scale, .. } => self.nodes.iter().map(|own| scale * own.area / passes as f64).collect(),
+            Penalty::PerNode(_) | Penalty::Pressure(_) => Vec::new(),
+        };
+        PassInput { slaves: self.nodes.iter().map(slave).collect(), per_modulus, moduli: target.moduli.clone() }
+    }
+}
+
+/// A fault of a key below a path.
+fn below(path: &str, fault: Fault) -> Fault {
+    let dot = if fault.path.is_empty() { "" } else { "." };
+    Fault { path: format!("{path}{dot}{}", fault.path), ..fault }
+}

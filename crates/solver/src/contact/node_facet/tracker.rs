@@ -1,0 +1,468 @@
+//! Where slave nodes lie with respect to the bodies of surfaces in space, from step to step: candidates from the global search, the side from which each node came in, and the projection
+//! of the step.
+//!
+//! Positions come from the step; what is found goes to the formulation, which makes springs of it. A slave node and a body make a group with a memory of its own and at most one touch. The
+//! nearest feature of the body decides (`projection/node_facet.rs`), and
+//!
+//! - a node that is inside, or has just gone through a facet on its way (checked along the way in the step, so that it may be as fast as it likes), sees only facets that look to the side
+//!   from which it came: through a thin plate the far side may be nearer, but is not where it goes out;
+//! - a node that lies on a side within round-off, which does not face it, sees the facets that do: blocks that end flush press on each other with their edges too;
+//! - in its own body it sees only facets that its own surface looks at, and is inside only if it was seen to come in: its neighbours along the surface are near, and its own far side is
+//!   behind it.
+//!
+//! Everything within the search's radius less the skin is a candidate, until some node has moved by more than half the skin. Order is fixed: passes, slave nodes, bodies ascending.
+
+use super::super::Sweep;
+use super::super::projection::node_facet::{Placed, Projection, Vector};
+use super::super::search::{Pair, Query, Search};
+use super::super::tracker::{SKIN, SearchReport};
+use crate::archive::{Archive, Kept, keep_all, keep_each};
+use crate::mesh::surface::{Corners, NONE, SpaceSurface};
+use crate::motion::{cross_space as cross, dot_space as dot};
+
+/// Cosine of the angle between the side from which a node came and those of facets that it sees while it is inside.
+const SAME_SIDE: f64 = -0.5;
+/// The same between a node's own normal and those of facets of its own body that it can meet.
+const FACING: f64 = -0.2;
+/// Nodes are seen that may come in with so many times the last motion, and this fraction of the skin for those that are set in motion now.
+const LOOK_AHEAD: f64 = 4.0;
+const START: f64 = 0.02;
+/// A node nearer to a side than this fraction of the skin (a millionth of an edge) is on it, as far as one can tell.
+const FLUSH: f64 = 4e-6;
+/// The global search is asked for a little more than is needed: it may round.
+const SLACK: f64 = 1.001;
+
+/// What is kept of a slave and a body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Memory {
+    /// Elastic slip at n + ½ as a vector, m.
+    pub slip: Vector,
+    /// Facet with which it turns, or [`NONE`], and the frame of that facet (its first edge and its normal) when it was noted.
+    pub facet: u32,
+    /// See `facet`.
+    pub frame: [Vector; 2],
+    /// Gap that counts as zero, m.
+    pub offset: f64,
+    /// Where the spring's gap was at n − ½, m.
+    pub half: f64,
+    /// Its normal in the step before; zero: it had none.
+    pub normal: Vector,
+    /// What the gap had to be moved by so that it went on, m.
+    pub carried: f64,
+    /// Energy of its spring at n − ½, J.
+    pub stored: f64,
+    /// Side from which the node came in; zero while it is outside.
+    pub side: Vector,
+}
+
+impl Default for Memory {
+    fn default() -> Self {
+        let none = [0.0; 3];
+        Self { slip: none, facet: NONE, frame: [none; 2], offset: 0.0, half: 0.0, normal: none, carried: 0.0, stored: 0.0, side: none }
+    }
+}
+
+keep_all!(Memory { slip, facet, frame, offset, half, normal, carried, stored, side });
+
+/// A slave node and a body of the target.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Group {
+    /// Index of the node in its surface.
+    slave: u32,
+    node: u32,
+    body: u32,
+    /// Its candidates are `candidates[begin..end]`.
+    begin: u32,
+    end: u32,
+    /// Whether it is the node's own body.
+    own: bool,
+    /// Whether it touched in the last step. Else nothing is kept of it.
+    touches: bool,
+    memory: Memory,
+}
+
+keep_all!(Group { slave, node, body, begin, end, own, touches, memory });
+
+/// A slave node that is inside a body, or near it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Touch {
+    /// Pass that found it.
+    pub pass: u32,
+    /// Index of the node in its surface.
+    pub slave: u32,
+    /// The node.
+    pub node: u32,
+    /// Where it lies.
+    pub projection: Projection,
+    /// Whether it is the node's own body.
+    pub own: bool,
+    group: u32,
+}
+
+/// Nodes of one surface against another one, or the same.
+#[derive(Default)]
+struct Pass {
+    slave: usize,
+    target: usize,
+    /// Body of each facet of the target.
+    bodies: Vec<u32>,
+    groups: Vec<Group>,
+    candidates: Vec<u32>,
+}
+
+/// Follows the nodes of surfaces in space along the bodies of other surfaces, or of their own.
+pub struct Tracker {
+    surfaces: Vec<SpaceSurface>,
+    passes: Vec<Pass>,
+    search: Box<dyn Search<3>>,
+    /// Two triangles for each facet of each surface; of a triangle twice itself.
+    triangles: Vec<Vec<[u32; 3]>>,
+    /// A facet and a corner at each node of each surface.
+    corners: Vec<Vec<(u32, u32)>>,
+    /// Body of each node of the model.
+    bodies: Vec<u32>,
+    /// All nodes of the surfaces, and where they were at the last search; empty before the first.
+    nodes: Vec<u32>,
+    searched: Vec<Vector>,
+    /// Whether nothing is known of the past.
+    is_new: bool,
+    skin: f64,
+    /// Everything nearer was found by the last search, m.
+    radius: f64,
+    /// Deepest touch of the last step, m.
+    deepest: f64,
+    touches: Vec<Touch>,
+    pairs: Vec<Pair>,
+    report: SearchReport,
+}
+
+impl Tracker {
+    /// For the nodes of `surfaces[slave]` against `surfaces[target]` in each pass (slave, target), which may be the same surface; `bodies` of each node of the model (0 for those beyond),
+    /// `positions` the initial ones.
+    #[must_use]
+    pub fn new(
+        surfaces: Vec<SpaceSurface>,
+        passes: &[(usize, usize)],
+        bodies: &[u32],
+        search: Box<dyn Search<3>>,
+        positions: &[Vector],
+    ) -> Self {
+        let of = |node: u32| bodies.get(node as usize).copied().unwrap_or(u32::MAX);
+        let pass = |&(slave, target): &(usize, usize)| {
+            let own = surfaces[target].facets.iter().map(|facet| of(facet[0])).collect();
+            Pass { slave, target, bodies: own, ..Pass::default() }
+        };
+        let passes = passes.iter().map(pass).collect();
+        let halves = |surface: &SpaceSurface| {
+            surface.facets.iter().flat_map(|&[a, b, c, d]| [[a, b, c], if c == d { [a, b, c] } else { [c, d, a] }]).collect()
+        };
+        let corners = |surface: &SpaceSurface| {
+            let at = |(rank, node): (usize, &u32)| {
+                let facet = surface.around(rank).first().copied().unwrap_or(0);
+                let corner = surface.facets[facet as usize].iter().position(|other| other == node).unwrap_or(0);
+                (facet, corner as u32)
+            };
+            surface.nodes.iter().enumerate().map(at).collect()
+        };
+        let (triangles, corners) = (surfaces.iter().map(halves).collect(), surfaces.iter().map(corners).collect());
+        let mut nodes: Vec<u32> = surfaces.iter().flat_map(|surface| surface.nodes.iter().copied()).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        let skin = SKIN * mean_edge(&surfaces, positions);
+        let report = SearchReport { skin, ..SearchReport::default() };
+        #[rustfmt::skip]
+        let tracker = Self {
+            surfaces, passes, search, triangles, corners, bodies: bodies.to_vec(), nodes, searched: Vec::new(), is_new: true, skin, radius: 0.0, deepest: 0.0, touches: Vec::new(), pairs: Vec::new(), report,
+        };
+        tracker
+    }
+
+    /// The surfaces.
+    #[must_use]
+    pub fn surfaces(&self) -> &[SpaceSurface] {
+        &self.surfaces
+    }
+
+    /// Target of a pass.
+    #[must_use]
+    pub fn target(&self, pass: u32) -> &SpaceSurface {
+        &self.surfaces[self.passes[pass as usize].target]
+    }
+
+    /// Whether the slaves of a pass are the first surface (1), the second (−1), or both in one (0).
+    #[must_use]
+    pub fn side(&self, pass: u32) -> f64 {
+        let Pass { slave, target, .. } = self.passes[pass as usize];
+        if slave == target { 0.0 } else { 1.0 - 2.0 * slave as f64 }
+    }
+
+    /// What the search cost so far.
+    #[must_use]
+    pub fn search_report(&self) -> SearchReport {
+        SearchReport { candidates: self.passes.iter().map(|pass| pass.candidates.len()).sum(), ..self.report }
+    }
+
+    /// What [`Tracker::track`] found last.
+    #[must_use]
+    pub fn touches(&self) -> &[Touch] {
+        &self.touches
+    }
+
+    /// What is kept of a touch: nothing where slave and body did not touch in the last step.
+    #[must_use]
+    pub fn kept(&self, touch: &Touch) -> &Memory {
+        &self.passes[touch.pass as usize].groups[touch.group as usize].memory
+    }
+
+    /// The same to change it.
+    pub fn kept_mut(&mut self, touch: &Touch) -> &mut Memory {
+        &mut self.passes[touch.pass as usize].groups[touch.group as usize].memory
+    }
+
+    /// Nodes that are inside, or near enough to come in during the next update, ascending by pass, slave and body. Nodes farther than `extra` (m) beyond that are not looked at.
+    pub fn track(&mut self, sweep: Sweep<'_, 3>, extra: f64) -> &[Touch] {
+        self.report.steps += 1;
+        let mut sweep = sweep;
+        if std::mem::replace(&mut self.is_new, false) {
+            // Nothing is known of the past: a node in another body is where the nearest feature says.
+            sweep.old = sweep.new;
+        }
+        if self.is_left(sweep) {
+            self.find_candidates(sweep, extra);
+        }
+        self.touches.clear();
+        self.deepest = 0.0;
+        for number in 0..self.passes.len() {
+            for group in 0..self.passes[number].groups.len() {
+                self.look_at(number, group, sweep, extra);
+            }
+        }
+        &self.touches
+    }
+
+    /// Whether some node has moved by more than half the skin since the last search (or there was none).
+    fn is_left(&self, sweep: Sweep<'_, 3>) -> bool {
+        let limit = 0.25 * self.skin * self.skin;
+        self.searched.is_empty()
+            || self.nodes.iter().zip(&self.searched).any(|(&node, from)| {
+                let moved = minus(sweep.new[node as usize], *from);
+                // What is no number counts as moved.
+                !(dot(moved, moved) <= limit)
+            })
+    }
+
+    /// Groups and candidates anew; what groups remember goes on.
+    fn find_candidates(&mut self, sweep: Sweep<'_, 3>, extra: f64) {
+        let way = |node: &u32| size(minus(sweep.new[*node as usize], sweep.old[*node as usize]));
+        let fastest = self.nodes.iter().map(way).fold(0.0, f64::max);
+        let radius = 2.0 * self.skin + extra + LOOK_AHEAD * fastest + self.deepest;
+        let Self { surfaces, passes, search, triangles, bodies, pairs, .. } = self;
+        for pass in passes {
+            let (slaves, target) = (&surfaces[pass.slave].nodes, &surfaces[pass.target]);
+            let reach = SLACK * (radius + bend(target, sweep.new));
+            let query = Query { positions_old: sweep.old, positions_new: sweep.new, slaves, facets: &triangles[pass.target], reach };
+            search.pairs(&query, pairs);
+            let placed = Placed { surface: target, positions: sweep.new };
+            let old = std::mem::take(&mut pass.groups);
+            let mut old = old.iter().peekable();
+            pass.candidates.clear();
+            for of_slave in pairs.chunk_by(|a, b| a.slave == b.slave) {
+                let slave = of_slave[0].slave;
+                let node = slaves[slave as usize];
+                // A node of two surfaces joins them: it can't go in.
+                if pass.slave != pass.target && target.nodes.binary_search(&node).is_ok() {
+                    continue;
+                }
+                let x = sweep.new[node as usize];
+                let mut near: Vec<(u32, u32)> =
+                    of_slave.iter().map(|pair| (pass.bodies[pair.facet as usize / 2], pair.facet / 2)).collect();
+                near.sort_unstable();
+                near.dedup();
+                // Those that the node has passed on its way stay, however far it is now.
+                let on_way = way(&node) > self.skin;
+                near.retain(|&(_, facet)| {
+                    !target.facets[facet as usize].contains(&node)
+                        && (on_way || placed.distance(x, facet).is_some_and(|found| found <= radius))
+                });
+                let own = bodies.get(node as usize).copied().unwrap_or(u32::MAX);
+                for of_body in near.chunk_by(|a, b| a.0 == b.0) {
+                    let (body, begin) = (of_body[0].0, pass.candidates.len() as u32);
+                    pass.candidates.extend(of_body.iter().map(|&(_, facet)| facet));
+                    let group = Group { slave, node, body, begin, end: pass.candidates.len() as u32, own: own == body, ..Group::default() };
+                    while old.next_if(|old| (old.slave, old.body) < (slave, body)).is_some() {}
+                    let known = old.next_if(|old| (old.slave, old.body) == (slave, body));
+                    pass.groups.push(known.map_or(group, |known| Group { touches: known.touches, memory: known.memory, ..group }));
+                }
+            }
+        }
+        self.radius = radius;
+        self.report.searches += 1;
+        self.searched.clear();
+        self.searched.extend(self.nodes.iter().map(|&node| sweep.new[node as usize]));
+    }
+
+    /// Where a node is with respect to a body.
+    fn look_at(&mut self, number: usize, index: usize, sweep: Sweep<'_, 3>, extra: f64) {
+        let pass = &self.passes[number];
+        let group = pass.groups[index];
+        let located = self.locate(pass, &group, sweep, extra);
+        let group = &mut self.passes[number].groups[index];
+        group.touches = located.is_some();
+        match located {
+            None => group.memory = Memory::default(),
+            Some((projection, side)) => {
+                group.memory.side = side;
+                self.deepest = self.deepest.max(-projection.gap);
+                let Group { slave, node, own, .. } = *group;
+                self.touches.push(Touch { pass: number as u32, slave, node, projection, own, group: index as u32 });
+            }
+        }
+    }
+
+    /// The projection of a node that touches, and the side from which it came in.
+    fn locate(&self, pass: &Pass, group: &Group, sweep: Sweep<'_, 3>, extra: f64) -> Option<(Projection, Vector)> {
+        let placed = Placed { surface: &self.surfaces[pass.target], positions: sweep.new };
+        let x = sweep.new[group.node as usize];
+        let candidates = &pass.candidates[group.begin as usize..group.end as usize];
+        let facing = if group.own { Some(self.own_normal(pass.slave, group.slave, sweep.new)) } else { None };
+        let faces = |facet: u32| facing.is_none_or(|own| dot(own, placed.facet_normal(facet)) < FACING);
+        let mut side = group.memory.side;
+        if side == [0.0; 3] {
+            let entered =
+                candidates.iter().copied().filter(|&facet| faces(facet)).filter_map(|facet| entry(&placed, sweep, group.node, facet));
+            let first = entered.reduce(|first, other| if other.0 < first.0 { other } else { first });
+            side = first.map_or(side, |(_, normal)| normal);
+        }
+        let came = side != [0.0; 3];
+        let sees = |facet: &u32| faces(*facet) && (!came || dot(side, placed.facet_normal(*facet)) > SAME_SIDE);
+        let mut found = placed.project(x, candidates.iter().copied().filter(sees))?;
+        // On the skin of a side that does not face it, where bodies end flush: what does face it counts.
+        if !group.own && found.gap.abs() <= FLUSH * self.skin {
+            let own = self.own_normal(pass.slave, group.slave, sweep.new);
+            if dot(own, found.normal) >= FACING {
+                let facing = |facet: &u32| sees(facet) && dot(own, placed.facet_normal(*facet)) < FACING;
+                let other = placed.project(x, candidates.iter().copied().filter(facing));
+                found = other.filter(|other| other.gap < 0.0 && -other.gap <= self.radius - self.skin).unwrap_or(found);
+            }
+        }
+        if found.gap < 0.0 {
+            // In its own body only who was seen to come in, or was just before it.
+            let known = came || (group.touches && dot(group.memory.normal, found.normal) > SAME_SIDE);
+            if !known && (group.own || -found.gap > self.radius - self.skin) {
+                return None;
+            }
+            return Some((found, found.normal));
+        }
+        let near = extra + START * self.skin + LOOK_AHEAD * motion(&placed, &found, sweep, group.node);
+        (found.gap <= near.min(self.radius - self.skin).max(extra)).then_some((found, [0.0; 3]))
+    }
+
+    /// Normal of a slave at its own surface.
+    fn own_normal(&self, surface: usize, slave: u32, positions: &[Vector]) -> Vector {
+        let (facet, corner) = self.corners[surface][slave as usize];
+        let (normal, _) = Placed { surface: &self.surfaces[surface], positions }.node_normal(facet, corner as usize);
+        normal.map(|n| n / size(normal).max(f64::MIN_POSITIVE))
+    }
+
+    /// Keeps what is known of the past.
+    pub(super) fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        for pass in &mut self.passes {
+            keep_each!(archive; &mut pass.groups, &mut pass.candidates);
+            let (slaves, facets) = (&self.surfaces[pass.slave].nodes, pass.bodies.len());
+            let is_known = |group: &Group| {
+                slaves.get(group.slave as usize) == Some(&group.node)
+                    && group.begin <= group.end
+                    && group.end as usize <= pass.candidates.len()
+                    && (group.memory.facet == NONE || (group.memory.facet as usize) < facets)
+            };
+            let are_there = pass.candidates.iter().all(|&facet| (facet as usize) < facets);
+            archive.check(are_there && pass.groups.iter().all(is_known), "a contact follows nodes or facets that are not there")?;
+        }
+        keep_each!(archive; &mut self.searched, &mut self.is_new, &mut self.radius, &mut self.deepest, &mut self.report.steps, &mut self.report.searches);
+        archive.check(self.searched.is_empty() || self.searched.len() == self.nodes.len(), "a contact was searched at other nodes")
+    }
+
+    /// Takes over what another one knew whose surfaces were those before they changed: of nodes that are still there.
+    pub(super) fn inherit(&mut self, old: &Self) {
+        for (pass, before) in self.passes.iter_mut().zip(&old.passes) {
+            let slaves = &self.surfaces[pass.slave].nodes;
+            let known = before.groups.iter().filter(|group| group.touches).filter_map(|group| {
+                let slave = slaves.binary_search(&group.node).ok()? as u32;
+                let memory = Memory { facet: NONE, ..group.memory };
+                Some(Group { slave, begin: 0, end: 0, memory, ..*group })
+            });
+            pass.groups = known.collect();
+            pass.groups.sort_by_key(|group| (group.slave, group.body));
+        }
+        self.is_new = old.is_new;
+        (self.deepest, self.report) = (old.deepest, SearchReport { skin: self.skin, ..old.report });
+    }
+}
+
+fn minus(a: Vector, b: Vector) -> Vector {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+fn size(v: Vector) -> f64 {
+    dot(v, v).sqrt()
+}
+
+/// Mean length of the edges of surfaces, m.
+fn mean_edge(surfaces: &[SpaceSurface], positions: &[Vector]) -> f64 {
+    let (mut sum, mut count) = (0.0, 0usize);
+    for edge in surfaces.iter().flat_map(|surface| &surface.edges) {
+        let [a, b] = edge.nodes.map(|node| positions[node as usize]);
+        (sum, count) = (sum + size(minus(b, a)), count + 1);
+    }
+    sum / count.max(1) as f64
+}
+
+/// How far the middle of a facet is from that of its diagonal at most, m: by so much it may be outside the boxes of its halves.
+fn bend(surface: &SpaceSurface, positions: &[Vector]) -> f64 {
+    let of = |facet: &[u32; 4]| {
+        if facet.corners().len() == 3 {
+            return 0.0;
+        }
+        let [a, b, c, d] = facet.map(|node| positions[node as usize]);
+        0.25 * size([0, 1, 2].map(|k| a[k] + c[k] - b[k] - d[k]))
+    };
+    surface.facets.iter().map(of).fold(0.0, f64::max)
+}
+
+/// How far a node and where it projects have moved with respect to each other in the step, m.
+fn motion(placed: &Placed<'_>, found: &Projection, sweep: Sweep<'_, 3>, node: u32) -> f64 {
+    let moved = |node: u32| minus(sweep.new[node as usize], sweep.old[node as usize]);
+    let facet = placed.surface.facets[found.facet as usize];
+    let mut way = moved(node);
+    for (corner, weight) in facet.into_iter().zip(found.weights) {
+        let by = moved(corner);
+        (0..3).for_each(|d| way[d] -= weight * by[d]);
+    }
+    size(way)
+}
+
+/// When (0 to 1) a node goes through a facet from outside in the step, and the facet's normal there. The height over a triangle is taken as linear in time, and where it vanishes the node
+/// must be over the triangle; grazing ways along an edge may be seen by both facets or, within round-off, by none, where the nearest feature decides.
+fn entry(placed: &Placed<'_>, sweep: Sweep<'_, 3>, node: u32, facet: u32) -> Option<(f64, Vector)> {
+    let before = Placed { surface: placed.surface, positions: sweep.old };
+    let count = if placed.surface.facets[facet as usize].corners().len() == 3 { 1 } else { 4 };
+    let mut first: Option<(f64, Vector)> = None;
+    for k in 0..count {
+        let (old, new) = (before.triangle(facet, k), placed.triangle(facet, k));
+        let height = |x: Vector, [a, b, c]: [Vector; 3]| dot(minus(x, a), cross(minus(b, a), minus(c, a)));
+        let (from, to) = (sweep.old[node as usize], sweep.new[node as usize]);
+        let (begin, end) = (height(from, old), height(to, new));
+        if !(begin >= 0.0 && end < 0.0) {
+            continue;
+        }
+        let at = begin / (begin - end);
+        let between = |p: Vector, q: Vector| [0, 1, 2].map(|d| p[d] + at * (q[d] - p[d]));
+        let (x, t) = (between(from, to), [0, 1, 2].map(|i| between(old[i], new[i])));
+        let normal = cross(minus(t[1], t[0]), minus(t[2], t[0]));
+        let is_over = (0..3).all(|i| dot(cross(minus(t[(i + 1) % 3], t[i]), minus(x, t[i])), normal) >= 0.0);
+        if is_over && first.is_none_or(|(first, _)| at < first) {
+            first = Some((at, placed.facet_normal(facet)));
+        }
+    }
+    first
+}

@@ -1,0 +1,355 @@
+//! Nearest feature of a surface in space to a point: a facet, an edge or a node, which decides by its pseudo-normal whether the point is inside.
+//!
+//! A triangle is flat. A facet of four nodes is made of four triangles around its middle x_m = ¼ Σ x_a, so that facets, flat or not, join along straight edges without gaps: the distance from
+//! such a surface is continuous wherever a point slides, over convex and concave edges and corners, and its nearest point is found in closed form (Ericson 2005, section 5.1.5). With
+//! angle-weighted pseudo-normals at nodes and sums at edges the sign of (x − P)·n is that of inside or outside for every closed surface (Bærentzen and Aanæs, IEEE Trans. Vis. Comput. Graph. 11
+//! (2005) 243-253): one rule for facets, edges and nodes, section 4.2 of the theory sheet.
+//!
+//! The gap is g = ± |x − P|, its gradient the unit vector n = ± (x − P) / |x − P|, and −w_a n at the nodes: P is the nearest point, so that its own motion along the surface changes nothing.
+//! Weights are a partition of unity and x − P is along n: forces along these rows keep both momenta.
+
+use crate::mesh::surface::{Corners, NONE, SpaceSurface};
+use crate::motion::{cross_space as cross, dot_space as dot};
+
+/// A vector of space.
+pub type Vector = [f64; 3];
+
+/// What of a surface is nearest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Feature {
+    /// The inside of a triangle.
+    Face,
+    /// The edge from corner `k` of the facet to the next one.
+    Edge(usize),
+    /// Corner `k` of the facet.
+    Node(usize),
+    /// Within a facet of four nodes: between two of its triangles, or in the middle.
+    Crease,
+}
+
+/// Where a point lies with respect to a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Projection {
+    /// Facet that is nearest; of an edge or a node the first that was asked.
+    pub facet: u32,
+    /// What of it.
+    pub feature: Feature,
+    /// The triangle: corner k, the next one, the middle; of a facet of three nodes 0.
+    pub triangle: usize,
+    /// Shares of the corners in the nearest point; the fourth of a triangle is zero.
+    pub weights: [f64; 4],
+    /// Nearest point P, m.
+    pub foot: Vector,
+    /// Distance, m: negative inside.
+    pub gap: f64,
+    /// Gradient of the gap: from P to the point where it is outside, the other way where it is inside.
+    pub normal: Vector,
+}
+
+/// Nearest point of a triangle.
+#[derive(Clone, Copy, Debug)]
+struct Nearest {
+    square: f64,
+    /// Barycentric.
+    weights: [f64; 3],
+    foot: Vector,
+}
+
+fn minus(a: Vector, b: Vector) -> Vector {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+/// Unit vector; zero of what has no length.
+pub(in crate::contact) fn unit(v: Vector) -> Vector {
+    let size = dot(v, v).sqrt();
+    if size > 0.0 { v.map(|c| c / size) } else { [0.0; 3] }
+}
+
+/// Distances below this fraction of a facet's size have no direction of their own: the pseudo-normal is taken.
+const ROUNDING: f64 = 1e-12;
+/// Beyond the border of a surface that ends there a point counts by this fraction of a facet's size.
+const BORDER: f64 = 1e-6;
+
+/// Nearest point of the triangle a, b, c to x (Ericson 2005); weights that are zero are so exactly.
+fn nearest_of_triangle(x: Vector, [a, b, c]: [Vector; 3]) -> Nearest {
+    let (ab, ac, ax) = (minus(b, a), minus(c, a), minus(x, a));
+    let (d1, d2) = (dot(ab, ax), dot(ac, ax));
+    let at = |weights: [f64; 3]| {
+        let foot = [0, 1, 2].map(|d| weights[0] * a[d] + weights[1] * b[d] + weights[2] * c[d]);
+        let away = minus(x, foot);
+        Nearest { square: dot(away, away), weights, foot }
+    };
+    if d1 <= 0.0 && d2 <= 0.0 {
+        return at([1.0, 0.0, 0.0]);
+    }
+    let bx = minus(x, b);
+    let (d3, d4) = (dot(ab, bx), dot(ac, bx));
+    if d3 >= 0.0 && d4 <= d3 {
+        return at([0.0, 1.0, 0.0]);
+    }
+    let vc = d1 * d4 - d3 * d2;
+    if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
+        let v = d1 / (d1 - d3);
+        return at([1.0 - v, v, 0.0]);
+    }
+    let cx = minus(x, c);
+    let (d5, d6) = (dot(ab, cx), dot(ac, cx));
+    if d6 >= 0.0 && d5 <= d6 {
+        return at([0.0, 0.0, 1.0]);
+    }
+    let vb = d5 * d2 - d1 * d6;
+    if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
+        let w = d2 / (d2 - d6);
+        return at([1.0 - w, 0.0, w]);
+    }
+    let va = d3 * d6 - d5 * d4;
+    if va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0 {
+        let w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+        return at([0.0, 1.0 - w, w]);
+    }
+    let sum = va + vb + vc;
+    let (v, w) = (vb / sum, vc / sum);
+    at([1.0 - v - w, v, w])
+}
+
+/// A surface in space with positions.
+#[derive(Clone, Copy, Debug)]
+pub struct Placed<'a> {
+    /// The surface.
+    pub surface: &'a SpaceSurface,
+    /// Positions of all nodes, m.
+    pub positions: &'a [Vector],
+}
+
+impl Placed<'_> {
+    fn corners(&self, facet: u32) -> ([Vector; 4], usize) {
+        let nodes = self.surface.facets[facet as usize];
+        (nodes.map(|node| self.positions[node as usize]), nodes.corners().len())
+    }
+
+    /// The triangles of a facet: how many there are.
+    fn triangles(&self, facet: u32) -> usize {
+        if self.surface.facets[facet as usize].corners().len() == 3 { 1 } else { 4 }
+    }
+
+    /// Corners of triangle `k` of a facet.
+    pub(in crate::contact) fn triangle(&self, facet: u32, k: usize) -> [Vector; 3] {
+        let (x, count) = self.corners(facet);
+        if count == 3 {
+            return [x[0], x[1], x[2]];
+        }
+        let middle = [0, 1, 2].map(|d| 0.25 * (x[0][d] + x[1][d] + x[2][d] + x[3][d]));
+        [x[k], x[(k + 1) % 4], middle]
+    }
+
+    /// Shares of a facet's corners from those of triangle `k`.
+    pub(in crate::contact) fn spread(&self, facet: u32, k: usize, [a, b, c]: [f64; 3]) -> [f64; 4] {
+        if self.triangles(facet) == 1 {
+            return [a, b, c, 0.0];
+        }
+        let mut weights = [0.25 * c; 4];
+        weights[k] += a;
+        weights[(k + 1) % 4] += b;
+        weights
+    }
+
+    /// Unit normal of triangle `k`; zero where it has no area.
+    pub(in crate::contact) fn normal(&self, facet: u32, k: usize) -> Vector {
+        let [a, b, c] = self.triangle(facet, k);
+        unit(cross(minus(b, a), minus(c, a)))
+    }
+
+    /// The triangle of a facet that has the edge from corner `k` on.
+    fn at_edge(&self, facet: u32, k: usize) -> usize {
+        if self.triangles(facet) == 1 { 0 } else { k }
+    }
+
+    /// Mean normal of a facet: of four nodes that of its diagonals.
+    #[must_use]
+    pub fn facet_normal(&self, facet: u32) -> Vector {
+        let ([a, b, c, d], count) = self.corners(facet);
+        if count == 3 { unit(cross(minus(b, a), minus(c, a))) } else { unit(cross(minus(c, a), minus(d, b))) }
+    }
+
+    /// Length by which what is small on a facet is measured, m.
+    fn size(&self, facet: u32) -> f64 {
+        let ([a, b, c, d], _) = self.corners(facet);
+        let (p, q) = (minus(c, a), minus(d, b));
+        (dot(p, p) + dot(q, q)).sqrt()
+    }
+
+    /// What of a facet is nearest to x, m; nothing is said of inside or outside. `None` where that is no number.
+    fn nearest(&self, x: Vector, facet: u32) -> Option<(Nearest, usize)> {
+        let mut best: Option<(Nearest, usize)> = None;
+        for k in 0..self.triangles(facet) {
+            let found = nearest_of_triangle(x, self.triangle(facet, k));
+            if found.square.is_finite() && best.is_none_or(|(best, _)| found.square < best.square) {
+                best = Some((found, k));
+            }
+        }
+        best
+    }
+
+    /// Distance of a point from a facet, m.
+    #[must_use]
+    pub fn distance(&self, x: Vector, facet: u32) -> Option<f64> {
+        self.nearest(x, facet).map(|(nearest, _)| nearest.square.sqrt())
+    }
+
+    /// What the weights of a triangle's nearest point say.
+    fn feature(&self, facet: u32, k: usize, [a, b, c]: [f64; 3]) -> Feature {
+        let is_triangle = self.triangles(facet) == 1;
+        let next = |k: usize| if is_triangle { (k + 1) % 3 } else { (k + 1) % 4 };
+        match (a > 0.0, b > 0.0, c > 0.0) {
+            (true, true, true) => Feature::Face,
+            (true, true, false) => Feature::Edge(k),
+            (true, false, false) => Feature::Node(k),
+            (false, true, false) => Feature::Node(next(k)),
+            (false, true, true) if is_triangle => Feature::Edge(1),
+            (true, false, true) if is_triangle => Feature::Edge(2),
+            (false, false, true) if is_triangle => Feature::Node(2),
+            _ => Feature::Crease,
+        }
+    }
+
+    /// Direction by which a feature tells outside from inside, not of unit length, and whether the surface ends there.
+    fn pseudo_normal(&self, facet: u32, k: usize, feature: Feature, weights: [f64; 3]) -> (Vector, bool) {
+        let plus = |a: Vector, b: Vector| [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
+        match feature {
+            Feature::Face => (self.normal(facet, k), false),
+            Feature::Crease => {
+                // Between two triangles, or in the middle of all four.
+                let along = |k: usize| self.normal(facet, k);
+                let sum = match (weights[0] > 0.0, weights[1] > 0.0) {
+                    (true, _) => plus(along(k), along((k + 3) % 4)),
+                    (_, true) => plus(along(k), along((k + 1) % 4)),
+                    _ => (0..4).fold([0.0; 3], |sum, k| plus(sum, self.angle_weighted(facet, k, 2))),
+                };
+                (sum, false)
+            }
+            Feature::Edge(corner) => {
+                let own = self.normal(facet, self.at_edge(facet, corner));
+                let other = self.surface.across(facet, corner);
+                if other == NONE {
+                    return (own, true);
+                }
+                let edge = self.surface.edges_of[facet as usize][corner];
+                let there = (0..4).find(|&k| self.surface.edges_of[other as usize][k] == edge).unwrap_or(0);
+                (plus(own, self.normal(other, self.at_edge(other, there))), false)
+            }
+            Feature::Node(corner) => self.node_normal(facet, corner),
+        }
+    }
+
+    /// Normal of triangle `k` times its angle at its corner `at`.
+    fn angle_weighted(&self, facet: u32, k: usize, at: usize) -> Vector {
+        let x = self.triangle(facet, k);
+        let (p, q) = (minus(x[(at + 1) % 3], x[at]), minus(x[(at + 2) % 3], x[at]));
+        let normal = cross(p, q);
+        // The angle by a rational bound of its sine and cosine is not enough: weights must be angles for the sign to be right.
+        let angle = angle_of(dot(normal, normal).sqrt(), dot(p, q));
+        unit(normal).map(|n| angle * n)
+    }
+
+    /// Sum of what a facet has at its corner.
+    fn corner_weighted(&self, facet: u32, corner: usize) -> Vector {
+        if self.triangles(facet) == 1 {
+            return self.angle_weighted(facet, 0, corner);
+        }
+        let (after, before) = (self.angle_weighted(facet, corner, 0), self.angle_weighted(facet, (corner + 3) % 4, 1));
+        [0, 1, 2].map(|d| after[d] + before[d])
+    }
+
+    /// Angle-weighted normal at a corner of a facet, over the facets that follow each other around it, and whether the surface ends there.
+    #[must_use]
+    pub fn node_normal(&self, facet: u32, corner: usize) -> (Vector, bool) {
+        let node = self.surface.facets[facet as usize][corner];
+        let mut sum = self.corner_weighted(facet, corner);
+        let most = self.surface.facets_at(node).len();
+        // One way around, and where the surface ends the other way from the beginning.
+        for forward in [true, false] {
+            let mut here = (facet, corner);
+            for _ in 0..most {
+                let count = self.surface.facets[here.0 as usize].corners().len();
+                let edge = if forward { here.1 } else { (here.1 + count - 1) % count };
+                let other = self.surface.across(here.0, edge);
+                if other == facet {
+                    return (sum, false);
+                }
+                if other == NONE {
+                    break;
+                }
+                let Some(at) = self.surface.facets[other as usize].corners().iter().position(|&there| there == node) else { break };
+                let more = self.corner_weighted(other, at);
+                (0..3).for_each(|d| sum[d] += more[d]);
+                here = (other, at);
+            }
+        }
+        (sum, true)
+    }
+
+    /// Where x lies by the nearest of some facets: the first of those that are equally near. `None` where there is none, or the surface ends before x comes over it.
+    #[must_use]
+    pub fn project(&self, x: Vector, facets: impl IntoIterator<Item = u32>) -> Option<Projection> {
+        let mut best: Option<(Nearest, u32, usize)> = None;
+        for facet in facets {
+            if let Some((found, k)) = self.nearest(x, facet)
+                && best.is_none_or(|(best, ..)| found.square < best.square)
+            {
+                best = Some((found, facet, k));
+            }
+        }
+        let (nearest, facet, k) = best?;
+        self.seen(x, facet, k, nearest)
+    }
+
+    /// Gap and normal of what is nearest.
+    fn seen(&self, x: Vector, facet: u32, triangle: usize, nearest: Nearest) -> Option<Projection> {
+        let Nearest { square, weights, foot } = nearest;
+        let feature = self.feature(facet, triangle, weights);
+        let (pseudo, ends) = self.pseudo_normal(facet, triangle, feature, weights);
+        let (away, distance) = (minus(x, foot), square.sqrt());
+        let spread = self.spread(facet, triangle, weights);
+        let projection = |gap: f64, normal: Vector| Projection { facet, feature, triangle, weights: spread, foot, gap, normal };
+        if feature == Feature::Face {
+            return Some(projection(dot(away, pseudo), pseudo));
+        }
+        let size = self.size(facet);
+        if ends {
+            // At the border: over it, as far as rounding lets one tell, it is the facet's.
+            let normal = self.facet_normal(facet);
+            let gap = dot(away, normal);
+            let beside = [0, 1, 2].map(|d| away[d] - gap * normal[d]);
+            return (dot(beside, beside).sqrt() <= BORDER * size).then(|| projection(gap, normal));
+        }
+        if distance <= ROUNDING * size {
+            let normal = unit(pseudo);
+            return Some(projection(dot(away, normal), normal));
+        }
+        let side = if dot(away, pseudo) >= 0.0 { 1.0 } else { -1.0 };
+        Some(projection(side * distance, away.map(|c| side * c / distance)))
+    }
+}
+
+/// Angle (rad) between two directions with the sine `sin` ≥ 0 and the cosine `cos`, both times any positive number: the same bits everywhere, to some 1e-15.
+fn angle_of(sin: f64, cos: f64) -> f64 {
+    use std::f64::consts::{FRAC_PI_2, PI};
+    if sin == 0.0 {
+        return if cos < 0.0 { PI } else { 0.0 };
+    }
+    // tan of an angle below 45 degrees, halved twice: tan(a/2) = t / (1 + √(1 + t²)); then its series.
+    let (t, swapped) = if sin < cos.abs() { (sin / cos.abs(), false) } else { (cos.abs() / sin, true) };
+    let half = |t: f64| t / (1.0 + (1.0 + t * t).sqrt());
+    let q = half(half(half(t)));
+    let square = q * q;
+    let mut sum = 0.0;
+    for k in (0..9).rev() {
+        sum = 1.0 / f64::from(2 * k + 1) - square * sum;
+    }
+    let angle = 8.0 * q * sum;
+    let angle = if swapped { FRAC_PI_2 - angle } else { angle };
+    if cos < 0.0 { PI - angle } else { angle }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,452 @@
+//! The outside of bodies in space: facets of elements that occur once, counter-clockwise seen from outside, and linked across their edges.
+//!
+//! Cells come from the shapes and mesh files; surfaces go to contact and loads. Where two parts of an outside touch in an edge, each stays with its own fan of
+//! elements, as chains in the plane do at a node: the neighbour across an edge is the facet at the other end of the fan.
+
+use super::{Corners, NONE, named};
+use crate::error::Fault;
+use crate::mesh::messages::{BAD_ELEMENT, NOT_A_SURFACE, OVERLAP};
+use crate::rows::Rows;
+
+/// An edge of a surface in space.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SurfaceEdge {
+    /// Its nodes, in the direction in which its first facet has it.
+    pub nodes: [u32; 2],
+    /// The facet that has it in this direction, and the one on the other side, or [`NONE`] where the surface ends.
+    pub facets: [u32; 2],
+}
+
+/// An oriented surface in space. Facets are counter-clockwise seen from outside.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SpaceSurface {
+    /// Nodes of each facet, the lowest first; a triangle repeats its last node.
+    pub facets: Vec<[u32; 4]>,
+    /// All nodes, ascending, each once.
+    pub nodes: Vec<u32>,
+    /// Edges, each once, in the order of the first of their facets and of its corners.
+    pub edges: Vec<SurfaceEdge>,
+    /// Edge from each corner of each facet to the next one; the fourth of a triangle is [`NONE`].
+    pub edges_of: Vec<[u32; 4]>,
+    /// Facets at each of `nodes`, ascending.
+    around: Rows<u32>,
+}
+
+impl SpaceSurface {
+    /// The outside facets of `cells`, not linked; see [`exterior`](super::exterior).
+    pub(in crate::mesh) fn exterior<'a>(cells: impl IntoIterator<Item = &'a [u32], IntoIter: Clone>) -> Result<Vec<[u32; 4]>, Fault> {
+        Ok(Table::new(cells)?.exterior())
+    }
+
+    /// The whole outside of `cells` in the order of [`exterior`](super::exterior).
+    ///
+    /// # Errors
+    /// As [`exterior`](super::exterior).
+    pub fn outside<'a>(cells: impl IntoIterator<Item = &'a [u32], IntoIter: Clone>) -> Result<Self, Fault> {
+        Self::outside_without(cells, |_| false)
+    }
+
+    /// The same without the facets that `leave_out` names, which is asked once for each in this order.
+    ///
+    /// # Errors
+    /// As [`exterior`](super::exterior).
+    pub fn outside_without<'a>(
+        cells: impl IntoIterator<Item = &'a [u32], IntoIter: Clone>,
+        leave_out: impl Fn([u32; 4]) -> bool,
+    ) -> Result<Self, Fault> {
+        let table = Table::new(cells)?;
+        let facets = table.exterior().into_iter().filter(|&facet| !leave_out(facet)).collect();
+        Self::linked(facets, &table)
+    }
+
+    /// The part of the outside of `cells` that consists of `facets`, kept in their order; each begins with its lowest node.
+    ///
+    /// Facets that have no neighbour across an edge among them end there: the edge has one facet.
+    ///
+    /// # Errors
+    /// A fault when the cells are wrong (see [`exterior`](super::exterior)), when a facet is no outside of them or has the body before it (see
+    /// [`oriented`](super::oriented)), or when one is given twice.
+    pub fn new<'a>(facets: Vec<[u32; 4]>, cells: impl IntoIterator<Item = &'a [u32], IntoIter: Clone>) -> Result<Self, Fault> {
+        Self::linked(facets.into_iter().map(Corners::canonical).collect(), &Table::new(cells)?)
+    }
+
+    /// Facets at the node that stands at `rank` in [`SpaceSurface::nodes`], ascending.
+    #[must_use]
+    pub fn around(&self, rank: usize) -> &[u32] {
+        self.around.of(rank)
+    }
+
+    /// Facets at a node; none where the surface has not this node.
+    #[must_use]
+    pub fn facets_at(&self, node: u32) -> &[u32] {
+        self.nodes.binary_search(&node).map_or(&[], |rank| self.around(rank))
+    }
+
+    /// The facet on the other side of the edge from corner `k` of a facet to the next one, or [`NONE`].
+    #[must_use]
+    pub fn across(&self, facet: u32, k: usize) -> u32 {
+        let edge = self.edges_of[facet as usize][k];
+        if edge == NONE {
+            return NONE;
+        }
+        let [first, other] = self.edges[edge as usize].facets;
+        if first == facet { other } else { first }
+    }
+
+    fn linked(facets: Vec<[u32; 4]>, table: &Table<'_>) -> Result<Self, Fault> {
+        let mut by_nodes: Vec<([u32; 4], u32)> = facets.iter().copied().zip(0..).collect();
+        by_nodes.sort_unstable();
+        if let Some(twice) = by_nodes.windows(2).find(|w| w[0].0 == w[1].0) {
+            let message = format!("facet {} occurs twice in a surface", named(&twice[0].0));
+            return Err(Fault::new(&NOT_A_SURFACE, "", message, "name each side or group once"));
+        }
+        let find = |facet: &[u32; 4]| by_nodes.binary_search_by_key(facet, |&(nodes, _)| nodes).ok().map(|i| by_nodes[i].1);
+        let mut edges: Vec<SurfaceEdge> = Vec::with_capacity(2 * facets.len());
+        let mut edges_of = vec![[NONE; 4]; facets.len()];
+        for (facet, f) in facets.iter().zip(0_u32..) {
+            let Some((cell, local)) = table.owner(facet) else {
+                return Err(Fault::new(
+                    &NOT_A_SURFACE,
+                    "",
+                    format!("facet {} is not on the outside of its body, or has the body before it", named(facet)),
+                    "take facets that bound the elements of one part; contact acts on the outside only",
+                ));
+            };
+            let corners = facet.corners();
+            for k in 0..corners.len() {
+                if edges_of[f as usize][k] != NONE {
+                    continue; // its neighbour has made this edge
+                }
+                let nodes = [corners[k], corners[(k + 1) % corners.len()]];
+                let number = edges.len() as u32;
+                edges_of[f as usize][k] = number;
+                let neighbour = table.across(cell, local, nodes).and_then(|there| find(&there)).filter(|&there| there != f);
+                if let Some(there) = neighbour {
+                    let other = facets[there as usize];
+                    let n = other.corners().len();
+                    if let Some(at) = (0..n).find(|&at| [other[at], other[(at + 1) % n]] == [nodes[1], nodes[0]]) {
+                        edges_of[there as usize][at] = number;
+                    }
+                }
+                edges.push(SurfaceEdge { nodes, facets: [f, neighbour.unwrap_or(NONE)] });
+            }
+        }
+        let mut nodes: Vec<u32> = facets.iter().flat_map(Corners::corners).copied().collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        let rank = |node: u32| nodes.binary_search(&node).map_or(0, |rank| rank as u32);
+        let at_nodes = facets.iter().zip(0..).flat_map(|(facet, f)| facet.corners().iter().map(move |&node| (rank(node), f)));
+        let around = Rows::new(nodes.len(), at_nodes);
+        Ok(Self { facets, nodes, edges, edges_of, around })
+    }
+}
+
+/// The facets of a tetrahedron, of a wedge and of a hexahedron, counter-clockwise seen from outside; a triangle repeats its last corner.
+///
+/// ```text
+///        3              3-----5            7-----6
+///       /|\             |\   /|           /|    /|
+///      / | \            | \ / |          4-----5 |
+///     0--|--2           |  4  |          | 3---|-2
+///      \ | /            0--|--2          |/    |/
+///       \|/              \ | /           0-----1
+///        1                \|/
+///                          1
+/// ```
+pub(in crate::mesh) fn facets_of(nodes: usize) -> &'static [[u8; 4]] {
+    match nodes {
+        4 => &[[0, 2, 1, 1], [0, 1, 3, 3], [1, 2, 3, 3], [2, 0, 3, 3]],
+        6 => &[[0, 2, 1, 1], [3, 4, 5, 5], [0, 1, 4, 3], [1, 2, 5, 4], [2, 0, 3, 5]],
+        8 => &[[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]],
+        _ => &[],
+    }
+}
+
+/// A facet of a cell as its lowest node sees it: the next node, the opposite one ([`NONE`] in a triangle), the one before.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+struct Seen {
+    /// The same from both sides: the smaller of next and before, the opposite one, the larger.
+    key: [u32; 3],
+    /// Whether the next one is the larger.
+    is_turned: bool,
+    /// The cell, and which of its facets it is.
+    of: (u32, u8),
+}
+
+/// Its lowest node, and how that sees the facet with these nodes.
+fn seen(facet: [u32; 4], of: (u32, u8)) -> (u32, Seen) {
+    let [lowest, next, c, d] = facet.canonical();
+    let (opposite, before) = if c == d { (NONE, c) } else { (c, d) };
+    (lowest, Seen { key: [next.min(before), opposite, next.max(before)], is_turned: next > before, of })
+}
+
+/// The facet that its lowest node sees so.
+fn facet_of(lowest: u32, seen: &Seen) -> [u32; 4] {
+    let [small, opposite, large] = seen.key;
+    let [next, before] = if seen.is_turned { [large, small] } else { [small, large] };
+    if opposite == NONE { [lowest, next, before, before] } else { [lowest, next, opposite, before] }
+}
+
+/// Every facet of every cell at its lowest node, ascending.
+struct Table<'a> {
+    cells: Vec<&'a [u32]>,
+    at: Rows<Seen>,
+}
+
+impl<'a> Table<'a> {
+    /// Facets are counted, then put into their places: no sorting but of the few at one node.
+    fn new(cells: impl IntoIterator<Item = &'a [u32], IntoIter: Clone>) -> Result<Self, Fault> {
+        let cells: Vec<&[u32]> = cells.into_iter().collect();
+        let mut count = 0;
+        for cell in &cells {
+            let n = cell.len();
+            if facets_of(n).is_empty() || (0..n).any(|i| cell[..i].contains(&cell[i])) {
+                let help = "elements of solids have four, six or eight different corners; remove collapsed ones from the mesh";
+                return Err(Fault::new(&BAD_ELEMENT, "", format!("an element has the nodes {cell:?}"), help));
+            }
+            count = cell.iter().fold(count, |count, &node| count.max(node as usize + 1));
+        }
+        let of_cell = |(cell, number): (&&'a [u32], u32)| {
+            let cell = *cell;
+            facets_of(cell.len()).iter().zip(0..).map(move |(local, l)| seen(local.map(|k| cell[usize::from(k)]), (number, l)))
+        };
+        let mut at = Rows::new(count, cells.iter().zip(0..).flat_map(of_cell));
+        (0..count).for_each(|node| at.of_mut(node).sort_unstable());
+        let table = Self { cells, at };
+        table.check()?;
+        Ok(table)
+    }
+
+    /// Groups of what is the same facet seen from one side or the other, with their lowest node.
+    fn groups(&self) -> impl Iterator<Item = (u32, &[Seen])> {
+        (0..self.at.count() as u32)
+            .flat_map(|node| self.at.of(node as usize).chunk_by(|a, b| a.key == b.key).map(move |group| (node, group)))
+    }
+
+    fn check(&self) -> Result<(), Fault> {
+        for (lowest, group) in self.groups() {
+            let nodes = || named(&facet_of(lowest, &group[0]));
+            if group.len() > 2 {
+                return Err(Fault::new(
+                    &OVERLAP,
+                    "",
+                    format!("the facet {} belongs to {} elements", nodes(), group.len()),
+                    "a facet has at most two; remove elements that overlap or occur twice",
+                ));
+            } else if group.len() == 2 && group[0].is_turned == group[1].is_turned {
+                return Err(Fault::new(
+                    &OVERLAP,
+                    "",
+                    format!("two elements lie on the same side of the facet {}", nodes()),
+                    "one of them is inside out, or they overlap; reverse or remove one of them",
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    fn exterior(&self) -> Vec<[u32; 4]> {
+        let mut facets: Vec<[u32; 4]> =
+            self.groups().filter(|(_, group)| group.len() == 1).map(|(lowest, group)| facet_of(lowest, &group[0])).collect();
+        facets.sort_unstable();
+        facets
+    }
+
+    /// What is seen there of a facet, from both sides.
+    fn group(&self, facet: [u32; 4]) -> &[Seen] {
+        let (lowest, wanted) = seen(facet, (0, 0));
+        if lowest as usize >= self.at.count() {
+            return &[];
+        }
+        let row = self.at.of(lowest as usize);
+        let first = row.partition_point(|it| it.key < wanted.key);
+        let count = row[first..].iter().take_while(|it| it.key == wanted.key).count();
+        &row[first..first + count]
+    }
+
+    /// The cell behind an outside facet, and which of its facets it is; `None` when it is not outside or seen from inside.
+    fn owner(&self, facet: &[u32; 4]) -> Option<(u32, u8)> {
+        match self.group(*facet) {
+            [one] if facet_of(facet.canonical()[0], one) == *facet => Some(one.of),
+            _ => None,
+        }
+    }
+
+    /// The outside facet on the other side of the edge a → b of an outside facet: around the edge, through the elements of its fan.
+    fn across(&self, mut cell: u32, mut local: u8, [a, b]: [u32; 2]) -> Option<[u32; 4]> {
+        // A fan has no more elements than there are; it ends at an outside facet.
+        for _ in 0..self.cells.len() {
+            let nodes = self.cells[cell as usize];
+            let facet = |local: &[u8; 4]| local.map(|k| nodes[usize::from(k)]);
+            let has_it = |(other, l): &(&[u8; 4], u8)| {
+                let (corners, n) = (facet(other), facet(other).corners().len());
+                *l != local && (0..n).any(|k| [corners[k], corners[(k + 1) % n]] == [b, a])
+            };
+            let (other, other_local) = facets_of(nodes.len()).iter().zip(0..).find(has_it)?;
+            let there = facet(other);
+            let group = self.group(there);
+            // The cell beyond has the same facet the other way round, and so the edge a → b in it.
+            match group.iter().find(|it| it.of != (cell, other_local)) {
+                None => return Some(there.canonical()),
+                Some(beyond) => (cell, local) = beyond.of,
+            }
+        }
+        None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{exterior, oriented};
+    use super::*;
+    use crate::mesh::Meshed;
+    use crate::tensor::Dim;
+    use proptest::prelude::*;
+
+    /// A block of n × n × n cubes without those that are left out.
+    fn block(n: u32, keep: impl Fn(u32) -> bool) -> Vec<[u32; 8]> {
+        let m = n + 1;
+        let corner = |i: u32, j: u32, k: u32| (k * m + j) * m + i;
+        let cube = |cell: u32| {
+            let (i, j, k) = (cell % n, cell / n % n, cell / n / n);
+            let low = [corner(i, j, k), corner(i + 1, j, k), corner(i + 1, j + 1, k), corner(i, j + 1, k)];
+            std::array::from_fn(|c| low[c % 4] + if c < 4 { 0 } else { m * m })
+        };
+        (0..n * n * n).filter(|&cell| keep(cell)).map(cube).collect()
+    }
+
+    fn slices(cells: &[[u32; 8]]) -> impl Iterator<Item = &[u32]> + Clone {
+        cells.iter().map(<[u32; 8]>::as_slice)
+    }
+
+    fn links_are_consistent(surface: &SpaceSurface) {
+        let mut of_edges = 0;
+        for (f, facet) in (0_u32..).zip(&surface.facets) {
+            let corners = facet.corners();
+            for k in 0..4 {
+                let edge = surface.edges_of[f as usize][k];
+                assert_eq!(edge == NONE, k >= corners.len());
+                if edge == NONE {
+                    continue;
+                }
+                of_edges += 1;
+                let SurfaceEdge { nodes, facets } = surface.edges[edge as usize];
+                let own = [corners[k], corners[(k + 1) % corners.len()]];
+                assert_eq!(own, if facets[0] == f { nodes } else { [nodes[1], nodes[0]] });
+                assert!(facets.contains(&f) && facets[0] != facets[1]);
+                let across = surface.across(f, k);
+                assert!(across == NONE || (0..4).any(|k| surface.edges_of[across as usize][k] == edge));
+            }
+            for node in corners {
+                assert!(surface.facets_at(*node).contains(&f));
+            }
+        }
+        let sides: usize = surface.edges.iter().map(|edge| edge.facets.iter().filter(|&&f| f != NONE).count()).sum();
+        assert_eq!(sides, of_edges);
+        assert!(surface.nodes.is_sorted_by(|a, b| a < b));
+    }
+
+    #[test]
+    fn a_cube_has_six_facets_and_twelve_edges() {
+        let surface = SpaceSurface::outside(slices(&block(1, |_| true))).unwrap();
+        links_are_consistent(&surface);
+        assert_eq!((surface.facets.len(), surface.edges.len(), surface.nodes.len()), (6, 12, 8));
+        assert_eq!(surface.facets[0], [0, 1, 5, 4]);
+        assert!(surface.edges.iter().all(|edge| !edge.facets.contains(&NONE)));
+        assert!((0..8).all(|rank| surface.around(rank).len() == 3));
+        assert!(surface.facets_at(99).is_empty());
+    }
+
+    #[test]
+    fn wedges_and_tetrahedra_meet_hexahedra_without_an_outside_between_them() {
+        let cells: [&[u32]; 3] = [&[0, 1, 2, 3, 4, 5, 6, 7], &[4, 8, 5, 7, 9, 6], &[4, 5, 8, 10]];
+        let surface = SpaceSurface::outside(cells).unwrap();
+        links_are_consistent(&surface);
+        assert_eq!(surface.facets.iter().filter(|facet| facet.corners().len() == 3).count(), 4);
+        // Closed: V − E + F = 2.
+        assert_eq!(surface.nodes.len() + surface.facets.len(), surface.edges.len() + 2);
+    }
+
+    #[test]
+    fn bodies_that_touch_in_an_edge_stay_with_their_own_elements() {
+        // Two cubes with one edge in common, from node 4 to node 13.
+        let cells = block(2, |cell| cell == 0 || cell == 3);
+        let surface = SpaceSurface::outside(slices(&cells)).unwrap();
+        links_are_consistent(&surface);
+        assert_eq!((surface.facets.len(), surface.edges.len()), (12, 24));
+        let of = |facet: u32| cells.iter().position(|cell| surface.facets[facet as usize].iter().all(|node| cell.contains(node)));
+        assert!(surface.edges.iter().all(|edge| of(edge.facets[0]) == of(edge.facets[1])));
+        assert_eq!(surface.edges.iter().filter(|edge| edge.nodes.contains(&4) && edge.nodes.contains(&13)).count(), 2);
+    }
+
+    #[test]
+    fn a_side_alone_ends_at_open_edges() {
+        let cells = block(2, |_| true);
+        let top: Vec<[u32; 4]> =
+            exterior::<3>(slices(&cells)).unwrap().into_iter().filter(|facet| facet.iter().all(|&n| n >= 18)).collect();
+        let surface = SpaceSurface::new(top.iter().rev().map(|&[a, b, c, d]| [c, d, a, b]).collect(), slices(&cells)).unwrap();
+        links_are_consistent(&surface);
+        let given: Vec<[u32; 4]> = top.iter().rev().copied().collect();
+        assert_eq!((&surface.facets, surface.nodes.len(), surface.edges.len()), (&given, 9, 12));
+        assert_eq!(surface.edges.iter().filter(|edge| edge.facets[1] == NONE).count(), 8);
+    }
+
+    #[test]
+    fn wrong_cells_and_facets_are_faults_that_name_nodes() {
+        let cube = [0, 1, 2, 3, 4, 5, 6, 7];
+        let above = [4, 5, 6, 7, 8, 9, 10, 11];
+        let third = [4, 5, 6, 7, 12, 13, 14, 15];
+        let message = |cells: &[[u32; 8]]| exterior::<3>(slices(cells)).unwrap_err().message;
+        assert!(message(&[cube, above, third]).contains("facet 4-5-6-7 belongs to 3 elements"));
+        assert!(message(&[cube, third, cube]).contains("on the same side"));
+        let below = [8, 9, 10, 11, 4, 5, 6, 7];
+        assert!(message(&[cube, below]).contains("on the same side of the facet 4-"), "{}", message(&[cube, below]));
+        let collapsed = [0, 1, 2, 2, 4, 5, 6, 6];
+        assert!(message(&[collapsed]).contains("[0, 1, 2, 2, 4, 5, 6, 6]"));
+        assert!(exterior::<3>([[0_u32, 1, 2, 3, 4].as_slice()]).is_err());
+        assert!(exterior::<3>(std::iter::empty()).unwrap().is_empty());
+        let outside = exterior::<3>(slices(&[cube, above])).unwrap();
+        assert_eq!(oriented(&[[5, 4, 0, 1], [1, 5, 4, 0]], &outside).unwrap(), [[0, 1, 5, 4]]);
+        assert!(oriented(&[[4, 5, 6, 7]], &outside).unwrap_err().message.contains("facet 4-5-6-7 is not on the outside"));
+        let fault = |facets: Vec<[u32; 4]>| SpaceSurface::new(facets, slices(&[cube, above])).unwrap_err().message;
+        assert!(fault(vec![[4, 5, 1, 0]]).contains("body before it"));
+        assert!(fault(vec![[4, 5, 6, 7]]).contains("not on the outside"));
+        assert!(fault(vec![[0, 1, 5, 4], [5, 4, 0, 1]]).contains("twice"));
+    }
+
+    proptest! {
+        #[test]
+        fn the_outside_of_any_part_of_a_mesh_closes_and_encloses_its_volume(
+            keep in prop::collection::vec(any::<bool>(), 27), shift in prop::collection::vec(-0.2..0.2_f64, 192), order in any::<usize>(),
+        ) {
+            let cells = block(3, |cell| keep[cell as usize]);
+            let positions: Vec<[f64; 3]> = (0..64_usize).map(|i| std::array::from_fn(|d| (i >> (2 * d) & 3) as f64 + shift[3 * i + d])).collect();
+            let surface = SpaceSurface::outside(slices(&cells)).unwrap();
+            links_are_consistent(&surface);
+            prop_assert!(surface.edges.iter().all(|edge| !edge.facets.contains(&NONE)));
+            // Each facet's two triangles with its diagonal 0-2, and each hexahedron by its own facets: inside they cancel only if facets are seen alike.
+            let cone = |facet: &[u32; 4]| {
+                let x = facet.map(|node| positions[node as usize]);
+                let det = |a: [f64; 3], b: [f64; 3], c: [f64; 3]| {
+                    a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0])
+                };
+                (det(x[0], x[1], x[2]) + det(x[0], x[2], x[3])) / 6.0
+            };
+            let of_cell = |cell: &[u32; 8]| facets_of(8).iter().map(|f| cone(&f.map(|k| cell[usize::from(k)]).canonical())).sum::<f64>();
+            let (outside, inside): (f64, f64) = (surface.facets.iter().map(cone).sum(), cells.iter().map(of_cell).sum());
+            prop_assert!((outside - inside).abs() < 1e-11, "{} {}", outside, inside);
+            // The order of the cells, and how they are numbered, change nothing.
+            let mut turned = cells.clone();
+            if !turned.is_empty() {
+                let by = order % turned.len();
+                turned.rotate_left(by);
+                turned.iter_mut().for_each(|cell| Dim::<3>::begin_with_lowest(cell));
+            }
+            prop_assert_eq!(exterior::<3>(slices(&turned)).unwrap(), surface.facets.clone());
+            // Nodes inside are told from those outside.
+            let mut sums = vec![0; 64];
+            cells.iter().for_each(|cell| Dim::<3>::add_around(cell, &mut sums));
+            prop_assert!((0..64).all(|node| (sums[node as usize] != 0) == surface.nodes.contains(&node)));
+        }
+    }
+}

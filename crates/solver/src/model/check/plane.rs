@@ -1,0 +1,103 @@
+//! A model of the plane has nothing out of it: third components are zero, and what turns turns about z.
+
+use super::Check;
+use crate::model::messages::THIRD;
+use crate::model::{Axis, Drive, Image, Load, Motion, ObstacleShape, ProbeAt};
+
+/// What to do.
+const HELP: &str = "leave it out, or make the parts solid: `extrude` them, or give them a shape of space";
+
+impl Check<'_> {
+    /// Faults of what points out of the plane.
+    pub(super) fn nothing_out_of_the_plane(&mut self) {
+        let model = self.model;
+        for (index, part) in model.parts.iter().enumerate() {
+            self.flat(&format!("part[{index}].velocity"), part.velocity);
+            part.rigid.iter().for_each(|motion| self.flat_motion(&format!("part[{index}].rigid"), motion));
+        }
+        for (index, symmetry) in model.symmetries.iter().enumerate() {
+            self.flat(&format!("symmetry[{index}].point"), symmetry.point);
+            self.flat(&format!("symmetry[{index}].normal"), symmetry.normal);
+        }
+        for (index, constraint) in model.constraints.iter().enumerate() {
+            let path = format!("constraint[{index}]");
+            let kinds = [
+                ("velocity", &constraint.velocity),
+                ("displacement", &constraint.displacement),
+                ("acceleration", &constraint.acceleration),
+            ];
+            for (key, drives) in kinds {
+                if let Some(drive) = &drives[2] {
+                    // What is held is written in short.
+                    let held = key == "velocity" && *drive == Drive::Constant(0.0);
+                    let place = if held { format!("{path}.fixed") } else { format!("{path}.{key}.z") };
+                    self.third(place, "there is no `z` in the plane");
+                }
+            }
+            constraint.rotation.iter().for_each(|rotation| self.flat_axis(&format!("{path}.rotation"), &rotation.about));
+        }
+        for (index, load) in model.loads.iter().enumerate() {
+            let path = format!("load[{index}]");
+            match load {
+                Load::Gravity { acceleration, .. } => self.flat(&format!("{path}.gravity"), *acceleration),
+                Load::Centrifugal { about, .. } => self.flat_axis(&path, about),
+                Load::Force { force, .. } => self.flat(&format!("{path}.force"), *force),
+                Load::Pressure { .. } | Load::Damping { .. } | Load::StiffnessDamping { .. } => {}
+            }
+        }
+        for (index, join) in model.joins.iter().enumerate() {
+            match &join.image {
+                Image::Same => {}
+                Image::Translated(by) => self.flat(&format!("join[{index}].translation"), *by),
+                Image::Turned { about, .. } => self.flat_axis(&format!("join[{index}]"), about),
+            }
+        }
+        for (index, obstacle) in model.obstacles.iter().enumerate() {
+            let path = format!("obstacle[{index}]");
+            match &obstacle.shape {
+                ObstacleShape::Plane { point, normal, .. } => {
+                    self.flat(&format!("{path}.plane.point"), *point);
+                    self.flat(&format!("{path}.plane.normal"), *normal);
+                }
+                ObstacleShape::Circle { centre, .. } => self.flat(&format!("{path}.circle.centre"), *centre),
+                ObstacleShape::Polyline { .. } => {}
+                ObstacleShape::Sphere { .. } => self.third(format!("{path}.sphere"), "there are no spheres in the plane; take `circle`"),
+                ObstacleShape::Cylinder { .. } => {
+                    self.third(format!("{path}.cylinder"), "there are no cylinders in the plane; take `circle`")
+                }
+            }
+            obstacle.reference.iter().for_each(|reference| self.flat(&format!("{path}.reference"), *reference));
+            self.flat(&format!("{path}.velocity"), obstacle.velocity);
+            self.flat_motion(&format!("{path}.motion"), &obstacle.motion);
+        }
+        for (index, probe) in model.probes.iter().enumerate() {
+            if let ProbeAt::Point { point, .. } = &probe.at {
+                self.flat(&format!("probe[{index}].point"), *point);
+            }
+        }
+    }
+
+    /// A vector without a third component; one that is no number has its fault already.
+    fn flat(&mut self, path: &str, vector: [f64; 3]) {
+        if vector[2] != 0.0 && vector[2].is_finite() {
+            self.third(format!("{path}[2]"), "a vector of the plane has no third component");
+        }
+    }
+
+    fn flat_axis(&mut self, path: &str, axis: &Axis) {
+        self.flat(&format!("{path}.centre"), axis.centre);
+        if axis.direction[..2] != [0.0; 2] && axis.direction.iter().all(|component| component.is_finite()) {
+            self.third(format!("{path}.axis"), "what turns in the plane turns about z");
+        }
+    }
+
+    fn flat_motion(&mut self, path: &str, motion: &Motion) {
+        if motion.velocity[2].as_ref().is_some_and(|drive| *drive != Drive::Constant(0.0)) {
+            self.third(format!("{path}.z"), "there is no `z` in the plane");
+        }
+    }
+
+    fn third(&mut self, path: String, message: &str) {
+        self.fault(&THIRD, path, message, HELP);
+    }
+}

@@ -1,0 +1,433 @@
+//! A model of one dimension, step by step: the loop, events, the end. [`super::Simulation`] is one of these.
+
+use super::clock::Clock;
+use super::course::Course;
+use super::memory::Memory;
+use super::{Control, Observer, ObserverError, Options, Overview, PartOverview, Progress, Shortest, State};
+use crate::build;
+use crate::contact::initial::{self, Penetration};
+use crate::contact::messages::INSIDE_AT_START;
+use crate::contact::{ContactKind, search};
+use crate::error::{Error, Fault, INSTRUCTIONS, MASS_ADDED, Notice, Warning};
+use crate::hashes::{self, Hashes, Hashing};
+use crate::mesh::PartMesh;
+use crate::model::{self, Cadence, Model};
+use crate::output::{Cells, Frame};
+use crate::post_mortem::Tracer;
+use crate::record::{Momentum, Recorded};
+use crate::step::System;
+use crate::tensor::Dim;
+use crate::watch::Watch;
+use crate::world::World;
+use embate_lanes::Level;
+use std::collections::BTreeMap;
+
+/// A model of one dimension made ready to step: what a [`Simulation`] of it does.
+pub(crate) struct Run<const D: usize>
+where
+    Dim<D>: World<D>,
+{
+    pub(crate) system: System<D>,
+    pub(crate) recorded: Recorded,
+    pub(crate) momentum: Option<Momentum<D>>,
+    pub(super) shortest: Shortest,
+    pub(super) watch: Watch,
+    pub(crate) threads: usize,
+    pub(super) model_warnings: Vec<Warning>,
+    pub(crate) warnings: Vec<Notice>,
+    pub(super) history: Cadence,
+    pub(super) fields: Cadence,
+    pub(super) max_steps: u64,
+    /// Steps between two states that are handed out; `None`: only when asked for.
+    pub(super) state_steps: Option<u64>,
+    /// Steps between two hashes of the state; `None`: none.
+    pub(super) hash_steps: Option<u64>,
+    pub(super) hashing: Hashing,
+    pub(super) course: Option<Course>,
+    pub(super) memory: Memory,
+    /// Looks at every step of a run that goes to its failure once more.
+    pub(crate) tracer: Option<Box<Tracer<D>>>,
+    /// Search of each contact by name.
+    pub(super) search_names: BTreeMap<String, String>,
+    pub(super) pool: Option<rayon::ThreadPool>,
+}
+
+/// Steps between two calls of [`Observer::progress`].
+pub(super) const PROGRESS: u64 = 256;
+
+impl<const D: usize> Run<D>
+where
+    Dim<D>: World<D>,
+{
+    /// Makes a model ready: everything at time zero is known, velocities are those of the first half step.
+    ///
+    /// # Errors
+    /// [`Error::Model`] with all faults; the errors of a step, if the very first forces fail.
+    pub(crate) fn new(model: &Model, options: &Options) -> Result<Self, Error> {
+        let level = match &options.simd {
+            None => Level::best(),
+            Some(name) => Level::named(name).ok_or_else(|| {
+                let has: Vec<_> = Level::available().iter().map(|level| level.name()).collect();
+                Error::Model(vec![Fault::new(
+                    &INSTRUCTIONS,
+                    "",
+                    format!("instruction set \"{name}\" is not available here"),
+                    format!("this machine has {}", has.join(", ")),
+                )])
+            })?,
+        };
+        let threads = options.thread_count();
+        let (system, model_warnings) = build::system::<D>(model, level, threads).map_err(Error::Model)?;
+        let recorded = Recorded::new(model, &system).map_err(Error::Model)?;
+        let pool = if system.team.threads() > 1 { rayon::ThreadPoolBuilder::new().num_threads(threads).build().ok() } else { None };
+        let mut simulation = Self {
+            momentum: None,
+            recorded,
+            shortest: Shortest::default(),
+            watch: Watch::new(model, &system),
+            threads: if pool.is_some() { threads } else { 1 },
+            model_warnings,
+            warnings: Vec::new(),
+            history: model.output.history,
+            fields: model.output.fields,
+            max_steps: model.run.max_steps.unwrap_or(u64::MAX),
+            state_steps: model.run.checkpoint_steps,
+            hash_steps: model.output.hash_steps,
+            hashing: Hashing::default(),
+            course: None,
+            memory: Memory::default(),
+            tracer: None,
+            search_names: model.contacts.iter().map(|contact| (contact.name.clone(), search_name(contact))).collect(),
+            pool,
+            system,
+        };
+        within_pool(simulation.pool.as_ref(), &mut simulation.system, System::start)?;
+        simulation.momentum = Momentum::new(&simulation.system);
+        simulation.shortest.note(&simulation.system);
+        simulation.check_obstacles(model)?;
+        let [added, of] = simulation.system.mass_added;
+        if added != 0.0 {
+            let message = format!("mass scaling added {added:.6e} kg/m, {:.3} % of the mass of the deformable parts", 100.0 * added / of);
+            simulation.warnings.push(Notice::new(&MASS_ADDED, message));
+        }
+        if !simulation.system.initial_penetrations.is_empty() {
+            let text = "some nodes were inside other bodies at the start: `embate check` lists them";
+            simulation.warnings.push(Notice::new(&INSIDE_AT_START, text));
+        }
+        Ok(simulation)
+    }
+
+    /// Lets the run keep states in memory, in so many bytes for all of them together: see [`Simulation::states`].
+    pub(crate) fn keep_states_in(&mut self, bytes: usize) {
+        self.memory = Memory::of(bytes);
+    }
+
+    /// States of the run so far that are in memory, the newest first; none where they are too large for their room.
+    pub(crate) fn states(&self) -> &[State] {
+        self.memory.states()
+    }
+
+    /// Nodes behind an obstacle at the start are faults.
+    fn check_obstacles(&self, model: &Model) -> Result<(), Error> {
+        let system = &self.system;
+        let tolerance = initial::TOLERANCE * initial::size(&system.positions);
+        let mut faults = Vec::new();
+        for contact in &system.contacts {
+            let Some(index) = model.obstacles.iter().position(|it| contact.kind != ContactKind::Contact && it.name == contact.name) else {
+                continue;
+            };
+            let interface = &model.obstacles[index].interface;
+            if initial::is_ignored(interface) {
+                continue;
+            }
+            let inside = contact.penetrations(&system.springs).filter(|&(_, depth)| depth > tolerance);
+            let found: Vec<Penetration<D>> =
+                inside.map(|(node, depth)| Penetration { node, place: system.positions[node as usize], depth }).collect();
+            faults.extend(initial::faults(&format!("obstacle[{index}]"), &contact.name, &found));
+        }
+        if faults.is_empty() { Ok(()) } else { Err(Error::Model(faults)) }
+    }
+
+    /// What the user should know of the model: it was accepted. [`Simulation::summary`] has them as texts, with those of the run.
+    pub(crate) fn model_warnings(&self) -> &[Warning] {
+        &self.model_warnings
+    }
+
+    /// Time reached, s.
+    pub(crate) fn time(&self) -> f64 {
+        self.system.time
+    }
+
+    /// Step that leads to the next state, s.
+    pub(crate) fn time_step(&self) -> f64 {
+        self.system.time_step
+    }
+
+    /// Most sweeps over the contact springs that a step took, and steps whose forces were not solved to the last digit.
+    pub(crate) fn sweeps(&self) -> (usize, u64) {
+        (self.system.springs.sweeps_max, self.system.springs.unsolved)
+    }
+
+    /// Energies and works so far.
+    pub(crate) fn ledger(&self) -> &crate::energy::Ledger {
+        &self.system.ledger
+    }
+
+    /// Steps done.
+    pub(crate) fn steps(&self) -> u64 {
+        self.system.step
+    }
+
+    /// Elements of all parts.
+    pub(crate) fn elements(&self) -> usize {
+        self.system.mesh.groups.iter().map(crate::mesh::ElementGroup::elements).sum()
+    }
+
+    /// Steps until `time` is reached (never beyond the end), at most `steps` of them.
+    ///
+    /// # Errors
+    /// Those of a step.
+    pub(crate) fn advance(&mut self, time: f64, steps: u64) -> Result<(), Error> {
+        let result = self.go_on(time, steps);
+        self.note_momentum();
+        result
+    }
+
+    fn go_on(&mut self, time: f64, steps: u64) -> Result<(), Error> {
+        let last = self.system.step.saturating_add(steps).min(self.max_steps);
+        let Self { shortest, tracer, recorded, hashing, .. } = self;
+        let mut tracer = tracer.as_mut();
+        within_pool(self.pool.as_ref(), &mut self.system, |system| {
+            while system.time < time && system.time < system.limits.end && system.step < last {
+                let stepped = system.step();
+                if let Some(tracer) = &mut tracer {
+                    tracer.note(system, recorded, stepped.as_ref().err());
+                }
+                stepped?;
+                shortest.note(system);
+                hashing.note(system);
+            }
+            Ok(())
+        })
+    }
+
+    /// Whether the run has come to its end.
+    pub(crate) fn is_over(&self) -> bool {
+        self.system.time >= self.system.limits.end || self.system.step >= self.max_steps
+    }
+
+    /// Runs to the end, telling `observer` of rows, frames and progress. A simulation of a kept state ([`Simulation::resumed`]) goes on as if it had never been stopped.
+    ///
+    /// # Errors
+    /// Any [`Error`]; the last state has been given to the observer before.
+    pub(crate) fn run(&mut self, observer: &mut dyn Observer) -> Result<(), Error> {
+        let end = self.system.limits.end;
+        let (mut rows, mut frames) = (Clock::new(self.history, end), Clock::new(self.fields, end));
+        let state_steps = self.state_steps.filter(|_| observer.keeps_states());
+        let mut course = self.course.take().unwrap_or_else(|| Course::new(self.system.step));
+        if course.is_resumed {
+            // What was due until now has been told.
+            rows.pass(self.system.time);
+            frames.pass(self.system.time);
+        }
+        self.hashing = Hashing::new(&self.system, self.hash_steps.filter(|_| observer.keeps_hashes()));
+        if course.is_resumed {
+            self.hashing.pass(self.system.step);
+        } else {
+            self.hashing.take(&self.system);
+        }
+        loop {
+            let time = self.system.time;
+            let over = self.is_over();
+            if over {
+                self.hashing.take(&self.system);
+            }
+            self.tell_hashes(observer)?;
+            if (rows.due(time) || over) && time > course.last_row {
+                self.note_momentum();
+                observer.row(&self.history_row()).map_err(output)?;
+                course.last_row = time;
+            }
+            if (frames.due(time) || over) && course.last_frame != Some(self.system.step) {
+                self.show(observer)?;
+                course.last_frame = Some(self.system.step);
+            }
+            // A stop for the state alone sees nothing.
+            let notices =
+                if over || course.stage == self.system.step { self.watch.look(&self.system, &self.shortest, over) } else { Vec::new() };
+            if over {
+                return Ok(());
+            }
+            if course.stage == self.system.step && self.memory.is_due(self.system.step) {
+                self.course = Some(course);
+                let state = self.state()?;
+                self.memory.take(state);
+            }
+            let control = observer.progress(&self.progress(end, &self.system.governor_name(self.system.governor), &notices));
+            if matches!(control, Control::Keep | Control::KeepAndStop) || course.is_state_due(self.system.step, state_steps) {
+                course.last_state = Some(self.system.step);
+                self.course = Some(course);
+                let state = self.state()?;
+                observer.state(state).map_err(output)?;
+            }
+            if matches!(control, Control::Stop | Control::KeepAndStop) {
+                if course.last_frame != Some(self.system.step) {
+                    self.show(observer)?;
+                }
+                return Ok(());
+            }
+            let until = rows.next().min(frames.next());
+            let result = self.go_on(until, course.steps(self.system.step, state_steps));
+            // A stop for the state alone leaves no trace.
+            if result.is_err() || self.system.time >= until || self.is_over() || course.is_stage(self.system.step) {
+                self.note_momentum();
+                course.stage = self.system.step;
+            }
+            if let Err(error) = result {
+                self.tell_hashes(observer)?;
+                observer.failing();
+                // The state of the failure is what the user needs to see, and what was to be seen of it before.
+                self.watch.look(&self.system, &self.shortest, true);
+                if self.system.time > course.last_row {
+                    observer.row(&self.history_row()).map_err(output)?;
+                }
+                self.show(observer)?;
+                return Err(error);
+            }
+        }
+    }
+
+    /// Hashes of the state now.
+    pub(crate) fn hashes(&self) -> Hashes {
+        let nodes: Vec<_> = (0..self.system.mesh.parts.len()).map(|part| hashes::nodes(&self.system, part)).collect();
+        hashes::hashes(&self.system, &nodes)
+    }
+
+    /// Runs on, and tells `observer` of a row and a frame at the first step at or after `from`, from there every `every`, and at the first step at or after `to`, all in s. The steps are those
+    /// of any run of the model.
+    ///
+    /// # Errors
+    /// As [`Simulation::run`].
+    pub(crate) fn run_window(&mut self, [from, to]: [f64; 2], every: f64, observer: &mut dyn Observer) -> Result<(), Error> {
+        let mut outputs = Clock::new(Cadence::Interval(every), to);
+        loop {
+            let time = self.system.time;
+            let over = self.is_over() || time >= to * (1.0 - 1e-12);
+            if (time >= from * (1.0 - 1e-12) && outputs.due(time - from)) || over {
+                observer.row(&self.history_row()).map_err(output)?;
+                self.show(observer)?;
+            }
+            let governor = self.system.governor_name(self.system.governor);
+            if over || matches!(observer.progress(&self.progress(to, &governor, &[])), Control::Stop | Control::KeepAndStop) {
+                return Ok(());
+            }
+            let until = (from + outputs.next()).min(to);
+            if let Err(error) = self.advance(until * (1.0 - 1e-12), PROGRESS) {
+                observer.row(&self.history_row()).map_err(output)?;
+                self.show(observer)?;
+                return Err(error);
+            }
+        }
+    }
+
+    fn progress<'a>(&self, end: f64, governor: &'a str, notices: &'a [Notice]) -> Progress<'a> {
+        let Self { system, .. } = self;
+        Progress {
+            step: system.step,
+            time: system.time,
+            end,
+            time_step: system.time_step,
+            governor,
+            energy_drift: system.ledger.drift(),
+            notices,
+        }
+    }
+
+    /// Gives the state now to an observer.
+    fn show(&self, observer: &mut dyn Observer) -> Result<(), Error> {
+        let mut frame = observer.spare();
+        self.recorded.fill(&self.system, &mut frame);
+        observer.frame(frame).map_err(output)
+    }
+
+    fn tell_hashes(&mut self, observer: &mut dyn Observer) -> Result<(), Error> {
+        self.hashing.taken.drain(..).try_for_each(|hashes| observer.hashes(hashes)).map_err(output)
+    }
+
+    fn note_momentum(&mut self) {
+        if let Some(momentum) = &mut self.momentum {
+            momentum.note(&self.system);
+        }
+    }
+
+    /// The cells of all parts.
+    pub(crate) fn cells(&self) -> Cells {
+        crate::record::cells(&self.system)
+    }
+
+    /// The state now.
+    pub(crate) fn frame(&self) -> Frame {
+        let mut frame = Frame::default();
+        self.recorded.fill(&self.system, &mut frame);
+        frame
+    }
+
+    /// Names of the history's columns; the first is `time`.
+    pub(crate) fn history_columns(&self) -> Vec<String> {
+        self.recorded.columns(&self.system)
+    }
+
+    /// Values of the history's columns now.
+    pub(crate) fn history_row(&self) -> Vec<f64> {
+        self.recorded.row(&self.system)
+    }
+
+    /// Parts, masses, step, penetrations.
+    pub(crate) fn overview(&self) -> Overview {
+        let system = &self.system;
+        let part = |(index, part): (usize, &PartMesh)| {
+            let of = || system.mesh.groups.iter().zip(&system.blocks).filter(|(group, _)| group.part == index).map(|(_, block)| block);
+            let elements = || of().flat_map(|block| (0..block.elements()).map(move |element| (block, element)));
+            PartOverview {
+                name: part.name.clone(),
+                elements: elements().count(),
+                nodes: part.nodes.len(),
+                mass: system.shares.whole[index],
+                stable_time_step: elements().map(|(block, element)| block.time_step_squared(element)).fold(f64::INFINITY, f64::min).sqrt(),
+            }
+        };
+        Overview {
+            parts: system.mesh.parts.iter().enumerate().map(part).collect(),
+            stable_time_step: system.time_step,
+            governor: system.governor_name(system.governor),
+            steps_expected: (system.limits.end / system.time_step).ceil() as u64,
+            initial_penetrations: self.system.initial_penetrations.clone(),
+            probes: self.recorded.probe_lines(),
+            warnings: self.warnings.clone(),
+        }
+    }
+}
+
+/// Runs `work` on the system inside the thread pool, so that parallel loops in it start without a detour.
+fn within_pool<const D: usize>(
+    pool: Option<&rayon::ThreadPool>,
+    system: &mut System<D>,
+    work: impl FnOnce(&mut System<D>) -> Result<(), Error> + Send,
+) -> Result<(), Error>
+where
+    Dim<D>: World<D>,
+{
+    match pool {
+        Some(pool) => pool.install(|| work(system)),
+        None => work(system),
+    }
+}
+
+/// What keeps an observer from going on, as the error of a run.
+fn output(error: ObserverError) -> Error {
+    Error::Output(error.to_string())
+}
+
+fn search_name(contact: &model::Contact) -> String {
+    if contact.search.is_empty() { search::registry::<2>()[0].name.into() } else { contact.search.clone() }
+}

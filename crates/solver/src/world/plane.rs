@@ -1,0 +1,191 @@
+//! What the plane means for the system: axes stand on it, cells are polygons and lines.
+
+use super::{Square, World};
+use crate::block::Block;
+use crate::build::{self, Builder};
+use crate::contact::Contact;
+use crate::contact::forces::ContactForces;
+use crate::contact::traces::Traces;
+use crate::error::Fault;
+use crate::load::non_reflecting::NonReflecting;
+use crate::mesh::Mesh;
+use crate::model::{Model, Motion};
+use crate::output::CellKind;
+use crate::rigid::{self, Body, cos_sin};
+use crate::tensor::Dim;
+use crate::vector::{cross as cross_plane, dot, minus};
+
+impl World<2> for Dim<2> {
+    const MOMENT: &[&str] = &["moment"];
+    const MOTION: &[&str] = &["x", "y", "angle", "vx", "vy", "spin"];
+
+    fn facets(cell: &[u32]) -> Vec<[u32; 2]> {
+        (0..cell.len()).map(|c| [cell[(c + 1) % cell.len()], cell[c]]).collect()
+    }
+    fn flatness(segment: [u32; 2], cell: &[u32], positions: &[[f64; 2]]) -> f64 {
+        let x = |corner: usize| positions[cell[corner % cell.len()] as usize];
+        let area = 0.5 * (0..cell.len()).map(|c| cross_plane(x(c), x(c + 1))).sum::<f64>();
+        let [b, a] = segment.map(|node| positions[node as usize]);
+        let side = minus(b, a);
+        dot(side, side).sqrt() / area
+    }
+    fn tractions(traces: &Traces<2>, forces: &ContactForces<2>, positions: &[[f64; 2]]) -> Vec<[f64; 2]> {
+        traces.tractions(forces, positions)
+    }
+    fn moments(moment: &f64) -> Vec<f64> {
+        vec![*moment]
+    }
+    fn motion(body: &Body<2>, before: f64) -> Vec<f64> {
+        let velocity = (0..3).map(|k| body.velocity_old[k] + before * (body.velocity[k] - body.velocity_old[k]));
+        [body.centre[0], body.centre[1], body.angle].into_iter().chain(velocity).collect()
+    }
+    fn numbers(body: &Body<2>) -> Vec<f64> {
+        [body.centre[0], body.centre[1], body.angle].into_iter().chain(body.velocity).collect()
+    }
+    /// Of a body of revolution the mass along the axis.
+    fn momenta(body: &Body<2>) -> (f64, [f64; 2], [f64; 3]) {
+        let ([x, y, inertia], [u, v, spin]) = (body.mass, body.velocity);
+        (x.max(y), [u, v], [0.0, 0.0, inertia * spin])
+    }
+    fn image(turn: &Square<2>) -> [f64; 2] {
+        [turn[0][0], turn[1][0]]
+    }
+    fn with_axis(model: &Model, mesh: &Mesh<2>) -> Result<Option<Model>, Vec<Fault>> {
+        build::plane::with_axis(model, mesh)
+    }
+    fn part_at_start(builder: &mut Builder<'_, 2>) -> Vec<String> {
+        builder.part_at_start()
+    }
+    fn rigid_part(builder: &Builder<'_, 2>, index: usize, motion: &Motion, own: &[(u32, f64)]) -> Body<2> {
+        builder.rigid_part(index, motion, own)
+    }
+    fn springs(builder: &mut Builder<'_, 2>) -> Option<Box<dyn Block<2>>> {
+        builder.springs().map(|springs| Box::new(springs) as Box<dyn Block<2>>)
+    }
+    fn boundary(builder: &mut Builder<'_, 2>) -> Result<NonReflecting<2>, Vec<Fault>> {
+        builder.boundary()
+    }
+    fn contacts(builder: &mut Builder<'_, 2>) -> Vec<Contact> {
+        builder.contacts()
+    }
+    fn obstacles(builder: &mut Builder<'_, 2>) -> Vec<Contact> {
+        builder.obstacles()
+    }
+    fn renew(builder: &mut Builder<'_, 2>, contacts: &mut [Contact]) {
+        builder.renew(contacts);
+    }
+    fn cell_kind(nodes: usize) -> CellKind {
+        match nodes {
+            2 => CellKind::Line,
+            3 => CellKind::Triangle,
+            _ => CellKind::Quadrilateral,
+        }
+    }
+    fn led(arm: [f64; 2], _axis: [f64; 3], spin: f64, time_step: f64) -> [f64; 2] {
+        rigid::chord(arm, spin, time_step)
+    }
+    fn rotation(_axis: [f64; 3], angle: f64) -> Square<2> {
+        let [cos, sin] = cos_sin(angle);
+        [[cos, -sin], [sin, cos]]
+    }
+    fn across(arm: [f64; 2], _axis: [f64; 3]) -> [f64; 2] {
+        arm
+    }
+    fn swept([_, _, spin]: [f64; 3], [a, b]: [f64; 2]) -> [f64; 2] {
+        [-spin * b, spin * a]
+    }
+    fn least_corner(cell: &[u32], positions: &[[f64; 2]]) -> Option<f64> {
+        let n = cell.len();
+        let x = |corner: usize| positions[cell[corner % n] as usize];
+        let turn = |c: usize| cross_plane(minus(x(c + 1), x(c)), minus(x(c + n - 1), x(c)));
+        (n > 2).then(|| (0..n).map(turn).fold(f64::INFINITY, f64::min))
+    }
+    fn shape(cell: &[u32], positions: &[[f64; 2]]) -> f64 {
+        let n = cell.len();
+        if n < 3 {
+            return 1.0;
+        }
+        let side = |corner: usize| {
+            let [a, b] = [corner, corner + 1].map(|corner| positions[cell[corner % n] as usize]);
+            minus(b, a)
+        };
+        let (mut least, mut longest) = (f64::INFINITY, 0.0f64);
+        for corner in 0..n {
+            let (before, after) = (side(corner + n - 1), side(corner));
+            least = least.min(cross_plane(before, after));
+            longest = longest.max(dot(after, after));
+        }
+        least / longest
+    }
+    fn moment(arm: [f64; 2], force: [f64; 2]) -> [f64; 3] {
+        [0.0, 0.0, arm[0] * force[1] - arm[1] * force[0]]
+    }
+    fn size(cell: &[u32], positions: &[[f64; 2]]) -> f64 {
+        size(cell, positions)
+    }
+    fn strains(cell: &[u32], from: &[[f64; 2]], to: &[[f64; 2]]) -> [f64; 2] {
+        strains(cell, from, to)
+    }
+}
+
+/// Length of a line, area of what has more corners; m, m².
+fn size(cell: &[u32], positions: &[[f64; 2]]) -> f64 {
+    let x = |corner: usize| positions[cell[corner % cell.len()] as usize];
+    if cell.len() == 2 {
+        let [a, b] = [x(0), x(1)];
+        return ((b[0] - a[0]) * (b[0] - a[0]) + (b[1] - a[1]) * (b[1] - a[1])).sqrt();
+    }
+    let o = x(0);
+    let cross = |corner: usize| {
+        let (a, b) = (x(corner), x(corner + 1));
+        (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0])
+    };
+    0.5 * (0..cell.len()).map(cross).sum::<f64>()
+}
+
+/// Principal logarithmic strains at the centre, the larger first: half the logarithms of the eigenvalues of FᵀF. Of a line its one strain twice.
+fn strains(cell: &[u32], from: &[[f64; 2]], to: &[[f64; 2]]) -> [f64; 2] {
+    if cell.len() == 2 {
+        return [(size(cell, to) / size(cell, from)).ln(); 2];
+    }
+    // Of a triangle two sides, of a quadrilateral the means of two opposite sides: F maps those at the start to those now.
+    let sides = |x: &[[f64; 2]]| {
+        let p = |corner: usize| x[cell[corner] as usize];
+        if cell.len() == 3 {
+            let (a, b, c) = (p(0), p(1), p(2));
+            [[b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]]
+        } else {
+            let (a, b, c, d) = (p(0), p(1), p(2), p(3));
+            [[0, 1].map(|k| 0.5 * (b[k] + c[k] - a[k] - d[k])), [0, 1].map(|k| 0.5 * (c[k] + d[k] - a[k] - b[k]))]
+        }
+    };
+    let ([u, v], [a, b]) = (sides(from), sides(to));
+    let inverse = 1.0 / (u[0] * v[1] - u[1] * v[0]);
+    // F = [a b] [u v]⁻¹, row by row.
+    let f: [[f64; 2]; 2] = [0, 1].map(|k| [(a[k] * v[1] - b[k] * u[1]) * inverse, (b[k] * u[0] - a[k] * v[0]) * inverse]);
+    let c = |i: usize, j: usize| f[0][i] * f[0][j] + f[1][i] * f[1][j];
+    let (mean, half, shear) = (0.5 * (c(0, 0) + c(1, 1)), 0.5 * (c(0, 0) - c(1, 1)), c(0, 1));
+    let radius = (half * half + shear * shear).sqrt();
+    [0.5 * (mean + radius).ln(), 0.5 * (mean - radius).max(0.0).ln()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn strains_are_those_of_the_stretch_whatever_the_rotation() {
+        let from = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]];
+        let (c, s) = (0.6, 0.8);
+        // x stretched to twice, y to half, then turned.
+        let to = from.map(|[x, y]| [2.0 * x * c - 0.5 * y * s, 2.0 * x * s + 0.5 * y * c]);
+        for cell in [&[0, 1, 2, 3][..], &[0, 1, 2]] {
+            let [most, least] = strains(cell, &from, &to);
+            assert!((most - 2f64.ln()).abs() < 1e-12 && (least + 2f64.ln()).abs() < 1e-12, "{most} {least}");
+            assert!((size(cell, &to) / size(cell, &from) - 1.0).abs() < 1e-12);
+        }
+        assert!((strains(&[0, 1], &from, &to)[0] - 2f64.ln()).abs() < 1e-12);
+        let flat = from.map(|[x, _]| [x, 0.0]);
+        assert_eq!(strains(&[0, 1, 2, 3], &from, &flat)[1], f64::NEG_INFINITY);
+    }
+}

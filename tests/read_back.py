@@ -4,9 +4,9 @@
     python tests/read_back.py results/tube-plate [more folders]
 
 For each folder: fields.pvd lists frames with ascending times; each frame is read by every reader, has as many points and
-cells as the first one and as summary.json says, only finite values (contact_gap may have none), points = initial points + displacement, and the time
-of the collection; all readers agree; obstacles.pvd, where there is one, lists as many files at the same times, each with
-finite points and lines that know their obstacle; history.csv has `time` first, ascending, and only numbers. Exit code 0 when all is
+cells as the first one and as summary.json says, only finite values (contact_gap may have none), z = 0 unless it has solids, points = initial points +
+displacement, and the time of the collection; all readers agree; obstacles.pvd, where there is one, lists as many files at the same times, each with
+finite points and lines (in space triangles and quadrilaterals) that know their obstacle; history.csv has `time` first, ascending, and only numbers. Exit code 0 when all is
 well, 1 with one line per fault, 2 when nothing could be checked.
 """
 
@@ -28,7 +28,10 @@ try:
 except ImportError:
     vtkXMLUnstructuredGridReader = None
 
-VTK_TYPES = {"line": 3, "triangle": 5, "quad": 9}
+VTK_TYPES = {"line": 3, "triangle": 5, "quad": 9, "tetra": 10, "hexahedron": 12, "wedge": 13}
+SOLIDS = {VTK_TYPES[name] for name in ("tetra", "hexahedron", "wedge")}
+# Components of stress in the plane and in space.
+STRESSES = [["xx", "yy", "zz", "xy"], ["xx", "yy", "zz", "xy", "yz", "zx"]]
 # Has no value where nothing is near.
 MAY_BE_NAN = {"contact_gap"}
 
@@ -38,6 +41,9 @@ class Grid:
 
     def __init__(self, points, cells, at_points, at_cells, time):
         self.points, self.cells, self.at_points, self.at_cells, self.time = points, cells, at_points, at_cells, time
+
+    def is_of_space(self):
+        return any(kind in SOLIDS for kind, _ in self.cells)
 
 
 def by_meshio(path):
@@ -63,8 +69,9 @@ def by_vtk(path):
         return {data.GetArrayName(i): vtk_to_numpy(data.GetArray(i)) for i in range(data.GetNumberOfArrays())}
 
     stress = grid.GetCellData().GetArray("stress")
-    if stress is not None and [stress.GetComponentName(i) for i in range(4)] != ["xx", "yy", "zz", "xy"]:
-        raise ValueError("the components of stress are not named xx, yy, zz, xy")
+    is_of_space = any(kind in SOLIDS for kind, _ in cells)
+    if stress is not None and [stress.GetComponentName(i) for i in range(stress.GetNumberOfComponents())] != STRESSES[is_of_space]:
+        raise ValueError(f"the components of stress are not named {', '.join(STRESSES[is_of_space])}")
     time = arrays(grid.GetFieldData()).get("TimeValue")
     points = vtk_to_numpy(grid.GetPoints().GetData())
     return Grid(points, cells, arrays(grid.GetPointData()), arrays(grid.GetCellData()), time)
@@ -89,8 +96,10 @@ def frame_faults(grid, initial, time):
                 yield f"{name} has {len(values)} values on {count} {place}"
             if not (numpy.isfinite(values) | (numpy.isnan(values) & (name in MAY_BE_NAN))).all():
                 yield f"{name} has values that are not finite"
-    if not numpy.isfinite(grid.points).all() or (grid.points[:, 2] != 0).any():
-        yield "points are not finite or not in the plane z = 0"
+    if not numpy.isfinite(grid.points).all():
+        yield "points are not finite"
+    if not grid.is_of_space() and (grid.points[:, 2] != 0).any():
+        yield "points are not in the plane z = 0"
     if "part" not in grid.at_cells:
         yield "the cell field part is missing"
     for _, nodes in grid.cells:
@@ -130,8 +139,9 @@ def frames(folder, sets):
         yield name, time, grids, fault
 
 
-def obstacle_faults(folder, field_times):
+def obstacle_faults(folder, field_times, is_of_space):
     """Faults of obstacles.pvd and its files."""
+    kinds = {VTK_TYPES[name] for name in (("triangle", "quad") if is_of_space else ("line",))}
     sets = xml.etree.ElementTree.parse(folder / "obstacles.pvd").getroot().findall("Collection/DataSet")
     times = [float(entry.get("timestep")) for entry in sets]
     if times != field_times:
@@ -144,16 +154,16 @@ def obstacle_faults(folder, field_times):
         grid = grids[0]
         if grid.time is not None and float(numpy.ravel(grid.time)[0]) != time:
             yield f"{name}: TimeValue is {grid.time}, the collection says {time}"
-        if not numpy.isfinite(grid.points).all() or (grid.points[:, 2] != 0).any():
+        if not numpy.isfinite(grid.points).all() or (not is_of_space and (grid.points[:, 2] != 0).any()):
             yield f"{name}: points are not finite or not in the plane z = 0"
-        if not grid.cells or any(kind != VTK_TYPES["line"] for kind, _ in grid.cells):
-            yield f"{name}: cells are not lines"
+        if not grid.cells or any(kind not in kinds for kind, _ in grid.cells):
+            yield f"{name}: cells are not {'triangles and quadrilaterals' if is_of_space else 'lines'}"
         indices = list(numpy.ravel(grid.at_cells.get("obstacle", [])))
         if len(indices) != len(grid.cells) or sorted(indices) != indices:
             yield f"{name}: the cell field obstacle is missing or not in order"
         first = first or grid
         if first.cells != grid.cells:
-            yield f"{name}: the lines are others than in the first frame"
+            yield f"{name}: the cells are others than in the first frame"
         for other in grids[1:]:
             yield from (f"{name}: {fault}" for fault in disagreements(grid, other))
 
@@ -195,14 +205,14 @@ def faults(folder):
         yield "fields.pvd: time does not ascend"
     if summary["status"] == "done" and times and abs(times[-1] - summary["time_end"]) > 1e-9 * abs(summary["time_end"]):
         yield f"the last frame is at {times[-1]}, the run ended at {summary['time_end']}"
-    if (folder / "obstacles.pvd").exists():
-        yield from obstacle_faults(folder, times)
     initial = None
+    is_of_space = False
     for name, time, grids, fault in frames(folder, sets):
         if fault:
             yield fault
             continue
         grid = grids[0]
+        is_of_space = is_of_space or grid.is_of_space()
         if (len(grid.points), len(grid.cells)) != (summary["nodes"], summary["elements"]):
             yield f"{name} has {len(grid.points)} points and {len(grid.cells)} cells, the summary says otherwise"
             continue
@@ -211,6 +221,8 @@ def faults(folder):
         yield from (f"{name}: {fault}" for fault in frame_faults(grid, initial, time))
         for other in grids[1:]:
             yield from (f"{name}: {fault}" for fault in disagreements(grid, other))
+    if (folder / "obstacles.pvd").exists():
+        yield from obstacle_faults(folder, times, is_of_space)
 
 
 def main(arguments):

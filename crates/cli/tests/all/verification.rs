@@ -10,10 +10,14 @@ fn cases() -> PathBuf {
 
 /// A case with this check of a block that flies with 1 m/s.
 fn verify(name: &str, checks: &str, more: &[&str]) -> Answer {
+    verify_of(FLIGHT, name, checks, more)
+}
+
+fn verify_of(model: &str, name: &str, checks: &str, more: &[&str]) -> Answer {
     let folder = fresh(name);
     let case = folder.join("verification/block");
     fs::create_dir_all(&case).unwrap();
-    fs::write(case.join("model.toml"), FLIGHT).unwrap();
+    fs::write(case.join("model.toml"), model).unwrap();
     fs::write(case.join("expected.toml"), format!("title = \"Block\"\ntier = \"every\"\n{checks}")).unwrap();
     embate(&folder, ["verify"].iter().chain(more))
 }
@@ -85,6 +89,28 @@ fn every_source_gives_its_number() {
     let minus =
         check("quantity = { history = \"P.x\", at = \"0.1 ms\" }\nminus = { history = \"P.x\", at = 0 }\nexpect = 1e-4\ntolerance = 1e-9");
     let answer = verify("verify-sources", &(checks.concat() + &over + &minus), &[]);
+    assert_eq!(answer.code, Some(0), "{}{}", answer.out, answer.err);
+}
+
+#[test]
+fn values_of_solids_are_chosen_by_places_in_space() {
+    let part = |name: &str, z: f64, speed: f64| {
+        format!(
+            "[[part]]\nname = \"{name}\"\nmaterial = \"steel\"\nbox = {{ corner = [0, 0, {z}], size = [1, 1, 1], elements = [2, 2, 2] }}\nvelocity = [0, 0, {speed}]\n"
+        )
+    };
+    let material = "[material.steel]\nlaw = \"elastic\"\ndensity = 7800\nyoung = \"200 GPa\"\npoisson = 0.3\n";
+    let output = "[output]\nfields = 2\nhistory = 2\npictures = false\n";
+    let model = format!("run.end = \"0.1 ms\"\n{material}{}{}{output}", part("low", 0.0, 1.0), part("high", 2.0, 3.0));
+    let all = [
+        ("field = \"velocity.z\", nearest = [0, 0, 1]", 1.0),
+        ("field = \"velocity.z\", nearest = [0, 0, \"2 m\"]", 3.0),
+        ("field = \"velocity.z\", take = \"sum\", box = { low = [0, 0, 0.5], high = [1, 1, 2] }", 18.0 + 27.0),
+        ("field = \"stress.zx\", take = \"max\"", 0.0),
+    ];
+    let checks: String =
+        all.iter().map(|(source, value)| check(&format!("quantity = {{ {source} }}\nexpect = {value:?}\ntolerance = 1e-3"))).collect();
+    let answer = verify_of(&model, "verify-space", &checks, &[]);
     assert_eq!(answer.code, Some(0), "{}{}", answer.out, answer.err);
 }
 

@@ -148,20 +148,20 @@ pub enum Source {
     },
 }
 
-/// Nodes or elements by their position at the start, m.
+/// Nodes or elements by their position at the start, m; in the plane z is zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Place {
     /// All.
     All,
     /// Those from `low` to `high`, border included.
     Box {
-        /// Lower left corner.
-        low: [f64; 2],
-        /// Upper right corner.
-        high: [f64; 2],
+        /// Corner with the least coordinates.
+        low: [f64; 3],
+        /// Corner with the largest coordinates.
+        high: [f64; 3],
     },
     /// The nearest one.
-    Nearest([f64; 2]),
+    Nearest([f64; 3]),
 }
 
 /// What can be made of many values.

@@ -10,7 +10,7 @@ const fn key(name: &'static str, kind: Kind, need: Need, doc: &'static str) -> K
     Key { name, kind, need, doc }
 }
 
-use Kind::{Choice, Quantity, Reference, References, Table, Text, Vector};
+use Kind::{Choice, Quantity, Reference, References, Spatial, Table, Text};
 use Need::{Optional, Required};
 
 const NUMBER: Kind = Quantity(Dimension::NONE, Range::Finite);
@@ -117,7 +117,7 @@ static NUMBERS: Group = Group {
         key("box", Table(&BOX), Optional("all"), "Only nodes, or elements with their centre, in this box at the start."),
         key(
             "nearest",
-            Vector(Dimension::LENGTH, Range::Finite),
+            Spatial(Dimension::LENGTH, Range::Finite),
             Optional("`take`"),
             "The node or element centre nearest to this point at the start.",
         ),
@@ -135,8 +135,8 @@ static BOX: Section = Section {
     name: "box",
     doc: "An axis-parallel box; its border belongs to it.",
     keys: &[
-        key("low", Vector(Dimension::LENGTH, Range::Finite), Required, "Lower left corner."),
-        key("high", Vector(Dimension::LENGTH, Range::Finite), Required, "Upper right corner."),
+        key("low", Spatial(Dimension::LENGTH, Range::Finite), Required, "Corner with the least coordinates; a third one left out is zero."),
+        key("high", Spatial(Dimension::LENGTH, Range::Finite), Required, "Corner with the largest coordinates."),
     ],
     ..Section::EMPTY
 };

@@ -206,23 +206,23 @@ impl Samples {
             })?),
         };
         let cells = (0..self.cells.len()).filter(|&cell| part.is_none_or(|part| self.cells.parts[cell] as usize == part));
-        let points: Vec<(usize, [f64; 2])> = match field.kind.location {
+        let points: Vec<(usize, [f64; 3])> = match field.kind.location {
             Location::Cell => cells.map(|cell| (cell, self.centre(cell))).collect(),
             Location::Node => {
                 let mut nodes: Vec<usize> = cells.flat_map(|cell| self.cells.cell(cell)).map(|node| *node as usize).collect();
                 nodes.sort_unstable();
                 nodes.dedup();
-                nodes.into_iter().map(|node| (node, self.start.positions::<2>()[node])).collect()
+                nodes.into_iter().map(|node| (node, self.start.place(node))).collect()
             }
         };
         let chosen: Vec<usize> = match place {
             Place::All => points.into_iter().map(|(index, _)| index).collect(),
             Place::Box { low, high } => {
-                let inside = |x: &[f64; 2]| (0..2).all(|d| low[d] <= x[d] && x[d] <= high[d]);
+                let inside = |x: &[f64; 3]| (0..3).all(|d| low[d] <= x[d] && x[d] <= high[d]);
                 points.into_iter().filter(|(_, x)| inside(x)).map(|(index, _)| index).collect()
             }
             Place::Nearest(to) => {
-                let distance = |x: &[f64; 2]| (x[0] - to[0]).hypot(x[1] - to[1]);
+                let distance = |x: &[f64; 3]| (x[0] - to[0]).hypot(x[1] - to[1]).hypot(x[2] - to[2]);
                 let nearest = points.into_iter().min_by(|(_, a), (_, b)| distance(a).total_cmp(&distance(b)));
                 nearest.into_iter().map(|(index, _)| index).collect()
             }
@@ -231,9 +231,9 @@ impl Samples {
         if chosen.is_empty() { Err(("box", format!("there is no {what} in the box"), "take a larger box".to_string())) } else { Ok(chosen) }
     }
 
-    fn centre(&self, cell: usize) -> [f64; 2] {
+    fn centre(&self, cell: usize) -> [f64; 3] {
         let nodes = self.cells.cell(cell);
-        [0, 1].map(|d| nodes.iter().map(|node| self.start.positions::<2>()[*node as usize][d]).sum::<f64>() / nodes.len() as f64)
+        [0, 1, 2].map(|d| nodes.iter().map(|node| self.start.place(*node as usize)[d]).sum::<f64>() / nodes.len() as f64)
     }
 }
 

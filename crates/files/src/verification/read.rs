@@ -210,8 +210,8 @@ fn history(record: &Record, column: String, faults: &mut Faults) -> Source {
 
 fn field(record: &Record, name: String, faults: &mut Faults) -> Source {
     let place = match record.table("box") {
-        _ if record.written("nearest").is_some() => Place::Nearest(record.vector("nearest")),
-        Some(table) => Place::Box { low: table.vector("low"), high: table.vector("high") },
+        _ if record.written("nearest").is_some() => Place::Nearest(record.spatial("nearest")),
+        Some(table) => Place::Box { low: table.spatial("low"), high: table.spatial("high") },
         None => Place::All,
     };
     // Of one value, mean is itself.

@@ -1,12 +1,15 @@
 //! What a .msh file holds, as it stands there: nodes by tag, elements by physical group, names of groups.
 //!
-//! `version2.rs` and `version4.rs` fill it, `plane.rs` checks it and makes the mesh. Numbers are the file's own; nothing is looked up yet.
+//! `version2.rs` and `version4.rs` fill it, `mesh.rs` checks it and makes the mesh. Numbers are the file's own; nothing is looked up yet.
 
 use super::element_kind::ElementKind;
 use super::reader::{Least, Reader};
 use crate::gmsh::messages::{DAMAGED, ELEMENT_TYPE};
 use embate_solver::error::Fault;
 use std::collections::BTreeMap;
+
+/// Nodes of the largest cell, a hexahedron.
+pub(super) const MOST_NODES: usize = 8;
 
 /// A node as in the file.
 #[derive(Clone, Copy, Debug)]
@@ -18,14 +21,14 @@ pub(super) struct FileNode {
     pub(super) at: usize,
 }
 
-/// A point, line, triangle or quadrilateral as in the file.
+/// An element as in the file, of a type that can become a cell.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FileCell {
     pub(super) kind: &'static ElementKind,
     /// Number in the file.
     pub(super) tag: u64,
     /// Node tags; the first `kind.nodes` count.
-    pub(super) nodes: [u64; 4],
+    pub(super) nodes: [u64; MOST_NODES],
     /// Byte offset in the file.
     pub(super) at: usize,
 }
@@ -50,7 +53,7 @@ pub(super) struct Contents {
     pub(super) names: BTreeMap<GroupKey, String>,
     /// Cells of each physical group, in the order of the file.
     pub(super) groups: BTreeMap<GroupKey, Vec<FileCell>>,
-    /// Triangles and quadrilaterals that belong to no group.
+    /// Surfaces and volumes that belong to no group.
     pub(super) ungrouped: Vec<FileCell>,
     /// Element types that can't be computed, by group (`None`: no group) and number of the type.
     pub(super) foreign: BTreeMap<(Option<GroupKey>, i64), Occurrence>,
@@ -58,13 +61,13 @@ pub(super) struct Contents {
 
 impl Contents {
     /// Adds an element to each of the physical `groups` of its dimension. `nodes` is needed for cells only.
-    pub(super) fn add_element(&mut self, kind: &'static ElementKind, tag: u64, groups: &[u64], nodes: [u64; 4], at: usize) {
-        if kind.is_linear_and_plane() {
+    pub(super) fn add_element(&mut self, kind: &'static ElementKind, tag: u64, groups: &[u64], nodes: [u64; MOST_NODES], at: usize) {
+        if kind.is_computed() {
             let cell = FileCell { kind, tag, nodes, at };
             for &group in groups {
                 self.groups.entry((kind.dimension, group)).or_default().push(cell);
             }
-            if groups.is_empty() && kind.dimension == 2 {
+            if groups.is_empty() && kind.dimension >= 2 {
                 self.ungrouped.push(cell);
             }
         } else if groups.is_empty() {
@@ -107,14 +110,14 @@ impl Contents {
 /// The kind of an element that the file gives as `number`.
 pub(super) fn element_kind(reader: &Reader, at: usize, number: i64) -> Result<&'static ElementKind, Fault> {
     ElementKind::numbered(number).ok_or_else(|| {
-        let help = "known are those with a fixed number of nodes; mesh with triangles and quadrilaterals, or the file is damaged here";
+        let help = "known are those with a fixed number of nodes; mesh with triangles and quadrilaterals, or with hexahedra, prisms and tetrahedra, or the file is damaged here";
         reader.fault(&ELEMENT_TYPE, at, format!("element type {number} is not known"), help)
     })
 }
 
 /// Reads the node tags of an element; those of the types that can become a cell are kept.
-pub(super) fn element_nodes(kind: &ElementKind, mut tag: impl FnMut() -> Result<u64, Fault>) -> Result<[u64; 4], Fault> {
-    let mut nodes = [0; 4];
+pub(super) fn element_nodes(kind: &ElementKind, mut tag: impl FnMut() -> Result<u64, Fault>) -> Result<[u64; MOST_NODES], Fault> {
+    let mut nodes = [0; MOST_NODES];
     for k in 0..kind.nodes {
         let node = tag()?;
         if let Some(slot) = nodes.get_mut(k) {

@@ -21,15 +21,23 @@ impl ElementKind {
         KINDS.binary_search_by_key(&number, |kind| kind.number).ok().map(|index| &KINDS[index])
     }
 
-    /// Whether it can become a cell: a point, or a line, triangle or quadrilateral with nodes at its corners only.
-    pub(super) fn is_linear_and_plane(&self) -> bool {
-        matches!(self.number, POINT | LINE | TRIANGLE | QUADRILATERAL)
+    /// Whether it can become a cell: a point, or a line, triangle, quadrilateral, tetrahedron, hexahedron or prism with nodes at its corners only.
+    pub(super) fn is_computed(&self) -> bool {
+        matches!(self.number, POINT | LINE | TRIANGLE | QUADRILATERAL | TETRAHEDRON | HEXAHEDRON | PRISM)
+    }
+
+    /// Whether it is a pyramid, for which there is no element, of whatever order.
+    pub(super) fn is_pyramid(&self) -> bool {
+        self.name.ends_with("pyramid")
     }
 }
 
 const LINE: i64 = 1;
 const TRIANGLE: i64 = 2;
 const QUADRILATERAL: i64 = 3;
+const TETRAHEDRON: i64 = 4;
+const HEXAHEDRON: i64 = 5;
+const PRISM: i64 = 6;
 const POINT: i64 = 15;
 
 const fn kind(number: i64, name: &'static str, dimension: u8, nodes: usize) -> ElementKind {
@@ -164,8 +172,9 @@ mod tests {
     }
 
     #[test]
-    fn only_points_lines_triangles_and_quadrilaterals_with_nodes_at_their_corners_become_cells() {
-        let cells: Vec<_> = KINDS.iter().filter(|kind| kind.is_linear_and_plane()).map(|kind| (kind.dimension, kind.nodes)).collect();
-        assert_eq!(cells, [(1, 2), (2, 3), (2, 4), (0, 1)]);
+    fn only_cells_with_nodes_at_their_corners_are_computed_and_no_pyramids() {
+        let cells: Vec<_> = KINDS.iter().filter(|kind| kind.is_computed()).map(|kind| (kind.dimension, kind.nodes)).collect();
+        assert_eq!(cells, [(1, 2), (2, 3), (2, 4), (3, 4), (3, 8), (3, 6), (0, 1)]);
+        assert!(KINDS.iter().all(|kind| !(kind.is_computed() && kind.is_pyramid())));
     }
 }

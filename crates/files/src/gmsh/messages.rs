@@ -37,8 +37,8 @@ pub(super) static ELEMENT_TYPE: Message = Message {
         "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 \"block\"\n$EndPhysicalNames\n\
          $Nodes\n6\n1 0 0 0\n2 2 0 0\n3 0 2 0\n4 1 0 0\n5 1 1 0\n6 0 1 0\n$EndNodes\n$Elements\n1\n1 9 2 1 1 1 2 3 4 5 6\n$EndElements\n",
     ),
-    cause: "A physical group holds volumes or elements of second order.",
-    cure: "Mesh in two dimensions and with Mesh.ElementOrder = 1, or take them out of the group.",
+    cause: "A physical group holds pyramids or elements of second order.",
+    cure: "Mesh with Mesh.ElementOrder = 1, and with hexahedra, prisms or tetrahedra instead of pyramids, or take them out of the group.",
 };
 
 pub(super) static PHYSICAL_GROUP: Message = Message {
@@ -48,8 +48,8 @@ pub(super) static PHYSICAL_GROUP: Message = Message {
         "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n1 1 \"block\"\n$EndPhysicalNames\n\
          $Nodes\n2\n1 0 0 0\n2 1 0 0\n$EndNodes\n$Elements\n1\n1 1 2 1 1 1 2\n$EndElements\n",
     ),
-    cause: "No group has triangles or quadrilaterals, or two groups have one name.",
-    cure: "Put the surfaces of each body into a physical group of its own name.",
+    cause: "No group has volumes, triangles or quadrilaterals, or two groups have one name.",
+    cure: "Put the surfaces of each plane body, the volumes of each solid, into a physical group of its own name.",
 };
 
 pub(crate) static NODE: Message = Message {
@@ -59,17 +59,17 @@ pub(crate) static NODE: Message = Message {
         "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 \"block\"\n$EndPhysicalNames\n\
          $Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 1 1\n$EndNodes\n$Elements\n1\n1 2 2 1 1 1 2 3\n$EndElements\n",
     ),
-    cause: "The file was put together by hand, or the geometry does not lie in z = 0.",
-    cure: "Move the geometry into the plane of x and y, and export the mesh again.",
+    cause: "The file was put together by hand, the geometry of plane bodies does not lie in z = 0, or the volumes of solids are in no group.",
+    cure: "Move plane bodies into the plane of x and y, give the elements of solids a group, and export the mesh again.",
 };
 
 pub(super) static CELL: Message = Message {
     code: "E0226",
-    title: "an element without area, with crossing sides, or there twice",
+    title: "an element without area or volume, with crossing sides, or there twice",
     example: Example::Gmsh(
         "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 \"block\"\n$EndPhysicalNames\n\
          $Nodes\n3\n1 0 0 0\n2 1 0 0\n3 2 0 0\n$EndNodes\n$Elements\n1\n1 2 2 1 1 1 2 3\n$EndElements\n",
     ),
-    cause: "Its nodes lie on a line, on one another, or not in order around it.",
+    cause: "Its nodes lie on a line, of a solid in a plane, on one another, or not in order around it.",
     cure: "Mesh again, or merge nodes that are there twice.",
 };

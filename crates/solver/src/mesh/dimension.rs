@@ -264,6 +264,20 @@ pub(in crate::mesh) fn corner_volumes(corners: &[[f64; 3]]) -> impl Iterator<Ite
     })
 }
 
+/// Volume of a tetrahedron, wedge or hexahedron, m³, as the mean of the Jacobians at its corners: exact for tetrahedra and where opposite edges are parallel; negative
+/// for one that is turned inside out, 0 for anything else.
+#[must_use]
+pub fn signed_volume(corners: &[[f64; 3]]) -> f64 {
+    let n = corners.len();
+    let share = match n {
+        4 => 1.0 / 6.0,
+        6 => 0.5,
+        8 => 1.0,
+        _ => return 0.0,
+    };
+    corner_volumes(corners).sum::<f64>() * share / n as f64
+}
+
 /// All ways to number the corners of an element anew that keep its facets and its orientation.
 fn turns_of(nodes: usize) -> impl Iterator<Item = &'static [u8]> {
     let (of_tetrahedron, of_wedge, of_hexahedron) = match nodes {

@@ -10,7 +10,7 @@ pub mod surface;
 mod dimension;
 mod order;
 
-pub use dimension::Meshed;
+pub use dimension::{Meshed, signed_volume};
 
 use crate::error::Fault;
 use crate::mesh::messages::{BAD_ELEMENT, GROUP, TOO_MANY};

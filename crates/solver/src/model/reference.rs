@@ -3,8 +3,8 @@
 //! Names come from contacts, constraints and probes; the answer goes to [`Model::check`] and to the mesh builder, so that both understand
 //! a name in the same way.
 
-use super::Model;
 use super::describe::nearest;
+use super::{ImportedMesh, MeshGroup, Model};
 
 /// What a name stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,6 +27,22 @@ pub enum Reference {
     },
 }
 
+/// What a key wants to name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wanted {
+    /// Any set of nodes.
+    Nodes,
+    /// What has a surface: of groups those of lines in a file of the plane, of surfaces in one of space.
+    Surface,
+}
+
+impl Wanted {
+    /// Whether a group of a mesh will do.
+    fn is_met_by(self, mesh: &ImportedMesh, group: &MeshGroup) -> bool {
+        self == Self::Nodes || usize::from(group.dimension) + 1 == mesh.dimension()
+    }
+}
+
 /// Angles (rad) nearer than this to a full turn close a ring.
 const FULL_TURN_TOLERANCE: f64 = 1e-9;
 
@@ -36,15 +52,15 @@ pub(crate) fn is_full_turn(from: f64, to: f64) -> bool {
 }
 
 impl Model {
-    /// What `name` stands for: first a part, then a group of a mesh file, then `part.side`. With `dimension` only groups of that dimension count.
+    /// What `name` stands for: first a part, then a group of a mesh file, then `part.side`. Only groups of the `wanted` kind count.
     ///
     /// # Errors
     /// What is wrong and what to do, as texts.
-    pub fn reference(&self, name: &str, dimension: Option<u8>) -> Result<Reference, (String, String)> {
+    pub fn reference(&self, name: &str, wanted: Wanted) -> Result<Reference, (String, String)> {
         if let Some(part) = self.parts.iter().position(|part| part.name == name) {
             return Ok(Reference::Part(part));
         }
-        if let Some(found) = self.group(name, dimension)? {
+        if let Some(found) = self.group(name, wanted)? {
             return Ok(found);
         }
         if let Some((part_name, side_name)) = name.split_once('.')
@@ -61,26 +77,26 @@ impl Model {
             };
             return Err((format!("part `{part_name}` has no side `{}`", excerpt(side_name)), help));
         }
-        Err((format!("there is no part, side or group `{}`", excerpt(name)), self.near(name, dimension)))
+        Err((format!("there is no part, side or group `{}`", excerpt(name)), self.near(name, wanted)))
     }
 
-    fn group(&self, name: &str, dimension: Option<u8>) -> Result<Option<Reference>, (String, String)> {
+    fn group(&self, name: &str, wanted: Wanted) -> Result<Option<Reference>, (String, String)> {
         let mut found = Vec::new();
         let mut other = None;
         for (mesh, imported) in self.meshes.iter().enumerate() {
             for (group, it) in imported.groups.iter().enumerate().filter(|(_, it)| it.name == name) {
-                if dimension.is_none_or(|wanted| wanted == it.dimension) {
+                if wanted.is_met_by(imported, it) {
                     found.push((mesh, group));
                 } else {
-                    other = Some(it.dimension);
+                    other = Some((it.dimension, if imported.dimension() == 3 { "surfaces" } else { "lines" }));
                 }
             }
         }
         match (found.as_slice(), other) {
             ([], None) => Ok(None),
-            ([], Some(dimension)) => Err((
-                format!("group `{}` is {}, not lines", excerpt(name), dimension_word(dimension)),
-                "name a part, a side, or a group of lines".to_string(),
+            ([], Some((dimension, needed))) => Err((
+                format!("group `{}` is {}, not {needed}", excerpt(name), dimension_word(dimension)),
+                format!("name a part, a side, or a group of {needed}"),
             )),
             ([(mesh, group)], _) => Ok(Some(Reference::Group { mesh: *mesh, group: *group })),
             (several, _) => Err((
@@ -91,12 +107,10 @@ impl Model {
     }
 
     /// Help for a name that nothing has.
-    fn near(&self, name: &str, dimension: Option<u8>) -> String {
+    fn near(&self, name: &str, wanted: Wanted) -> String {
         let mut known: Vec<String> = self.parts.iter().map(|part| part.name.clone()).collect();
         for imported in &self.meshes {
-            known.extend(
-                imported.groups.iter().filter(|group| dimension.is_none_or(|d| d == group.dimension)).map(|group| group.name.clone()),
-            );
+            known.extend(imported.groups.iter().filter(|group| wanted.is_met_by(imported, group)).map(|group| group.name.clone()));
         }
         let plain: Vec<&str> = known.iter().map(String::as_str).filter(|name| !name.is_empty()).collect();
         let sides: Vec<String> =

@@ -3,6 +3,7 @@
 mod damage;
 mod malformed;
 mod meshes;
+mod space;
 
 use embate_files::gmsh::parse;
 use embate_solver::error::Fault;

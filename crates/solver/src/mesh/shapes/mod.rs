@@ -373,7 +373,7 @@ const MESH: Key = shape_key("mesh", &MESH_SECTION, "A group of a mesh file.");
 
 static MESH_SECTION: Section = Section {
     name: "mesh",
-    doc: "A group of a mesh file (Gmsh `.msh` 2.2 or 4.1; Abaqus or CalculiX `.inp`), triangles too. Its other groups can be named in contacts, constraints and probes.",
+    doc: "A group of a mesh file (Gmsh `.msh` 2.2 or 4.1, of space if it has a group of volumes; Abaqus or CalculiX `.inp`), triangles, wedges and tetrahedra too. Its other groups can be named in contacts, constraints and probes.",
     form: Form::Inline,
     required: false,
     keys: &[
@@ -382,7 +382,7 @@ static MESH_SECTION: Section = Section {
             "group",
             Kind::Text,
             Need::Required,
-            "Name of a two-dimensional physical group (of bars a one-dimensional one), or of an element set.",
+            "Name of a physical group of surfaces (of solids of volumes, of bars of lines), or of an element set.",
         ),
         key("scale", Kind::Quantity(Dimension::LENGTH, Positive), Need::Default("\"1 m\""), "Length of one unit of the file."),
     ],

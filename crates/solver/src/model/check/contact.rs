@@ -4,7 +4,7 @@ use super::{Check, motion};
 use crate::contact::messages::{COMBINATION, FRICTION, JOINED_TWICE, NOTHING_GIVES_WAY, PRESSURES, SHARED_SURFACE};
 use crate::contact::search;
 use crate::model::messages::{LIST_LENGTH, OF_REVOLUTION, UNKNOWN_NAME};
-use crate::model::reference::{Reference, excerpt};
+use crate::model::reference::{Reference, Wanted, excerpt};
 use crate::model::{Contact, ContactLaw, Formulation, Friction, Interface, Partners, Penalty};
 use crate::quantity::{Dimension, Range};
 use std::collections::BTreeMap;
@@ -43,7 +43,7 @@ impl Check<'_> {
     fn surfaces(&mut self, path: &str, between: &[String; 2]) {
         let mut found = [None, None];
         for (side, name) in between.iter().enumerate() {
-            found[side] = self.reference(&format!("{path}.between[{side}]"), name, Some(1));
+            found[side] = self.reference(&format!("{path}.between[{side}]"), name, Wanted::Surface);
         }
         let [Some(a), Some(b)] = found else { return };
         let whole = |one: Reference, other: Reference| match (one, other) {
@@ -162,7 +162,7 @@ impl Check<'_> {
 
     /// Names of the parts that two surfaces belong to.
     fn parts_between(&self, between: &[String; 2]) -> Option<[&str; 2]> {
-        let part = |name: &String| Some(self.model.parts[part_of(self.model.reference(name, Some(1)).ok()?)?].name.as_str());
+        let part = |name: &String| Some(self.model.parts[part_of(self.model.reference(name, Wanted::Surface).ok()?)?].name.as_str());
         Some([part(&between[0])?, part(&between[1])?])
     }
 

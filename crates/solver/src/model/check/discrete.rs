@@ -3,7 +3,7 @@
 use super::Check;
 use crate::load::messages::TO_ITSELF;
 use crate::model::messages::LIST_LENGTH;
-use crate::model::reference::excerpt;
+use crate::model::reference::{Wanted, excerpt};
 
 impl Check<'_> {
     pub(super) fn springs(&mut self) {
@@ -11,7 +11,7 @@ impl Check<'_> {
         for (index, spring) in model.springs.iter().enumerate() {
             let path = format!("spring[{index}]");
             for (side, name) in spring.between.iter().enumerate() {
-                self.reference(&format!("{path}.between[{side}]"), name, None);
+                self.reference(&format!("{path}.between[{side}]"), name, Wanted::Nodes);
             }
             if spring.between[0] == spring.between[1] {
                 let message = format!("`{}` would be bound to itself", excerpt(&spring.between[0]));
@@ -40,7 +40,7 @@ impl Check<'_> {
         let model = self.model;
         for (index, mass) in model.point_masses.iter().enumerate() {
             let path = format!("point_mass[{index}]");
-            self.reference(&format!("{path}.on"), &mass.on, None);
+            self.reference(&format!("{path}.on"), &mass.on, Wanted::Nodes);
             self.number(&format!("{path}.mass"), mass.mass);
         }
     }

@@ -5,7 +5,7 @@ use crate::load::messages::{FORCE_ON_PART, NO_EFFECT, RIGID, TO_ITSELF};
 use crate::material;
 use crate::material::messages::NO_STIFFNESS;
 use crate::model::messages::{OF_REVOLUTION, TWICE};
-use crate::model::reference::{Reference, excerpt};
+use crate::model::reference::{Reference, Wanted, excerpt};
 use crate::model::{Drive, Image, Load};
 use crate::quantity::{Dimension, Range};
 
@@ -40,7 +40,7 @@ impl Check<'_> {
                     self.factor(&path, curve);
                 }
                 Load::Force { on, force, curve } => {
-                    if let Some(Reference::Part(_)) = self.reference(&format!("{path}.on"), on, None) {
+                    if let Some(Reference::Part(_)) = self.reference(&format!("{path}.on"), on, Wanted::Nodes) {
                         let message = format!("`{}` is a part, but a force acts on a set of its nodes", excerpt(on));
                         self.fault(
                             &FORCE_ON_PART,
@@ -53,7 +53,7 @@ impl Check<'_> {
                     self.factor(&path, curve);
                 }
                 Load::Pressure { on, pressure, curve } => {
-                    self.reference(&format!("{path}.on"), on, Some(1));
+                    self.reference(&format!("{path}.on"), on, Wanted::Surface);
                     self.number(&format!("{path}.pressure"), *pressure);
                     self.factor(&path, curve);
                 }
@@ -96,7 +96,7 @@ impl Check<'_> {
         let model = self.model;
         for (index, boundary) in model.non_reflecting.iter().enumerate() {
             let path = format!("non_reflecting[{index}].on");
-            if let Some(Reference::Part(part) | Reference::Side { part, .. }) = self.reference(&path, &boundary.on, Some(1))
+            if let Some(Reference::Part(part) | Reference::Side { part, .. }) = self.reference(&path, &boundary.on, Wanted::Surface)
                 && model.parts[part].rigid.is_some()
             {
                 let message = format!("part `{}` is rigid, so no waves meet this boundary", excerpt(&model.parts[part].name));
@@ -115,7 +115,7 @@ impl Check<'_> {
             let path = format!("join[{index}]");
             for (side, name) in join.between.iter().enumerate() {
                 if let Some(Reference::Part(part) | Reference::Side { part, .. }) =
-                    self.reference(&format!("{path}.between[{side}]"), name, None)
+                    self.reference(&format!("{path}.between[{side}]"), name, Wanted::Nodes)
                     && model.parts[part].rigid.is_some()
                 {
                     let message = format!("part `{}` is rigid, so its nodes can't be joined one by one", excerpt(&model.parts[part].name));

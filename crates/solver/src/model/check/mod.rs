@@ -15,7 +15,7 @@ mod warnings;
 pub(crate) use parts::CheckOf;
 
 use super::describe::{self, out_of_range, suggestion};
-use super::reference::{Reference, excerpt};
+use super::reference::{Reference, Wanted, excerpt};
 use super::{Cadence, Camera, Material, Model, Part, Probe, ProbeAt, Shape};
 use crate::error::Fault;
 use crate::failure;
@@ -331,9 +331,11 @@ impl Check<'_> {
     }
 
     /// A reference to a part, side or group.
-    fn reference(&mut self, path: &str, name: &str, dimension: Option<u8>) -> Option<Reference> {
-        match self.model.reference(name, dimension) {
-            Ok(Reference::Part(part) | Reference::Side { part, .. }) if dimension == Some(1) && self.model.parts[part].is_of_bars() => {
+    fn reference(&mut self, path: &str, name: &str, wanted: Wanted) -> Option<Reference> {
+        match self.model.reference(name, wanted) {
+            Ok(Reference::Part(part) | Reference::Side { part, .. })
+                if wanted == Wanted::Surface && self.model.parts[part].is_of_bars() =>
+            {
                 let message = format!("part `{}` is made of bars, which have no surface", excerpt(&self.model.parts[part].name));
                 self.fault(&BARS, path, message, NO_SURFACE);
                 None
@@ -427,7 +429,7 @@ impl Check<'_> {
                 }
             }
             ProbeAt::Set { set } => {
-                self.reference(&format!("{path}.set"), set, None);
+                self.reference(&format!("{path}.set"), set, Wanted::Nodes);
             }
         }
     }

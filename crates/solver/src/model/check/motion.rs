@@ -8,7 +8,7 @@ use crate::load::curve::sine::Sine;
 use crate::load::messages::{BEGINNING, CURVE, CURVE_DIMENSION, EXPRESSION, INERTIA, JUMP, NO_EFFECT, PRESCRIBED_TWICE, RIGID};
 use crate::model::describe::suggestion;
 use crate::model::messages::{LIST_LENGTH, LIST_ORDER, OF_REVOLUTION, PERIOD, UNKNOWN_NAME};
-use crate::model::reference::{Reference, excerpt};
+use crate::model::reference::{Reference, Wanted, excerpt};
 use crate::model::{Constraint, CurveShape, Drive, Motion, Obstacle, ObstacleShape, Part};
 use crate::quantity::{Dimension, Range};
 
@@ -286,7 +286,7 @@ impl Check<'_> {
         let model = self.model;
         for (index, constraint) in model.constraints.iter().enumerate() {
             let path = format!("constraint[{index}]");
-            let on = self.reference(&format!("{path}.on"), &constraint.on, None);
+            let on = self.reference(&format!("{path}.on"), &constraint.on, Wanted::Nodes);
             if let Some(Reference::Part(part) | Reference::Side { part, .. }) = on
                 && model.parts[part].rigid.is_some()
             {

@@ -156,15 +156,15 @@ fn a_number_that_is_not_finite_is_found_wherever_it_is() {
 #[test]
 fn names_mean_parts_before_groups_before_sides() {
     let mut model = sound();
-    assert_eq!(model.reference("ring", None), Ok(Reference::Part(0)));
-    assert_eq!(model.reference("ring.start", Some(1)), Ok(Reference::Side { part: 0, side: 2 }));
-    assert_eq!(model.reference("upper", Some(1)), Ok(Reference::Group { mesh: 0, group: 1 }));
+    assert_eq!(model.reference("ring", Wanted::Nodes), Ok(Reference::Part(0)));
+    assert_eq!(model.reference("ring.start", Wanted::Surface), Ok(Reference::Side { part: 0, side: 2 }));
+    assert_eq!(model.reference("upper", Wanted::Surface), Ok(Reference::Group { mesh: 0, group: 1 }));
     model.parts[1].name = "upper".into();
-    assert_eq!(model.reference("upper", Some(1)), Ok(Reference::Part(1)));
-    assert!(model.reference("body", Some(1)).is_err() && model.reference("block.top", None).is_err());
+    assert_eq!(model.reference("upper", Wanted::Surface), Ok(Reference::Part(1)));
+    assert!(model.reference("body", Wanted::Surface).is_err() && model.reference("block.top", Wanted::Nodes).is_err());
     let copy = model.meshes[0].clone();
     model.meshes.push(copy);
-    assert!(model.reference("body", None).is_err_and(|(message, _)| message == "group `body` is in 2 meshes"));
+    assert!(model.reference("body", Wanted::Nodes).is_err_and(|(message, _)| message == "group `body` is in 2 meshes"));
 }
 
 #[test]

@@ -9,7 +9,7 @@ use crate::quantity::Range::{Finite, NotNegative, Positive};
 
 pub(super) static CONTACT: Section = Section {
     name: "contact",
-    doc: "Bodies that can't go through each other: two surfaces, or several bodies, each of which meets each other and itself. A surface is a part (its whole outside), a side such as `plate.top`, or a line group of a mesh file.",
+    doc: "Bodies that can't go through each other: two surfaces, or several bodies, each of which meets each other and itself. A surface is a part (its whole outside), a side such as `plate.top`, or a group of lines (in space of surfaces) of a mesh file.",
     form: Form::Repeated,
     keys: &[
         key("name", Name, Optional("the names of the surfaces or parts joined by `-`, or `all`"), "Unique name."),

@@ -1,20 +1,20 @@
-//! From the contents of a .msh file to a plane mesh: groups and their names, dense node numbers, and every check that needs more than one line.
+//! From the contents of a .msh file to a mesh: groups and their names, dense node numbers, places of nodes. `check.rs` looks at the cells.
 //!
 //! [`super::parse`] calls [`mesh`] once the whole file is read; what comes out goes into the model.
 
-use super::contents::{Contents, FileCell, FileNode, GroupKey, Occurrence};
+use super::check::Check;
+use super::contents::{Contents, FileCell, FileNode, GroupKey, MOST_NODES, Occurrence};
 use super::faults::Faults;
+use super::form;
 use super::reader::Reader;
-use crate::gmsh::messages::{CELL, ELEMENT_TYPE, NODE, PHYSICAL_GROUP};
+use crate::gmsh::messages::{ELEMENT_TYPE, NODE, PHYSICAL_GROUP};
 use embate_solver::error::Fault;
 use embate_solver::model::{ImportedMesh, MeshGroup};
 use std::collections::BTreeMap;
 
 /// Distance from the plane z = 0, as a fraction of the mesh's size, that still counts as on it.
 const OFF_PLANE: f64 = 1e-9;
-/// Area, as a fraction of the square of an element's longest diagonal or side, below which it counts as none.
-const NO_AREA: f64 = 1e-12;
-const AGAIN: &str = "the file is damaged; export the mesh again";
+pub(super) const AGAIN: &str = "the file is damaged; export the mesh again";
 
 /// The mesh that `contents` describes; positions are multiplied by `scale`.
 pub(super) fn mesh(contents: &Contents, reader: &Reader, scale: f64) -> Result<ImportedMesh, Vec<Fault>> {
@@ -27,13 +27,15 @@ pub(super) fn mesh(contents: &Contents, reader: &Reader, scale: f64) -> Result<I
         return Err(faults.into_list(source));
     }
     let mut used = vec![false; contents.nodes.len()];
-    for cell in resolved.iter().flatten().filter(|cell| cell.file.kind.dimension == 2) {
+    // Of space, if there is a volume.
+    let dimension = groups.iter().map(|group| group.dimension).max().unwrap_or(2).max(2);
+    for cell in resolved.iter().flatten().filter(|cell| cell.file.kind.dimension == dimension) {
         cell.nodes().iter().for_each(|&node| used[node as usize] = true);
     }
-    let nodes = Nodes::new(contents, &used, scale);
+    let nodes = Nodes::new(contents, &used, dimension, scale);
     nodes.check(reader, &mut faults);
     for (group, cells) in groups.iter().zip(&resolved) {
-        let mut check = Check { group: &group.name, nodes: &nodes, reader, faults: &mut faults };
+        let mut check = Check::new(&group.name, &nodes, reader, &mut faults);
         cells.iter().for_each(|cell| check.cell(cell));
         check.repeated(cells);
     }
@@ -47,7 +49,7 @@ pub(super) fn mesh(contents: &Contents, reader: &Reader, scale: f64) -> Result<I
 struct Group<'a> {
     name: String,
     dimension: u8,
-    cells: &'a [FileCell],
+    cells: Vec<&'a FileCell>,
 }
 
 fn name_of(contents: &Contents, key: GroupKey) -> String {
@@ -70,18 +72,24 @@ fn groups<'a>(contents: &'a Contents, reader: &Reader, faults: &mut Faults) -> V
         }
     }
     let groups: Vec<_> = if grouped {
-        contents.groups.iter().map(|(&key, cells)| Group { name: name_of(contents, key), dimension: key.0, cells }).collect()
-    } else if contents.ungrouped.is_empty() {
-        Vec::new()
+        contents
+            .groups
+            .iter()
+            .map(|(&key, cells)| Group { name: name_of(contents, key), dimension: key.0, cells: cells.iter().collect() })
+            .collect()
     } else {
-        vec![Group { name: "all".into(), dimension: 2, cells: &contents.ungrouped }]
+        // What bounds a volume is no body of its own.
+        let dimension = contents.ungrouped.iter().map(|cell| cell.kind.dimension).max();
+        let of = |dimension| contents.ungrouped.iter().filter(move |cell| cell.kind.dimension == dimension).collect();
+        dimension.map(|dimension| Group { name: "all".into(), dimension, cells: of(dimension) }).into_iter().collect()
     };
-    if faults.is_empty() && !groups.iter().any(|group| group.dimension == 2) {
+    if faults.is_empty() && !groups.iter().any(|group| group.dimension >= 2) {
         let (message, help) = if grouped {
-            let help = "in Gmsh, put the surfaces of each body into a physical group (Physical Surface(\"body\") = {...};) and mesh in two dimensions";
+            let help = "in Gmsh, put the surfaces of each body into a physical group (Physical Surface(\"body\") = {...};) and mesh in two dimensions; \
+                        of solids the volumes (Physical Volume), in three";
             ("no triangle or quadrilateral belongs to a physical group", help)
         } else {
-            ("the file holds no triangles or quadrilaterals", "in Gmsh, mesh in two dimensions before saving")
+            ("the file holds no triangles or quadrilaterals", "in Gmsh, mesh in two dimensions, solids in three, before saving")
         };
         faults.add("meshes without surfaces", || Fault::new(&PHYSICAL_GROUP, reader.source(), message, help));
     }
@@ -99,8 +107,8 @@ fn foreign(reader: &Reader, group: &str, occurrence: &Occurrence) -> Fault {
     let Occurrence { kind, count, first } = occurrence;
     let elements = if *count == 1 { "element" } else { "elements" };
     let message = format!("group {group:?} has {count} {elements} of the type {:?} (number {})", kind.name, kind.number);
-    let help = if kind.dimension == 3 {
-        "bodies are plane: mesh in two dimensions (gmsh -2), or take the volumes out of the physical group"
+    let help = if kind.is_pyramid() {
+        "pyramids are not computed: mesh with hexahedra, prisms or tetrahedra, each from face to face, or take them out of the physical group"
     } else {
         "only nodes at corners are computed: mesh with Mesh.ElementOrder = 1 (gmsh -order 1), or take it out of the physical group"
     };
@@ -146,21 +154,21 @@ impl NodeIndex {
 }
 
 /// A cell with node indices instead of tags.
-struct Cell<'a> {
-    file: &'a FileCell,
-    nodes: [u32; 4],
+pub(super) struct Cell<'a> {
+    pub(super) file: &'a FileCell,
+    nodes: [u32; MOST_NODES],
 }
 
 impl Cell<'_> {
-    fn nodes(&self) -> &[u32] {
+    pub(super) fn nodes(&self) -> &[u32] {
         &self.nodes[..self.file.kind.nodes]
     }
 }
 
 fn resolve<'a>(group: &Group<'a>, index: &NodeIndex, reader: &Reader, faults: &mut Faults) -> Vec<Cell<'a>> {
     let mut cells = Vec::with_capacity(group.cells.len());
-    for file in group.cells {
-        let mut cell = Cell { file, nodes: [0; 4] };
+    for &file in &group.cells {
+        let mut cell = Cell { file, nodes: [0; MOST_NODES] };
         for k in 0..file.kind.nodes {
             match index.of(file.nodes[k]) {
                 Some(node) => cell.nodes[k] = node,
@@ -181,22 +189,24 @@ fn resolve<'a>(group: &Group<'a>, index: &NodeIndex, reader: &Reader, faults: &m
     cells
 }
 
-fn described(cell: &FileCell, group: &str) -> String {
+pub(super) fn described(cell: &FileCell, group: &str) -> String {
     format!("element {} ({}) of group {group:?}", cell.tag, cell.kind.name)
 }
 
-/// The nodes in metres, which of them the surfaces use, and how large the mesh is.
-struct Nodes<'a> {
-    file: &'a [FileNode],
-    used: &'a [bool],
-    /// x, y, z, m.
+/// The nodes in metres, which of them the bodies use, and how large the mesh is.
+pub(super) struct Nodes<'a> {
+    pub(super) file: &'a [FileNode],
+    pub(super) used: &'a [bool],
+    /// 2 or 3.
+    pub(super) dimension: u8,
+    /// x, y, z, m; z is that of the file in the plane too.
     positions: Vec<[f64; 3]>,
-    /// Longer side of the box around the used nodes, m.
+    /// Longer side of the box around the used nodes in x and y, m.
     size: f64,
 }
 
 impl<'a> Nodes<'a> {
-    fn new(contents: &'a Contents, used: &'a [bool], scale: f64) -> Self {
+    fn new(contents: &'a Contents, used: &'a [bool], dimension: u8, scale: f64) -> Self {
         let positions: Vec<_> = contents.nodes.iter().map(|node| node.position.map(|x| x * scale)).collect();
         let mut size = 0.0_f64;
         for axis in 0..2 {
@@ -204,7 +214,7 @@ impl<'a> Nodes<'a> {
             let (low, high) = (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
             size = size.max(high - low);
         }
-        Self { file: &contents.nodes, used, positions, size }
+        Self { file: &contents.nodes, used, dimension, positions, size }
     }
 
     fn check(&self, reader: &Reader, faults: &mut Faults) {
@@ -214,19 +224,25 @@ impl<'a> Nodes<'a> {
                     let message = format!("node {} is at ({:e}, {:e}, {:e}) m: not a place", node.tag, x[0], x[1], x[2]);
                     reader.fault(&NODE, node.at, message, "coordinates are finite numbers; check the file and its unit in the model")
                 });
-            } else if x[2].abs() > OFF_PLANE * self.size {
+            } else if self.dimension == 2 && x[2].abs() > OFF_PLANE * self.size {
                 faults.add("nodes off the plane z = 0", || {
                     let message = format!("node {} is at z = {:e} m, off the plane z = 0", node.tag, x[2]);
-                    let help = "bodies lie in the plane of x and y: move the geometry there, or look whether the mesh is three-dimensional";
+                    let help = "bodies lie in the plane of x and y: move the geometry there; of solids put the volumes into physical groups (Physical Volume)";
                     reader.fault(&NODE, node.at, message, help)
                 });
             }
         }
     }
 
-    fn place(&self, node: u32) -> [f64; 2] {
-        let [x, y, _] = self.positions[node as usize];
-        [x, y]
+    /// Where a node is, m; in the plane z is 0.
+    pub(super) fn place(&self, node: u32) -> [f64; 3] {
+        let [x, y, z] = self.positions[node as usize];
+        [x, y, if self.dimension == 2 { 0.0 } else { z }]
+    }
+
+    /// The corners of a cell, m.
+    pub(super) fn corners(&self, cell: &Cell) -> Vec<[f64; 3]> {
+        cell.nodes().iter().map(|&node| self.place(node)).collect()
     }
 
     /// The mesh of the used nodes; nothing is wrong with it any more.
@@ -235,108 +251,21 @@ impl<'a> Nodes<'a> {
         let mut positions = Vec::new();
         for (next, (node, _)) in (0..).zip(self.used.iter().enumerate().filter(|(_, used)| **used)) {
             dense[node] = next;
-            let [x, y, _] = self.positions[node];
-            positions.push([x, y, 0.0]);
+            positions.push(self.place(node as u32));
         }
-        let counter_clockwise = |cell: &Cell| {
+        let oriented = |cell: &Cell| {
             let mut nodes: Vec<u32> = cell.nodes().iter().map(|&node| dense[node as usize]).collect();
-            if cell.file.kind.dimension == 2 && self.area(cell) < 0.0 {
-                nodes[1..].reverse();
+            let dimension = cell.file.kind.dimension;
+            if dimension == self.dimension && form::is_turned(dimension, &self.corners(cell)) {
+                form::turn(dimension, &mut nodes);
             }
             nodes
         };
         let groups = groups.iter().zip(cells).map(|(group, cells)| MeshGroup {
             name: group.name.clone(),
             dimension: group.dimension,
-            cells: cells.iter().map(counter_clockwise).collect(),
+            cells: cells.iter().map(oriented).collect(),
         });
         ImportedMesh { source: source.into(), groups: groups.collect(), positions }
     }
-
-    /// Area of a triangle or quadrilateral, m²; negative when its nodes run clockwise.
-    fn area(&self, cell: &Cell) -> f64 {
-        let x = |k: usize| self.place(cell.nodes[k]);
-        // Half the product of the diagonals; of a triangle, two sides.
-        if cell.file.kind.nodes == 4 { 0.5 * cross(x(0), x(2), x(1), x(3)) } else { 0.5 * cross(x(0), x(1), x(0), x(2)) }
-    }
-}
-
-/// (b − a) × (d − c).
-fn cross(a: [f64; 2], b: [f64; 2], c: [f64; 2], d: [f64; 2]) -> f64 {
-    (b[0] - a[0]) * (d[1] - c[1]) - (b[1] - a[1]) * (d[0] - c[0])
-}
-
-/// The checks of the cells of one group.
-struct Check<'a> {
-    group: &'a str,
-    nodes: &'a Nodes<'a>,
-    reader: &'a Reader<'a>,
-    faults: &'a mut Faults,
-}
-
-impl Check<'_> {
-    fn fault(&mut self, kind: &'static str, cell: &Cell, message: impl FnOnce() -> String, help: &str) {
-        let (group, reader) = (self.group, self.reader);
-        self.faults.add(kind, || reader.fault(&CELL, cell.file.at, format!("{} {}", described(cell.file, group), message()), help));
-    }
-
-    fn cell(&mut self, cell: &Cell) {
-        let nodes = cell.nodes();
-        let tag = |node: u32| self.nodes.file[node as usize].tag;
-        if let Some(node) = (1..nodes.len()).find(|&k| nodes[..k].contains(&nodes[k])).map(|k| tag(nodes[k])) {
-            return self.fault("elements with a node twice", cell, || format!("has node {node} twice"), AGAIN);
-        }
-        if cell.file.kind.dimension < 2
-            && let Some(node) = nodes.iter().find(|node| !self.nodes.used[**node as usize]).map(|node| tag(*node))
-        {
-            let help = "put the surface that it bounds into a physical group too, or take it out of this group";
-            let message = || format!("lies at node {node}, which no triangle or quadrilateral of a physical group has");
-            return self.fault("points and lines away from every surface", cell, message, help);
-        }
-        let x: Vec<[f64; 2]> = nodes.iter().map(|&node| self.nodes.place(node)).collect();
-        if !x.iter().flatten().all(|x| x.is_finite()) {
-            return; // The node has its fault.
-        }
-        let square = |[a, b]: [[f64; 2]; 2]| (b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2);
-        let longest = x.iter().enumerate().flat_map(|(k, a)| x[..k].iter().map(|b| square([*a, *b]))).fold(0.0, f64::max);
-        match cell.file.kind.dimension {
-            1 if longest == 0.0 => {
-                let message = || "has no length: its nodes lie on one another".to_string();
-                self.fault("lines without length", cell, message, "remove it, or merge the nodes and mesh again");
-            }
-            2 => {
-                let area = self.nodes.area(cell);
-                let n = x.len();
-                let turns_left = (0..n).filter(|&k| cross(x[k], x[(k + 1) % n], x[(k + 1) % n], x[(k + 2) % n]) > 0.0).count();
-                if n == 4 && turns_left == 2 {
-                    let message = || "has sides that cross each other".to_string();
-                    self.fault("elements with crossing sides", cell, message, "its nodes are not in order around it; mesh again");
-                } else if area.abs() <= NO_AREA * longest {
-                    let message = || format!("has no area ({area:e} m²)");
-                    self.fault("elements without area", cell, message, "its nodes lie on a line or on one another; mesh again");
-                }
-            }
-            _ => {}
-        }
-    }
-
-    /// A cell that is there twice would have its mass and stiffness twice.
-    fn repeated(&mut self, cells: &[Cell]) {
-        let mut sorted: Vec<([u32; 4], usize)> = cells.iter().enumerate().map(|(place, cell)| (key(cell), place)).collect();
-        sorted.sort_unstable();
-        for pair in sorted.windows(2) {
-            if pair[0].0 == pair[1].0 {
-                let other = cells[pair[0].1].file.tag;
-                self.fault("elements that are there twice", &cells[pair[1].1], || format!("has the nodes of element {other}"), AGAIN);
-            }
-        }
-    }
-}
-
-/// The nodes of a cell in ascending order, filled up with the largest number.
-fn key(cell: &Cell) -> [u32; 4] {
-    let mut key = [u32::MAX; 4];
-    key[..cell.file.kind.nodes].copy_from_slice(cell.nodes());
-    key.sort_unstable();
-    key
 }

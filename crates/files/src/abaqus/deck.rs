@@ -1,7 +1,7 @@
 //! What a deck says about geometry, with all instances in place: nodes, elements, sets and surfaces under their full names.
 //!
 //! Blocks come from `text.rs`. Nodes and elements are read first, then sets and surfaces in the order of the file (`sets.rs`). Inside of a
-//! part or an instance names are local: outside they are `INSTANCE.NAME`. `plane.rs` makes a mesh of it, the import looks names up in it.
+//! part or an instance names are local: outside they are `INSTANCE.NAME`. `mesh.rs` makes a mesh of it, the import looks names up in it.
 
 use super::element_kind::{self, ElementKind, Found};
 use super::text::{Block, Line, Text, folded, shown};
@@ -17,13 +17,16 @@ pub(super) struct Node {
     pub(super) line: Line,
 }
 
-/// A plane element.
+/// Nodes of the largest element.
+const MOST_NODES: usize = 8;
+
+/// An element of a body.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Element {
     pub(super) kind: &'static ElementKind,
     pub(super) tag: u64,
     /// Indices of nodes; the first `kind.nodes` count.
-    pub(super) nodes: [u32; 4],
+    pub(super) nodes: [u32; MOST_NODES],
     pub(super) line: Line,
 }
 
@@ -32,9 +35,9 @@ impl Element {
         &self.nodes[..self.kind.nodes]
     }
 
-    /// The nodes of an edge from 0.
-    pub(super) fn edge(&self, edge: usize) -> [u32; 2] {
-        [self.nodes[edge], self.nodes[(edge + 1) % self.kind.nodes]]
+    /// The nodes of a side (an edge, of a solid a face) from 0.
+    pub(super) fn side(&self, side: usize) -> impl Iterator<Item = u32> {
+        self.kind.sides[side].iter().map(|&k| self.nodes[k])
     }
 }
 
@@ -52,8 +55,8 @@ pub(super) type Sets<T> = BTreeMap<String, Set<T>>;
 /// A surface.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Surface {
-    /// Edges of elements: element and edge.
-    Edges(Vec<(u32, u8)>),
+    /// Sides of elements (edges, of solids faces): element and side.
+    Sides(Vec<(u32, u8)>),
     /// Nodes.
     Nodes(Vec<u32>),
     /// Straight lines of a rigid body, in the deck's unit.
@@ -73,6 +76,15 @@ pub(super) enum Scope {
     Instance(String),
 }
 
+/// A rotation about an axis, by the right hand.
+#[derive(Clone, Copy, Debug)]
+enum Turn {
+    /// About an axis along z through a point (m), by an angle (rad).
+    Flat([f64; 2], f64),
+    /// About an axis through a point, with its unit vector, by an angle (rad); where it is given.
+    Out([f64; 3], [f64; 3], f64, Line),
+}
+
 /// A copy of a part in the assembly, or the deck outside of all parts.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Instance {
@@ -82,7 +94,7 @@ pub(super) struct Instance {
     part: String,
     /// Displacement, and angle (rad) about a point, in this order.
     shift: [f64; 3],
-    turn: Option<([f64; 2], f64)>,
+    turn: Option<Turn>,
     /// Node and element numbers with their indices, sorted.
     nodes: Vec<(u64, u32)>,
     elements: Vec<(u64, u32)>,
@@ -144,8 +156,31 @@ impl Deck {
             deck.read_nodes(text, instance)?;
             deck.read_elements(text, instance)?;
         }
+        deck.check_dimension(text)?;
         deck.read_sets(text)?;
         Ok(deck)
+    }
+
+    /// 3 if there are solids.
+    pub(super) fn dimension(&self) -> u8 {
+        self.elements.iter().map(|element| element.kind.dimension()).max().unwrap_or(2)
+    }
+
+    /// What of the plane does not go with solids, and the other way round.
+    fn check_dimension(&self, text: &Text) -> Result<(), Fault> {
+        let dimension = self.dimension();
+        if let Some(flat) = self.elements.iter().find(|element| element.kind.dimension() != dimension) {
+            let message = format!("element {} is a {}, beside solids", flat.tag, flat.kind.name);
+            let help = "bodies are all plane or all solid; shells and membranes in space are not computed";
+            return Err(text.fault(&DECK_MESH, flat.line, message, help));
+        }
+        for instance in &self.instances {
+            if let (2, Some(Turn::Out(_, _, _, line))) = (dimension, instance.turn) {
+                let help = "bodies lie in the plane of x and y: an axis of rotation is parallel to z";
+                return Err(text.fault(&DECK_MESH, line, format!("instance {} is turned out of the plane", shown(&instance.name)), help));
+            }
+        }
+        Ok(())
     }
 
     /// The instances that a block is about.
@@ -293,7 +328,7 @@ impl Deck {
             };
             let first = elements.len();
             match element_kind::named(&name) {
-                Found::Plane(kind) => self.read_plane_elements(text, block, kind, instance, &mut elements)?,
+                Found::Body(kind) => self.read_bodies(text, block, kind, instance, &mut elements)?,
                 Found::Beside => {
                     beside.push((block.parameter("ELSET").unwrap_or_default().to_string(), name, block.data.len(), block.line))
                 }
@@ -324,7 +359,7 @@ impl Deck {
         Ok(())
     }
 
-    fn read_plane_elements(
+    fn read_bodies(
         &self,
         text: &Text,
         block: &Block,
@@ -346,7 +381,7 @@ impl Deck {
                 return Err(text.fault(&SYNTAX, line, message, "look at the type of the elements, and at the line"));
             }
             let tag = text.tag(line, fields[0], "the number of an element")?;
-            let mut nodes = [0; 4];
+            let mut nodes = [0; MOST_NODES];
             for (k, field) in fields[1..].iter().enumerate() {
                 let node = text.tag(line, field, "a node of an element")?;
                 nodes[k] = self.instances[instance].node(node).ok_or_else(|| {
@@ -354,7 +389,7 @@ impl Deck {
                     text.fault(&UNKNOWN, line, message, "each part has its own nodes; look for the number in *NODE")
                 })?;
                 if nodes[..k].contains(&nodes[k]) {
-                    let help = "a triangle is an element of three nodes, CPE3 for example";
+                    let help = "a triangle is an element of three nodes, CPE3 for example; a wedge is a C3D6, a tetrahedron a C3D4";
                     return Err(text.fault(&UNKNOWN, line, format!("element {tag} has node {node} twice"), help));
                 }
             }
@@ -378,19 +413,33 @@ impl Instance {
         if self.shift != [0.0; 3] {
             (x, y, z) = (x + self.shift[0], y + self.shift[1], z + self.shift[2]);
         }
-        if let Some(([cx, cy], angle)) = self.turn {
-            let quarters = angle / std::f64::consts::FRAC_PI_2;
-            let (sin, cos) = match quarters.rem_euclid(4.0) {
-                0.0 => (0.0, 1.0),
-                1.0 => (1.0, 0.0),
-                2.0 => (0.0, -1.0),
-                3.0 => (-1.0, 0.0),
-                _ => angle.sin_cos(),
-            };
-            let (dx, dy) = (x - cx, y - cy);
-            (x, y) = (cx + cos * dx - sin * dy, cy + sin * dx + cos * dy);
+        match self.turn {
+            None => [x, y, z],
+            Some(Turn::Flat([cx, cy], angle)) => {
+                let (sin, cos) = sin_cos(angle);
+                let (dx, dy) = (x - cx, y - cy);
+                [cx + cos * dx - sin * dy, cy + sin * dx + cos * dy, z]
+            }
+            Some(Turn::Out(point, n, angle, _)) => {
+                // After Rodrigues.
+                let (sin, cos) = sin_cos(angle);
+                let d: [f64; 3] = std::array::from_fn(|k| [x, y, z][k] - point[k]);
+                let along = (1.0 - cos) * (n[0] * d[0] + n[1] * d[1] + n[2] * d[2]);
+                let across = [n[1] * d[2] - n[2] * d[1], n[2] * d[0] - n[0] * d[2], n[0] * d[1] - n[1] * d[0]];
+                std::array::from_fn(|k| point[k] + (cos * d[k] + (sin * across[k] + along * n[k])))
+            }
         }
-        [x, y, z]
+    }
+}
+
+/// Sine and cosine; of quarter turns exact.
+fn sin_cos(angle: f64) -> (f64, f64) {
+    match (angle / std::f64::consts::FRAC_PI_2).rem_euclid(4.0) {
+        0.0 => (0.0, 1.0),
+        1.0 => (1.0, 0.0),
+        2.0 => (0.0, -1.0),
+        3.0 => (-1.0, 0.0),
+        _ => angle.sin_cos(),
     }
 }
 
@@ -413,14 +462,18 @@ fn instance(text: &Text, block: &Block, name: &str) -> Result<Instance, Fault> {
     if let Some(&line) = block.data.get(1) {
         let it = numbers(line, 7)?;
         let axis = [it[3] - it[0], it[4] - it[1], it[5] - it[2]];
-        if it[6] != 0.0 && (axis[0] != 0.0 || axis[1] != 0.0 || axis[2] == 0.0) {
-            let help = "bodies lie in the plane of x and y: an axis of rotation is parallel to z";
-            return Err(text.fault(&DECK_MESH, line, format!("instance {} is turned out of the plane", shown(name)), help));
+        let size = (axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]).sqrt();
+        if it[6] != 0.0 && !(size > 0.0 && size.is_finite()) {
+            let help = "give two points of the axis and an angle in degrees";
+            return Err(text.fault(&DECK_MESH, line, format!("instance {} is turned about an axis without direction", shown(name)), help));
         }
-        instance.turn = (it[6] != 0.0).then(|| {
-            let degrees = it[6] * axis[2].signum();
-            let right = degrees % 90.0 == 0.0;
-            ([it[0], it[1]], if right { degrees / 90.0 * std::f64::consts::FRAC_PI_2 } else { degrees.to_radians() })
+        let radians = |degrees: f64| {
+            if degrees % 90.0 == 0.0 { degrees / 90.0 * std::f64::consts::FRAC_PI_2 } else { degrees.to_radians() }
+        };
+        let is_flat = axis[0] == 0.0 && axis[1] == 0.0;
+        instance.turn = (it[6] != 0.0).then(|| match is_flat {
+            true => Turn::Flat([it[0], it[1]], radians(it[6] * axis[2].signum())),
+            false => Turn::Out([it[0], it[1], it[2]], axis.map(|a| a / size), radians(it[6]), line),
         });
     }
     Ok(instance)

@@ -133,7 +133,7 @@ impl Deck {
         };
         let surface = match block.parameter("TYPE").map_or("ELEMENT".into(), folded).as_str() {
             _ if block.has("COMBINE") || block.has("CROP") => Surface::Other("made of other surfaces".into()),
-            "ELEMENT" => self.edges(text, block, instance)?,
+            "ELEMENT" => self.sides(text, block, instance)?,
             "NODE" => {
                 let mut nodes = Vec::new();
                 for &line in &block.data {
@@ -156,9 +156,9 @@ impl Deck {
         }
     }
 
-    /// Edges of elements: `set, S1` is one edge of each, `set` alone those that belong to one element of the deck only, `,` all of these.
-    fn edges(&self, text: &Text, block: &Block, instance: usize) -> Result<Surface, Fault> {
-        let mut edges = Vec::new();
+    /// Sides of elements: `set, S1` is one side of each, `set` alone those that belong to one element of the deck only, `,` all of these.
+    fn sides(&self, text: &Text, block: &Block, instance: usize) -> Result<Surface, Fault> {
+        let mut sides = Vec::new();
         let mut counts = None;
         for &line in &block.data {
             let fields = text.fields(line);
@@ -169,48 +169,53 @@ impl Deck {
             };
             for element in elements {
                 if face.is_empty() {
-                    let counts = counts.get_or_insert_with(|| self.edge_counts());
+                    let counts = counts.get_or_insert_with(|| self.side_counts());
                     let it = &self.elements[element as usize];
-                    let free = (0..it.kind.nodes).filter(|&edge| counts.get(&sorted(it.edge(edge))) == Some(&1));
-                    edges.extend(free.map(|edge| (element, edge as u8)));
+                    let free = (0..it.kind.sides.len()).filter(|&side| counts.get(&key(it.side(side))) == Some(&1));
+                    sides.extend(free.map(|side| (element, side as u8)));
                 } else {
-                    edges.push((element, self.face(text, line, element, face)?));
+                    sides.push((element, self.face(text, line, element, face)?));
                 }
             }
         }
-        edges.sort_unstable();
-        edges.dedup();
-        Ok(Surface::Edges(edges))
+        sides.sort_unstable();
+        sides.dedup();
+        Ok(Surface::Sides(sides))
     }
 
-    /// The edge, from 0, that S1, P1 or E1 and so on stand for.
+    /// The side, from 0, that S1, P1 or E1 and so on stand for.
     pub(super) fn face(&self, text: &Text, line: Line, element: u32, face: &str) -> Result<u8, Fault> {
         let kind = self.elements[element as usize].kind;
         let mut letters = face.chars();
         let letter = letters.next().map(|c| c.to_ascii_uppercase());
         let fits = matches!((letter, kind.shell), (Some('S' | 'P'), false) | (Some('E'), true));
-        let number = letters.as_str().parse::<u8>().ok().filter(|number| fits && (1..=kind.nodes as u8).contains(number));
+        let number = letters.as_str().parse::<u8>().ok().filter(|number| fits && (1..=kind.sides.len() as u8).contains(number));
         number.map(|number| number - 1).ok_or_else(|| {
             let letter = if kind.shell { 'E' } else { 'S' };
-            let message = format!("an element {} has no edge {}", kind.name, shown(face));
-            text.fault(&SYNTAX, line, message, format!("its edges are {letter}1 to {letter}{}", kind.nodes))
+            let side = if kind.dimension() == 3 { "face" } else { "edge" };
+            let message = format!("an element {} has no {side} {}", kind.name, shown(face));
+            text.fault(&SYNTAX, line, message, format!("its {side}s are {letter}1 to {letter}{}", kind.sides.len()))
         })
     }
 
-    /// How many elements have each edge.
-    fn edge_counts(&self) -> BTreeMap<[u32; 2], u32> {
+    /// How many elements have each side.
+    fn side_counts(&self) -> BTreeMap<[u32; 4], u32> {
         let mut counts = BTreeMap::new();
         for element in &self.elements {
-            for edge in 0..element.kind.nodes {
-                *counts.entry(sorted(element.edge(edge))).or_insert(0) += 1;
+            for side in 0..element.kind.sides.len() {
+                *counts.entry(key(element.side(side))).or_insert(0) += 1;
             }
         }
         counts
     }
 }
 
-fn sorted([a, b]: [u32; 2]) -> [u32; 2] {
-    [a.min(b), a.max(b)]
+/// The nodes of a side in ascending order, filled up with the largest number.
+fn key(nodes: impl Iterator<Item = u32>) -> [u32; 4] {
+    let mut key = [u32::MAX; 4];
+    key.iter_mut().zip(nodes).for_each(|(own, node)| *own = node);
+    key.sort_unstable();
+    key
 }
 
 /// Points of a rigid surface of straight lines.

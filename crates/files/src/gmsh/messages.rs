@@ -63,7 +63,7 @@ pub(crate) static NODE: Message = Message {
     cure: "Move plane bodies into the plane of x and y, give the elements of solids a group, and export the mesh again.",
 };
 
-pub(super) static CELL: Message = Message {
+pub(crate) static CELL: Message = Message {
     code: "E0226",
     title: "an element without area or volume, with crossing sides, or there twice",
     example: Example::Gmsh(

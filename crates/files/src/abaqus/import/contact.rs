@@ -149,7 +149,7 @@ fn add(importer: &mut Importer<'_>, at: usize, line: Line, interaction: Option<S
     let surfaces = [importer.surface(line, fields[0])?, importer.surface(line, second)?];
     for surface in &surfaces {
         match importer.deck.surfaces.get(surface).and_then(|it| it.members.first()) {
-            Some(Surface::Edges(_)) => {}
+            Some(Surface::Sides(_)) => {}
             Some(Surface::Lines(_)) if !tied => {}
             Some(Surface::Other(what)) => {
                 importer.ignored(at, line, &format!("surface {surface} is {what}; this contact does not act"));

@@ -19,9 +19,9 @@ pub use report::{Entry, Outcome, Report};
 pub use units::Units;
 
 use super::deck::Deck;
-use super::plane::{self, Names};
+use super::mesh::{self, Names};
 use super::text::{Block, Line, Text, folded, shown};
-use crate::abaqus::messages::{SYNTAX, UNKNOWN};
+use crate::abaqus::messages::{NO_COUNTERPART, SYNTAX, UNKNOWN};
 use crate::reach::{Bounds, Reach};
 use embate_solver::error::Fault;
 use std::collections::{BTreeMap, BTreeSet};
@@ -51,7 +51,12 @@ pub fn import(path: &Path, units: &Units, reach: Reach) -> Result<Imported, Vec<
     let text =
         Text::read(path, &shown, &Bounds::of(path.parent().unwrap_or(Path::new("")), "deck's", reach)).map_err(|fault| vec![fault])?;
     let deck = Deck::read(&text).map_err(|fault| vec![fault])?;
-    plane::mesh(&deck, &text, 1.0)?;
+    mesh::mesh(&deck, &text, 1.0)?;
+    if let Some(solid) = deck.elements.iter().find(|element| element.kind.dimension() == 3) {
+        let message = format!("element {} is a {}: models of solids are not imported yet", solid.tag, solid.kind.name);
+        let help = "write a model whose parts name the deck's sets: mesh = { file = \"deck.inp\", group = \"ELSET\" }";
+        return Err(vec![text.fault(&NO_COUNTERPART, solid.line, message, help)]);
+    }
     let mut importer = Importer::new(&text, &deck, units.clone());
     importer.read().map_err(|fault| vec![fault])?;
     let model = importer.write().map_err(|fault| vec![fault])?;
@@ -101,8 +106,8 @@ impl<'a> Importer<'a> {
         Self {
             text,
             deck,
-            names: plane::names(deck),
-            used: plane::used(deck),
+            names: mesh::names(deck),
+            used: mesh::used(deck),
             units,
             entries: Vec::new(),
             told: false,

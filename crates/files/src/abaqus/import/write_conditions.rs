@@ -153,7 +153,7 @@ impl Importer<'_> {
     /// Whether a surface of a contact lies on a part.
     fn touches(&self, part: &Part, contact: &Contact) -> bool {
         contact.surfaces.iter().any(|name| match self.deck.surfaces.get(name).and_then(|it| it.members.first()) {
-            Some(Surface::Edges(edges)) => edges.iter().any(|(element, _)| part.elements.contains(element)),
+            Some(Surface::Sides(sides)) => sides.iter().any(|(element, _)| part.elements.contains(element)),
             _ => false,
         })
     }

@@ -30,7 +30,9 @@ const CASES: &[Case] = &[
     (" 4, 0, 1\n", " 99999999999999999999, 0, 1\n", 8, "the number of a node is \"99999999999999999999\"", "numbers of nodes"),
     ("type=cpe4r", "typ=cpe4r", 13, "*ELEMENT has no type", "add TYPE"),
     ("type=cpe4r", "type=CPE8R", 13, "element type CPE8R is of second order", "use elements with nodes at their corners"),
-    ("type=cpe4r", "type=C3D8R", 13, "element type C3D8R is three-dimensional", "take a plane section"),
+    ("type=cpe4r", "type=C3D20R", 13, "element type C3D20R is of second order", "use elements with nodes at their corners"),
+    ("type=cpe4r", "type=R3D4", 13, "element type R3D4 is a shell or a surface in space", "take solids"),
+    ("type=cpe4r", "type=C3D4", 19, "element 3 is a CPE3, beside solids", "bodies are all plane"),
     ("type=cpe4r", "type=ABC", 13, "element type ABC is not known", "use elements"),
     (" 2, 2, 3, 6, 5\n", " 2, 2, 3, 6\n", 17, "an element CPE4R of 4 numbers", "look at the type"),
     (" 2, 2, 3, 6, 5\n", " 2, 2, 3, 6, 5, 1\n", 17, "an element CPE4R of 6 numbers", "look at the type"),
@@ -90,7 +92,7 @@ proptest! {
 
     #[test]
     fn words_of_decks_in_any_order_make_no_panic(words in prop::collection::vec(prop::sample::select(vec![
-        "*NODE", "*ELEMENT", ", TYPE=CPE4", ", TYPE=CPE3", "*NSET", ", NSET=A", "*ELSET", ", ELSET=A", ", GENERATE", "*SURFACE", ", NAME=A", ", TYPE=NODE",
+        "*NODE", "*ELEMENT", ", TYPE=CPE4", ", TYPE=CPE3", ", TYPE=C3D4", "*NSET", ", NSET=A", "*ELSET", ", ELSET=A", ", GENERATE", "*SURFACE", ", NAME=A", ", TYPE=NODE",
         "\n", "\n", "\n", "1", "2", "3", ", ", ", ", ", ", "A", "S1", "*PART", "*END PART", "*INSTANCE", ", PART=A", "*END INSTANCE", "\"", "=", "0.5", "A.1", "**",
     ]), 0..60)) {
         let _ = read(&words.concat());

@@ -3,6 +3,7 @@
 mod import;
 mod malformed;
 mod meshes;
+mod solids;
 
 use embate_files::abaqus::parse;
 use embate_solver::error::Fault;

@@ -1,4 +1,4 @@
-//! From the geometry of a deck to a plane mesh: names of groups, dense node numbers, the checks of positions.
+//! From the geometry of a deck to a mesh of the plane or of space: names of groups, dense node numbers, the checks of positions.
 //!
 //! [`super::parse`] calls [`mesh`]; the import asks [`names`] how sets are called in the mesh.
 
@@ -6,8 +6,10 @@ use super::deck::{Deck, Element, Surface};
 use super::text::Text;
 use crate::abaqus::messages::DECK_MESH;
 use crate::gmsh::faults::Faults;
-use crate::gmsh::messages::NODE;
+use crate::gmsh::form;
+use crate::gmsh::messages::{CELL, NODE};
 use embate_solver::error::Fault;
+use embate_solver::mesh::signed_volume;
 use embate_solver::model::{ImportedMesh, MeshGroup};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -40,7 +42,7 @@ pub(super) fn names(deck: &Deck) -> Names {
         names.elements.insert(key.clone(), free(&set.name, "elements"));
     }
     let there = |surface: &Surface| match surface {
-        Surface::Edges(edges) => !edges.is_empty(),
+        Surface::Sides(sides) => !sides.is_empty(),
         Surface::Nodes(nodes) => nodes.iter().any(|node| used[*node as usize]),
         Surface::Lines(_) | Surface::Other(_) => false,
     };
@@ -67,25 +69,26 @@ pub(super) fn used(deck: &Deck) -> Vec<bool> {
 pub(super) fn mesh(deck: &Deck, text: &Text, scale: f64) -> Result<ImportedMesh, Vec<Fault>> {
     let source = text.shown_name();
     if deck.elements.is_empty() {
-        let help = "known are CPE4R, CPE4, CPE3, CPS4R, CAX4R and their like, of first order";
-        return Err(vec![Fault::new(&DECK_MESH, source, "the deck has no plane elements", help)]);
+        let help = "known are CPE4R, CPE4, CPE3, CPS4R, CAX4R and their like, and C3D8R, C3D8, C3D6, C3D4, of first order";
+        return Err(vec![Fault::new(&DECK_MESH, source, "the deck has no elements of bodies", help)]);
     }
-    let used = used(deck);
-    check_positions(deck, text, scale, &used)?;
+    let (used, dimension) = (used(deck), deck.dimension());
+    check_positions(deck, text, scale, &used, dimension)?;
+    check_volumes(deck, text)?;
     let mut dense = vec![u32::MAX; deck.nodes.len()];
     let mut positions = Vec::new();
     for (node, _) in used.iter().enumerate().filter(|(_, used)| **used) {
         dense[node] = positions.len() as u32;
-        let [x, y, _] = deck.nodes[node].position;
-        positions.push([x * scale, y * scale, 0.0]);
+        let [x, y, z] = deck.nodes[node].position;
+        positions.push([x * scale, y * scale, if dimension == 3 { z * scale } else { 0.0 }]);
     }
     let names = names(deck);
     let mut groups = Vec::new();
     let cell = |element: &u32| {
         let element = &deck.elements[*element as usize];
         let mut nodes: Vec<u32> = element.nodes().iter().map(|&node| dense[node as usize]).collect();
-        if area(deck, element) < 0.0 {
-            nodes[1..].reverse();
+        if form::is_turned(dimension, &corners(deck, element)) {
+            form::turn(dimension, &mut nodes);
         }
         nodes
     };
@@ -94,18 +97,18 @@ pub(super) fn mesh(deck: &Deck, text: &Text, scale: f64) -> Result<ImportedMesh,
             Some(set) => set.members.iter().map(cell).collect(),
             None => (0..deck.elements.len() as u32).map(|element| cell(&element)).collect(),
         };
-        groups.push(MeshGroup { name: name.clone(), dimension: 2, cells });
+        groups.push(MeshGroup { name: name.clone(), dimension, cells });
     }
     let points = |nodes: &[u32]| nodes.iter().filter(|node| used[**node as usize]).map(|node| vec![dense[*node as usize]]).collect();
     for (key, name) in &names.surfaces {
-        let lines = |edges: &[(u32, u8)]| {
-            let line = |&(element, edge): &(u32, u8)| {
-                deck.elements[element as usize].edge(usize::from(edge)).map(|node| dense[node as usize]).to_vec()
+        let all = |sides: &[(u32, u8)]| {
+            let cell = |&(element, side): &(u32, u8)| {
+                deck.elements[element as usize].side(usize::from(side)).map(|node| dense[node as usize]).collect()
             };
-            edges.iter().map(line).collect()
+            sides.iter().map(cell).collect()
         };
         let (dimension, cells) = match deck.surfaces.get(key).and_then(|set| set.members.first()) {
-            Some(Surface::Edges(edges)) => (1, lines(edges)),
+            Some(Surface::Sides(sides)) => (dimension - 1, all(sides)),
             Some(Surface::Nodes(nodes)) => (0, points(nodes)),
             _ => continue,
         };
@@ -118,14 +121,26 @@ pub(super) fn mesh(deck: &Deck, text: &Text, scale: f64) -> Result<ImportedMesh,
     Ok(ImportedMesh { source: source.into(), positions, groups })
 }
 
-/// Twice the area, negative when the nodes run clockwise.
-fn area(deck: &Deck, element: &Element) -> f64 {
-    let x = |k: usize| deck.nodes[element.nodes[k] as usize].position;
-    let cross = |a: [f64; 3], b: [f64; 3], c: [f64; 3], d: [f64; 3]| (b[0] - a[0]) * (d[1] - c[1]) - (b[1] - a[1]) * (d[0] - c[0]);
-    if element.kind.nodes == 4 { cross(x(0), x(2), x(1), x(3)) } else { cross(x(0), x(1), x(0), x(2)) }
+/// Corners of an element, in the deck's unit.
+fn corners(deck: &Deck, element: &Element) -> Vec<[f64; 3]> {
+    element.nodes().iter().map(|&node| deck.nodes[node as usize].position).collect()
 }
 
-fn check_positions(deck: &Deck, text: &Text, scale: f64, used: &[bool]) -> Result<(), Vec<Fault>> {
+/// A solid without volume has neither mass nor a direction in which to turn it.
+fn check_volumes(deck: &Deck, text: &Text) -> Result<(), Vec<Fault>> {
+    let mut faults = Faults::default();
+    for element in deck.elements.iter().filter(|element| element.kind.dimension() == 3) {
+        if !(signed_volume(&corners(deck, element)).abs() > 0.0) {
+            faults.add("elements without volume", || {
+                let message = format!("element {} has no volume", element.tag);
+                text.fault(&CELL, element.line, message, "its nodes lie in a plane, or not in order; mesh again")
+            });
+        }
+    }
+    if faults.is_empty() { Ok(()) } else { Err(faults.into_list(text.shown_name())) }
+}
+
+fn check_positions(deck: &Deck, text: &Text, scale: f64, used: &[bool], dimension: u8) -> Result<(), Vec<Fault>> {
     let mut faults = Faults::default();
     let nodes = || deck.nodes.iter().zip(used).filter(|(_, used)| **used).map(|(node, _)| node);
     let extent = |axis: usize| {
@@ -135,12 +150,13 @@ fn check_positions(deck: &Deck, text: &Text, scale: f64, used: &[bool]) -> Resul
     let size = extent(0).max(extent(1));
     for node in nodes() {
         let [x, y, z] = node.position;
-        if !(x * scale).is_finite() || !(y * scale).is_finite() {
+        if !(x * scale).is_finite() || !(y * scale).is_finite() || (dimension == 3 && !(z * scale).is_finite()) {
             faults.add("nodes that are nowhere", || {
-                let message = format!("node {} is at ({x:e}, {y:e}): not a place", node.tag);
+                let place = if dimension == 3 { format!("{x:e}, {y:e}, {z:e}") } else { format!("{x:e}, {y:e}") };
+                let message = format!("node {} is at ({place}): not a place", node.tag);
                 text.fault(&NODE, node.line, message, "coordinates are finite numbers; check the file and its unit in the model")
             });
-        } else if z.abs() > OFF_PLANE * size {
+        } else if dimension == 2 && z.abs() > OFF_PLANE * size {
             faults.add("nodes off the plane z = 0", || {
                 let message = format!("node {} is at z = {z:e}, off the plane z = 0", node.tag);
                 text.fault(&NODE, node.line, message, "bodies lie in the plane of x and y: move the geometry there")

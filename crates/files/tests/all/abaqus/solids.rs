@@ -1,0 +1,145 @@
+//! Decks of solids: faces, instances in space, and what does not go with solids.
+
+use super::{group, read};
+use embate_files::Reach;
+use embate_files::abaqus::import::{Units, import};
+use embate_files::model_file::load_text;
+use embate_solver::mesh::{Mesh, signed_volume};
+use embate_solver::model::ImportedMesh;
+use std::fs;
+
+/// A cube on [0, 1]³, a wedge beside it (x from 1 to 2) and a tetrahedron above it.
+const SOLID: &str = "*NODE
+ 1, 0,0,0
+ 2, 1,0,0
+ 3, 1,1,0
+ 4, 0,1,0
+ 5, 0,0,1
+ 6, 1,0,1
+ 7, 1,1,1
+ 8, 0,1,1
+ 9, 2,0,0
+10, 2,0,1
+11, 0,0,2
+99, 9,9,9
+*ELEMENT, TYPE=C3D8R, ELSET=cube
+ 1, 1,2,3,4,
+ 5,6,7,8
+*ELEMENT, TYPE=C3D6, ELSET=wedge
+ 2, 2,9,3, 6,10,7
+*ELEMENT, TYPE=C3D4, ELSET=tip
+ 3, 5,6,8,11
+*ELSET, ELSET=body
+ cube, wedge
+*SURFACE, NAME=bottom
+ cube, S1
+ wedge, S1
+*SURFACE, NAME=top
+ cube, S2
+*SURFACE, NAME=outside
+ ,
+*NSET, NSET=edge
+ 1, 2, 9
+";
+
+fn positions(mesh: &ImportedMesh, cell: &[u32]) -> Vec<[f64; 3]> {
+    cell.iter().map(|&node| mesh.positions[node as usize]).collect()
+}
+
+#[test]
+fn hexahedra_wedges_and_tetrahedra_become_solids_and_faces_their_surfaces() {
+    let mesh = read(SOLID).unwrap();
+    assert_eq!((mesh.dimension(), mesh.positions.len()), (3, 11));
+    assert_eq!(group(&mesh, "cube").cells, [vec![0, 1, 2, 3, 4, 5, 6, 7]]);
+    assert_eq!((group(&mesh, "wedge").dimension, &group(&mesh, "wedge").cells), (3, &vec![vec![1, 8, 2, 5, 9, 6]]));
+    assert_eq!(group(&mesh, "body").cells.len(), 2);
+    assert_eq!((group(&mesh, "bottom").dimension, &group(&mesh, "bottom").cells), (2, &vec![vec![0, 1, 2, 3], vec![1, 8, 2]]));
+    assert!(positions(&mesh, &group(&mesh, "top").cells[0]).iter().all(|x| x[2] == 1.0));
+    // Six and five faces but for the two where cube and wedge meet, and four of the tetrahedron, which shares no whole face.
+    assert_eq!(group(&mesh, "outside").cells.len(), 6 + 5 - 2 + 4);
+    assert_eq!(group(&mesh, "edge").dimension, 0);
+}
+
+#[test]
+fn every_face_of_a_type_is_that_of_the_manual() {
+    // What the nodes of a face have in common, from S1 on.
+    let all = [
+        ("cube", vec![(2, 0.0), (2, 1.0), (1, 0.0), (0, 1.0), (1, 1.0), (0, 0.0)]),
+        ("tip", vec![(2, 1.0), (1, 0.0)]),
+        ("wedge", vec![(2, 0.0), (2, 1.0), (1, 0.0)]),
+    ];
+    for (set, faces) in all {
+        for (face, (axis, at)) in (1..).zip(faces) {
+            let mesh = read(&format!("{SOLID}*SURFACE, NAME=face\n{set}, S{face}\n")).unwrap();
+            let cell = &group(&mesh, "face").cells[0];
+            assert!(positions(&mesh, cell).iter().all(|x| x[axis] == at), "{set} S{face}: {cell:?}");
+        }
+    }
+    let faults = read(&format!("{SOLID}*SURFACE, NAME=face\ntip, S5\n")).unwrap_err();
+    assert!(
+        faults[0].message.contains("an element C3D4 has no face \"S5\"") && faults[0].help == "its faces are S1 to S4",
+        "{}",
+        faults[0]
+    );
+}
+
+#[test]
+fn solids_of_negative_volume_are_turned_and_flat_ones_refused() {
+    let swapped = SOLID
+        .replace(" 1, 1,2,3,4,\n 5,6,7,8", " 1, 5,6,7,8, 1,2,3,4")
+        .replace("2,9,3, 6,10,7", "6,10,7, 2,9,3")
+        .replace("5,6,8,11", "5,8,6,11");
+    let mesh = read(&swapped).unwrap();
+    for name in ["cube", "wedge", "tip"] {
+        assert!(signed_volume(&positions(&mesh, &group(&mesh, name).cells[0])) > 0.0, "{name}");
+    }
+    // S1 is still the face of the first nodes that are written.
+    assert!(positions(&mesh, &group(&mesh, "bottom").cells[0]).iter().all(|x| x[2] == 1.0));
+    let flat = read(&SOLID.replace("11, 0,0,2", "11, 1,1,1")).unwrap_err();
+    assert!(flat[0].message == "element 3 has no volume" && flat[0].path == "d.inp, line 20", "{}", flat[0]);
+}
+
+#[test]
+fn instances_of_solids_are_turned_about_any_axis() {
+    let deck = |axis: &str| {
+        format!(
+            "*PART, NAME=P\n*NODE\n1,0,0,0\n2,1,0,0\n3,0,2,0\n4,0,0,3\n*ELEMENT, TYPE=C3D4, ELSET=E\n1,1,2,3,4\n*END PART\n\
+             *ASSEMBLY, NAME=A\n*INSTANCE, NAME=I, PART=P\n1,0,0\n{axis}\n*END INSTANCE\n*END ASSEMBLY\n"
+        )
+    };
+    let near = |axis: &str, expected: [[f64; 3]; 4]| {
+        let mesh = read(&deck(axis)).unwrap();
+        let found = mesh.positions.iter().flatten().zip(expected.iter().flatten()).all(|(a, b)| (a - b).abs() < 1e-15);
+        assert!(found, "{axis}: {:?}", mesh.positions);
+    };
+    // Shifted by 1 along x, then by the right hand about x, about y through (1, 0, 0), and a third of a turn about the diagonal.
+    near("0,0,0, 5,0,0, 90", [[1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [1.0, 0.0, 2.0], [1.0, -3.0, 0.0]]);
+    near("1,0,0, 1,1,0, -90", [[1.0, 0.0, 0.0], [1.0, 0.0, 1.0], [1.0, 2.0, 0.0], [-2.0, 0.0, 0.0]]);
+    near("0,0,0, 1,1,1, 120", [[0.0, 1.0, 0.0], [0.0, 2.0, 0.0], [0.0, 1.0, 2.0], [3.0, 1.0, 0.0]]);
+    let faults = read(&deck("1,1,1, 1,1,1, 30")).unwrap_err();
+    assert!(faults[0].message.contains("axis without direction"), "{}", faults[0]);
+}
+
+#[test]
+fn plane_elements_do_not_go_with_solids_and_solids_are_not_imported() {
+    let faults = read(&format!("{SOLID}*ELEMENT, TYPE=S4\n7, 1,2,3,4\n")).unwrap_err();
+    assert!(faults[0].message == "element 7 is a S4, beside solids", "{}", faults[0]);
+    let folder = std::env::temp_dir().join(format!("embate-deck-solids-{}", std::process::id()));
+    fs::create_dir_all(&folder).unwrap();
+    fs::write(folder.join("solid.inp"), SOLID).unwrap();
+    let units = Units::parse("m,kg,s").unwrap();
+    let faults = import(&folder.join("solid.inp"), &units, Reach::Folder).unwrap_err();
+    assert!(faults[0].message.contains("models of solids are not imported yet"), "{}", faults[0]);
+    // As a mesh they are parts of a model.
+    let model = "run.end = \"1 us\"\n[material.steel]\nlaw = \"elastic\"\ndensity = 7800\nyoung = \"200 GPa\"\npoisson = 0.3\n\
+        [[part]]\nname = \"a\"\nmaterial = \"steel\"\nelement = \"hex8_reduced\"\nmesh = { file = \"solid.inp\", group = \"body\", scale = \"1 mm\" }\n\
+        [[part]]\nname = \"b\"\nmaterial = \"steel\"\nelement = \"tet4\"\nmesh = { file = \"solid.inp\", group = \"tip\", scale = \"1 mm\" }\n\
+        [[constraint]]\non = \"bottom\"\nfixed = [\"x\", \"y\", \"z\"]\n[[load]]\npressure = 1e6\non = \"bottom\"\n";
+    let model = load_text("m", model, &folder, &[]).unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
+    let mesh = Mesh::<3>::new(&model).unwrap_or_else(|faults| panic!("{faults:#?}"));
+    assert_eq!((mesh.elements_of(0), mesh.elements_of(1), mesh.positions.len()), (2, 1, 11));
+    assert!(mesh.positions.iter().flatten().all(|x| *x <= 0.002));
+    let surface = mesh.surface("bottom", |_| false).unwrap();
+    assert_eq!(embate_solver::mesh::surface::Sided::facets(&surface).len(), 2);
+    fs::remove_dir_all(&folder).unwrap();
+}

@@ -17,6 +17,7 @@
 //!   momentum and angular momentum, whatever becomes of the element. With κ = 1 and M' = M the patterns swing as fast as the stretch of a cube. The source takes rates and M' = M; here M' is
 //!   at most 4µ, because with M a κ of 0.05 locks what is nearly incompressible (see `quad4_reduced.rs`). Of a fluid it is M.
 //! - `viscous`: Q_α = 2 κ √(k₁ m) q̇_α with the γ of the present form and k₁ = (8/3) M' T: the part κ of critical damping. Shapes that are there remain. q̇ is taken at mid-step and turned with the point.
+//! - `assumed_strain`: [`super::hex8_assumed_strain`].
 //!
 //! The stable step: γ_α·γ_β = 8 (δ_αβ + Σ_k c_αk c_βk), so the patterns add at most ω_h² = (k/m)(1 + Σ c²) to the square of the largest frequency, about 2 % of it;
 //! dampers, which lag half a step, 2 d / Δt with d = (2κ√(k₁ m)/m)(1 + Σ c²).
@@ -24,6 +25,7 @@
 //! Sources: Flanagan and Belytschko, Int. J. Numer. Meth. Engng 17 (1981) 679-706, and J. Appl. Mech. 51 (1984) 35-40.
 
 use super::hex8::{self, Hex8, Parts};
+use super::hex8_assumed_strain::{self, bend};
 use super::stiffest::{Metric, stiffest};
 use super::{Corners, Element, ElementKind, ElementOptions, Held, Map, PATTERNS, Pulls};
 use crate::tensor::{Dim, Matrix, Space, cross, dot};
@@ -42,6 +44,7 @@ const NODES: [[f64; 3]; 8] = [
 enum Control {
     Stiffness,
     Viscous,
+    AssumedStrain,
 }
 
 /// What the potential keeps: c_αk, k and ω_h² m of the start.
@@ -65,13 +68,13 @@ fn third_of_difference<L: Lane>(r: [L; 3], s: [L; 3], t: [L; 3], u: [L; 3]) -> [
 
 /// Columns of a matrix.
 #[inline(always)]
-fn columns<L: Lane>(m: &Matrix<L, 3>) -> [[L; 3]; 3] {
+pub(super) fn columns<L: Lane>(m: &Matrix<L, 3>) -> [[L; 3]; 3] {
     [[m[0][0], m[1][0], m[2][0]], [m[0][1], m[1][1], m[2][1]], [m[0][2], m[1][2], m[2][2]]]
 }
 
 /// ∂D over the linear and over the bilinear parts, row by row, and D.
 #[inline(always)]
-fn mean<L: Lane>(jacobian: &Matrix<L, 3>, warp: &Matrix<L, 3>) -> ([Matrix<L, 3>; 2], L) {
+pub(super) fn mean<L: Lane>(jacobian: &Matrix<L, 3>, warp: &Matrix<L, 3>) -> ([Matrix<L, 3>; 2], L) {
     let ([a, b, c], [h_1, h_2, h_3]) = (columns(jacobian), columns(warp));
     let linear = [less_third(cross(b, c), h_2, h_3), less_third(cross(c, a), h_3, h_1), less_third(cross(a, b), h_1, h_2)];
     let bilinear = [third_of_difference(c, h_2, b, h_3), third_of_difference(a, h_3, c, h_1), third_of_difference(b, h_1, a, h_2)];
@@ -81,7 +84,7 @@ fn mean<L: Lane>(jacobian: &Matrix<L, 3>, warp: &Matrix<L, 3>) -> ([Matrix<L, 3>
 
 /// c_α of the four patterns, from the parts of positions.
 #[inline(always)]
-fn shares<L: Lane>(x: &[Parts<L>; 3]) -> [[L; 3]; 4] {
+pub(super) fn shares<L: Lane>(x: &[Parts<L>; 3]) -> [[L; 3]; 4] {
     let jacobian = [x[0].linear, x[1].linear, x[2].linear];
     let (adjugate, inverse) = (Dim::<3>::adjugate(&jacobian), L::splat(1.0) / Dim::<3>::determinant(&jacobian));
     let mut shares = [[inverse; 3]; 4];
@@ -107,7 +110,7 @@ fn part<L: Lane>(x: &[Parts<L>; 3], pattern: usize) -> [L; 3] {
 
 /// The part of a nodal vector along the pattern, without what is linear: 8 q.
 #[inline(always)]
-fn amplitude<L: Lane>(x: &[Parts<L>; 3], shares: &[L; 3], pattern: usize) -> [L; 3] {
+pub(super) fn amplitude<L: Lane>(x: &[Parts<L>; 3], shares: &[L; 3], pattern: usize) -> [L; 3] {
     let mut out = part(x, pattern);
     for i in 0..3 {
         out[i] = out[i] - dot(*shares, x[i].linear);
@@ -117,7 +120,7 @@ fn amplitude<L: Lane>(x: &[Parts<L>; 3], shares: &[L; 3], pattern: usize) -> [L;
 
 /// What γ_α makes of the pulls on each amplitude 8 q_α: pulls on the linear parts, and on the others.
 #[inline(always)]
-fn held<L: Lane>(pulls: &[[L; 3]; 4], shares: &[[L; 3]; 4], work: L, stiffening: L) -> Held<L, 3, 8> {
+pub(super) fn held<L: Lane>(pulls: &[[L; 3]; 4], shares: &[[L; 3]; 4], work: L, stiffening: L) -> Held<L, 3, 8> {
     let zero = L::splat(0.0);
     let (mut flux, mut warp) = ([[zero; 3]; 3], [[zero; 3]; 3]);
     for i in 0..3 {
@@ -131,13 +134,13 @@ fn held<L: Lane>(pulls: &[[L; 3]; 4], shares: &[[L; 3]; 4], work: L, stiffening:
 }
 
 #[inline(always)]
-fn all_parts<L: Lane>(x: &[[L; 3]; 8]) -> [Parts<L>; 3] {
+pub(super) fn all_parts<L: Lane>(x: &[[L; 3]; 8]) -> [Parts<L>; 3] {
     [Parts::of(x, 0), Parts::of(x, 1), Parts::of(x, 2)]
 }
 
 /// 1 + Σ c².
 #[inline(always)]
-fn extent<L: Lane>(shares: &[[L; 3]; 4]) -> L {
+pub(super) fn extent<L: Lane>(shares: &[[L; 3]; 4]) -> L {
     L::splat(1.0) + (dot(shares[0], shares[0]) + dot(shares[1], shares[1]) + (dot(shares[2], shares[2]) + dot(shares[3], shares[3])))
 }
 
@@ -245,8 +248,12 @@ macro_rules! reduced {
             const WEIGHTS: [f64; 1] = [1.0 / 64.0];
             const NODES: [[f64; 3]; 8] = NODES;
             const MEAN_DILATATION: bool = false;
-            const HOURGLASS: usize = if matches!(Control::$control, Control::Stiffness) { POTENTIAL } else { DAMPERS };
-            const SWINGS: usize = if matches!(Control::$control, Control::Stiffness) { 0 } else { 4 };
+            const HOURGLASS: usize = match Control::$control {
+                Control::Stiffness => POTENTIAL,
+                Control::Viscous => DAMPERS,
+                Control::AssumedStrain => hex8_assumed_strain::POTENTIAL,
+            };
+            const SWINGS: usize = if matches!(Control::$control, Control::Viscous) { 4 } else { 0 };
             const WARPED: bool = true;
 
             fn new(options: &ElementOptions) -> Self {
@@ -299,6 +306,7 @@ macro_rules! reduced {
                 match Control::$control {
                     Control::Stiffness => hold(self.coefficient, corners, kept, at),
                     Control::Viscous => damp(self.coefficient, corners, kept, at),
+                    Control::AssumedStrain => bend(self.coefficient, corners, kept, at),
                 }
             }
         }
@@ -328,6 +336,20 @@ reduced!(
         name: "hex8_reduced_viscous",
         doc: "eight-node hexahedron, one point, hourglass control by damping (coefficient 0.05): for high rates; shapes that are there remain",
         source: "Flanagan and Belytschko, Int. J. Numer. Meth. Engng 17 (1981) 679-706",
+        nodes: 8,
+        dimension: 3,
+    }
+);
+
+reduced!(
+    /// Held by what elastic bending, torsion and warping cost.
+    Hex8ReducedAssumedStrain,
+    AssumedStrain,
+    1.0,
+    ElementKind {
+        name: "hex8_reduced_assumed_strain",
+        doc: "eight-node hexahedron, one point, hourglass control by assumed strain (coefficient 1): right in elastic bending with one element through the thickness",
+        source: "Belytschko and Bindeman, Comput. Meth. Appl. Mech. Engng 105 (1993) 225-260 (ASQBI)",
         nodes: 8,
         dimension: 3,
     }

@@ -4,6 +4,7 @@
 
 mod bar2;
 mod hex8;
+mod hex8_assumed_strain;
 mod hex8_reduced;
 mod quad4;
 mod quad4_reduced;
@@ -14,7 +15,7 @@ mod wedge6;
 
 pub use bar2::BAR2;
 pub use hex8::Hex8;
-pub use hex8_reduced::{Hex8Reduced, Hex8ReducedViscous};
+pub use hex8_reduced::{Hex8Reduced, Hex8ReducedAssumedStrain, Hex8ReducedViscous};
 pub use quad4::{Quad4, Quad4Full};
 pub use quad4_reduced::{Quad4Reduced, Quad4ReducedAssumedStrain, Quad4ReducedViscous};
 pub use tet4::{Tet4, Tet4Anp};
@@ -297,6 +298,7 @@ elements! {
         Hex8: 8 nodes, 8 points,
         Hex8Reduced: 8 nodes, 1 points,
         Hex8ReducedViscous: 8 nodes, 1 points,
+        Hex8ReducedAssumedStrain: 8 nodes, 1 points,
         Wedge6: 6 nodes, 6 points,
         Tet4: 4 nodes, 1 points,
         Tet4Anp: 4 nodes, 1 points,

@@ -27,6 +27,7 @@ mod hardening;
 mod hourglass;
 mod initial;
 mod loads;
+mod locking;
 mod johnson_cook;
 mod materials;
 mod mixed;

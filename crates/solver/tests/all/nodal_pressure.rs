@@ -4,7 +4,7 @@ use crate::patches::*;
 use embate_solver::block::BlockInput;
 
 /// Cook's membrane: (0,0) (48,44) (48,60) (0,44), `n` × `n` cells, quadrilaterals cut by the shorter diagonal for triangles.
-fn membrane(n: usize, corners: usize) -> Patch {
+pub(crate) fn membrane(n: usize, corners: usize) -> Patch {
     let side = n + 1;
     let place = |k: usize| {
         let (s, t) = ((k % side) as f64 / n as f64, (k / side) as f64 / n as f64);
@@ -22,7 +22,7 @@ fn membrane(n: usize, corners: usize) -> Patch {
 }
 
 /// Solution of K u = f by elimination without pivots: K is positive.
-fn solve(mut k: Vec<Vec<f64>>, mut f: Vec<f64>) -> Vec<f64> {
+pub(crate) fn solve(mut k: Vec<Vec<f64>>, mut f: Vec<f64>) -> Vec<f64> {
     for p in 0..f.len() {
         let (top, rest) = k.split_at_mut(p + 1);
         let pivot = &top[p];
@@ -42,7 +42,7 @@ fn solve(mut k: Vec<Vec<f64>>, mut f: Vec<f64>) -> Vec<f64> {
 }
 
 /// Deflection of the upper right corner under a unit shear force.
-fn deflection(element: &str, law: &str, n: usize, poisson: f64) -> f64 {
+pub(crate) fn deflection(element: &str, law: &str, n: usize, poisson: f64) -> f64 {
     let (material, patch) = (material(law, poisson), membrane(n, nodes_of(element)));
     let whole = stiffness(|| Body::made(&BlockInput::new(element, &material, &patch.connectivity, &patch.positions)));
     let free: Vec<usize> = (0..whole.len()).filter(|i| !(i / 2).is_multiple_of(n + 1)).collect();

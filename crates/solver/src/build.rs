@@ -45,7 +45,7 @@ use crate::load::curve::Curves;
 use crate::load::damping::Damping;
 use crate::load::force::Forces;
 use crate::load::join::Joins;
-use crate::load::non_reflecting::NonReflecting;
+use crate::load::non_reflecting::{Behind, NonReflecting};
 use crate::load::tributary::Depth;
 use crate::mesh::{ElementGroup, Mesh};
 use crate::model::{self, ContactLaw, Interface, Model, Penalty, PenaltySource};
@@ -134,7 +134,7 @@ where
     blocks.iter_mut().for_each(|block| block.release_corner_masses());
     drop((part_mass_scaled, part_mass_true));
     builder.measure_stiffness(&mut blocks, level);
-    let springs = <Dim<D>>::springs(&mut builder);
+    let springs = builder.springs().map(|springs| Box::new(springs) as Box<dyn Block<D>>);
     let (forces, boundary) = builder.loads();
     let mut contacts = <Dim<D>>::contacts(&mut builder);
     contacts.extend(<Dim<D>>::obstacles(&mut builder));
@@ -327,7 +327,13 @@ where
     /// Forces on nodes, and boundaries that reflect nothing.
     fn loads(&mut self) -> (Forces<D>, NonReflecting<D>) {
         let forces = Forces::new(self.model, &self.mesh, &self.curves, |facet| self.constraints.is_mirror(facet));
-        let boundary = <Dim<D>>::boundary(self);
+        let behind = |facet| {
+            let under = self.under(facet)?;
+            let part = &self.model.parts[self.mesh.groups[under.group].part];
+            let density = *self.model.materials.get(&part.material)?.parameters.get("density")?;
+            Some(Behind { density, moduli: self.moduli[under.group] })
+        };
+        let boundary = NonReflecting::new(self.model, &self.mesh, |facet| self.constraints.is_mirror(facet), behind);
         let mut faults = Vec::new();
         let made = (told(forces, &mut faults), told(boundary, &mut faults));
         self.faults.extend(faults);

@@ -50,8 +50,14 @@ impl Dimension {
     pub const FORCE: Self = Self::new(1, 1, -2);
     /// kg.
     pub const MASS: Self = Self::new(1, 0, 0);
-    /// N/m = kg/s²: force per metre of depth.
+    /// N/m = kg/s²: force per metre of depth; also a stiffness.
     pub const FORCE_PER_LENGTH: Self = Self::new(1, 0, -2);
+    /// N s/m = kg/s: force per velocity.
+    pub const FORCE_PER_VELOCITY: Self = Self::new(1, 0, -1);
+    /// m².
+    pub const AREA: Self = Self::new(0, 2, 0);
+    /// kg m².
+    pub const INERTIA: Self = Self::new(1, 2, 0);
     /// kg/m: mass per metre of depth.
     pub const MASS_PER_LENGTH: Self = Self::new(1, -1, 0);
     /// kg m = kg m²/m: moment of inertia per metre of depth.
@@ -74,6 +80,7 @@ impl Dimension {
             Self::SPECIFIC_HEAT => return "J/kg/K".into(),
             Self::VISCOSITY_PER_LENGTH => return "Pa s/m".into(),
             Self::FORCE_PER_LENGTH => return "N/m".into(),
+            Self::FORCE_PER_VELOCITY => return "N s/m".into(),
             Self::FORCE => return "N".into(),
             _ => {}
         }

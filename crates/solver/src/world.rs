@@ -5,13 +5,12 @@
 mod plane;
 mod space;
 
-use crate::block::{Block, Blocks};
+use crate::block::Blocks;
 use crate::build::Builder;
 use crate::contact::Contact;
 use crate::contact::forces::ContactForces;
 use crate::contact::traces::Traces;
 use crate::error::Fault;
-use crate::load::non_reflecting::NonReflecting;
 use crate::load::tributary::Tributary;
 use crate::mesh::surface::Facet;
 use crate::mesh::{Mesh, Meshed};
@@ -90,17 +89,6 @@ pub trait World<const D: usize>: Space<D> + Meshed<D> + Tributary<D> + Motion<D>
         Dim<D>: World<D>;
     /// The body of a rigid part with its mass on its nodes, kg/m (kg).
     fn rigid_part(builder: &Builder<'_, D>, index: usize, motion: &model::Motion, own: &[(u32, f64)]) -> Body<D>
-    where
-        Dim<D>: World<D>;
-    /// The springs of the model as a block; `None` without any.
-    fn springs(builder: &mut Builder<'_, D>) -> Option<Box<dyn Block<D>>>
-    where
-        Dim<D>: World<D>;
-    /// Boundaries that reflect nothing.
-    ///
-    /// # Errors
-    /// Names of nothing, or of what is no surface.
-    fn boundary(builder: &mut Builder<'_, D>) -> Result<NonReflecting<D>, Vec<Fault>>
     where
         Dim<D>: World<D>;
     /// The contacts of the model; notes faults.

@@ -67,7 +67,7 @@ impl Document {
     pub(super) fn single(&self, name: &str) -> Record {
         match (self.section(name).first(), section_by_name(name)) {
             (Some(record), _) => record.clone(),
-            (None, Some(section)) => Reader { vocabulary: &MODEL, faults: &mut Faults::default(), of_whole: false }.table(
+            (None, Some(section)) => Reader { vocabulary: &MODEL, faults: &mut Faults::default(), extent: Extent::Slice }.table(
                 section,
                 &[],
                 name,
@@ -214,7 +214,7 @@ fn whole(value: u64) -> usize {
 
 /// Reads all sections.
 pub(super) fn read(root: &Node, vocabulary: &Vocabulary, faults: &mut Faults) -> Document {
-    let mut reader = Reader { vocabulary, faults, of_whole: is_of_whole_bodies(root) };
+    let mut reader = Reader { vocabulary, faults, extent: extent(root) };
     let mut document = Document::default();
     let Value::Table(entries) = &root.value else { return document };
     let (sections, others): (Vec<&Entry>, Vec<&Entry>) = entries.iter().partition(|entry| vocabulary.section(&entry.key).is_some());
@@ -246,39 +246,70 @@ pub(super) fn header(section: &Section) -> String {
 struct Reader<'a> {
     vocabulary: &'a Vocabulary,
     faults: &'a mut Faults,
-    /// Whether masses and forces are those of whole bodies (of revolution, or solid), and not per metre of depth.
-    of_whole: bool,
+    extent: Extent,
 }
 
-/// Whether a part says that it is axisymmetric or a solid; those that don't agree are told later.
-fn is_of_whole_bodies(root: &Node) -> bool {
-    let Value::Table(sections) = &root.value else { return false };
+/// What masses and forces of a model are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Extent {
+    /// Those of a metre of depth.
+    Slice,
+    /// Those of whole bodies of revolution.
+    Revolution,
+    /// Those of solids.
+    Solid,
+}
+
+/// What its parts say: whether one is axisymmetric or a solid; those that don't agree are told later.
+fn extent(root: &Node) -> Extent {
+    let Value::Table(sections) = &root.value else { return Extent::Slice };
     let parts = sections.iter().filter(|section| section.key == "part").filter_map(|section| match &section.node.value {
         Value::List(parts) => Some(parts),
         _ => None,
     });
-    let says = |key: &Entry| match &key.node.value {
-        Value::Text(name) if key.key == "stress_state" => STRESS_STATES.iter().any(|kind| kind.name == name && kind.axisymmetric),
+    let keys = || parts.clone().flatten().filter_map(|part| if let Value::Table(keys) = &part.value { Some(keys) } else { None }).flatten();
+    let is_solid = |key: &Entry| match &key.node.value {
         Value::Text(name) if key.key == "element" => elements_of(3).iter().any(|kind| kind.name == name),
         _ => Shape::is_solid_key(&key.key),
     };
-    parts.flatten().any(|part| matches!(&part.value, Value::Table(keys) if keys.iter().any(says)))
+    let is_round = |key: &Entry| {
+        let is = |name: &str| STRESS_STATES.iter().any(|kind| kind.name == name && kind.axisymmetric);
+        key.key == "stress_state" && matches!(&key.node.value, Value::Text(name) if is(name))
+    };
+    if keys().any(is_solid) {
+        Extent::Solid
+    } else if keys().any(is_round) {
+        Extent::Revolution
+    } else {
+        Extent::Slice
+    }
 }
 
-/// A key of a whole body: without the metre of depth.
-fn all_around(key: &Key) -> Key {
-    let whole = |dimension: Dimension| match dimension {
-        Dimension::MASS_PER_LENGTH => Dimension::MASS,
-        Dimension::FORCE_PER_LENGTH => Dimension::FORCE,
-        other => other,
-    };
-    let kind = match key.kind {
-        Kind::Quantity(dimension, range) => Kind::Quantity(whole(dimension), range),
-        Kind::Vector(dimension, range) => Kind::Vector(whole(dimension), range),
-        Kind::Spatial(dimension, range) => Kind::Spatial(whole(dimension), range),
-        other => other,
-    };
-    Key { kind, ..*key }
+impl Extent {
+    /// A key without the metre of depth where bodies are whole ones. Springs of a body of revolution are those of its circumference, per metre of it.
+    fn of(self, key: &Key) -> Key {
+        let whole = |dimension: Dimension| match (dimension, key.name) {
+            (other, _) if self == Self::Slice => other,
+            (Dimension::MASS_PER_LENGTH, _) => Dimension::MASS,
+            (Dimension::FORCE_PER_LENGTH, _) => Dimension::FORCE,
+            (other, _) if self == Self::Revolution => other,
+            (Dimension::PRESSURE, "stiffness") => Dimension::FORCE_PER_LENGTH,
+            (Dimension::VISCOSITY, "damping") => Dimension::FORCE_PER_VELOCITY,
+            (Dimension::LENGTH, "area") => Dimension::AREA,
+            (Dimension::INERTIA_PER_LENGTH, _) => Dimension::INERTIA,
+            (Dimension::PRESSURE, "penalty") => Dimension::FORCE_PER_LENGTH,
+            (other, _) => other,
+        };
+        let kind = match key.kind {
+            Kind::Quantity(dimension, range) => Kind::Quantity(whole(dimension), range),
+            Kind::Quantities(dimension, range, least) if self == Self::Solid => Kind::Quantities(whole(dimension), range, least),
+            Kind::Stiffness(dimension, range) => Kind::Stiffness(whole(dimension), range),
+            Kind::Vector(dimension, range) => Kind::Vector(whole(dimension), range),
+            Kind::Spatial(dimension, range) => Kind::Spatial(whole(dimension), range),
+            other => other,
+        };
+        Key { kind, ..*key }
+    }
 }
 
 impl Reader<'_> {
@@ -362,7 +393,7 @@ impl Reader<'_> {
         if let (Kind::Table(section), Value::Table(entries)) = (key.kind, &node.value) {
             return Some(Datum::Table(Box::new(self.table(section, entries, path, node.place))));
         }
-        let key = if self.of_whole { all_around(key) } else { *key };
+        let key = self.extent.of(key);
         match value::read(&key, node, path) {
             Ok(datum) => Some(datum),
             Err(wrongs) => {

@@ -234,7 +234,7 @@ fn of_key(key: &Key) -> Json {
         Kind::Rigid => {
             any([object([("type", text("boolean"))]), courses(&["x", "y", "z", "rotation"], Dimension::VELOCITY, &["free", "ramp"])])
         }
-        Kind::Stiffness(range) => {
+        Kind::Stiffness(_, range) => {
             any([number(range), object([("type", text("string")), ("examples", texts(["3.5e11 N/m/m", "1e14 Pa/m"]))])])
         }
         Kind::Integer(least) => integer(least),

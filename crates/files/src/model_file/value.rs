@@ -306,9 +306,9 @@ pub(super) fn read(key: &Key, node: &Node, path: &str) -> Read<Datum> {
             Course::Driven(drive) => Datum::Drive(drive),
             Course::Free => return at.unlike(),
         },
-        Kind::Stiffness(range) => match at.number(&[Dimension::PRESSURE, Dimension::PRESSURE_PER_LENGTH], range, false)? {
-            (value, Dimension::PRESSURE) => Datum::Penalty(Penalty::PerNode(value)),
-            (value, _) => Datum::Penalty(Penalty::Pressure(value)),
+        Kind::Stiffness(dimension, range) => match at.number(&[dimension, Dimension::PRESSURE_PER_LENGTH], range, false)? {
+            (value, Dimension::PRESSURE_PER_LENGTH) => Datum::Penalty(Penalty::Pressure(value)),
+            (value, _) => Datum::Penalty(Penalty::PerNode(value)),
         },
         Kind::Integer(least) => Datum::Integer(at.integer(least)?),
         Kind::Integers(count, least) => match &node.value {
@@ -388,7 +388,7 @@ pub(super) fn words(kind: Kind) -> String {
         Kind::Components(_) => "a table with x, y, z or some of them".to_string(),
         Kind::Motion => "a table with x, y, z, rotation or some of them".to_string(),
         Kind::Rigid => "true, false, or a table with x, y, z, rotation or some of them".to_string(),
-        Kind::Stiffness(_) => "a stiffness".to_string(),
+        Kind::Stiffness(..) => "a stiffness".to_string(),
         Kind::Integer(_) => "a whole number".to_string(),
         Kind::Integers(count, _) => format!("a list of {count} whole numbers"),
         Kind::Cadence => "a whole number or a time".to_string(),
@@ -426,7 +426,8 @@ pub(super) fn example(key: &Key) -> String {
         Kind::Components(dimension) => format!("{{ x = {} }}", number(dimension)),
         Kind::Motion => "{ x = \"5 m/s\", rotation = \"free\" }".to_string(),
         Kind::Rigid => "true".to_string(),
-        Kind::Stiffness(_) => "\"3.5e11 N/m/m\"".to_string(),
+        Kind::Stiffness(Dimension::FORCE_PER_LENGTH, _) => "\"3.5e8 N/m\"".to_string(),
+        Kind::Stiffness(..) => "\"3.5e11 N/m/m\"".to_string(),
         Kind::Integer(_) => "12".to_string(),
         Kind::Integers(count, _) => format!("[{}]", ["12", "3", "4"].iter().cycle().take(count).copied().collect::<Vec<_>>().join(", ")),
         Kind::Cadence => "\"10 us\"".to_string(),

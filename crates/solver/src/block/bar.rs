@@ -1,4 +1,4 @@
-//! Bars between two nodes: trusses and cables.
+//! Bars between two nodes, in the plane and in space: trusses and cables.
 //!
 //! A bar bears a force N = σ A along the line between its nodes; σ is the Cauchy stress of its law under uniaxial stress, in axes that go with the bar, so a rotation is no
 //! strain, whatever its size. The strain of a step is Δε = 2 (l − l_old)/(l + l_old): sums of it are ln(l/l₀) to second order in the steps, and a bar that comes back to its
@@ -15,22 +15,23 @@ use crate::archive::{Archive, Keep, Kept, keep_each};
 use crate::failure::{Criterion, Seen, failing};
 use crate::material::points::{self, PointLaw, Points, RESPONSE, Room};
 use crate::material::{Family, Parameters, Variable};
-use crate::tensor::{Plane, SymmetricTensor, Turn};
+use crate::tensor::{Dim, Plane, Space, SymmetricTensor, Turn};
+use crate::vector::{dot, minus};
 use embate_lanes::{BATCH, Batch, Level, Team};
 
 /// Components of a tensor of the plane: xx is along the bar.
 const PLANE: usize = 4;
 
 /// One bar.
-#[derive(Clone, Copy, Debug, Default)]
-struct Bar {
+#[derive(Clone, Copy, Debug)]
+struct Bar<const D: usize> {
     nodes: [u32; 2],
     /// Lengths at the start, in the step before, and now, m.
     initial: f64,
     length_old: f64,
     length: f64,
     /// Unit vector from the first node to the second.
-    direction: [f64; 2],
+    direction: [f64; D],
     /// Mass with what mass scaling added, kg/m.
     mass: f64,
     /// Energies, J/m.
@@ -43,7 +44,7 @@ struct Bar {
     is_gone: bool,
 }
 
-impl Keep for Bar {
+impl<const D: usize> Keep for Bar<D> {
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
         #[rustfmt::skip]
         let Self {
@@ -55,7 +56,7 @@ impl Keep for Bar {
     }
 }
 
-impl Bar {
+impl<const D: usize> Bar<D> {
     /// Strain increment of the step that led here, exact to second order in it.
     fn strain(&self) -> f64 {
         2.0 * (self.length - self.length_old) / (self.length + self.length_old)
@@ -63,13 +64,13 @@ impl Bar {
 }
 
 /// The bars of a part.
-pub(super) struct Bars {
+pub(super) struct Bars<const D: usize> {
     law: Box<dyn PointLaw>,
-    /// Cross-section at the start per metre of depth, m.
+    /// Cross-section at the start, m² (per metre of depth, m).
     area: f64,
     /// Time β of the damping in proportion to the stiffness, s; 0: none.
     damping: f64,
-    bars: Vec<Bar>,
+    bars: Vec<Bar<D>>,
     /// Their nodes, two by two: the slots of the forces.
     slots: Vec<u32>,
     /// Cauchy stress in the axes of the bars, Pa.
@@ -86,24 +87,37 @@ pub(super) struct Bars {
 }
 
 /// Length of a bar and its direction; none where the nodes coincide.
-fn line([a, b]: [[f64; 2]; 2]) -> (f64, [f64; 2]) {
-    let d = [b[0] - a[0], b[1] - a[1]];
-    let length = (d[0] * d[0] + d[1] * d[1]).sqrt();
-    (length, if length > 0.0 { d.map(|d| d / length) } else { [0.0; 2] })
+fn line<const D: usize>([a, b]: [[f64; D]; 2]) -> (f64, [f64; D]) {
+    let d = minus(b, a);
+    let length = dot(d, d).sqrt();
+    (length, if length > 0.0 { d.map(|d| d / length) } else { [0.0; D] })
 }
 
-impl Bars {
+impl<const D: usize> Bars<D> {
     /// From what [`super::make`] was given; `None` when the law is unknown.
-    pub(super) fn new(input: &BlockInput<'_>) -> Option<Self> {
+    pub(super) fn new(input: &BlockInput<'_, D>) -> Option<Self> {
         let law = points::uniaxial(input.material)?;
         let density = Parameters::new(&[], &input.material.parameters, &input.material.lists).value("density");
         let bar = |nodes: &[u32; 2]| {
             let (length, direction) = line(nodes.map(|node| input.positions[node as usize]));
             let volume = input.area * length;
             let stored = law.stored() * volume;
-            Bar { nodes: *nodes, initial: length, length_old: length, length, direction, mass: density * volume, stored, ..Bar::default() }
+            Bar {
+                nodes: *nodes,
+                initial: length,
+                length_old: length,
+                length,
+                direction,
+                mass: density * volume,
+                stored,
+                dissipated: 0.0,
+                damped: 0.0,
+                damping: 0.0,
+                time_step_squared: 0.0,
+                is_gone: false,
+            }
         };
-        let bars: Vec<Bar> = input.connectivity.as_chunks::<2>().0.iter().map(bar).collect();
+        let bars: Vec<Bar<D>> = input.connectivity.as_chunks::<2>().0.iter().map(bar).collect();
         let batches = bars.len().div_ceil(BATCH);
         let room = |width: usize| vec![Batch::default(); batches * width];
         let mut history = room(law.state_width());
@@ -129,7 +143,7 @@ impl Bars {
     }
 
     /// What the law wants to know of the step that led here, in the axes of the bars.
-    fn strain(&mut self, positions: &[[f64; 2]]) {
+    fn strain(&mut self, positions: &[[f64; D]]) {
         // What is not there is not strained.
         let unstrained = if self.law.family() == Family::Rate { 0.0 } else { 1.0 };
         self.ratio.fill(Batch::splat(1.0));
@@ -160,7 +174,7 @@ impl Bars {
     }
 
     fn sum(&self) -> Report {
-        let of = |bar: &Bar| {
+        let of = |bar: &Bar<D>| {
             let gone = Report { dissipated: bar.dissipated, damping: bar.damping, ..Report::NOTHING };
             let there = Report { time_step_squared: bar.time_step_squared, determinant: bar.length, stored: bar.stored, ..gone };
             if bar.is_gone { gone } else { there }
@@ -177,12 +191,12 @@ fn unturned(point: &mut [Batch]) {
 }
 
 /// A batch of bars as criteria see it.
-struct Look<'a> {
-    bars: &'a Bars,
+struct Look<'a, const D: usize> {
+    bars: &'a Bars<D>,
     batch: usize,
 }
 
-impl Seen for Look<'_> {
+impl<const D: usize> Seen for Look<'_, D> {
     fn stress(&self) -> [Batch; 6] {
         std::array::from_fn(|c| if c < PLANE { self.bars.stress[self.batch * PLANE + c] } else { Batch::default() })
     }
@@ -196,7 +210,10 @@ impl Seen for Look<'_> {
     }
 }
 
-impl Block<2> for Bars {
+impl<const D: usize> Block<D> for Bars<D>
+where
+    Dim<D>: Space<D>,
+{
     fn elements(&self) -> usize {
         self.bars.len()
     }
@@ -205,7 +222,7 @@ impl Block<2> for Bars {
         &self.slots
     }
 
-    fn advance(&mut self, motion: &Motion<'_, 2>, level: Level, slots: &mut [[f64; 2]], _team: &mut Team) -> Report {
+    fn advance(&mut self, motion: &Motion<'_, D>, level: Level, slots: &mut [[f64; D]], _team: &mut Team) -> Report {
         self.strain(motion.positions);
         self.law.respond(
             level,
@@ -266,9 +283,10 @@ impl Block<2> for Bars {
 
     fn state(&self, element: usize) -> ElementState {
         let bar = &self.bars[element];
-        let [c, s] = bar.direction;
         let stress = self.stress_of(element);
-        let mut state = ElementState { stress: [c * c * stress, s * s * stress, 0.0, c * s * stress, 0.0, 0.0], ..ElementState::default() };
+        let along = |i: usize, j: usize| if j < D { bar.direction[i] * bar.direction[j] * stress } else { 0.0 };
+        let stress = [along(0, 0), along(1, 1), along(2, 2), along(0, 1), along(1, 2), along(0, 2)];
+        let mut state = ElementState { stress, ..ElementState::default() };
         let width = self.law.state_width();
         for &(variable, index) in self.law.variables() {
             state.variables[variable as usize] = self.history[element / BATCH * width + index].0[element % BATCH];
@@ -285,7 +303,7 @@ impl Block<2> for Bars {
         self.bars[element].mass *= factor;
     }
 
-    fn begin(&mut self, initial: &Initial<'_>, positions: &[[f64; 2]]) -> Result<(), Wrong> {
+    fn begin(&mut self, initial: &Initial<'_>, positions: &[[f64; D]]) -> Result<(), Wrong> {
         if let Some(temperature) = initial.temperature {
             initial::warm(self.law.as_ref(), &mut self.history, temperature)?;
         }
@@ -324,17 +342,17 @@ impl Block<2> for Bars {
         failed
     }
 
-    fn determinant(&self, element: usize, positions: &[[f64; 2]]) -> f64 {
+    fn determinant(&self, element: usize, positions: &[[f64; D]]) -> f64 {
         line(self.bars[element].nodes.map(|node| positions[node as usize])).0
     }
 
-    fn force(&self, element: usize, corner: usize, slots: &[[f64; 2]]) -> [f64; 2] {
+    fn force(&self, element: usize, corner: usize, slots: &[[f64; D]]) -> [f64; D] {
         slots[2 * element + corner]
     }
 
-    fn erode(&mut self, elements: &[u32], slots: &mut [[f64; 2]]) -> Vec<f64> {
+    fn erode(&mut self, elements: &[u32], slots: &mut [[f64; D]]) -> Vec<f64> {
         let take = |&element: &u32| {
-            slots[2 * element as usize..2 * element as usize + 2].fill([0.0; 2]);
+            slots[2 * element as usize..2 * element as usize + 2].fill([0.0; D]);
             let bar = &mut self.bars[element as usize];
             bar.is_gone = true;
             bar.stored
@@ -342,7 +360,7 @@ impl Block<2> for Bars {
         elements.iter().map(take).collect()
     }
 
-    fn report(&self, _positions: &[[f64; 2]]) -> Report {
+    fn report(&self, _positions: &[[f64; D]]) -> Report {
         self.sum()
     }
 

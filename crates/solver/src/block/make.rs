@@ -15,7 +15,7 @@ use std::marker::PhantomData;
 pub struct BlockInput<'a, const D: usize = 2> {
     /// Name in the element registry.
     pub element: &'a str,
-    /// Cross-section of bars per metre of depth, m.
+    /// Cross-section of bars, m² (per metre of depth, m).
     pub area: f64,
     /// Its options.
     pub options: ElementOptions,
@@ -77,6 +77,9 @@ impl Blocks<2> for Dim<2> {
 
 impl Blocks<3> for Dim<3> {
     fn make(input: &BlockInput<'_, 3>) -> Option<Box<dyn Block<3>>> {
+        if input.element == BAR2.name {
+            return Some(Box::new(Bars::new(input)?));
+        }
         if !input.stress_state.is_empty() {
             return None;
         }

@@ -1,6 +1,6 @@
 //! Springs and dampers between pairs of nodes, as a block of two-node elements without mass.
 //!
-//! F = k (l − l₀) or a curve F(l − l₀), constant beyond its ends, and c l̇, along the line between the nodes (N per metre of depth). A spring breaks for good when |F| exceeds
+//! F = k (l − l₀) or a curve F(l − l₀), constant beyond its ends, and c l̇, along the line between the nodes (N per metre of depth, between solids N). A spring breaks for good when |F| exceeds
 //! its strength. Work by the trapezoidal rule, as the nodal works of the ledger: that of the spring is stored until it breaks, that of the damper is dissipated.
 //!
 //! Stable step of springs alone: by Gershgorin ω² ≤ 2 Σ k / m over the springs of a node, a damper that lags half a step takes part as 2c/Δt:
@@ -12,6 +12,8 @@ use crate::failure::Criterion;
 use crate::load::curve::table::Table;
 use crate::material::points::PointLaw;
 use crate::model::Spring;
+use crate::tensor::{Dim, Space};
+use crate::vector::{dot, minus};
 use embate_lanes::{Level, Team};
 
 /// A pair of nodes with its state.
@@ -82,8 +84,8 @@ pub(crate) struct SpringBlock {
 }
 
 impl SpringBlock {
-    /// Of springs with their pairs of nodes; `mass` of every node, kg/m.
-    pub(crate) fn new(springs: &[(&Spring, Vec<[u32; 2]>)], positions: &[[f64; 2]], mass: &[f64]) -> Self {
+    /// Of springs with their pairs of nodes; `mass` of every node, kg/m (kg).
+    pub(crate) fn new<const D: usize>(springs: &[(&Spring, Vec<[u32; 2]>)], positions: &[[f64; D]], mass: &[f64]) -> Self {
         let laws: Vec<Law> = springs.iter().map(|(spring, _)| Law::new(spring)).collect();
         let mut pairs = Vec::new();
         for (law, (spring, nodes)) in springs.iter().enumerate() {
@@ -143,14 +145,17 @@ fn start(law: &Law, elongation: f64) -> f64 {
 }
 
 /// Length and direction from the first node to the second; no direction where they coincide.
-fn line(x: &[[f64; 2]], nodes: [u32; 2]) -> (f64, [f64; 2]) {
+fn line<const D: usize>(x: &[[f64; D]], nodes: [u32; 2]) -> (f64, [f64; D]) {
     let [a, b] = nodes.map(|node| x[node as usize]);
-    let d = [b[0] - a[0], b[1] - a[1]];
-    let length = (d[0] * d[0] + d[1] * d[1]).sqrt();
-    (length, if length > 0.0 { d.map(|d| d / length) } else { [0.0; 2] })
+    let d = minus(b, a);
+    let length = dot(d, d).sqrt();
+    (length, if length > 0.0 { d.map(|d| d / length) } else { [0.0; D] })
 }
 
-impl Block<2> for SpringBlock {
+impl<const D: usize> Block<D> for SpringBlock
+where
+    Dim<D>: Space<D>,
+{
     fn elements(&self) -> usize {
         self.pairs.len()
     }
@@ -159,13 +164,13 @@ impl Block<2> for SpringBlock {
         &self.slots
     }
 
-    fn advance(&mut self, motion: &Motion<'_, 2>, _level: Level, slots: &mut [[f64; 2]], _team: &mut Team) -> Report {
+    fn advance(&mut self, motion: &Motion<'_, D>, _level: Level, slots: &mut [[f64; D]], _team: &mut Team) -> Report {
         let mut report = Report::NOTHING;
         for (element, pair) in self.pairs.iter_mut().enumerate() {
             let law = &self.laws[pair.law];
             let (length, direction) = line(motion.positions, pair.nodes);
             let [v, w] = pair.nodes.map(|node| motion.velocities[node as usize]);
-            let rate = (w[0] - v[0]) * direction[0] + (w[1] - v[1]) * direction[1];
+            let rate = dot(minus(w, v), direction);
             let mut forces = [law.force(length - pair.rest), law.damping * rate];
             if pair.is_whole && forces[0].abs() > law.strength {
                 pair.is_whole = false;
@@ -211,7 +216,7 @@ impl Block<2> for SpringBlock {
     // Springs have no mass, and break by their strength: no criterion of a material takes them out.
     fn scale_mass(&mut self, _element: usize, _factor: f64) {}
     // They have a length without force instead.
-    fn begin(&mut self, _initial: &Initial<'_>, _positions: &[[f64; 2]]) -> Result<(), Wrong> {
+    fn begin(&mut self, _initial: &Initial<'_>, _positions: &[[f64; D]]) -> Result<(), Wrong> {
         Ok(())
     }
     fn is_alive(&self, element: usize) -> bool {
@@ -220,16 +225,16 @@ impl Block<2> for SpringBlock {
     fn failed(&self, _criteria: &[Criterion], _parallel: bool) -> Vec<(u32, u32)> {
         Vec::new()
     }
-    fn determinant(&self, _element: usize, _positions: &[[f64; 2]]) -> f64 {
+    fn determinant(&self, _element: usize, _positions: &[[f64; D]]) -> f64 {
         f64::INFINITY
     }
-    fn force(&self, element: usize, corner: usize, slots: &[[f64; 2]]) -> [f64; 2] {
+    fn force(&self, element: usize, corner: usize, slots: &[[f64; D]]) -> [f64; D] {
         slots[2 * element + corner]
     }
-    fn erode(&mut self, _elements: &[u32], _slots: &mut [[f64; 2]]) -> Vec<f64> {
+    fn erode(&mut self, _elements: &[u32], _slots: &mut [[f64; D]]) -> Vec<f64> {
         Vec::new()
     }
-    fn report(&self, _positions: &[[f64; 2]]) -> Report {
+    fn report(&self, _positions: &[[f64; D]]) -> Report {
         self.report
     }
 

@@ -7,7 +7,8 @@ use crate::load::messages::TO_ITSELF;
 use crate::model::Spring;
 use crate::model::messages::UNKNOWN_NAME;
 use crate::tensor::Dim;
-use crate::world::World;
+use crate::vector::{dot, minus};
+use crate::world::{World, place};
 
 impl<const D: usize> Builder<'_, D>
 where
@@ -36,9 +37,6 @@ where
         }
         nodes
     }
-}
-
-impl Builder<'_, 2> {
     /// The springs of the model as a block; `None` without any. The masses of nodes are known.
     pub(crate) fn springs(&mut self) -> Option<SpringBlock> {
         let mut springs = Vec::new();
@@ -48,8 +46,8 @@ impl Builder<'_, 2> {
             match pairs(&first, &second, &self.mesh.positions) {
                 Ok(pairs) => springs.push((spring, pairs)),
                 Err(node) => {
-                    let [x, y] = self.mesh.positions[node as usize];
-                    let message = format!("the node at ({x:.6e}, {y:.6e}) m is in both sets, so its spring would bind it to itself");
+                    let at = place(self.mesh.positions[node as usize]);
+                    let message = format!("the node at {at} m is in both sets, so its spring would bind it to itself");
                     self.faults.push(Fault::new(&TO_ITSELF, format!("spring[{index}].between"), message, "name sets without common nodes"));
                 }
             }
@@ -63,11 +61,11 @@ impl Builder<'_, 2> {
 }
 
 /// Each node of the larger set with the nearest one of the other, from the first set to the second; `Err`: a node of both.
-fn pairs(first: &[u32], second: &[u32], positions: &[[f64; 2]]) -> Result<Vec<[u32; 2]>, u32> {
+fn pairs<const D: usize>(first: &[u32], second: &[u32], positions: &[[f64; D]]) -> Result<Vec<[u32; 2]>, u32> {
     let (many, few) = if first.len() >= second.len() { (first, second) } else { (second, first) };
     let distance = |a: u32, b: u32| {
-        let (x, y) = (positions[a as usize], positions[b as usize]);
-        (x[0] - y[0]).powi(2) + (x[1] - y[1]).powi(2)
+        let way = minus(positions[a as usize], positions[b as usize]);
+        dot(way, way)
     };
     let nearest = |&node: &u32| {
         let partner = few.iter().copied().min_by(|&a, &b| distance(node, a).total_cmp(&distance(node, b))).unwrap_or(node);

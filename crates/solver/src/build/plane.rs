@@ -10,7 +10,6 @@ use crate::contact::projection::node_segment::Target;
 use crate::contact::{self, Contact, ContactKind, Formulation};
 use crate::error::Fault;
 use crate::load::constraint::unit;
-use crate::load::non_reflecting::{Behind, NonReflecting};
 use crate::load::tributary::Depth;
 use crate::mesh::Mesh;
 use crate::mesh::messages::NEGATIVE_RADIUS;
@@ -46,17 +45,6 @@ pub(crate) fn with_axis(model: &Model, mesh: &Mesh<2>) -> Result<Option<Model>, 
 }
 
 impl Builder<'_, 2> {
-    /// Boundaries that reflect nothing.
-    pub(crate) fn boundary(&mut self) -> Result<NonReflecting<2>, Vec<Fault>> {
-        let behind = |segment| {
-            let under = self.under(segment)?;
-            let part = &self.model.parts[self.mesh.groups[under.group].part];
-            let density = *self.model.materials.get(&part.material)?.parameters.get("density")?;
-            Some(Behind { density, moduli: self.moduli[under.group] })
-        };
-        NonReflecting::new(self.model, &self.mesh, |segment| self.constraints.is_mirror(segment), behind)
-    }
-
     /// What is behind a surface, with the stiffness that an interface asks for.
     pub(crate) fn side(&self, Outlined { target, lids }: Outlined, interface: &Interface) -> Side<'_> {
         let (surface, positions, source) = (&target.surface, &self.mesh.positions, source_of(interface));

@@ -1,40 +1,12 @@
-//! What is built in space in a way of its own: rigid parts that turn about any axis. What the plane has and space has not is refused here, by its key.
+//! What is built in space in a way of its own: rigid parts that turn about any axis.
 
 use super::Builder;
 use super::bodies::Bulk;
-use crate::block::Block;
-use crate::error::Fault;
-use crate::load::non_reflecting::NonReflecting;
-use crate::model::messages::NOT_IN_SPACE;
 use crate::model::{Motion, Obstacle};
 use crate::rigid::space::Turning;
 use crate::rigid::{Body, Drive, Member};
 
 impl Builder<'_, 3> {
-    /// Notes that a list of the model has what space has not.
-    fn refuse(&mut self, key: &str, count: usize, what: &str, help: &str) {
-        for index in 0..count {
-            self.faults.push(Fault::new(&NOT_IN_SPACE, format!("{key}[{index}]"), format!("{what} in space"), help));
-        }
-    }
-
-    /// See [`crate::world::World::springs`].
-    pub(crate) fn springs_in_space(&mut self) -> Option<Box<dyn Block<3>>> {
-        self.refuse("spring", self.model.springs.len(), "there are no springs", "join the nodes by a few elements");
-        None
-    }
-
-    /// See [`crate::world::World::boundary`].
-    pub(crate) fn boundary_in_space(&mut self) -> NonReflecting<3> {
-        self.refuse(
-            "non_reflecting",
-            self.model.non_reflecting.len(),
-            "there are no boundaries that reflect nothing",
-            "make the body longer",
-        );
-        NonReflecting::default()
-    }
-
     /// See [`crate::world::World::rigid_part`].
     pub(crate) fn rigid_part_in_space(&self, index: usize, motion: &Motion, own: &[(u32, f64)]) -> Body<3> {
         let (part, positions) = (&self.model.parts[index], &self.mesh.positions);

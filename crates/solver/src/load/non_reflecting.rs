@@ -3,18 +3,19 @@
 //!
 //! traction t = −ρ c_p (v·n) n − ρ c_s (v − (v·n) n),   c_p² = (K + 4µ/3)/ρ,   c_s² = µ/ρ
 //!
-//! on the tributary length of each node, normals and lengths as they are at the start. With C the sum over a node's segments, the force −C v̄ acts on the mean
+//! on the tributary length (in space: area) of each node, normals and sizes as they are at the start. With C the sum over a node's pieces of the surface, the force −C v̄ acts on the mean
 //! velocity of the update, v̄ = ½ (v^{n−½} + v^{n+½}): it only takes energy, whatever the step, and shortens none. A node gives way to an impulse J by
 //! (m + ½ Δt C)⁻¹ J with Δt = ½ (dt^{n−1} + dt^n).
 
-use super::tributary::Depth;
+use super::tributary::{self, Depth, Tributary};
 use crate::error::Fault;
 use crate::mesh::Mesh;
-use crate::mesh::surface::Surface;
+use crate::mesh::surface::{Facet, Sided};
 use crate::model::Model;
-use crate::world::Square;
+use crate::tensor::Dim;
+use crate::world::{Square, World};
 
-/// What is behind a segment of a surface.
+/// What is behind a piece of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Behind {
     /// Density, kg/m³.
@@ -30,38 +31,37 @@ pub struct NonReflecting<const D: usize> {
     dashpots: Vec<Square<D>>,
 }
 
-impl NonReflecting<2> {
-    /// `behind` tells what is behind a segment, `is_mirror` which segments lie on a symmetry line: they are no boundary.
+impl<const D: usize> NonReflecting<D>
+where
+    Dim<D>: World<D>,
+{
+    /// `behind` tells what is behind a piece of a surface, `is_mirror` which pieces lie on a symmetry line or plane: they are no boundary.
     ///
     /// # Errors
     /// Names of nothing, or of what is no surface.
     pub fn new(
         model: &Model,
-        mesh: &Mesh<2>,
-        is_mirror: impl Fn([u32; 2]) -> bool,
-        behind: impl Fn([u32; 2]) -> Option<Behind>,
+        mesh: &Mesh<D>,
+        is_mirror: impl Fn(Facet<D>) -> bool,
+        behind: impl Fn(Facet<D>) -> Option<Behind>,
     ) -> Result<Self, Vec<Fault>> {
         let (mut result, mut faults, depth) = (Self::default(), Vec::new(), Depth::of(model));
         for (i, boundary) in model.non_reflecting.iter().enumerate() {
-            result.dashpots.resize(mesh.positions.len(), [[0.0; 2]; 2]);
+            result.dashpots.resize(mesh.positions.len(), [[0.0; D]; D]);
             match mesh.surface(&boundary.on, &is_mirror) {
-                Ok(surface) => result.add(&surface, mesh, depth, &behind),
+                Ok(surface) => result.add(surface.facets(), mesh, depth, &behind),
                 Err(fault) => faults.push(Fault { path: format!("non_reflecting[{i}].on"), ..fault }),
             }
         }
         if faults.is_empty() { Ok(result) } else { Err(faults) }
     }
 
-    fn add(&mut self, surface: &Surface, mesh: &Mesh<2>, depth: Depth, behind: &impl Fn([u32; 2]) -> Option<Behind>) {
-        for &segment in &surface.segments {
-            let Some(Behind { density, moduli: [wave, bulk] }) = behind(segment) else { continue };
-            let [a, b] = segment.map(|node| mesh.positions[node as usize]);
-            let length = ((b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2)).sqrt();
-            let [x, y] = [(b[0] - a[0]) / length, (b[1] - a[1]) / length];
+    fn add(&mut self, facets: &[Facet<D>], mesh: &Mesh<D>, depth: Depth, behind: &impl Fn(Facet<D>) -> Option<Behind>) {
+        for &facet in facets {
+            let Some(Behind { density, moduli: [wave, bulk] }) = behind(facet) else { continue };
             let (along, across) = ((density * 0.75 * (wave - bulk)).max(0.0).sqrt(), (density * wave).sqrt());
-            let shear = (along - across) * x * y;
-            let matrix = [[across * y * y + along * x * x, shear], [shear, across * x * x + along * y * y]];
-            for (node, share) in segment.into_iter().zip(depth.shares([a, b])) {
+            let matrix = Dim::<D>::resistance(facet, &mesh.positions, along, across);
+            for (node, share) in tributary::shares(depth, facet, &mesh.positions) {
                 let sum = &mut self.dashpots[node as usize];
                 *sum = std::array::from_fn(|i| std::array::from_fn(|j| sum[i][j] + share * matrix[i][j]));
             }

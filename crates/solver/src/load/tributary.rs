@@ -58,6 +58,9 @@ pub trait Tributary<const D: usize>: Meshed<D> {
     /// What a pressure of one does at each node: −∫ N_a n dA as a vector that points inwards, and a factor on it; the product of the two is meant. A closed surface
     /// under a constant pressure feels no resultant, and in space no moment, but round-off. Zero where a piece has no size.
     fn presses(depth: Depth, facet: Self::Facet, positions: &[[f64; D]]) -> Self::Presses;
+
+    /// `across` n nᵀ + `along` (I − n nᵀ) with the normal n of a piece: a resistance to motion across it, and along it.
+    fn resistance(facet: Self::Facet, positions: &[[f64; D]], along: f64, across: f64) -> [[f64; D]; D];
 }
 
 impl Tributary<2> for Dim<2> {
@@ -79,6 +82,14 @@ impl Tributary<2> for Dim<2> {
             [([0.0; 2], 0.0); 2]
         }
     }
+
+    fn resistance(segment: [u32; 2], positions: &[[f64; 2]], along: f64, across: f64) -> [[f64; 2]; 2] {
+        let [a, b] = segment.map(|node| positions[node as usize]);
+        let length = ((b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2)).sqrt();
+        let [x, y] = [(b[0] - a[0]) / length, (b[1] - a[1]) / length];
+        let shear = (along - across) * x * y;
+        [[across * y * y + along * x * x, shear], [shear, across * x * x + along * y * y]]
+    }
 }
 
 impl Tributary<3> for Dim<3> {
@@ -92,6 +103,13 @@ impl Tributary<3> for Dim<3> {
     fn presses(_: Depth, facet: [u32; 4], positions: &[[f64; 3]]) -> [([f64; 3], f64); 4] {
         let areas = vector_shares(facet.map(|node| positions[node as usize]), facet.corners().len() == 3);
         areas.map(|[x, y, z]| ([0.0 - x, 0.0 - y, 0.0 - z], 1.0))
+    }
+
+    /// The normal is that of the vector area.
+    fn resistance(facet: [u32; 4], positions: &[[f64; 3]], along: f64, across: f64) -> [[f64; 3]; 3] {
+        let area = vector_area(facet.map(|node| positions[node as usize]), facet.corners().len() == 3);
+        let n = area.map(|component| component / length(area));
+        std::array::from_fn(|i| std::array::from_fn(|j| (across - along) * n[i] * n[j] + if i == j { along } else { 0.0 }))
     }
 }
 

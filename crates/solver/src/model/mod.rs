@@ -233,7 +233,7 @@ pub struct Part {
     pub element: String,
     /// The same for its triangles, if it has any.
     pub element_triangles: String,
-    /// Cross-section of its bars per metre of depth, m²/m; bars need it, and nothing else has it.
+    /// Cross-section of its bars, m² (per metre of depth, m²/m); bars need it, and nothing else has it.
     pub area: Option<f64>,
     /// Coefficient of its hourglass control, where it has one; `None`: that of the control's source.
     pub hourglass: Option<f64>,
@@ -318,6 +318,9 @@ impl Part {
             return self.element_of(nodes);
         }
         let counterpart = self.element.replacen("quad4", "hex8", 1);
+        if nodes == 2 {
+            return BARS.iter().find(|kind| kind.name == self.element);
+        }
         let mut kinds = elements_of(dimension).iter().filter(|kind| kind.nodes == nodes);
         let usual = kinds.clone().next().filter(|_| nodes < 8);
         kinds.find(|kind| [&self.element, &counterpart, &self.element_triangles].iter().any(|name| *name == kind.name)).or(usual)

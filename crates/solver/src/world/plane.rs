@@ -1,13 +1,11 @@
 //! What the plane means for the system: axes stand on it, cells are polygons and lines.
 
 use super::{Square, World};
-use crate::block::Block;
 use crate::build::{self, Builder};
 use crate::contact::Contact;
 use crate::contact::forces::ContactForces;
 use crate::contact::traces::Traces;
 use crate::error::Fault;
-use crate::load::non_reflecting::NonReflecting;
 use crate::mesh::Mesh;
 use crate::model::{Model, Motion};
 use crate::output::CellKind;
@@ -58,12 +56,6 @@ impl World<2> for Dim<2> {
     }
     fn rigid_part(builder: &Builder<'_, 2>, index: usize, motion: &Motion, own: &[(u32, f64)]) -> Body<2> {
         builder.rigid_part(index, motion, own)
-    }
-    fn springs(builder: &mut Builder<'_, 2>) -> Option<Box<dyn Block<2>>> {
-        builder.springs().map(|springs| Box::new(springs) as Box<dyn Block<2>>)
-    }
-    fn boundary(builder: &mut Builder<'_, 2>) -> Result<NonReflecting<2>, Vec<Fault>> {
-        builder.boundary()
     }
     fn contacts(builder: &mut Builder<'_, 2>) -> Vec<Contact> {
         builder.contacts()

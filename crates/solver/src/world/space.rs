@@ -1,13 +1,11 @@
 //! What space means for the system: rotations about any axis, cells are tetrahedra, wedges, hexahedra and lines.
 
 use super::{Square, World, cross, inverse, transposed};
-use crate::block::Block;
 use crate::build::Builder;
 use crate::contact::Contact;
 use crate::contact::forces::ContactForces;
 use crate::contact::traces::Traces;
 use crate::error::Fault;
-use crate::load::non_reflecting::NonReflecting;
 use crate::load::tributary::{Depth, Tributary};
 use crate::mesh::Mesh;
 use crate::mesh::surface::Corners;
@@ -58,12 +56,6 @@ impl World<3> for Dim<3> {
     }
     fn rigid_part(builder: &Builder<'_, 3>, index: usize, motion: &model::Motion, own: &[(u32, f64)]) -> Body<3> {
         builder.rigid_part_in_space(index, motion, own)
-    }
-    fn springs(builder: &mut Builder<'_, 3>) -> Option<Box<dyn Block<3>>> {
-        builder.springs_in_space()
-    }
-    fn boundary(builder: &mut Builder<'_, 3>) -> Result<NonReflecting<3>, Vec<Fault>> {
-        Ok(builder.boundary_in_space())
     }
     fn contacts(builder: &mut Builder<'_, 3>) -> Vec<Contact<3>> {
         builder.contacts_in_space()

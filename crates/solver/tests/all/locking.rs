@@ -195,7 +195,7 @@ fn pressed(element: &str, poisson: f64) -> f64 {
         _ => z > 0.0,
     };
     let is_pressed = |[x, y, z]: Vector| z > 0.99 && x < 0.51 && y < 0.51;
-    let share = |x: f64| if x < 0.01 || x > 0.49 { 0.5 } else { 1.0 };
+    let share = |x: f64| if (0.01..0.49).contains(&x) { 1.0 } else { 0.5 };
     let load = |at: Vector| [0.0, 0.0, if is_pressed(at) { -share(at[0]) * share(at[1]) } else { 0.0 }];
     let patch = bricks([N, N, N], [1.0; 3]);
     let places = patch.positions.clone();

@@ -16,6 +16,7 @@ mod chaboche;
 mod conditions;
 mod contact;
 mod discrete;
+mod discrete_in_space;
 mod elements;
 mod ends;
 mod erosion;

@@ -6,6 +6,7 @@ mod faults;
 mod random;
 mod reads;
 mod shapes;
+mod solids;
 mod warnings;
 
 use embate_files::model_file::{Diagnostic, Diagnostics, load_text};

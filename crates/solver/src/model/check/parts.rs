@@ -143,7 +143,9 @@ impl Check<'_> {
             return;
         }
         if part.area.is_none() {
-            self.fault(&BARS, area, "bars need their cross-section", "add `area = \"1e-4 m\"`: cross-section per metre of depth");
+            let of_space = self.model.dimension() == 3;
+            let help = if of_space { "add `area = \"1e-4 m^2\"`" } else { "add `area = \"1e-4 m\"`: cross-section per metre of depth" };
+            self.fault(&BARS, area, "bars need their cross-section", help);
         }
         if !part.stress_state.is_empty() && part.stress_state != STRESS_STATES[0].name {
             let help = "leave `stress_state` out; in a body of revolution a line is a shell, for which there is no element";

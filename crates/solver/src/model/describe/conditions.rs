@@ -99,7 +99,7 @@ pub(super) static LOAD: Section = Section {
             "force",
             Spatial(Dimension::FORCE_PER_LENGTH, Finite),
             Optional("another load"),
-            "Force on a set in all, per metre of depth (of an axisymmetric model in N over the whole circumference): shared by length over a side or a line group on the outside, equally over other groups.",
+            "Force on a set in all, per metre of depth (of an axisymmetric model in N over the whole circumference, of solids in N): shared by length, of solids by area, over a side or a group on the outside, equally over other groups.",
         ),
         key(
             "pressure",

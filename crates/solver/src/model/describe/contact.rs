@@ -59,13 +59,13 @@ pub(super) static OBSTACLE: Section = Section {
             "mass",
             Quantity(Dimension::MASS_PER_LENGTH, Positive),
             Optional("needed where, and only where, `x` or `y` is free"),
-            "Mass per depth; of an axisymmetric model the whole mass, kg.",
+            "Mass per depth; of an axisymmetric model and among solids the whole mass, kg.",
         ),
         key(
             "inertia",
             Quantity(Dimension::INERTIA_PER_LENGTH, Positive),
             Optional("needed where, and only where, `rotation` is free"),
-            "Moment of inertia about the reference point per depth.",
+            "Moment of inertia about the reference point per depth; among solids the whole, kg m^2, the same about all axes.",
         ),
         key("velocity", Spatial(Dimension::VELOCITY, Finite), Default("[0, 0]"), "Initial velocity where it is free."),
         key("spin", Angle(Dimension::RATE, Finite), Default("0"), "Initial angular velocity where it is free, counter-clockwise."),
@@ -140,9 +140,9 @@ static INTERFACE: Group = Group {
         ),
         key(
             "penalty",
-            Stiffness(Positive),
+            Stiffness(Dimension::PRESSURE, Positive),
             Optional("automatic, from the elements under the surfaces"),
-            "Stiffness per node and depth, or circumference (N/m/m, also meant by a bare number), or pressure per penetration (Pa/m).",
+            "Stiffness per node and depth, or circumference (N/m/m, of solids N/m; also meant by a bare number), or pressure per penetration (Pa/m).",
         ),
         key("penalty_scale", Quantity(Dimension::NONE, Positive), Optional("1"), "Factor on the automatic penalty."),
         key(

@@ -8,7 +8,7 @@ use crate::quantity::Range::{Finite, NotNegative, Positive};
 
 pub(super) static SPRING: Section = Section {
     name: "spring",
-    doc: "Springs and dampers between two sets of nodes: each node of the larger set with the nearest one of the other. Numbers are those of each, per metre of depth (of an axisymmetric model over the whole circumference). Their energy is counted with that of the elements.",
+    doc: "Springs and dampers between two sets of nodes: each node of the larger set with the nearest one of the other. Numbers are those of each, per metre of depth (of an axisymmetric model over the whole circumference; between solids whole ones, in N/m, N s/m and N). Their energy is counted with that of the elements.",
     form: Form::Repeated,
     required: false,
     keys: &[
@@ -17,7 +17,7 @@ pub(super) static SPRING: Section = Section {
             "stiffness",
             Quantity(Dimension::PRESSURE, Positive),
             Optional("no spring, or `force`"),
-            "Force per elongation, such as `\"1e6 N/m/m\"`.",
+            "Force per elongation, such as `\"1e6 N/m/m\"`, between solids `\"1e6 N/m\"`.",
         ),
         key("elongation", Quantities(Dimension::LENGTH, Finite, 2), Optional("with `force`"), "Elongations, ascending."),
         key(
@@ -55,7 +55,7 @@ pub(super) static POINT_MASS: Section = Section {
             "mass",
             Quantity(Dimension::MASS_PER_LENGTH, Positive),
             Required,
-            "Mass in all per metre of depth (of an axisymmetric model over the whole circumference), shared equally by the nodes.",
+            "Mass in all per metre of depth (of an axisymmetric model over the whole circumference; of solids the whole, kg), shared equally by the nodes.",
         ),
     ],
     ..Section::EMPTY

@@ -122,8 +122,8 @@ pub enum Kind {
     Motion,
     /// `true`, `false`, or such a table.
     Rigid,
-    /// A contact stiffness: per node and depth (Pa = N/m/m) or a pressure per depth (Pa/m).
-    Stiffness(Range),
+    /// A contact stiffness: per node in this dimension (with depth Pa = N/m/m, of solids N/m), or a pressure per depth (Pa/m).
+    Stiffness(Dimension, Range),
     /// A whole number that is not less than the minimum.
     Integer(u64),
     /// So many whole numbers that are not less than the minimum.
@@ -239,7 +239,7 @@ impl Key {
             | Kind::Quantities(dimension, range, _) => Some((dimension, range)),
             Kind::Drive(dimension) | Kind::Components(dimension) => Some((dimension, Range::Finite)),
             Kind::Points(_) | Kind::Outlines(_) => Some((Dimension::LENGTH, Range::Finite)),
-            Kind::Stiffness(range) => Some((Dimension::PRESSURE, range)),
+            Kind::Stiffness(dimension, range) => Some((dimension, range)),
             Kind::Cadence => Some((Dimension::TIME, Range::Positive)),
             Kind::Value
             | Kind::Values

@@ -206,7 +206,7 @@ static PART: Section = Section {
             "area",
             Quantity(Dimension::LENGTH, Positive),
             Optional("only with bars"),
-            "Cross-section of bars per metre of depth, such as `\"1e-4 m\"` for one square centimetre in each metre.",
+            "Cross-section of bars per metre of depth, such as `\"1e-4 m\"` for one square centimetre in each metre; between solids whole, `\"1e-4 m^2\"`.",
         ),
         key(
             "hourglass",

@@ -2,14 +2,17 @@
 
 use super::outline::{self, Outline};
 use super::{Builder, law_of, search_by_name, source_of, stiffness_of, terms_of};
+use crate::contact::edge_edge::EdgeTouch;
 use crate::contact::formulation::{self, Passes};
-use crate::contact::initial::{self, Penetration};
+use crate::contact::initial::{self, Inside, Penetration};
 use crate::contact::law::{self, Node};
 use crate::contact::messages::ON_SYMMETRY;
-use crate::contact::node_facet::tracker::Tracker;
-use crate::contact::node_facet::{NodeFacet, PassInput, Slave};
+use crate::contact::node_facet::tracker::{Touch, Tracker};
+use crate::contact::node_facet::{NodeFacet, PassInput, Slave, edges_at_start};
 use crate::contact::obstacle::OutlineShape;
 use crate::contact::obstacle::space::{NodeSolid, Solid, Vector};
+use crate::contact::projection::edge_edge::point;
+use crate::contact::search::Search;
 use crate::contact::tracker::SKIN;
 use crate::contact::{Contact, ContactKind, Formulation, Sweep, Tributary};
 use crate::error::Fault;
@@ -36,6 +39,11 @@ fn refused(contact: &model::Contact) -> Option<(&'static str, &'static str, &'st
         return Some(("initial_penetration", "nothing is pushed out", "move the bodies apart, or take \"ignore\""));
     }
     None
+}
+
+/// Whether edges meet edges too: a single pass looks at the nodes of one surface alone.
+fn meets_edges(contact: &model::Contact, passes: Passes) -> bool {
+    matches!(contact.partners, Partners::Bodies(_)) || passes.len() > 1
 }
 
 impl Builder<'_, 3> {
@@ -165,17 +173,28 @@ impl Builder<'_, 3> {
             if refused(contact).is_some() || active[0] > 0.0 {
                 continue;
             }
-            let Ok((mut tracker, _)) = self.tracker_in_space(contact) else { continue };
+            let (Ok((mut tracker, passes)), Ok(search)) = (self.tracker_in_space(contact), Self::search_in_space(contact)) else {
+                continue;
+            };
             let positions = &self.mesh.positions;
             let touches = tracker.track(Sweep::between(positions, positions), thickness).iter();
             let deep = touches.filter(|touch| !touch.own && touch.projection.gap - thickness < -tolerance);
-            let found: Vec<Penetration<3>> = deep
-                .map(|touch| Penetration {
-                    node: touch.node,
-                    place: positions[touch.node as usize],
-                    depth: thickness - touch.projection.gap,
-                })
-                .collect();
+            let of = |touch: &Touch| {
+                let (place, depth) = (positions[touch.node as usize], thickness - touch.projection.gap);
+                Penetration { what: Inside::Node, place, depth }
+            };
+            let mut found: Vec<Penetration<3>> = deep.map(of).collect();
+            // Where nodes are inside, edges cross too.
+            if found.is_empty() && meets_edges(contact, passes) {
+                let touches = edges_at_start(&tracker, search, positions, thickness);
+                let deep = touches.iter().filter(|touch| !touch.own && touch.crossing.gap - thickness < -tolerance);
+                let of = |touch: &EdgeTouch| {
+                    let [a, b] = touch.nodes[0].map(|node| positions[node as usize]);
+                    let place = point([a, b], touch.crossing.along[0]);
+                    Penetration { what: Inside::Edge, place, depth: thickness - touch.crossing.gap }
+                };
+                found = deep.map(of).collect();
+            }
             match initial_penetration {
                 InitialPenetration::Ignore => lines.extend(initial::lines(&contact.name, &found, super::start::IGNORED)),
                 InitialPenetration::Error | InitialPenetration::PushOut => {
@@ -194,25 +213,33 @@ impl Builder<'_, 3> {
         let terms = self.add_terms(terms_of(&contact.interface));
         let (tracker, passes) = self.tracker_in_space(contact)?;
         let sides: Vec<Sided> = tracker.surfaces().iter().map(|surface| self.sided(surface, &contact.interface)).collect();
-        let own = if matches!(contact.partners, Partners::Bodies(_)) { 2 } else { passes.len() };
+        let own = if meets_edges(contact, passes) { 2 } else { 1 };
         let inputs = passes.iter().map(|&(slave, target)| sides[slave].against(&sides[target], &contact.interface, own)).collect();
         let reach = law_of(&contact.interface).reach();
-        Ok((Box::new(NodeFacet::new(tracker, inputs, &contact.interface, reach, &self.mesh.positions)), terms))
+        let formulation = NodeFacet::new(tracker, inputs, &contact.interface, reach, &self.mesh.positions);
+        let formulation = if meets_edges(contact, passes) { formulation.with_edges(Self::search_in_space(contact)?) } else { formulation };
+        Ok((Box::new(formulation), terms))
     }
 
     /// What follows the nodes of a contact, and its passes.
     fn tracker_in_space(&self, contact: &model::Contact) -> Result<(Tracker, Passes), Vec<Fault>> {
-        let Some(search) = search_by_name::<3>(&contact.search) else {
-            let message = format!("there is no search \"{}\"", contact.search);
-            return Err(vec![Fault::new(&UNKNOWN_NAME, "search", message, "see `embate list searches`")]);
-        };
+        let search = Self::search_in_space(contact)?;
         let Some(kind) = formulation::kind_of(contact) else {
             let message = format!("there is no formulation \"{}\"", contact.formulation.name());
             return Err(vec![Fault::new(&UNKNOWN_NAME, "formulation", message, "see `embate list formulations`")]);
         };
         let passes = (kind.passes)(contact);
         let surfaces = self.surfaces_in_space(contact)?;
-        Ok((Tracker::new(surfaces, passes, &self.body_of_node, (search.make)(), &self.mesh.positions), passes))
+        Ok((Tracker::new(surfaces, passes, &self.body_of_node, search, &self.mesh.positions), passes))
+    }
+
+    /// The search that a contact names.
+    fn search_in_space(contact: &model::Contact) -> Result<Box<dyn Search<3>>, Vec<Fault>> {
+        let Some(found) = search_by_name::<3>(&contact.search) else {
+            let message = format!("there is no search \"{}\"", contact.search);
+            return Err(vec![Fault::new(&UNKNOWN_NAME, "search", message, "see `embate list searches`")]);
+        };
+        Ok((found.make)())
     }
 
     /// The surfaces of a contact: two, or one that meets itself.

@@ -4,7 +4,7 @@ use super::obstacles::{chain, circle, distinct, plane, points_only};
 use super::plane::Outlined;
 use super::{Builder, search_by_name};
 use crate::contact::formulation::{self, Passes};
-use crate::contact::initial::{self, Movable, Penetration};
+use crate::contact::initial::{self, Inside, Movable, Penetration};
 use crate::contact::obstacle::{Memory, Shape, Way};
 use crate::contact::projection::node_segment::Target;
 use crate::contact::search::Search;
@@ -188,7 +188,7 @@ fn penetrations(nodes: &[u32], positions: &[Vector], behind: &Behind, tolerance:
     let of = |&node: &u32| {
         let place = positions[node as usize];
         let (gap, _) = behind(place)?;
-        (gap < -tolerance).then_some(Penetration { node, place, depth: -gap })
+        (gap < -tolerance).then_some(Penetration { what: Inside::Node, place, depth: -gap })
     };
     nodes.iter().filter_map(of).collect()
 }

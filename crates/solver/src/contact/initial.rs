@@ -19,15 +19,24 @@ const TOLD: usize = 20;
 const ROUNDS: usize = 100;
 const SWEEPS: usize = 10;
 
-/// A node that is inside at the start.
+/// What is inside at the start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Penetration<const D: usize = 2> {
-    /// The node.
-    pub node: u32,
+    /// A node or an edge.
+    pub what: Inside,
     /// Where it is, m.
     pub place: [f64; D],
     /// How deep, m.
     pub depth: f64,
+}
+
+/// See [`Penetration`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Inside {
+    /// A node, behind a segment, a facet or an obstacle.
+    Node,
+    /// An edge of space that crosses another one.
+    Edge,
 }
 
 impl<const D: usize> Penetration<D> {
@@ -35,7 +44,8 @@ impl<const D: usize> Penetration<D> {
     #[must_use]
     pub fn line(&self) -> String {
         let (at, depth) = (place(self.place), self.depth);
-        format!("the node at {at} m is {depth:.3e} m inside at the start")
+        let what = if self.what == Inside::Node { "node" } else { "edge" };
+        format!("the {what} at {at} m is {depth:.3e} m inside at the start")
     }
 }
 
@@ -46,7 +56,7 @@ pub fn faults<const D: usize>(path: &str, name: &str, found: &[Penetration<D>]) 
     let one = |penetration: &Penetration<D>| Fault::new(&PENETRATION, path, format!("\"{name}\": {}", penetration.line()), help);
     let mut faults: Vec<Fault> = found.iter().take(TOLD).map(one).collect();
     if found.len() > TOLD {
-        faults.push(Fault::new(&PENETRATION, path, format!("\"{name}\": and {} more nodes are inside", found.len() - TOLD), help));
+        faults.push(Fault::new(&PENETRATION, path, format!("\"{name}\": and {} more are inside", found.len() - TOLD), help));
     }
     faults
 }
@@ -57,7 +67,7 @@ pub fn lines<const D: usize>(name: &str, found: &[Penetration<D>], what_is_done:
     let mut lines: Vec<String> =
         found.iter().take(TOLD).map(|penetration| format!("{name}: {}; {what_is_done}", penetration.line())).collect();
     if found.len() > TOLD {
-        lines.push(format!("{name}: and {} more nodes; {what_is_done}", found.len() - TOLD));
+        lines.push(format!("{name}: and {} more; {what_is_done}", found.len() - TOLD));
     }
     lines
 }
@@ -93,7 +103,7 @@ pub fn size<const D: usize>(positions: &[[f64; D]]) -> f64 {
 pub fn penetrations(tracker: &mut Tracker, thickness: f64, positions: &[Vector], tolerance: f64) -> Vec<Penetration> {
     let inside = inside(tracker, thickness, positions, tolerance);
     let of =
-        |touch: &Touch| Penetration { node: touch.node, place: positions[touch.node as usize], depth: thickness - touch.projection.gap };
+        |touch: &Touch| Penetration { what: Inside::Node, place: positions[touch.node as usize], depth: thickness - touch.projection.gap };
     inside.iter().map(of).collect()
 }
 

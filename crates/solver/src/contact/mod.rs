@@ -13,6 +13,7 @@ pub mod law;
 pub mod springs;
 pub mod forces;
 pub mod formulation;
+pub mod edge_edge;
 pub mod node_facet;
 pub mod node_segment;
 pub mod pinball;

@@ -1,4 +1,5 @@
-//! Nodes against facets of surfaces in space: a spring for each slave node, in a single pass, a double pass, or of a surface with itself.
+//! Nodes against facets of surfaces in space: a spring for each slave node, in a single pass, a double pass, or of a surface with itself; in the latter two also edges against edges
+//! ([`super::edge_edge`]), which share friction, thickness and memory with the nodes.
 //!
 //! Where the nodes lie comes from the [`Tracker`]; friction and thickness are those of the slave node, the stiffness that of the softer side where they meet. The rows of a spring are the
 //! gradient of its gap (`projection/node_facet.rs`), so resultant, momentum and angular momentum are exact, and what slides over an edge or a corner keeps its energy as far as half steps
@@ -6,13 +7,16 @@
 
 pub mod tracker;
 
+use super::edge_edge::{self, Around, EdgeTouch, EdgeTracker};
 use super::initial::{is_ignored, kept};
 use super::node_segment::{Before, Closed, carried, is_stored};
+use super::projection::edge_edge::distance;
 use super::projection::node_facet::{Placed, Projection, Vector, unit};
+use super::search::Search;
 use super::springs::friction::cone;
-use super::springs::{Answers, End, Spring, Springs};
+use super::springs::{Answer, Answers, End, Spring, Springs};
 use super::tracker::SearchReport;
-use super::{Formulation, Scene};
+use super::{Formulation, Scene, Sweep};
 use crate::archive::{Archive, Kept, keep_each};
 use crate::mesh::surface::{Corners, NONE};
 use crate::model;
@@ -52,6 +56,8 @@ impl PassInput {
 /// The formulation.
 pub struct NodeFacet {
     tracker: Tracker,
+    /// Edges against edges, if they meet.
+    edges: Option<EdgeTracker>,
     passes: Vec<PassInput>,
     /// Distance that the surfaces keep, m.
     thickness: f64,
@@ -67,6 +73,8 @@ pub struct NodeFacet {
     /// Energy of the springs of the last step, and of those that were not found again, J.
     closed: Closed,
     let_go: f64,
+    /// The touches of nodes that made springs in this step; those of edges follow.
+    used: Vec<u32>,
     /// Positions at which the springs of this step lie: of the facets that slips turn with.
     frames: Vec<[Vector; 2]>,
 }
@@ -77,6 +85,7 @@ impl NodeFacet {
     pub fn new(tracker: Tracker, passes: Vec<PassInput>, interface: &model::Interface, reach: f64, initial: &[Vector]) -> Self {
         Self {
             tracker,
+            edges: None,
             passes,
             thickness: interface.thickness,
             reach,
@@ -86,8 +95,21 @@ impl NodeFacet {
             has_begun: false,
             closed: Closed::default(),
             let_go: 0.0,
+            used: Vec::new(),
             frames: Vec::new(),
         }
+    }
+
+    /// The same with the edges of both surfaces against each other, or of the one against themselves; found by `search`.
+    #[must_use]
+    pub fn with_edges(self, search: Box<dyn Search<3>>) -> Self {
+        Self { edges: Some(EdgeTracker::new(self.tracker.surfaces(), self.tracker.bodies(), search)), ..self }
+    }
+
+    /// What follows the edges.
+    #[must_use]
+    pub fn edges(&self) -> Option<&EdgeTracker> {
+        self.edges.as_ref()
     }
 
     /// What follows the nodes.
@@ -107,40 +129,143 @@ impl NodeFacet {
         gap + (self.thickness + self.reach - 0.5 * distance.unwrap_or(0.0)).max(0.0)
     }
 
+    /// Gap of edges less the thickness, as [`NodeFacet::gap`].
+    fn edge_gap(&self, touch: &EdgeTouch) -> f64 {
+        let gap = touch.crossing.gap - self.thickness;
+        if !touch.own || self.initial.is_empty() {
+            return gap;
+        }
+        let [a, b] = touch.nodes.map(|edge| edge.map(|node| self.initial[node as usize]));
+        gap + (self.thickness + self.reach - 0.5 * distance(a, b)).max(0.0)
+    }
+
     /// Gap as the spring sees it, and the gap that counts as zero.
-    fn beyond(&self, touch: &Touch, memory: &Memory) -> (f64, f64) {
-        let gap = self.gap(touch);
+    fn beyond(&self, gap: f64, own: bool, memory: &Memory) -> (f64, f64) {
         let offset = kept(self.has_begun, memory.offset, gap);
-        let offset = if self.ignores_start && !touch.own { offset } else { 0.0 };
+        let offset = if self.ignores_start && !own { offset } else { 0.0 };
         (gap - offset, offset)
+    }
+
+    /// What the gap of a spring is moved by so that it goes on, m.
+    fn carried(&self, memory: &Memory, normal: Vector, gap: f64, ends: &[End<3>], scene: &Scene<'_, 3>) -> f64 {
+        let before = Before { half: memory.half, normal: memory.normal, carried: memory.carried };
+        if self.stores { carried(&before, normal, gap, ends, self.reach, scene.sweep, self.has_begun) } else { 0.0 }
+    }
+
+    /// Finds the pairs of edges that touch; `closed` are the nodes whose springs were closed.
+    fn track_edges(&mut self, scene: &Scene<'_, 3>, closed: &[(usize, u32, u32)], is_searched: bool) {
+        let Self { tracker, edges: Some(edges), passes, .. } = self else { return };
+        let (surfaces, is_new) = (tracker.surfaces(), !self.has_begun);
+        let sweep = if is_new { Sweep { old: scene.sweep.new, ..scene.sweep } } else { scene.sweep };
+        let around = around(tracker, sweep, is_new, [self.thickness + self.reach, self.reach]);
+        if is_searched {
+            edges.find(&around);
+        }
+        let sides = edges.sides();
+        let is_held = |of: usize, node: u32, facet: u32| closed.binary_search(&(sides[of], node, facet)).is_ok();
+        // Both passes carry a node and a facet together: so do both sides the edges.
+        let make = |touch: &EdgeTouch| {
+            let (mut stiffness, mut area) = (0.0, 0.0);
+            for of in 0..2 {
+                let (slave, target) = (&surfaces[sides[of]], &surfaces[sides[1 - of]]);
+                let pass = passes.iter().zip(0..).find(|(_, number)| tracker.slave(*number) == sides[of]);
+                let facet = target.edges[touch.edges[1 - of] as usize].facets[0];
+                for node in touch.nodes[of] {
+                    if let (Some((pass, _)), Ok(rank)) = (pass, slave.nodes.binary_search(&node)) {
+                        stiffness += 0.5 * pass.stiffness(rank, facet);
+                        area += 0.5 * pass.slaves[rank].area;
+                    }
+                }
+            }
+            [stiffness, area]
+        };
+        edges.track(&around, is_held, make);
+    }
+
+    /// Nodes that edges stand for, and the facets on which: slave surface, node, and facet.
+    fn superseded(&self) -> Vec<(usize, u32, u32)> {
+        let Some(edges) = &self.edges else { return Vec::new() };
+        let (sides, surfaces) = (edges.sides(), self.tracker.surfaces());
+        let of_touch = |touch: &EdgeTouch| {
+            let facets = |of: usize| surfaces[sides[of]].edges[touch.edges[of] as usize].facets;
+            let mut all = [(0, 0, 0); 8];
+            for k in 0..8 {
+                let of = k / 4;
+                all[k] = (sides[of], touch.nodes[of][k / 2 % 2], facets(1 - of)[k % 2]);
+            }
+            all
+        };
+        let mut all: Vec<_> = edges.touches().iter().filter(|touch| touch.stands).flat_map(of_touch).collect();
+        all.sort_unstable();
+        all
+    }
+
+    /// The spring of a node that touches.
+    fn push_node(&mut self, index: usize, scene: &Scene<'_, 3>, springs: &mut Springs<3>) {
+        let positions = scene.sweep.new;
+        let touch = self.tracker.touches()[index];
+        let memory = *self.tracker.kept(&touch);
+        let placed = Placed { surface: self.tracker.target(touch.pass), positions };
+        let (ends, known) = ends(&placed, touch.node, &touch.projection);
+        let ends = &ends[..known];
+        let (pass, slave, Projection { normal, facet, .. }) = (&self.passes[touch.pass as usize], touch.slave as usize, touch.projection);
+        let frame = frame(&placed, facet);
+        let tangent = tangent(normal, frame[0]);
+        let (gap, offset) = self.beyond(self.gap(&touch), touch.own, &memory);
+        let carried = self.carried(&memory, normal, gap, ends, scene);
+        let slip = cone::carried(slip(frame_of(&placed, &memory), &memory), Dim::<3>::tangents(normal, &tangent));
+        let (stiffness, area, side) = (pass.stiffness(slave, facet), pass.slaves[slave].area, self.tracker.side(touch.pass));
+        springs.push(Spring { normal, gap: gap + carried, stiffness, area, side, slip, tangent, ..Spring::default() }, ends);
+        self.frames.push(frame);
+        *self.tracker.kept_mut(&touch) = Memory { offset, carried, normal, facet, stored: 0.0, ..memory };
+    }
+
+    /// The spring of edges that touch.
+    fn push_edges(&mut self, touch: &EdgeTouch, scene: &Scene<'_, 3>, springs: &mut Springs<3>) {
+        let Some(edges) = &self.edges else { return };
+        let (pair, positions, normal) = (*edges.kept(touch), scene.sweep.new, touch.crossing.normal);
+        let side = if edges.sides()[0] == edges.sides()[1] { 0.0 } else { 1.0 };
+        let frame = edge_edge::frame(touch, positions);
+        let ends = edge_edge::ends(touch, frame[0], positions);
+        let (gap, offset) = self.beyond(self.edge_gap(touch), touch.own, &pair.memory);
+        let carried = self.carried(&pair.memory, normal, gap, &ends, scene);
+        let slip = cone::carried(slip(frame, &pair.memory), Dim::<3>::tangents(normal, &frame[0]));
+        let (stiffness, area, tangent) = (pair.stiffness, pair.area, frame[0]);
+        springs.push(Spring { normal, gap: gap + carried, stiffness, area, side, slip, tangent, ..Spring::default() }, &ends);
+        self.frames.push(frame);
+        if let Some(edges) = &mut self.edges {
+            edges.kept_mut(touch).memory = Memory { offset, carried, normal, facet: touch.edges[1], stored: 0.0, ..pair.memory };
+        }
     }
 }
 
 impl Formulation<3> for NodeFacet {
     fn detect(&mut self, scene: &Scene<'_, 3>, springs: &mut Springs<3>) {
-        let positions = scene.sweep.new;
+        let closed = if self.edges.is_some() { self.tracker.closed(self.reach) } else { Vec::new() };
+        let searches = self.tracker.search_report().searches;
         let count = self.tracker.track(scene.sweep, self.thickness + self.reach).len();
+        let is_searched = self.tracker.search_report().searches != searches;
+        self.track_edges(scene, &closed, is_searched);
+        let superseded = self.superseded();
         let mut again = Closed::default();
         self.frames.clear();
+        self.used.clear();
         for index in 0..count {
             let touch = self.tracker.touches()[index];
+            let place = (self.tracker.slave(touch.pass), touch.node, touch.projection.facet);
             let memory = *self.tracker.kept(&touch);
+            let was_closed = memory.normal != [0.0; 3] && memory.half < self.reach;
+            if !superseded.is_empty() && !was_closed && superseded.binary_search(&place).is_ok() {
+                continue;
+            }
             again.add(memory.stored);
-            let placed = Placed { surface: self.tracker.target(touch.pass), positions };
-            let (ends, known) = ends(&placed, touch.node, &touch.projection);
-            let ends = &ends[..known];
-            let (pass, slave, Projection { normal, facet, .. }) =
-                (&self.passes[touch.pass as usize], touch.slave as usize, touch.projection);
-            let frame = frame(&placed, facet);
-            let tangent = tangent(normal, frame[0]);
-            let (gap, offset) = self.beyond(&touch, &memory);
-            let before = Before { half: memory.half, normal: memory.normal, carried: memory.carried };
-            let carried = if self.stores { carried(&before, normal, gap, ends, self.reach, scene.sweep, self.has_begun) } else { 0.0 };
-            let slip = cone::carried(slip(&placed, &memory), Dim::<3>::tangents(normal, &tangent));
-            let (stiffness, area, side) = (pass.stiffness(slave, facet), pass.slaves[slave].area, self.tracker.side(touch.pass));
-            springs.push(Spring { normal, gap: gap + carried, stiffness, area, side, slip, tangent, ..Spring::default() }, ends);
-            self.frames.push(frame);
-            *self.tracker.kept_mut(&touch) = Memory { offset, carried, normal, facet, stored: 0.0, ..memory };
+            self.push_node(index, scene, springs);
+            self.used.push(index as u32);
+        }
+        let touches: Vec<EdgeTouch> = self.edges.as_ref().map_or(Vec::new(), |edges| edges.touches().to_vec());
+        for touch in &touches {
+            again.add(self.edges.as_ref().map_or(0.0, |edges| edges.kept(touch).memory.stored));
+            self.push_edges(touch, scene, springs);
         }
         self.let_go = self.closed.less(&again);
         self.has_begun = true;
@@ -148,16 +273,26 @@ impl Formulation<3> for NodeFacet {
 
     fn remember(&mut self, solved: Answers<'_, 3>) {
         self.closed = Closed::default();
-        for (index, answer) in solved.enumerate() {
-            let touch = self.tracker.touches()[index];
-            let frame = self.frames[index];
-            let memory = self.tracker.kept_mut(&touch);
+        let (nodes, edges) = (solved.clone().part(0, self.used.len()), solved.part(self.used.len(), usize::MAX));
+        let (frames, edge_frames) = self.frames.split_at(self.used.len());
+        let (stores, reach, closed) = (self.stores, self.reach, &mut self.closed);
+        let mut note = |memory: &mut Memory, answer: &Answer<'_, 3>, frame: [Vector; 2]| {
             let ([first, second], [a, b]) = (answer.spring.tangents(), answer.solved.slip_new);
             memory.slip = [0, 1, 2].map(|d| a * first[d] + b * second[d]);
             (memory.frame, memory.half) = (frame, answer.gap_new());
-            if self.stores && memory.half < self.reach {
+            if stores && memory.half < reach {
                 memory.stored = answer.stored_new();
-                self.closed.add(memory.stored);
+                closed.add(memory.stored);
+            }
+        };
+        for ((&index, answer), &frame) in self.used.iter().zip(nodes).zip(frames) {
+            let touch = self.tracker.touches()[index as usize];
+            note(self.tracker.kept_mut(&touch), &answer, frame);
+        }
+        if let Some(pairs) = &mut self.edges {
+            for (at, (answer, &frame)) in edges.zip(edge_frames).enumerate() {
+                let touch = pairs.touches()[at];
+                note(&mut pairs.kept_mut(&touch).memory, &answer, frame);
             }
         }
     }
@@ -171,12 +306,17 @@ impl Formulation<3> for NodeFacet {
             ignores_start: _,
             initial: _,
             let_go: _,
+            used: _,
             frames: _,
             tracker,
+            edges,
             has_begun,
             closed,
         } = self;
         tracker.keep(archive)?;
+        if let Some(edges) = edges {
+            edges.keep(archive, tracker.surfaces())?;
+        }
         keep_each!(archive; has_begun, closed);
         Ok(())
     }
@@ -185,6 +325,9 @@ impl Formulation<3> for NodeFacet {
         if let Ok(old) = old.downcast::<Self>() {
             // What is not found again went with its surface.
             self.tracker.inherit(&old.tracker);
+            if let (Some(edges), Some(before)) = (&mut self.edges, &old.edges) {
+                edges.inherit(before, old.tracker.surfaces(), self.tracker.surfaces());
+            }
             self.has_begun = old.has_begun;
         }
     }
@@ -194,8 +337,26 @@ impl Formulation<3> for NodeFacet {
     }
 
     fn search_report(&self) -> Option<SearchReport> {
-        Some(self.tracker.search_report())
+        let report = self.tracker.search_report();
+        let edges = self.edges.as_ref().map_or(0, EdgeTracker::candidates);
+        Some(SearchReport { candidates: report.candidates + edges, ..report })
     }
+}
+
+/// What a tracker of nodes, which has looked at the same step, tells to one of edges; the law pushes up to the distance `extra`, thickness included, and springs are closed below the gap
+/// `open`, m.
+fn around<'a>(tracker: &'a Tracker, sweep: Sweep<'a, 3>, is_new: bool, [extra, open]: [f64; 2]) -> Around<'a> {
+    let [radius, skin] = tracker.reach();
+    Around { surfaces: tracker.surfaces(), sweep, is_new, radius, skin, near: tracker.near(), extra, open }
+}
+
+/// Edges that cross other bodies' at the start, or are nearer than `thickness` (m) there; `tracker` has looked at the nodes.
+#[must_use]
+pub fn edges_at_start(tracker: &Tracker, search: Box<dyn Search<3>>, positions: &[Vector], thickness: f64) -> Vec<EdgeTouch> {
+    let around = around(tracker, Sweep::between(positions, positions), true, [thickness, 0.0]);
+    let mut edges = EdgeTracker::new(tracker.surfaces(), tracker.bodies(), search);
+    edges.find(&around);
+    edges.track(&around, |_, _, _| false, |_| [0.0; 2]).to_vec()
 }
 
 /// Direction of a facet's first edge, and its normal: what turns with it.
@@ -213,14 +374,19 @@ fn tangent(normal: Vector, direction: Vector) -> Vector {
     if dot(across, across) > 0.5 && dot(across, normal).abs() < 1e-6 { across } else { any_tangent(normal) }
 }
 
-/// The elastic slip of the step before, turned with its facet.
-fn slip(placed: &Placed<'_>, memory: &Memory) -> Vector {
+/// The frame of the facet with which a slip turns, now.
+fn frame_of(placed: &Placed<'_>, memory: &Memory) -> [Vector; 2] {
+    if memory.facet == NONE { memory.frame } else { frame(placed, memory.facet) }
+}
+
+/// The elastic slip of the step before, turned with what it lies on, which is at `frame` now.
+fn slip(frame: [Vector; 2], memory: &Memory) -> Vector {
     let Memory { slip, facet, frame: [along, normal], .. } = *memory;
     if facet == NONE || slip == [0.0; 3] {
         return slip;
     }
     let axes = |[along, normal]: [Vector; 2]| [along, cross(normal, along), normal];
-    let (before, now) = (axes([along, normal]), axes(frame(placed, facet)));
+    let (before, now) = (axes([along, normal]), axes(frame));
     let parts = before.map(|axis| dot(axis, slip));
     [0, 1, 2].map(|d| parts[0] * now[0][d] + parts[1] * now[1][d] + parts[2] * now[2][d])
 }

@@ -5,7 +5,7 @@ use super::course::Course;
 use super::memory::Memory;
 use super::{Control, Observer, ObserverError, Options, Overview, PartOverview, Progress, Shortest, State};
 use crate::build;
-use crate::contact::initial::{self, Penetration};
+use crate::contact::initial::{self, Inside, Penetration};
 use crate::contact::messages::INSIDE_AT_START;
 use crate::contact::{ContactKind, search};
 use crate::error::{Error, Fault, INSTRUCTIONS, MASS_ADDED, Notice, Warning};
@@ -142,7 +142,7 @@ where
             }
             let inside = contact.penetrations(&system.springs).filter(|&(_, depth)| depth > tolerance);
             let found: Vec<Penetration<D>> =
-                inside.map(|(node, depth)| Penetration { node, place: system.positions[node as usize], depth }).collect();
+                inside.map(|(node, depth)| Penetration { what: Inside::Node, place: system.positions[node as usize], depth }).collect();
             faults.extend(initial::faults(&format!("obstacle[{index}]"), &contact.name, &found));
         }
         if faults.is_empty() { Ok(()) } else { Err(Error::Model(faults)) }

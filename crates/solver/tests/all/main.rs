@@ -17,6 +17,7 @@ mod conditions;
 mod contact;
 mod discrete;
 mod discrete_in_space;
+mod edge_edge;
 mod elements;
 mod ends;
 mod erosion;

@@ -1,3 +1,5 @@
+mod edges;
+
 use super::*;
 use crate::contact::forces::ContactForces;
 use crate::contact::law::penalty::Penalty;
@@ -163,6 +165,8 @@ struct Recipe {
     friction: f64,
     dt: f64,
     passes: &'static [(usize, usize)],
+    /// Whether edges meet too.
+    edges: bool,
 }
 
 fn terms(friction: f64) -> Terms {
@@ -172,7 +176,7 @@ fn terms(friction: f64) -> Terms {
 
 /// A first and a second body; the first moves with `velocity` and spins.
 fn world(bodies: [&Blocks; 2], recipe: Recipe, velocity: Vector) -> World {
-    let Recipe { held, bond, stiffness, friction, dt, passes } = recipe;
+    let Recipe { held, bond, stiffness, friction, dt, passes, edges } = recipe;
     let first = bodies[0].positions.len();
     let positions = [&bodies[0].positions[..], &bodies[1].positions[..]].concat();
     let surfaces = vec![bodies[0].surface(0), bodies[1].surface(first as u32)];
@@ -185,6 +189,7 @@ fn world(bodies: [&Blocks; 2], recipe: Recipe, velocity: Vector) -> World {
     let search = (search::registry::<3>()[0].make)();
     let tracker = Tracker::new(surfaces, passes, &of, search, &positions);
     let formulation = NodeFacet::new(tracker, inputs, &model::Interface::default(), 0.0, &positions);
+    let formulation = if edges { formulation.with_edges((search::registry::<3>()[0].make)()) } else { formulation };
     let contact = Contact::new("contact".into(), ContactKind::Contact, Box::new(formulation), 0, [0.0, f64::INFINITY]);
     let links = if bond > 0.0 {
         let mut links = bodies[0].links(0, bond);
@@ -212,7 +217,7 @@ const ONE: &[(usize, usize)] = &[(0, 1)];
 const BOTH: &[(usize, usize)] = &[(0, 1), (1, 0)];
 
 fn free_nodes(stiffness: f64) -> Recipe {
-    Recipe { held: true, bond: 0.0, stiffness, friction: 0.0, dt: 0.01, passes: ONE }
+    Recipe { held: true, bond: 0.0, stiffness, friction: 0.0, dt: 0.01, passes: ONE, edges: false }
 }
 
 #[test]
@@ -277,7 +282,7 @@ fn two_blocks_that_collide_keep_momentum_and_angular_momentum_to_round_off_and_t
     let lower = grid([0.0; 3], [0.5; 3], [3, 3, 1], |_| true);
     let upper = grid([0.13, 0.21, 0.53], [0.31, 0.37, 0.4], [3, 2, 2], |at| at != [2, 1, 0]);
     for (friction, bond, stiffness) in [(0.0, 1e3, 1e3), (0.3, 1e3, 1e3), (0.0, 1e3, 1e5), (2.0, 1e3, 1e4)] {
-        let recipe = Recipe { held: false, bond, stiffness, friction, dt: 4e-3, passes: BOTH };
+        let recipe = Recipe { held: false, bond, stiffness, friction, dt: 4e-3, passes: BOTH, edges: true };
         let mut world = world([&upper, &lower], recipe, [0.4, -0.3, -1.5]);
         let scale = world.mass.iter().sum::<f64>();
         let (begin, mut energies) = (world.momenta(), Vec::new());
@@ -404,7 +409,7 @@ fn a_body_does_not_meet_itself_where_it_is_whole_and_does_where_it_folds() {
 fn what_is_kept_goes_on_bit_by_bit() {
     let lower = grid([0.0; 3], [0.5; 3], [3, 3, 1], |_| true);
     let upper = grid([0.13, 0.21, 0.53], [0.31, 0.37, 0.4], [3, 2, 2], |_| true);
-    let recipe = Recipe { held: false, bond: 1e3, stiffness: 1e4, friction: 0.3, dt: 4e-3, passes: BOTH };
+    let recipe = Recipe { held: false, bond: 1e3, stiffness: 1e4, friction: 0.3, dt: 4e-3, passes: BOTH, edges: true };
     let make = || world([&upper, &lower], recipe, [0.4, -0.3, -1.5]);
     let mut whole = make();
     for _ in 0..40 {

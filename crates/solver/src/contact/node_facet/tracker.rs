@@ -202,6 +202,44 @@ impl Tracker {
         SearchReport { candidates: self.passes.iter().map(|pass| pass.candidates.len()).sum(), ..self.report }
     }
 
+    /// Everything nearer was found by the last search, and the part of it for what moves until the next one, m.
+    #[must_use]
+    pub fn reach(&self) -> [f64; 2] {
+        [self.radius, self.skin]
+    }
+
+    /// Gap (m) up to which springs are there before they are needed, beside what the motion asks for; and how many motions ahead.
+    #[must_use]
+    pub fn near(&self) -> [f64; 2] {
+        [START * self.skin, LOOK_AHEAD]
+    }
+
+    /// Nodes whose springs were closed (gap below `open`, m) after the last step: slave surface, node, and facet.
+    #[must_use]
+    pub fn closed(&self, open: f64) -> Vec<(usize, u32, u32)> {
+        let of = |pass: &Pass| {
+            // A node that edges stand for touches without a spring.
+            let is_closed = |group: &&Group| group.touches && group.memory.normal != [0.0; 3] && group.memory.half < open;
+            let groups = pass.groups.iter().filter(is_closed);
+            groups.map(|group| (pass.slave, group.node, group.memory.facet)).collect::<Vec<_>>()
+        };
+        let mut closed: Vec<_> = self.passes.iter().flat_map(of).collect();
+        closed.sort_unstable();
+        closed
+    }
+
+    /// Body of each node of the model.
+    #[must_use]
+    pub fn bodies(&self) -> &[u32] {
+        &self.bodies
+    }
+
+    /// Slave surface of a pass.
+    #[must_use]
+    pub fn slave(&self, pass: u32) -> usize {
+        self.passes[pass as usize].slave
+    }
+
     /// What [`Tracker::track`] found last.
     #[must_use]
     pub fn touches(&self) -> &[Touch] {

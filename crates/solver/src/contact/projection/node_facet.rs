@@ -160,7 +160,7 @@ impl Placed<'_> {
     }
 
     /// The triangle of a facet that has the edge from corner `k` on.
-    fn at_edge(&self, facet: u32, k: usize) -> usize {
+    pub(super) fn at_edge(&self, facet: u32, k: usize) -> usize {
         if self.triangles(facet) == 1 { 0 } else { k }
     }
 

@@ -1,0 +1,535 @@
+//! Edges against edges: which ridges of surfaces in space cross each other, from step to step, and the springs between them.
+//!
+//! Nodes that meet facets say nothing of two edges that cross between their nodes: such bodies would go through each other. Surfaces and the search's radius come from the tracker of the
+//! nodes ([`super::node_facet`]), which makes one contact of both. Nothing is held twice:
+//!
+//! - only ridges count (`projection/edge_edge.rs`), and only where the normal is well between those of the facets of one of them and not beyond those of the other: faces that lie on each
+//!   other leave it to their nodes, a ridge on a narrow face does not;
+//! - a pair is not taken where an end of one of its edges is in contact with a facet at the other one already; while ridges that cross are held (and none lies on a face), such nodes are left
+//!   out that were not in contact before: the depth of the edges is that of the bodies, also where a node is inside;
+//! - where a crossing goes over a node to the next edge of the same line, the spring goes on there with what it knows; where the line bends inward, so that it is on neither edge, it goes on
+//!   along the first one.
+//!
+//! A pair is inside only if it was seen to come in (on its way in the step, at any speed, as long as the edges still cross at its end), or at the start. Candidates come from the same global
+//! search, of the ends of edges against edges; order is fixed: edges ascending.
+
+use super::Sweep;
+use super::node_facet::tracker::Memory;
+use super::projection::edge_edge::{Crossing, Ridge, crossing, distance, point};
+use super::projection::node_facet::{Placed, Vector, unit};
+use super::search::{Pair, Query, Search};
+use super::springs::End;
+use crate::archive::{Archive, Kept, keep_all};
+use crate::mesh::surface::SpaceSurface;
+use crate::motion::{Motion, cross_space as cross, dot_space as dot};
+use crate::rows::Rows;
+use crate::tensor::Dim;
+
+/// How well the normal must be between those of the facets: of one edge at least, of the other one where a spring begins (on a flat face it is along a facet's), and as long as it is closed.
+const BETWEEN: f64 = 0.25;
+const BEGINS: f64 = -0.05;
+const STAYS: f64 = -0.25;
+/// By which fraction of an edge a closed spring goes on beyond its end where the line ends.
+const BEYOND: f64 = 0.05;
+/// The same where the line goes on, but bends inward there so that no place on the next edge takes it over.
+const BENT: f64 = 0.5;
+/// The same of the place where edges go through each other on their way in a step.
+const ON_WAY: f64 = 0.1;
+/// Cosine of the angle between edges of the same line.
+const STRAIGHT: f64 = 0.7;
+/// At the start edges may be inside by this fraction of the width of their facets.
+const SHALLOW: f64 = 0.25;
+/// The global search is asked for a little more than is needed: it may round.
+const SLACK: f64 = 1.001;
+
+/// Two edges that are near each other, and what is kept of them.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct EdgePair {
+    /// Of the first and of the second surface; of one surface ascending.
+    pub edges: [u32; 2],
+    /// Whether they are of one body.
+    own: bool,
+    /// Whether there was a spring in the last step. Else nothing is kept.
+    touches: bool,
+    /// Of the spring, N/m, and the area that it stands for, m²: as where it began.
+    pub stiffness: f64,
+    /// See `stiffness`.
+    pub area: f64,
+    /// What is kept of the spring.
+    pub memory: Memory,
+}
+
+keep_all!(EdgePair { edges, own, touches, stiffness, area, memory });
+
+/// Edges that are inside each other, or near it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EdgeTouch {
+    /// The edges.
+    pub edges: [u32; 2],
+    /// Their nodes: first edge, second edge.
+    pub nodes: [[u32; 2]; 2],
+    /// Where they cross.
+    pub crossing: Crossing,
+    /// Whether they are of one body.
+    pub own: bool,
+    /// Whether there was no spring in the step before.
+    pub is_new: bool,
+    /// Whether it is that of two ridges that cross, which it parts, and not that of one that lies on a face: nodes need no springs of their own.
+    pub stands: bool,
+    pair: u32,
+}
+
+/// What the tracker of the nodes knows.
+#[derive(Clone, Copy)]
+pub struct Around<'a> {
+    /// The surfaces.
+    pub surfaces: &'a [SpaceSurface],
+    /// Paths in the step; at the beginning none.
+    pub sweep: Sweep<'a, 3>,
+    /// Whether nothing is known of the past.
+    pub is_new: bool,
+    /// Everything nearer counts, m.
+    pub radius: f64,
+    /// Part of it for what moves until the next search, m.
+    pub skin: f64,
+    /// Gap (m) up to which springs are there before they are needed, beside what the motion asks for; and how many motions ahead.
+    pub near: [f64; 2],
+    /// Distance (m) up to which the law pushes, thickness included.
+    pub extra: f64,
+    /// Gap below which a spring is closed, m.
+    pub open: f64,
+}
+
+/// Follows the ridges of one surface along those of another one, or of the same.
+pub struct EdgeTracker {
+    /// Number of the surface of the first and of the second edges.
+    sides: [usize; 2],
+    /// Body of each node of the model.
+    bodies: Vec<u32>,
+    /// Edges at each node of each surface.
+    at_nodes: Vec<Rows<u32>>,
+    search: Box<dyn Search<3>>,
+    /// Ascending by edges.
+    pairs: Vec<EdgePair>,
+    touches: Vec<EdgeTouch>,
+    /// Depth of the deepest spring of the last step, m.
+    deepest: f64,
+    found: Vec<Pair>,
+}
+
+impl EdgeTracker {
+    /// For `surfaces`, one or two; `bodies` of each node of the model.
+    #[must_use]
+    pub fn new(surfaces: &[SpaceSurface], bodies: &[u32], search: Box<dyn Search<3>>) -> Self {
+        let at_nodes = |surface: &SpaceSurface| {
+            let rank = |node: u32| surface.nodes.binary_search(&node).map_or(0, |rank| rank as u32);
+            let ends = surface.edges.iter().zip(0..).flat_map(|(edge, number)| edge.nodes.map(|node| (rank(node), number)));
+            Rows::new(surface.nodes.len(), ends.collect::<Vec<_>>().into_iter())
+        };
+        Self {
+            sides: [0, surfaces.len() - 1],
+            bodies: bodies.to_vec(),
+            at_nodes: surfaces.iter().map(at_nodes).collect(),
+            search,
+            pairs: Vec::new(),
+            touches: Vec::new(),
+            deepest: 0.0,
+            found: Vec::new(),
+        }
+    }
+
+    /// Which surfaces meet: numbers of the first and of the second.
+    #[must_use]
+    pub fn sides(&self) -> [usize; 2] {
+        self.sides
+    }
+
+    /// What [`EdgeTracker::track`] found last.
+    #[must_use]
+    pub fn touches(&self) -> &[EdgeTouch] {
+        &self.touches
+    }
+
+    /// How many pairs are looked at.
+    #[must_use]
+    pub fn candidates(&self) -> usize {
+        self.pairs.len()
+    }
+
+    /// The edges of all pairs that are looked at.
+    pub fn pairs(&self) -> impl Iterator<Item = [u32; 2]> {
+        self.pairs.iter().map(|pair| pair.edges)
+    }
+
+    /// What is kept of a touch.
+    #[must_use]
+    pub fn kept(&self, touch: &EdgeTouch) -> &EdgePair {
+        &self.pairs[touch.pair as usize]
+    }
+
+    /// The same to change it.
+    pub fn kept_mut(&mut self, touch: &EdgeTouch) -> &mut EdgePair {
+        &mut self.pairs[touch.pair as usize]
+    }
+
+    /// Candidates anew: all pairs of ridges nearer than the radius. What pairs remember goes on.
+    pub fn find(&mut self, around: &Around<'_>) {
+        let &Around { surfaces, sweep, radius, skin, .. } = around;
+        let [first, second] = self.sides;
+        let is_one = first == second;
+        let listed = [first, second].map(|side| ridges(&surfaces[side], sweep.new));
+        let mut classes: Vec<u64> = listed.iter().flatten().map(|listed| listed.class).collect();
+        classes.sort_unstable();
+        classes.dedup();
+        let mut near: Vec<[u32; 2]> = Vec::new();
+        // The shorter edge of a pair has an end that is no farther than half of its length.
+        for &class in &classes {
+            for of in 0..if is_one { 1 } else { 2 } {
+                let (own, others) = (&listed[of], &listed[1 - of]);
+                let (slave, target) = (&surfaces[self.sides[of]], &surfaces[self.sides[1 - of]]);
+                let same = own.iter().filter(|edge| edge.class == class);
+                let longest = same.clone().map(|edge| edge.length).fold(0.0, f64::max);
+                let mut slaves: Vec<u32> = same.flat_map(|edge| slave.edges[edge.number as usize].nodes).collect();
+                slaves.sort_unstable();
+                slaves.dedup();
+                // Those of the same class meet once.
+                let counts = |edge: &&Listed| edge.class > class || (edge.class == class && of == 0);
+                let targets: Vec<u32> = others.iter().filter(counts).map(|edge| edge.number).collect();
+                let facets: Vec<[u32; 3]> = targets.iter().map(|&edge| target.edges[edge as usize].nodes).map(|[a, b]| [a, b, b]).collect();
+                if slaves.is_empty() || facets.is_empty() {
+                    continue;
+                }
+                let reach = SLACK * (radius + 0.5 * longest);
+                let query = Query { positions_old: sweep.old, positions_new: sweep.new, slaves: &slaves, facets: &facets, reach };
+                self.search.pairs(&query, &mut self.found);
+                for pair in &self.found {
+                    let Ok(rank) = slave.nodes.binary_search(&slaves[pair.slave as usize]) else { continue };
+                    let other = targets[pair.facet as usize];
+                    let at = self.at_nodes[self.sides[of]].of(rank).iter();
+                    let listed = |edge: &u32| own.binary_search_by_key(edge, |listed| listed.number).is_ok_and(|at| own[at].class == class);
+                    near.extend(at.copied().filter(listed).map(|edge| if of == 0 { [edge, other] } else { [other, edge] }));
+                }
+            }
+        }
+        if is_one {
+            near.iter_mut().for_each(|edges| edges.sort_unstable());
+        }
+        near.sort_unstable();
+        near.dedup();
+        let nodes = |edges: [u32; 2]| [0, 1].map(|of| surfaces[self.sides[of]].edges[edges[of] as usize].nodes);
+        let way = |node: u32| size(minus(sweep.new[node as usize], sweep.old[node as usize]));
+        near.retain(|&edges| {
+            let [a, b] = nodes(edges);
+            // A node of two surfaces joins them.
+            let is_joined = |node: &u32, other: usize| !is_one && surfaces[self.sides[other]].nodes.binary_search(node).is_ok();
+            let placed = |edge: [u32; 2]| edge.map(|node| sweep.new[node as usize]);
+            !a.iter().any(|node| b.contains(node) || is_joined(node, 1))
+                && !b.iter().any(|node| is_joined(node, 0))
+                && (distance(placed(a), placed(b)) <= radius || [a, b].iter().flatten().any(|&node| way(node) > skin))
+        });
+        let old = std::mem::take(&mut self.pairs);
+        let kept = old.iter().filter(|pair| pair.touches);
+        near.extend(kept.clone().map(|pair| pair.edges));
+        near.sort_unstable();
+        near.dedup();
+        let body = |node: u32| self.bodies.get(node as usize).copied().unwrap_or(u32::MAX);
+        let mut kept = kept.peekable();
+        for edges in near {
+            let [[a, _], [b, _]] = nodes(edges);
+            let new = EdgePair { edges, own: body(a) == body(b), ..EdgePair::default() };
+            self.pairs.push(kept.next_if(|pair| pair.edges == edges).copied().unwrap_or(new));
+        }
+    }
+
+    /// Pairs that are inside, or near enough to come in during the next update, ascending. `is_held` tells whether a node (of the first surface or of the second) is in contact with a facet of
+    /// the other one; `make` gives the stiffness and the area of a new spring.
+    pub fn track(
+        &mut self,
+        around: &Around<'_>,
+        is_held: impl Fn(usize, u32, u32) -> bool,
+        make: impl Fn(&EdgeTouch) -> [f64; 2],
+    ) -> &[EdgeTouch] {
+        let springs = self.pairs.iter().filter(|pair| pair.touches);
+        self.deepest =
+            springs.map(|pair| pair.memory.offset.abs() + pair.memory.half.abs() + pair.memory.carried.abs()).fold(0.0, f64::max);
+        let mut found: Vec<EdgeTouch> = Vec::new();
+        for number in 0..self.pairs.len() {
+            found.extend(self.look_at(number, around, &is_held));
+        }
+        // What had a spring comes first; then one spring for each place at which two lines of edges cross; then what had one beyond an end.
+        let mut taken: Vec<bool> = vec![false; self.pairs.len()];
+        for turn in 0..3 {
+            let is_beyond = |touch: &EdgeTouch| !touch.crossing.is_within(BEYOND);
+            let turn_of = |touch: &EdgeTouch| if touch.is_new { 1 } else { 2 * u32::from(is_beyond(touch)) };
+            for touch in found.iter().filter(|touch| turn_of(touch) == turn) {
+                taken[touch.pair as usize] = turn == 0 || self.beside(touch, around).all(|other| !taken[other]);
+            }
+        }
+        for touch in &mut found {
+            if !taken[touch.pair as usize] {
+                continue;
+            }
+            if touch.is_new {
+                let [stiffness, area] = make(touch);
+                let pair = &mut self.pairs[touch.pair as usize];
+                (pair.stiffness, pair.area, pair.memory) = (stiffness, area, Memory::default());
+                // A spring that went over the end of another edge goes on.
+                let left = self.beside(touch, around).find(|&other| self.goes_over(other, touch, &taken));
+                if let Some(left) = left {
+                    let EdgePair { stiffness, area, memory, .. } = self.pairs[left];
+                    self.pairs[left].touches = false;
+                    self.pairs[touch.pair as usize] = EdgePair { stiffness, area, memory, ..self.pairs[touch.pair as usize] };
+                }
+            }
+        }
+        for (pair, taken) in self.pairs.iter_mut().zip(&taken) {
+            pair.touches = *taken;
+        }
+        found.retain(|touch| taken[touch.pair as usize]);
+        self.touches = found;
+        &self.touches
+    }
+
+    /// Whether the spring of a pair ended in this step and goes on at a touch.
+    fn goes_over(&self, other: usize, touch: &EdgeTouch, taken: &[bool]) -> bool {
+        let pair = &self.pairs[other];
+        pair.touches && !taken[other] && dot(pair.memory.normal, touch.crossing.normal) > STRAIGHT
+    }
+
+    /// Pairs of the edges of a touch, or those that go on from them in the same line.
+    fn beside<'a>(&'a self, touch: &EdgeTouch, around: &'a Around<'_>) -> impl Iterator<Item = usize> + use<'a> {
+        let [firsts, seconds] = [0, 1].map(|of| self.line(of, touch.edges[of], around));
+        let (own, sides) = (touch.edges, self.sides);
+        firsts.into_iter().flat_map(move |a| seconds.clone().into_iter().map(move |b| [a, b])).filter_map(move |[a, b]| {
+            let edges = if sides[0] == sides[1] && a > b { [b, a] } else { [a, b] };
+            if edges == own { None } else { self.pairs.binary_search_by_key(&edges, |pair| pair.edges).ok() }
+        })
+    }
+
+    /// An edge, and those that go on from its ends in the same line.
+    fn line(&self, of: usize, edge: u32, around: &Around<'_>) -> Vec<u32> {
+        let nodes = around.surfaces[self.sides[of]].edges[edge as usize].nodes;
+        let mut line = vec![edge];
+        for node in nodes {
+            line.extend(self.next(of, edge, node, around));
+        }
+        line
+    }
+
+    /// Edges that go on from an edge at its end `node` in the same line.
+    fn next<'a>(&'a self, of: usize, edge: u32, node: u32, around: &'a Around<'_>) -> impl Iterator<Item = u32> + use<'a> {
+        let surface = &around.surfaces[self.sides[of]];
+        let placed = Placed { surface, positions: around.sweep.new };
+        let along = move |edge: u32| {
+            let [a, b] = placed.edge(edge);
+            unit(minus(b, a))
+        };
+        let own = along(edge);
+        let at_node = surface.nodes.binary_search(&node).map_or(&[][..], |rank| self.at_nodes[self.sides[of]].of(rank));
+        at_node.iter().copied().filter(move |&other| other != edge && dot(own, along(other)).abs() > STRAIGHT)
+    }
+
+    /// Whether a crossing is on both edges, or so little beyond their ends that a closed spring goes on.
+    fn goes_on(&self, edges: [u32; 2], crossing: &Crossing, around: &Around<'_>) -> bool {
+        (0..2).all(|of| {
+            let along = crossing.along[of];
+            let beyond = (-along).max(along - 1.0);
+            let node = || around.surfaces[self.sides[of]].edges[edges[of] as usize].nodes[usize::from(along > 0.5)];
+            beyond <= BEYOND || (beyond <= BENT && self.next(of, edges[of], node(), around).next().is_some())
+        })
+    }
+
+    /// Where the edges of a pair cross.
+    fn look_at(&self, number: usize, around: &Around<'_>, is_held: &impl Fn(usize, u32, u32) -> bool) -> Option<EdgeTouch> {
+        let &Around { surfaces, sweep, is_new, radius, skin, near: [near, ahead], extra, open } = around;
+        let EdgePair { edges, own, touches, memory, .. } = self.pairs[number];
+        let placed = [0, 1].map(|of| Placed { surface: &surfaces[self.sides[of]], positions: sweep.new });
+        let [a, b] = [0, 1].map(|of| placed[of].edge(edges[of]));
+        let crossing = crossing(a, b)?;
+        // A closed spring stays where one would not begin.
+        let is_closed = touches && memory.half < open;
+        if !(if is_closed { self.goes_on(edges, &crossing, around) } else { crossing.is_within(0.0) }) {
+            return None;
+        }
+        let nodes = [0, 1].map(|of| surfaces[self.sides[of]].edges[edges[of] as usize].nodes);
+        let old = nodes.map(|edge| edge.map(|node| sweep.old[node as usize]));
+        let [p, q] = crossing.along;
+        let moved = minus(minus(point(a, p), point(old[0], p)), minus(point(b, q), point(old[1], q)));
+        let motion = size(moved);
+        if !is_closed && !is_new && crossing.gap.abs() > (near + ahead * motion).max(extra) + 2.0 * self.deepest {
+            return None;
+        }
+        let ridges = [0, 1].map(|of| placed[of].ridge(edges[of]));
+        let [Some(first), Some(second)] = ridges else { return None };
+        let turned = crossing.turned();
+        let fits = |crossing: &Crossing| crossing.fits([&first, &second]);
+        let least = |crossing: &Crossing| fits(crossing).into_iter().fold(1.0, f64::min);
+        let is_turned = if is_closed { dot(crossing.normal, memory.normal) < 0.0 } else { least(&turned) > least(&crossing) };
+        let crossing = if is_turned { turned } else { crossing };
+        let [worse, better] = {
+            let [a, b] = fits(&crossing);
+            [a.min(b), a.max(b)]
+        };
+        if worse < if is_closed { STAYS } else { BEGINS } || (!is_closed && better < BETWEEN) {
+            return None;
+        }
+        let are_sharp = first.is_sharp() && second.is_sharp();
+        if !is_closed && !are_sharp {
+            return None;
+        }
+        let known = touches && dot(memory.normal, crossing.normal) > 0.0;
+        if crossing.gap < 0.0 && !known {
+            let shallow = || -crossing.gap <= (radius - skin).min(SHALLOW * Ridge::narrower(&first, &second));
+            let comes = if is_new { !own && shallow() } else { self.entered(&crossing, [a, b], old) };
+            // What went over the end of another edge was seen there.
+            if !comes && !self.follows(number, &crossing, around) {
+                return None;
+            }
+        }
+        let touch = EdgeTouch { edges, nodes, crossing, own, is_new: !touches, stands: worse >= BETWEEN, pair: number as u32 };
+        let facets = |of: usize| surfaces[self.sides[of]].edges[edges[of] as usize].facets;
+        let holds = |of: usize| nodes[of].iter().any(|&node| facets(1 - of).iter().any(|&facet| is_held(of, node, facet)));
+        if !is_closed && (holds(0) || holds(1)) {
+            return None;
+        }
+        let ahead = extra + near + ahead * motion;
+        (is_closed || crossing.gap <= ahead.min(radius - skin).max(extra)).then_some(touch)
+    }
+
+    /// Whether edges went through each other in the step.
+    fn entered(&self, crossing_new: &Crossing, [a, b]: [[Vector; 2]; 2], [a_old, b_old]: [[Vector; 2]; 2]) -> bool {
+        let Some(before) = crossing(a_old, b_old) else { return false };
+        let before = if dot(before.normal, crossing_new.normal) < 0.0 { before.turned() } else { before };
+        if before.gap < 0.0 {
+            return false;
+        }
+        let at = before.gap / (before.gap - crossing_new.gap);
+        let between = |from: [Vector; 2], to: [Vector; 2]| [0, 1].map(|k| [0, 1, 2].map(|d| from[k][d] + at * (to[k][d] - from[k][d])));
+        crossing(between(a_old, a), between(b_old, b)).is_some_and(|found| found.is_within(ON_WAY))
+    }
+
+    /// Whether a pair beside had a closed spring to the same side.
+    fn follows(&self, number: usize, crossing: &Crossing, around: &Around<'_>) -> bool {
+        let pair = &self.pairs[number];
+        let touch = EdgeTouch {
+            edges: pair.edges,
+            nodes: [[0; 2]; 2],
+            crossing: *crossing,
+            own: pair.own,
+            is_new: true,
+            stands: false,
+            pair: number as u32,
+        };
+        let follows = |other: usize| {
+            let pair = &self.pairs[other];
+            pair.touches && pair.memory.half < around.open && dot(pair.memory.normal, crossing.normal) > STRAIGHT
+        };
+        self.beside(&touch, around).any(follows)
+    }
+
+    /// Keeps what is known of the past.
+    pub(super) fn keep(&mut self, archive: &mut Archive<'_>, surfaces: &[SpaceSurface]) -> Kept {
+        crate::archive::Keep::keep(&mut self.pairs, archive)?;
+        let is_there = |pair: &EdgePair| (0..2).all(|of| (pair.edges[of] as usize) < surfaces[self.sides[of]].edges.len());
+        let is_sorted = self.pairs.is_sorted_by(|a, b| a.edges < b.edges);
+        archive.check(is_sorted && self.pairs.iter().all(is_there), "a contact follows edges that are not there")
+    }
+
+    /// Takes over what another one knew whose `surfaces` were those before they changed: of edges that are still there in `new` ones.
+    pub(super) fn inherit(&mut self, old: &Self, surfaces: &[SpaceSurface], new: &[SpaceSurface]) {
+        let sorted = |[a, b]: [u32; 2]| [a.min(b), a.max(b)];
+        let by_nodes = |side: usize| {
+            let mut all: Vec<([u32; 2], u32)> = new[side].edges.iter().map(|edge| sorted(edge.nodes)).zip(0..).collect();
+            all.sort_unstable();
+            all
+        };
+        let tables = self.sides.map(by_nodes);
+        let known = old.pairs.iter().filter(|pair| pair.touches).filter_map(|pair| {
+            let mut edges = [0; 2];
+            for of in 0..2 {
+                let nodes = sorted(surfaces[old.sides[of]].edges[pair.edges[of] as usize].nodes);
+                let at = tables[of].binary_search_by_key(&nodes, |entry| entry.0).ok()?;
+                edges[of] = tables[of][at].1;
+            }
+            if self.sides[0] == self.sides[1] {
+                edges.sort_unstable();
+            }
+            Some(EdgePair { edges, ..*pair })
+        });
+        self.pairs = known.collect();
+        self.pairs.sort_by_key(|pair| pair.edges);
+    }
+}
+
+impl Ridge {
+    fn narrower(a: &Self, b: &Self) -> f64 {
+        a.width.min(b.width)
+    }
+}
+
+/// A ridge in the search.
+struct Listed {
+    number: u32,
+    length: f64,
+    /// Of lengths that differ by less than a factor of two.
+    class: u64,
+}
+
+/// The ridges of a surface, ascending.
+fn ridges(surface: &SpaceSurface, positions: &[Vector]) -> Vec<Listed> {
+    let placed = Placed { surface, positions };
+    let listed = |number: u32| {
+        let [a, b] = placed.edge(number);
+        let length = size(minus(b, a));
+        placed.ridge(number).filter(|ridge| ridge.is_sharp() && length.is_finite()).map(|_| Listed {
+            number,
+            length,
+            class: length.to_bits() >> 52,
+        })
+    };
+    (0..surface.edges.len() as u32).filter_map(listed).collect()
+}
+
+fn minus(a: Vector, b: Vector) -> Vector {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+fn size(v: Vector) -> f64 {
+    dot(v, v).sqrt()
+}
+
+/// Direction of the first edge, and the normal: what slips turn with.
+#[must_use]
+pub fn frame(touch: &EdgeTouch, positions: &[Vector]) -> [Vector; 2] {
+    let [a, b] = touch.nodes[0].map(|node| positions[node as usize]);
+    [unit(minus(b, a)), touch.crossing.normal]
+}
+
+/// The ends of a spring between two edges; `tangent` is the first along which the slip is.
+///
+/// The slip rate is that of the closest points less what a rotation of both together makes of it, ṡ = t·(v_a − v_b) − g t·ṅ. The normal stays at right angles to both edges, e·ṅ = −n·ė, so
+/// ṅ = −(n·ė_a) e^a − (n·ė_b) e^b with the dual vectors of both edges: friction keeps the angular momentum.
+#[must_use]
+pub fn ends(touch: &EdgeTouch, tangent: Vector, positions: &[Vector]) -> [End<3>; 4] {
+    let Crossing { along: [s, t], gap, normal } = touch.crossing;
+    let [p, q] = touch.nodes.map(|[a, b]| minus(positions[b as usize], positions[a as usize]));
+    let dual = |own: Vector, other: Vector| {
+        let across = cross(other, normal);
+        let size = dot(across, own);
+        across.map(|c| c / size)
+    };
+    let duals = [dual(p, q), dual(q, p)];
+    let tangents = Dim::<3>::tangents(normal, &tangent);
+    let [[a, b], [c, d]] = touch.nodes;
+    let end = |node: u32, weight: f64, of: usize, sign: f64| {
+        // Beyond the end of an edge a weight is negative: the node belongs to its surface all the same.
+        let side = [1.0, -1.0][of];
+        let (share, beyond) = (side * weight.max(0.0), side * weight.min(0.0));
+        let turn = tangents.map(|t| {
+            let by = sign * gap * dot(t, duals[of]);
+            [0, 1, 2].map(|d| by * normal[d] + beyond * t[d])
+        });
+        End { lean: normal.map(|n| beyond * n), turn, ..End::node(node, share) }
+    };
+    [end(a, 1.0 - s, 0, -1.0), end(b, s, 0, 1.0), end(c, 1.0 - t, 1, -1.0), end(d, t, 1, 1.0)]
+}

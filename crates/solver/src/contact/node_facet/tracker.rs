@@ -6,7 +6,8 @@
 //!
 //! - a node that is inside, or has just gone through a facet on its way (checked along the way in the step, so that it may be as fast as it likes), sees only facets that look to the side
 //!   from which it came: through a thin plate the far side may be nearer, but is not where it goes out;
-//! - a node that lies on a side within round-off, which does not face it, sees the facets that do: blocks that end flush press on each other with their edges too;
+//! - a face holds the nodes that press on it, or come upon it from the front, over its rim and a little beyond: blocks that end flush press on each other with their edges too, whatever
+//!   rounds or spreads. The slave's own surface has to face it and to go back over it; who slides down beside a body has nothing to do with its top;
 //! - in its own body it sees only facets that its own surface looks at, and is inside only if it was seen to come in: its neighbours along the surface are near, and its own far side is
 //!   behind it.
 //!
@@ -29,6 +30,10 @@ const LOOK_AHEAD: f64 = 4.0;
 const START: f64 = 0.02;
 /// A node nearer to a side than this fraction of the skin (a millionth of an edge) is on it, as far as one can tell.
 const FLUSH: f64 = 4e-6;
+/// How far a face holds nodes beyond its rim, as a fraction of the size of its facets (the root of the sum of the squares of both diagonals).
+const BAND: f64 = 0.02;
+/// Cosine of the angle between the normal that a node felt and that of the face that holds it.
+const SAME_FACE: f64 = 0.9;
 /// The global search is asked for a little more than is needed: it may round.
 const SLACK: f64 = 1.001;
 
@@ -373,16 +378,19 @@ impl Tracker {
         }
         let came = side != [0.0; 3];
         let sees = |facet: &u32| faces(*facet) && (!came || dot(side, placed.facet_normal(*facet)) > SAME_SIDE);
-        let mut found = placed.project(x, candidates.iter().copied().filter(sees))?;
-        // On the skin of a side that does not face it, where bodies end flush: what does face it counts.
-        if !group.own && found.gap.abs() <= FLUSH * self.skin {
+        let mut found = placed.project(x, candidates.iter().copied().filter(sees));
+        // Who goes on with its face needs no second look.
+        let goes_on = |found: &Projection| group.touches && dot(group.memory.normal, found.normal) > SAME_FACE;
+        if !group.own && !found.as_ref().is_some_and(goes_on) {
             let own = self.own_normal(pass.slave, group.slave, sweep.new);
-            if dot(own, found.normal) >= FACING {
-                let facing = |facet: &u32| sees(facet) && dot(own, placed.facet_normal(*facet)) < FACING;
-                let other = placed.project(x, candidates.iter().copied().filter(facing));
-                found = other.filter(|other| other.gap < 0.0 && -other.gap <= self.radius - self.skin).unwrap_or(found);
+            if found.is_none_or(|found| dot(own, found.normal) >= FACING) {
+                let faces = |facet: u32| dot(own, placed.facet_normal(facet)) < FACING;
+                let over = placed.project_over(x, candidates.iter().copied().filter(|facet| sees(facet) && faces(*facet)), faces);
+                let is_flush = found.is_some_and(|found| found.gap.abs() <= FLUSH * self.skin);
+                found = over.filter(|over| self.is_held(pass, group, side, sweep, over, is_flush)).map(|(over, _)| over).or(found);
             }
         }
+        let found = found?;
         if found.gap < 0.0 {
             // In its own body only who was seen to come in, or was just before it.
             let known = came || (group.touches && dot(group.memory.normal, found.normal) > SAME_SIDE);
@@ -393,6 +401,43 @@ impl Tracker {
         }
         let near = extra + START * self.skin + LOOK_AHEAD * motion(&placed, &found, sweep, group.node);
         (found.gap <= near.min(self.radius - self.skin).max(extra)).then_some((found, [0.0; 3]))
+    }
+
+    /// Whether a face holds a node that is over its rim or beyond it, by the projection and the way from the rim: `side` is the one from which it came, `is_flush` tells whether it lies on the
+    /// body's surface as far as one can tell.
+    fn is_held(
+        &self,
+        pass: &Pass,
+        group: &Group,
+        side: Vector,
+        sweep: Sweep<'_, 3>,
+        (over, beyond): &(Projection, Vector),
+        is_flush: bool,
+    ) -> bool {
+        let target = &self.surfaces[pass.target];
+        let (placed, before) = (Placed { surface: target, positions: sweep.new }, Placed { surface: target, positions: sweep.old });
+        let way = size(*beyond);
+        if way > BAND * placed.size(over.facet) || -over.gap > self.radius - self.skin {
+            return false;
+        }
+        let held = dot(side, over.normal) > SAME_FACE || (group.touches && dot(group.memory.normal, over.normal) > SAME_FACE);
+        let from_the_front = || {
+            let [a, b, c] = before.triangle(over.facet, over.triangle);
+            let height = dot(minus(sweep.old[group.node as usize], a), cross(minus(b, a), minus(c, a)));
+            over.gap >= 0.0 || height >= 0.0
+        };
+        (held || is_flush || from_the_front()) && (way == 0.0 || self.goes_back(pass, group, *beyond, sweep.new))
+    }
+
+    /// Whether the surface of a slave goes from it back over the face that it is beyond by a way.
+    fn goes_back(&self, pass: &Pass, group: &Group, beyond: Vector, positions: &[Vector]) -> bool {
+        let slaves = &self.surfaces[pass.slave];
+        let x = positions[group.node as usize];
+        slaves.around(group.slave as usize).iter().flat_map(|&facet| slaves.facets[facet as usize]).any(|other| {
+            let along = minus(positions[other as usize], x);
+            // More than the rim's own direction, as far as rounding lets one tell.
+            dot(along, beyond) < -0.05 * size(along) * size(beyond)
+        })
     }
 
     /// Normal of a slave at its own surface.

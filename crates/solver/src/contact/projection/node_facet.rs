@@ -7,6 +7,9 @@
 //!
 //! The gap is g = ± |x − P|, its gradient the unit vector n = ± (x − P) / |x − P|, and −w_a n at the nodes: P is the nearest point, so that its own motion along the surface changes nothing.
 //! Weights are a partition of unity and x − P is along n: forces along these rows keep both momenta.
+//!
+//! Beyond the rim of a face, where its surface is cut off or goes on around a sharp edge, the plane of the last triangle goes on ([`Placed::project_over`]): P is then beyond the triangle, and
+//! some of its weights are negative.
 
 use crate::mesh::surface::{Corners, NONE, SpaceSurface};
 use crate::motion::{cross_space as cross, dot_space as dot};
@@ -172,7 +175,8 @@ impl Placed<'_> {
     }
 
     /// Length by which what is small on a facet is measured, m.
-    fn size(&self, facet: u32) -> f64 {
+    #[must_use]
+    pub fn size(&self, facet: u32) -> f64 {
         let ([a, b, c, d], _) = self.corners(facet);
         let (p, q) = (minus(c, a), minus(d, b));
         (dot(p, p) + dot(q, q)).sqrt()
@@ -303,6 +307,61 @@ impl Placed<'_> {
         self.seen(x, facet, k, nearest)
     }
 
+    /// As [`Placed::project`], but the plane of the nearest triangle goes on beyond the rim of what `is_face` says is the face; with it the way from the rim to P, m, zero over the face.
+    #[must_use]
+    pub fn project_over(
+        &self,
+        x: Vector,
+        facets: impl IntoIterator<Item = u32>,
+        is_face: impl Fn(u32) -> bool,
+    ) -> Option<(Projection, Vector)> {
+        let mut best: Option<(Nearest, u32, usize)> = None;
+        for facet in facets {
+            if let Some((found, k)) = self.nearest(x, facet)
+                && best.is_none_or(|(best, ..)| found.square < best.square)
+            {
+                best = Some((found, facet, k));
+            }
+        }
+        let (nearest, facet, k) = best?;
+        let goes_on = |edge: usize| {
+            let other = self.surface.across(facet, edge);
+            other != NONE && is_face(other)
+        };
+        let is_inside = match self.feature(facet, k, nearest.weights) {
+            Feature::Face | Feature::Crease => true,
+            Feature::Edge(edge) => goes_on(edge),
+            Feature::Node(corner) => {
+                let node = self.surface.facets[facet as usize][corner];
+                let (_, ends) = self.node_normal(facet, corner);
+                !ends && self.surface.facets_at(node).iter().all(|&other| is_face(other))
+            }
+        };
+        if is_inside {
+            return self.seen(x, facet, k, nearest).map(|found| (found, [0.0; 3]));
+        }
+        let over = self.over(x, facet, k)?;
+        let beyond = minus(over.foot, nearest.foot);
+        Some((over, beyond))
+    }
+
+    /// The projection on the plane of triangle `k`, inside of it or not; `None` where it has no area.
+    fn over(&self, x: Vector, facet: u32, k: usize) -> Option<Projection> {
+        let [a, b, c] = self.triangle(facet, k);
+        let area = cross(minus(b, a), minus(c, a));
+        let square = dot(area, area);
+        if !(square > 0.0) {
+            return None;
+        }
+        let normal = unit(area);
+        let gap = dot(minus(x, a), normal);
+        let foot = [0, 1, 2].map(|d| x[d] - gap * normal[d]);
+        let share = |p: Vector, q: Vector| dot(cross(minus(p, x), minus(q, x)), area) / square;
+        let (first, second) = (share(b, c), share(c, a));
+        let weights = self.spread(facet, k, [first, second, 1.0 - first - second]);
+        Some(Projection { facet, feature: Feature::Face, triangle: k, weights, foot, gap, normal })
+    }
+
     /// Gap and normal of what is nearest.
     fn seen(&self, x: Vector, facet: u32, triangle: usize, nearest: Nearest) -> Option<Projection> {
         let Nearest { square, weights, foot } = nearest;
@@ -317,10 +376,9 @@ impl Placed<'_> {
         let size = self.size(facet);
         if ends {
             // At the border: over it, as far as rounding lets one tell, it is the facet's.
-            let normal = self.facet_normal(facet);
-            let gap = dot(away, normal);
-            let beside = [0, 1, 2].map(|d| away[d] - gap * normal[d]);
-            return (dot(beside, beside).sqrt() <= BORDER * size).then(|| projection(gap, normal));
+            let over = self.over(x, facet, triangle)?;
+            let beside = minus(over.foot, foot);
+            return (dot(beside, beside).sqrt() <= BORDER * size).then_some(over);
         }
         if distance <= ROUNDING * size {
             let normal = unit(pseudo);

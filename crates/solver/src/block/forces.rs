@@ -246,9 +246,10 @@ where
     fn geometry<L: Lane>(&self, batch: usize, at: usize) -> Geometry<L, D, N, P> {
         let (zero, one) = (L::splat(0.0), L::splat(1.0));
         let mut x = [[zero; D]; N];
+        let nodes = &self.strip.nodes[batch * (N * D)..][..N * D];
         for a in 0..N {
             for i in 0..D {
-                x[a][i] = L::load(&self.strip.nodes[(batch * N + a) * D + i], at);
+                x[a][i] = L::load(&nodes[a * D + i], at);
             }
         }
         let nothing = L::splat(-0.0);

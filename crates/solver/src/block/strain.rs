@@ -150,10 +150,12 @@ where
     fn part<L: Lane>(&mut self, batch: usize, at: usize) {
         let row = (self.first + batch) * N;
         let (mut x, mut v) = ([[L::splat(0.0); D]; N], [[L::splat(0.0); D]; N]);
+        // One check of the bounds for all nodes.
+        let nodes = &mut self.strip.nodes[batch * (N * D)..][..N * D];
         for a in 0..N {
             [x[a], v[a]] = L::gather(&self.strip.moving, self.places, row + a, at);
             for i in 0..D {
-                x[a][i].store(&mut self.strip.nodes[(batch * N + a) * D + i], at);
+                x[a][i].store(&mut nodes[a * D + i], at);
             }
         }
         let jacobians = E::gradients(&x);

@@ -16,11 +16,11 @@ mod space;
 mod space_contact;
 mod start;
 
-use crate::contact::messages::NO_STEP;
+use crate::contact::messages::{NO_STEP, TIED_TWICE};
 use crate::material::messages::INITIAL_STATE;
 use crate::model::messages::UNKNOWN_NAME;
 use crate::tensor::Dim;
-use crate::world::World;
+use crate::world::{self, World};
 pub(crate) use again::{Lent, Origin};
 use fans::Fans;
 pub(crate) use mass::Shares;
@@ -338,6 +338,21 @@ where
         let made = (told(forces, &mut faults), told(boundary, &mut faults));
         self.faults.extend(faults);
         made
+    }
+
+    /// Tells if nodes are bound already (`tied`: which contact binds a node): two ties would hold against each other.
+    fn tied_once<'m>(&mut self, path: &str, contact: &'m str, nodes: &[u32], tied: &mut BTreeMap<u32, &'m str>) {
+        let twice = nodes.iter().find_map(|&node| Some((node, *tied.get(&node)?)));
+        if let Some((node, other)) = twice {
+            let at = world::place(self.mesh.positions[node as usize]);
+            self.faults.push(Fault::new(
+                &TIED_TWICE,
+                path,
+                format!("the node at {at} m is tied already by contact \"{other}\""),
+                "leave one of the two ties out, name smaller surfaces, or let the other surface be the slave",
+            ));
+        }
+        tied.extend(nodes.iter().map(|&node| (node, contact)));
     }
 
     /// Adds what acts in springs; returns its number.

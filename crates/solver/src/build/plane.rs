@@ -4,7 +4,7 @@ use super::fans::Under;
 use super::{Builder, law_of, mirrors, search_by_name, source_of, terms_of, terms_of_ties};
 use crate::contact::formulation::{self, Setup, Side};
 use crate::contact::law;
-use crate::contact::messages::{ON_SYMMETRY, TIED_TWICE};
+use crate::contact::messages::ON_SYMMETRY;
 use crate::contact::mirror::Mirrored;
 use crate::contact::projection::node_segment::Target;
 use crate::contact::{self, Contact, ContactKind, Formulation};
@@ -86,21 +86,6 @@ impl Builder<'_, 2> {
             }
         }
         contacts
-    }
-
-    /// Tells if nodes are bound already (`tied`: which contact binds a node): two ties would hold against each other.
-    fn tied_once<'m>(&mut self, path: &str, contact: &'m str, nodes: &[u32], tied: &mut BTreeMap<u32, &'m str>) {
-        let twice = nodes.iter().find_map(|&node| Some((node, *tied.get(&node)?)));
-        if let Some((node, other)) = twice {
-            let [x, y] = self.mesh.positions[node as usize];
-            self.faults.push(Fault::new(
-                &TIED_TWICE,
-                path,
-                format!("the node at ({x:.6e}, {y:.6e}) m is tied already by contact \"{other}\""),
-                "leave one of the two ties out, name smaller surfaces, or let the other surface be the slave",
-            ));
-        }
-        tied.extend(nodes.iter().map(|&node| (node, contact)));
     }
 
     /// A contact; faults have paths relative to it.

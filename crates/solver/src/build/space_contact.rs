@@ -1,12 +1,13 @@
 //! Contacts between surfaces in space: nodes against facets, made from the surfaces that a contact names and from the stiffness of the elements behind them.
 
 use super::outline::{self, Outline};
-use super::{Builder, law_of, search_by_name, source_of, stiffness_of, terms_of};
+use super::{Builder, law_of, search_by_name, source_of, stiffness_of, terms_of, terms_of_ties};
 use crate::contact::edge_edge::EdgeTouch;
 use crate::contact::formulation::{self, Passes};
 use crate::contact::initial::{self, Inside, Penetration};
 use crate::contact::law::{self, Node};
-use crate::contact::messages::ON_SYMMETRY;
+use crate::contact::messages::{ON_SYMMETRY, TIE};
+use crate::contact::node_facet::tied::{TiedFacet, Unborn};
 use crate::contact::node_facet::tracker::{Touch, Tracker};
 use crate::contact::node_facet::{NodeFacet, PassInput, Slave, edges_at_start};
 use crate::contact::obstacle::OutlineShape;
@@ -22,13 +23,11 @@ use crate::mesh::surface::SpaceSurface;
 use crate::model::messages::{NO_DIRECTION, NOT_IN_SPACE, UNKNOWN_NAME};
 use crate::model::{self, ContactLaw, InitialPenetration, Interface, Obstacle, ObstacleShape, Partners, Penalty, PenaltySource};
 use crate::vector::{dot, minus, plus, times};
+use std::collections::BTreeMap;
 
 /// What a contact of the plane may do and one of space may not (yet).
 fn refused(contact: &model::Contact) -> Option<(&'static str, &'static str, &'static str)> {
     let name = contact.formulation.name();
-    if contact.tied.is_some() {
-        return Some(("tied", "contacts do not tie", "let the bodies share nodes, or join nodes that coincide"));
-    }
     if !["double_pass", "single_pass"].contains(&name) {
         return Some(("formulation", "nodes meet facets", "take `double_pass` or `single_pass`"));
     }
@@ -50,10 +49,15 @@ impl Builder<'_, 3> {
     /// See [`crate::world::World::contacts`].
     pub(crate) fn contacts_in_space(&mut self) -> Vec<Contact<3>> {
         let mut contacts = Vec::new();
+        let mut tied = BTreeMap::new();
         for (i, contact) in self.model.contacts.iter().enumerate() {
             match self.node_facet(contact) {
                 Ok((made, terms)) => {
-                    contacts.push(Contact::new(contact.name.clone(), ContactKind::Contact, made, terms, contact.interface.active));
+                    let made = Contact::new(contact.name.clone(), ContactKind::Contact, made, terms, contact.interface.active);
+                    if let Some(ties) = made.ties() {
+                        self.tied_once(&format!("contact[{i}].tied"), &contact.name, &ties.nodes, &mut tied);
+                    }
+                    contacts.push(made);
                 }
                 Err(faults) => self.faults.extend(faults.into_iter().map(|fault| below(&format!("contact[{i}]"), fault))),
             }
@@ -169,8 +173,8 @@ impl Builder<'_, 3> {
         let mut lines = Vec::new();
         for (i, contact) in self.model.contacts.iter().enumerate() {
             let Interface { initial_penetration, thickness, active, .. } = contact.interface;
-            // Who begins later can't know. Wrong surfaces are told when contacts are made.
-            if refused(contact).is_some() || active[0] > 0.0 {
+            // Ties hold what is there; who begins later can't know. Wrong surfaces are told when contacts are made.
+            if refused(contact).is_some() || contact.tied.is_some() || active[0] > 0.0 {
                 continue;
             }
             let (Ok((mut tracker, passes)), Ok(search)) = (self.tracker_in_space(contact), Self::search_in_space(contact)) else {
@@ -214,11 +218,31 @@ impl Builder<'_, 3> {
         let (tracker, passes) = self.tracker_in_space(contact)?;
         let sides: Vec<Sided> = tracker.surfaces().iter().map(|surface| self.sided(surface, &contact.interface)).collect();
         let own = if meets_edges(contact, passes) { 2 } else { 1 };
-        let inputs = passes.iter().map(|&(slave, target)| sides[slave].against(&sides[target], &contact.interface, own)).collect();
+        let inputs: Vec<PassInput> =
+            passes.iter().map(|&(slave, target)| sides[slave].against(&sides[target], &contact.interface, own)).collect();
+        let tied = contact.tied.map(|strength| {
+            // The element that a node is bound to counts, not the softest of its part.
+            let &(_, target) = &passes[0];
+            (strength, PassInput { moduli: sides[target].facets.clone(), ..inputs[0].clone() })
+        });
         let reach = law_of(&contact.interface).reach();
-        let formulation = NodeFacet::new(tracker, inputs, &contact.interface, reach, &self.mesh.positions);
-        let formulation = if meets_edges(contact, passes) { formulation.with_edges(Self::search_in_space(contact)?) } else { formulation };
-        Ok((Box::new(formulation), terms))
+        let made = NodeFacet::new(tracker, inputs, &contact.interface, reach, &self.mesh.positions);
+        let Some((strength, input)) = tied else {
+            let made = if meets_edges(contact, passes) { made.with_edges(Self::search_in_space(contact)?) } else { made };
+            return Ok((Box::new(made), terms));
+        };
+        let unborn = Unborn { search: Self::search_in_space(contact)?, input, thickness: contact.interface.thickness };
+        let tie_terms = self.add_terms(terms_of_ties(&contact.interface));
+        let mut made = TiedFacet::new(made, unborn, strength, tie_terms);
+        if contact.interface.active[0] <= 0.0 && !self.again {
+            made.bind(&self.mesh.positions);
+            if made.ties().is_none_or(|ties| ties.nodes.is_empty()) {
+                let (first, second) = if passes[0].0 == 0 { ("first", "second") } else { ("second", "first") };
+                let message = format!("it binds nothing: no node of the {first} surface is within 5 % of a facet's width of the {second}");
+                return Err(vec![Fault::new(&TIE, "tied", message, "let the surfaces touch, raise `thickness`, or leave `tied` out")]);
+            }
+        }
+        Ok((Box::new(made), terms))
     }
 
     /// What follows the nodes of a contact, and its passes.
@@ -269,7 +293,7 @@ impl Builder<'_, 3> {
     fn sided(&self, surface: &SpaceSurface, interface: &Interface) -> Sided {
         let source = source_of(interface);
         let mut softest: Vec<f64> = vec![f64::INFINITY; self.mesh.parts.len()];
-        let mut behind = Vec::with_capacity(surface.facets.len());
+        let (mut behind, mut facets) = (Vec::with_capacity(surface.facets.len()), Vec::with_capacity(surface.facets.len()));
         let mut nodes = vec![Tributary::default(); surface.nodes.len()];
         for &facet in &surface.facets {
             let (modulus, part) = self.under(facet).map_or((0.0, 0), |under| {
@@ -278,6 +302,7 @@ impl Builder<'_, 3> {
             });
             softest[part] = softest[part].min(modulus);
             behind.push(part);
+            facets.push(modulus);
             for (node, area) in tributary::shares::<3>(Depth::Plane, facet, &self.mesh.positions) {
                 if let Ok(at) = surface.nodes.binary_search(&node) {
                     nodes[at].area += area;
@@ -296,8 +321,9 @@ impl Builder<'_, 3> {
         if source == PenaltySource::TimeStep {
             let of = |node: &u32| surface.nodes.binary_search(node).map_or(f64::INFINITY, |at| nodes[at].stiffness);
             moduli = surface.facets.iter().map(|facet| facet.iter().map(of).fold(f64::INFINITY, f64::min)).collect();
+            facets.clone_from(&moduli);
         }
-        Sided { nodes, moduli }
+        Sided { nodes, moduli, facets }
     }
 }
 
@@ -307,6 +333,8 @@ struct Sided {
     nodes: Vec<Tributary>,
     /// Pressure stiffness κ behind each facet, Pa/m: the softest of its part.
     moduli: Vec<f64>,
+    /// The same of the element itself.
+    facets: Vec<f64>,
 }
 
 impl Sided {

@@ -5,6 +5,7 @@
 //! gradient of its gap (`projection/node_facet.rs`), so resultant, momentum and angular momentum are exact, and what slides over an edge or a corner keeps its energy as far as half steps
 //! see the turn of the normal.
 
+pub mod tied;
 pub mod tracker;
 
 use super::edge_edge::{self, Around, EdgeTouch, EdgeTracker};
@@ -239,8 +240,9 @@ impl NodeFacet {
     }
 }
 
-impl Formulation<3> for NodeFacet {
-    fn detect(&mut self, scene: &Scene<'_, 3>, springs: &mut Springs<3>) {
+impl NodeFacet {
+    /// [`Formulation::detect`] for those slaves of the first pass that are not bound otherwise (`bound` by index; empty: all).
+    fn detect_free(&mut self, bound: &[bool], scene: &Scene<'_, 3>, springs: &mut Springs<3>) {
         let closed = if self.edges.is_some() { self.tracker.closed(self.reach) } else { Vec::new() };
         let searches = self.tracker.search_report().searches;
         let count = self.tracker.track(scene.sweep, self.thickness + self.reach).len();
@@ -252,6 +254,9 @@ impl Formulation<3> for NodeFacet {
         self.used.clear();
         for index in 0..count {
             let touch = self.tracker.touches()[index];
+            if touch.pass == 0 && bound.get(touch.slave as usize).copied().unwrap_or(false) {
+                continue;
+            }
             let place = (self.tracker.slave(touch.pass), touch.node, touch.projection.facet);
             let memory = *self.tracker.kept(&touch);
             let was_closed = memory.normal != [0.0; 3] && memory.half < self.reach;
@@ -269,6 +274,12 @@ impl Formulation<3> for NodeFacet {
         }
         self.let_go = self.closed.less(&again);
         self.has_begun = true;
+    }
+}
+
+impl Formulation<3> for NodeFacet {
+    fn detect(&mut self, scene: &Scene<'_, 3>, springs: &mut Springs<3>) {
+        self.detect_free(&[], scene, springs);
     }
 
     fn remember(&mut self, solved: Answers<'_, 3>) {
@@ -418,6 +429,12 @@ pub fn ends(placed: &Placed<'_>, node: u32, projection: &Projection) -> ([End<3>
             row
         });
         ends[k + 1] = End { turn, ..End::node(corners[k], -weights[k]) };
+        // Of a tied node beyond its facet: such a corner is pulled along, but belongs to the target all the same.
+        if weights[k] < 0.0 {
+            let beyond = -weights[k];
+            let turn = [0, 1].map(|a| [0, 1, 2].map(|d| turn[a][d] + beyond * tangents[a][d]));
+            ends[k + 1] = End { turn, lean: normal.map(|n| beyond * n), ..End::node(corners[k], 0.0) };
+        }
     }
     (ends, count + 1)
 }

@@ -29,7 +29,7 @@ pub const KIND: FormulationKind = FormulationKind {
 };
 
 /// Nodes within this fraction of a segment's length of it are bound (beyond the thickness).
-const NEAR: f64 = 0.05;
+pub(super) const NEAR: f64 = 0.05;
 
 /// The formulation.
 pub struct Tied {

@@ -56,6 +56,7 @@ mod softening;
 mod space;
 mod stress_states;
 mod swept;
+mod ties_in_space;
 mod trusses;
 mod viscosity;
 mod warnings;

@@ -501,7 +501,7 @@ fn mean_edge(surfaces: &[SpaceSurface], positions: &[Vector]) -> f64 {
 }
 
 /// How far the middle of a facet is from that of its diagonal at most, m: by so much it may be outside the boxes of its halves.
-fn bend(surface: &SpaceSurface, positions: &[Vector]) -> f64 {
+pub(super) fn bend(surface: &SpaceSurface, positions: &[Vector]) -> f64 {
     let of = |facet: &[u32; 4]| {
         if facet.corners().len() == 3 {
             return 0.0;

@@ -174,6 +174,20 @@ impl Placed<'_> {
         if count == 3 { unit(cross(minus(b, a), minus(c, a))) } else { unit(cross(minus(c, a), minus(d, b))) }
     }
 
+    /// Area of a facet, m²: of four nodes that of its projection along its mean normal.
+    #[must_use]
+    pub fn area(&self, facet: u32) -> f64 {
+        let ([a, b, c, d], count) = self.corners(facet);
+        let twice = if count == 3 { cross(minus(b, a), minus(c, a)) } else { cross(minus(c, a), minus(d, b)) };
+        0.5 * dot(twice, twice).sqrt()
+    }
+
+    /// Distance of a point from a facet, m, and the triangle that is nearest.
+    #[must_use]
+    pub fn nearest_triangle(&self, x: Vector, facet: u32) -> Option<(f64, usize)> {
+        self.nearest(x, facet).map(|(nearest, triangle)| (nearest.square.sqrt(), triangle))
+    }
+
     /// Length by which what is small on a facet is measured, m.
     #[must_use]
     pub fn size(&self, facet: u32) -> f64 {

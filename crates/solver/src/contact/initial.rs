@@ -56,7 +56,7 @@ pub fn faults<const D: usize>(path: &str, name: &str, found: &[Penetration<D>]) 
     let one = |penetration: &Penetration<D>| Fault::new(&PENETRATION, path, format!("\"{name}\": {}", penetration.line()), help);
     let mut faults: Vec<Fault> = found.iter().take(TOLD).map(one).collect();
     if found.len() > TOLD {
-        faults.push(Fault::new(&PENETRATION, path, format!("\"{name}\": and {} more are inside", found.len() - TOLD), help));
+        faults.push(Fault::new(&PENETRATION, path, format!("\"{name}\": and {} more nodes are inside", found.len() - TOLD), help));
     }
     faults
 }
@@ -67,7 +67,7 @@ pub fn lines<const D: usize>(name: &str, found: &[Penetration<D>], what_is_done:
     let mut lines: Vec<String> =
         found.iter().take(TOLD).map(|penetration| format!("{name}: {}; {what_is_done}", penetration.line())).collect();
     if found.len() > TOLD {
-        lines.push(format!("{name}: and {} more; {what_is_done}", found.len() - TOLD));
+        lines.push(format!("{name}: and {} more nodes; {what_is_done}", found.len() - TOLD));
     }
     lines
 }

@@ -42,7 +42,7 @@ fn overview_text(model: &Model, overview: &Overview) -> String {
             part.name.clone(),
             grouped(part.elements as u64),
             grouped(part.nodes as u64),
-            if model.is_axisymmetric() { format!("{:.4e} kg", part.mass) } else { format!("{:.4} kg/m", part.mass) },
+            if model.is_of_whole_bodies() { format!("{:.4e} kg", part.mass) } else { format!("{:.4} kg/m", part.mass) },
             with_unit(part.stable_time_step, "s"),
         ]
     }));

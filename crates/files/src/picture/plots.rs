@@ -10,12 +10,12 @@ use std::path::Path;
 /// time axis) into `folder`.
 ///
 /// `columns`: names as in `history.csv`, one of them `time` (else the first is the time); `rows`: one value per column, SI. Values that are
-/// not finite leave gaps; missing columns leave a plot without curves. Energies and forces are per metre of depth, `of_revolution` those of the whole circumference.
+/// not finite leave gaps; missing columns leave a plot without curves. Energies and forces are per metre of depth, `of_whole_bodies` those of whole bodies.
 ///
 /// # Errors
 /// [`PictureError::Io`] if a file can't be written.
-pub fn plots(columns: &[String], rows: &[Vec<f64>], title: &str, of_revolution: bool, folder: &Path) -> Result<(), PictureError> {
-    let table = Table { columns, rows, of_revolution };
+pub fn plots(columns: &[String], rows: &[Vec<f64>], title: &str, of_whole_bodies: bool, folder: &Path) -> Result<(), PictureError> {
+    let table = Table { columns, rows, of_whole_bodies };
     write_text(&folder.join("energy.svg"), &chart(&titled(title, "energy"), &[Group::over_time(vec![energy(&table)])]))?;
     write_text(&folder.join("history.svg"), &chart(&titled(title, "history"), &[Group::over_time(history(&table))]))
 }
@@ -32,7 +32,7 @@ fn write_text(path: &Path, text: &str) -> Result<(), PictureError> {
 struct Table<'a> {
     columns: &'a [String],
     rows: &'a [Vec<f64>],
-    of_revolution: bool,
+    of_whole_bodies: bool,
 }
 
 impl Table<'_> {
@@ -92,7 +92,7 @@ fn energy(table: &Table<'_>) -> Panel {
         curves.push(Curve { name: name.replace('_', " "), colour, dashes, width, dots: false, points: table.points(column) });
     }
     let remark = if zero.is_empty() { String::new() } else { format!("zero throughout: {}", zero.join(", ")) };
-    let si = if table.of_revolution { "J" } else { "J/m" };
+    let si = if table.of_whole_bodies { "J" } else { "J/m" };
     Panel { name: "energy".into(), si, from_zero: true, height: 380.0, curves, remark }
 }
 
@@ -140,7 +140,7 @@ fn history(table: &Table<'_>) -> Vec<Panel> {
     let name = if from_start { "displacement" } else { "position" };
     let quantities = [
         Quantity { name, si: "m", axes: positions, from_start },
-        Quantity { name: "contact force", si: if table.of_revolution { "N" } else { "N/m" }, axes: forces, from_start: false },
+        Quantity { name: "contact force", si: if table.of_whole_bodies { "N" } else { "N/m" }, axes: forces, from_start: false },
     ];
     let mut panels: Vec<Panel> = quantities.iter().flat_map(|quantity| quantity.panels(table)).collect();
     if panels.is_empty() {
@@ -220,7 +220,7 @@ mod tests {
 
     fn names_of(columns: &[&str], rows: &[Vec<f64>]) -> Vec<String> {
         let columns: Vec<String> = columns.iter().map(ToString::to_string).collect();
-        history(&Table { columns: &columns, rows, of_revolution: false }).into_iter().map(|panel| panel.name).collect()
+        history(&Table { columns: &columns, rows, of_whole_bodies: false }).into_iter().map(|panel| panel.name).collect()
     }
 
     #[test]
@@ -235,7 +235,7 @@ mod tests {
         let columns = ["time", "contact.force_y[a]", "obstacle.force_y[floor]", "obstacle.force_y[a]", "obstacle.force_x[floor]"];
         let columns: Vec<String> = columns.iter().map(ToString::to_string).collect();
         let rows: Vec<Vec<f64>> = (0..9).map(f64::from).map(|t| vec![t, t, 2.0 * t, 3.0 * t, 0.0]).collect();
-        let panels = history(&Table { columns: &columns, rows: &rows, of_revolution: false });
+        let panels = history(&Table { columns: &columns, rows: &rows, of_whole_bodies: false });
         let curves: Vec<&str> = panels[0].curves.iter().map(|curve| curve.name.as_str()).collect();
         assert_eq!((panels.len(), panels[0].name.as_str()), (1, "contact force y"));
         assert_eq!(curves, ["a", "floor", "a (obstacle)"]);

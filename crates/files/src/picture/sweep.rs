@@ -43,8 +43,8 @@ const ROUND_OFF: f64 = 1e-9;
 const CURVES_MAX: usize = 9;
 
 /// The unit of an output: of a column of the history, of a time, of a figure of the summary.
-pub(crate) fn unit_of(column: Option<&str>, name: &str, is_time: bool, of_revolution: bool) -> &'static str {
-    let [energy, force] = if of_revolution { ["J", "N"] } else { ["J/m", "N/m"] };
+pub(crate) fn unit_of(column: Option<&str>, name: &str, is_time: bool, of_whole_bodies: bool) -> &'static str {
+    let [energy, force] = if of_whole_bodies { ["J", "N"] } else { ["J/m", "N/m"] };
     let Some(column) = column else {
         return match name {
             _ if is_time => "s",
@@ -62,7 +62,7 @@ pub(crate) fn unit_of(column: Option<&str>, name: &str, is_time: bool, of_revolu
         "angle" => "rad",
         "spin" => "rad/s",
         "moment" => {
-            if of_revolution {
+            if of_whole_bodies {
                 ""
             } else {
                 "N"

@@ -303,7 +303,7 @@ impl<'a> Case<'a> {
             if let Some(path) = self.interface(kind, name).map(|(path, _)| format!("{path}.motion"))
                 && self.failed.loaded.key(&path).written.is_some()
             {
-                let unit = if self.model().is_axisymmetric() { "N" } else { "N/m" };
+                let unit = if self.model().is_of_whole_bodies() { "N" } else { "N/m" };
                 let what = format!("let it go slower or less far: {kind} \"{name}\" pressed there with up to {}", shown(*force, unit));
                 all.push(Advice::new(path, what));
             }

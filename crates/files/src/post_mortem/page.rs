@@ -80,7 +80,7 @@ pub(super) fn of_run(failed: &Failed<'_>, findings: &Findings) -> Files {
     let case =
         Case { failed, trace, culprit: simulation.culprit(&findings.suspect), acting: simulation.acting(failed.model, &findings.suspect) };
     let name = &failed.model.name;
-    let (step, round) = (simulation.steps(), failed.model.is_axisymmetric());
+    let (step, round) = (simulation.steps(), failed.model.is_of_whole_bodies());
     let depth = if round { "N" } else { "N/m" };
     let mark = mark(&case.culprit);
     let mut files: Files = Vec::new();
@@ -207,7 +207,7 @@ fn facts(case: &Case<'_>) -> Vec<Vec<String>> {
     }
     for it in case.pressing().iter().take(3) {
         let path = case.interface(it.kind, it.name).map_or(String::new(), |(path, _)| format!(", {}", place_of(case.failed.loaded, &path)));
-        let unit = if case.failed.model.is_axisymmetric() { "N" } else { "N/m" };
+        let unit = if case.failed.model.is_of_whole_bodies() { "N" } else { "N/m" };
         let force = format!(
             "{} \"{}\" with up to {} (step {}, sum over the nodes of the culprit and its neighbours)",
             it.kind,
@@ -318,7 +318,7 @@ fn balance(case: &Case<'_>) -> String {
     }
     let closed: Vec<u64> = case.trace.moments.iter().filter(|moment| !moment.row.is_empty()).map(|moment| moment.step).collect();
     if let Some(at) = closed.iter().position(|&step| step == jump.step).filter(|&at| at > 0) {
-        let si = if case.failed.model.is_axisymmetric() { "J" } else { "J/m" };
+        let si = if case.failed.model.is_of_whole_bodies() { "J" } else { "J/m" };
         let largest = changes(case.trace, [at - 1, at]);
         let rows = largest.iter().take(6).map(|(change, column)| vec![in_words(&case.trace.columns[*column]), shown(*change, si)]);
         text += &table(&["energy", "change in the worst step"], rows);

@@ -34,7 +34,7 @@ fn panel(name: &str, si: &'static str, from_zero: bool, curves: Vec<Curve>) -> P
 }
 
 /// The culprit's step, shape, strains, stresses, energy, speed and contact; `None` where there are no two steps.
-pub(super) fn culprit(title: &str, trace: &Trace, failed: u64, is_of_revolution: bool) -> Option<String> {
+pub(super) fn culprit(title: &str, trace: &Trace, failed: u64, is_of_whole_bodies: bool) -> Option<String> {
     let of = |value: &dyn Fn(&Vitals) -> f64| -> Vec<[f64; 2]> {
         trace.moments.iter().map(|moment| [moment.step as f64 - failed as f64, value(&moment.vitals)]).collect()
     };
@@ -67,7 +67,7 @@ pub(super) fn culprit(title: &str, trace: &Trace, failed: u64, is_of_revolution:
         ),
         one("elastic energy by volume", "J/m^3", true, &|v| v.energy_density),
         one("speed", "m/s", true, &|v| v.speed),
-        one("contact force", if is_of_revolution { "N" } else { "N/m" }, true, &|v| v.contact_force),
+        one("contact force", if is_of_whole_bodies { "N" } else { "N/m" }, true, &|v| v.contact_force),
         one("depth of the contact", "m", true, &|v| v.penetration),
         one("temperature", "K", false, &|v| v.temperature),
         one("damage", "", true, &|v| v.damage),
@@ -91,8 +91,8 @@ const WHOLE: [(&str, Rgb); 9] = [
 const MOST: usize = 6;
 
 /// All energies, how much the sum of all is off, and the energies of parts and contacts that changed most; `None` where there are no two steps.
-pub(super) fn energies(title: &str, trace: &Trace, failed: u64, is_of_revolution: bool) -> Option<String> {
-    let si = if is_of_revolution { "J" } else { "J/m" };
+pub(super) fn energies(title: &str, trace: &Trace, failed: u64, is_of_whole_bodies: bool) -> Option<String> {
+    let si = if is_of_whole_bodies { "J" } else { "J/m" };
     let closed: Vec<&Moment> = trace.moments.iter().filter(|moment| !moment.row.is_empty()).collect();
     let of = |column: usize, from: f64| -> Vec<[f64; 2]> {
         closed.iter().map(|moment| [moment.step as f64 - failed as f64, moment.row[column] - from]).collect()

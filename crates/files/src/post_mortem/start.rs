@@ -38,7 +38,7 @@ fn of_mass(loaded: &Loaded, fault: &Fault, needed: &MassNeeded) -> Files {
     let shares = needed.shares_of(&trace.near);
     trace.moments.iter_mut().for_each(|moment| moment.values.clone_from(&shares));
     let mark = needed.heaviest.first().map_or(String::new(), |it| format!("element {}", it.element));
-    let depth = if model.is_axisymmetric() { "N" } else { "N/m" };
+    let depth = if model.is_of_whole_bodies() { "N" } else { "N/m" };
     if let (Some(worst), Some(moment), 2) = (needed.heaviest.first(), trace.moments.first(), model.dimension()) {
         let frame = simulation.frame();
         let title = format!("{} – where most mass is needed: {}", model.name, point(worst.at, 2));
@@ -57,7 +57,7 @@ fn of_mass(loaded: &Loaded, fault: &Fault, needed: &MassNeeded) -> Files {
 
 fn mass_text(loaded: &Loaded, fault: &Fault, needed: &MassNeeded) -> String {
     let model = &loaded.model;
-    let si = if model.is_axisymmetric() { "kg" } else { "kg/m" };
+    let si = if model.is_of_whole_bodies() { "kg" } else { "kg/m" };
     let (share, longest) = (needed.share(needed.scaling.time_step), needed.longest());
     let mut text =
         format!("# Post-mortem of {}: {}\n\n{}. ({}) Nothing was run.\n\n", model.name, fault.kind.title, fault.message, fault.kind.code);

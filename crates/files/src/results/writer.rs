@@ -58,7 +58,7 @@ pub(super) fn bytes(frame: &Frame) -> usize {
 pub(super) struct Writer {
     folder: ResultFolder,
     title: String,
-    of_revolution: bool,
+    of_whole_bodies: bool,
     include: Vec<String>,
     columns: Vec<String>,
     history: CsvStream,
@@ -97,7 +97,7 @@ impl Writer {
             hashes: None,
             folder,
             title: picture_title(model),
-            of_revolution: model.is_axisymmetric(),
+            of_whole_bodies: model.is_of_whole_bodies(),
             include: model.output.include.clone(),
             columns,
             plot_rows: ThinnedRows::default(),
@@ -132,12 +132,12 @@ impl Writer {
             rows.iter().for_each(|row| plot_rows.add(row));
             Film::recalled(cells, film_settings(model), &past.film, frame)
         });
-        let (title, of_revolution) = (picture_title(model), model.is_axisymmetric());
+        let (title, of_whole_bodies) = (picture_title(model), model.is_of_whole_bodies());
         let (include, origin) = (model.output.include.clone(), past.origin.clone());
         Ok(Self {
             folder,
             title,
-            of_revolution,
+            of_whole_bodies,
             include,
             columns,
             history,
@@ -231,7 +231,8 @@ impl Writer {
         let made = self.film.map(|film| {
             self.folder.add_pictures(|side| {
                 film.finish(side, &self.threads).map_err(|e| e.to_string())?;
-                picture::plots(&self.columns, &self.plot_rows.into_rows(), &self.title, self.of_revolution, side).map_err(|e| e.to_string())
+                picture::plots(&self.columns, &self.plot_rows.into_rows(), &self.title, self.of_whole_bodies, side)
+                    .map_err(|e| e.to_string())
             })
         });
         Closed { result, pictures_missing: made.and_then(Result::err) }
@@ -248,7 +249,7 @@ pub fn film_settings(model: &Model) -> FilmSettings {
         mirror: model.output.mirror,
         view: model.output.picture_view.map(|view| [view.corner, [0, 1].map(|k| view.corner[k] + view.size[k])]),
         camera: model.output.camera.unwrap_or_default(),
-        of_revolution: model.is_axisymmetric(),
+        of_whole_bodies: model.is_of_whole_bodies(),
         ..FilmSettings::default()
     }
 }

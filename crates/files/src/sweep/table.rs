@@ -38,7 +38,7 @@ pub(super) fn write<'a>(sweep: &Sweep, entries: impl Iterator<Item = &'a Entry>,
                 column,
                 sweep::Output {
                     name: output.name.clone(),
-                    si: sweep::unit_of(output.column(), &output.name, output.is_time(), sweep.first.is_axisymmetric()),
+                    si: sweep::unit_of(output.column(), &output.name, output.is_time(), sweep.first.is_of_whole_bodies()),
                 },
             )
         })
@@ -136,8 +136,8 @@ fn unit_of(path: &str, model: &Model) -> Option<String> {
 /// Masses and forces of a body of revolution are those of the whole circumference.
 fn all_around(dimension: Dimension, model: &Model) -> Dimension {
     match dimension {
-        Dimension::MASS_PER_LENGTH if model.is_axisymmetric() => Dimension::MASS,
-        Dimension::FORCE_PER_LENGTH if model.is_axisymmetric() => Dimension::FORCE,
+        Dimension::MASS_PER_LENGTH if model.is_of_whole_bodies() => Dimension::MASS,
+        Dimension::FORCE_PER_LENGTH if model.is_of_whole_bodies() => Dimension::FORCE,
         other => other,
     }
 }

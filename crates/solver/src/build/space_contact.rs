@@ -31,9 +31,6 @@ fn refused(contact: &model::Contact) -> Option<(&'static str, &'static str, &'st
     if !["double_pass", "single_pass"].contains(&name) {
         return Some(("formulation", "nodes meet facets", "take `double_pass` or `single_pass`"));
     }
-    if matches!(contact.interface.law, ContactLaw::Penalty(Penalty::PerNode(_))) {
-        return Some(("penalty", "a penalty is a pressure per depth", "give it in Pa/m, or leave it out"));
-    }
     if contact.interface.initial_penetration == InitialPenetration::PushOut {
         return Some(("initial_penetration", "nothing is pushed out", "move the bodies apart, or take \"ignore\""));
     }

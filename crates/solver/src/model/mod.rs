@@ -167,6 +167,12 @@ impl ImportedMesh {
 }
 
 impl Model {
+    /// Whether masses, forces and energies are those of whole bodies (of revolution, or solids), and not per metre of depth.
+    #[must_use]
+    pub fn is_of_whole_bodies(&self) -> bool {
+        self.is_axisymmetric() || self.dimension() == 3
+    }
+
     /// Whether the model is a body of revolution: its parts are all axisymmetric, or none is.
     #[must_use]
     pub fn is_axisymmetric(&self) -> bool {

@@ -21,6 +21,7 @@ mod edge_edge;
 mod elements;
 mod ends;
 mod erosion;
+mod flush;
 mod formulations;
 mod extruded;
 mod friction;

@@ -14,8 +14,8 @@ pub struct FilmSettings {
     pub view: Option<[[f64; 2]; 2]>,
     /// From where a model of space is seen.
     pub camera: Camera,
-    /// Whether forces are those of the whole circumference, and not per metre of depth.
-    pub of_revolution: bool,
+    /// Whether forces are those of whole bodies, and not per metre of depth.
+    pub of_whole_bodies: bool,
     /// Field shown as colour: a name (`von_mises`; vectors show their size) or a component (`stress.xy`); empty: plastic strain if there is
     /// any, else the equivalent stress.
     pub field: String,
@@ -34,7 +34,7 @@ impl Default for FilmSettings {
             mirror: [false; 3],
             view: None,
             camera: Camera::default(),
-            of_revolution: false,
+            of_whole_bodies: false,
             field: String::new(),
             rigid: Vec::new(),
             width: 960,

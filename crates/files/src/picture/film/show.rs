@@ -38,7 +38,7 @@ impl Film {
             Some(last) => ([0.0, last as f64], [false; 2]),
             None => colour_range(all(chosen), kind.starts_at_zero()),
         };
-        let si = if self.settings.of_revolution && kind.kind.unit == "N/m" { "N" } else { kind.kind.unit };
+        let si = if self.settings.of_whole_bodies && kind.kind.unit == "N/m" { "N" } else { kind.kind.unit };
         let key = Key::Bar { label: kind.label(), si, range, beyond, states };
         Show { scalar, range, key, view, sides, bodies }
     }

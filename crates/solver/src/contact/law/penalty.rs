@@ -39,7 +39,7 @@ pub fn of_time_step(mass: f64, time_step: f64, area: f64) -> f64 {
     OF_TIME_STEP * mass / (time_step * time_step * area)
 }
 
-/// Spring stiffness of a slave node, N/m per metre of depth; `passes` 1 or 2.
+/// Spring stiffness of a slave node, N/m per metre of depth (in space N/m); `passes` 1 or 2.
 #[must_use]
 pub fn stiffness(penalty: model::Penalty, node: Node, passes: usize) -> f64 {
     match penalty {

@@ -74,6 +74,7 @@ fn every_example_is_listed_here() {
     let mut names: Vec<_> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
     names.sort();
     let listed = [
+        "ball-through-plate",
         "buckling-column",
         "bullet",
         "crossing-tubes",
@@ -492,4 +493,29 @@ fn a_cup_is_drawn_with_the_force_of_siebel_and_keeps_its_volume() {
     let motion = results.column("energy.kinetic[blank]").into_iter().fold(0.0, f64::max);
     assert!(motion < 0.02 * end("energy.external"), "{motion} J of {} J", end("energy.external"));
     assert!(end("energy.hourglass") < 0.02 * end("energy.internal"));
+}
+
+#[test]
+#[cfg_attr(debug_assertions, ignore = "takes a minute without optimization; release tests run it")]
+fn a_ball_tears_a_sheet_and_flies_on_as_recht_and_ipson_say() {
+    let results = run("ball-through-plate", "example-ball-through-plate");
+    results.is_sound(1e-3);
+    let eroded = results.summary["erosion"]["elements"]["plate"].as_u64().unwrap();
+    assert!((80..320).contains(&eroded), "{}", results.summary);
+
+    // A quarter of the ball and of the sheet; the limit is that of the README, from a shot at 200 m/s.
+    let (velocity, limit, cap) = (300.0_f64, 149.9_f64, 0.04e-3);
+    let mass = 2.0 * results.column("energy.kinetic")[0] / (velocity * velocity);
+    is_near(mass, 7800.0 * PI / 3.0 * 6.35e-3_f64.powi(3), 0.06e-3);
+    let expected = mass / (mass + cap) * (velocity * velocity - limit * limit).sqrt();
+    let ball = results.column("ball.vz");
+    let residual = -ball.last().unwrap();
+    is_near(residual, expected, 0.05 * expected);
+    // The sheet no longer holds it.
+    is_near(residual, -ball[ball.len() - 20], 0.5);
+
+    let sheet = 2770.0 * 40e-3 * 40e-3 * 2e-3;
+    for (ball, plate) in ball.into_iter().zip(results.column("plate.vz")) {
+        is_near(mass * ball + sheet * plate, -mass * velocity, 1e-12 * mass * velocity);
+    }
 }

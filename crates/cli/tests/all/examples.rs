@@ -82,6 +82,7 @@ fn every_example_is_listed_here() {
         "cup-drawing",
         "explosive-ring",
         "foam-pad",
+        "heap",
         "ironing",
         "rolling-ring",
         "rubber-disk",
@@ -517,5 +518,35 @@ fn a_ball_tears_a_sheet_and_flies_on_as_recht_and_ipson_say() {
     let sheet = 2770.0 * 40e-3 * 40e-3 * 2e-3;
     for (ball, plate) in ball.into_iter().zip(results.column("plate.vz")) {
         is_near(mass * ball + sheet * plate, -mass * velocity, 1e-12 * mass * velocity);
+    }
+}
+
+#[test]
+#[cfg_attr(debug_assertions, ignore = "takes minutes without optimization; release tests run it")]
+fn ten_bodies_of_tetrahedra_come_to_rest_in_a_heap_that_weighs_what_they_weigh() {
+    let results = run("heap", "example-heap");
+    results.is_sound(1e-3);
+    let end = |name: &str| *results.column(name).last().unwrap();
+    // Volume of the mesh times density; what the floor has given is the weight times the time, but for what still moves.
+    let (mass, gravity, time) = (1100.0 * 390.005e-6, 9.81, 1.2);
+    let weight = mass * gravity;
+    is_near(results.mean("obstacle.force_z[floor]", 0.0, time), weight, 0.02 * weight);
+    is_near(results.mean("obstacle.force_z[floor]", 0.8, time), weight, 0.03 * weight);
+    assert!(results.column("obstacle.force_z[bin]").iter().all(|force| force.abs() < 1e-12), "the bin is smooth and upright");
+
+    // What they have lost of height is the work of their weight: friction and impacts have taken it.
+    let work = end("energy.external");
+    let taken = end("energy.friction") + end("energy.contact_damping");
+    assert!(taken > 0.95 * work && end("energy.kinetic") < 0.02 * work, "{taken} J of {work} J");
+    // Above the floor, inside the bin, and on top of each other: ten bodies side by side would have their middle at 18 mm or less.
+    for name in ["obstacle.penetration[floor]", "obstacle.penetration[bin]", "contact.penetration[all]"] {
+        let deepest = results.column(name).into_iter().fold(0.0, f64::max);
+        assert!(deepest < 1e-3, "{name}: {deepest} m");
+    }
+    for part in ["boxes", "balls", "cylinders"] {
+        let height = end(&format!("{part}.z"));
+        assert!((18e-3..45e-3).contains(&height), "{part}: {height} m");
+        let aside = end(&format!("{part}.x")).hypot(end(&format!("{part}.y")));
+        assert!(aside < 60e-3, "{part}: {aside} m off the axis");
     }
 }

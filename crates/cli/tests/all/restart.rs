@@ -2,7 +2,7 @@
 //!
 //! The long form of the test that kills: `cargo test --release -p embate --test all -- --ignored two_hundred`.
 
-use crate::determinism::{STEPS, examples, instruction_sets};
+use crate::determinism::{examples, instruction_sets, steps_of};
 use crate::{Answer, embate, fresh};
 use embate_solver::output::Summary;
 use embate_solver::simulation::{Options, Simulation};
@@ -242,10 +242,10 @@ fn a_run_that_fails_keeps_its_last_good_state_and_may_go_on_with_another_limit()
 #[test]
 fn every_example_goes_on_from_its_state() {
     // `tests/all/restart.rs` of the solver has contacts of all kinds in action.
-    let steps = STEPS;
     let levels = instruction_sets();
     for (number, folder) in examples().into_iter().enumerate() {
         let model = embate_files::model_file::load(&folder, &[]).unwrap_or_else(|told| panic!("{}", told.rendered));
+        let steps = steps_of(&model);
         let options = |number: usize| Options { threads: 1 + number % 3, simd: Some(levels[number % levels.len()].clone()) };
         let mut whole = Simulation::new(&model, &options(number)).unwrap();
         whole.advance(f64::INFINITY, steps / 2).unwrap();
@@ -254,7 +254,7 @@ fn every_example_goes_on_from_its_state() {
         for _ in 0..2 {
             let seen = [&whole, &resumed].map(|simulation| {
                 let frame = simulation.frame();
-                let fields = frame.fields.iter().flat_map(|field| &field.values).chain(frame.positions::<2>().iter().flatten());
+                let fields = frame.fields.iter().flat_map(|field| &field.values).chain(&frame.coordinates);
                 let bits: Vec<u64> = fields.copied().chain(simulation.history_row()).map(f64::to_bits).collect();
                 (bits, Summary { threads: 0, simd: String::new(), ..simulation.summary() })
             });

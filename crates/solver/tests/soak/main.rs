@@ -1,6 +1,6 @@
 //! Soak: random models one after the other, without a panic, a leak, or a drift of energy or momentum that nothing explains.
 //!
-//! `cargo test --release -p embate-solver --test embate-soak -- --seconds 7200 --first 1` (30 seconds from model 1 if nothing is said; `--count 1 --first N` for one model). Every eighth
+//! `cargo test --release -p embate-solver --test embate-soak -- --seconds 7200 --first 1` (a minute from model 1 if nothing is said; `--count 1 --first N` for one model). Every eighth
 //! model runs again with scalar lanes and two threads and must end with the same state hash. What is found is told with the number of the model.
 //!
 //! A drift of energy that at most half is left of with a quarter of the step is an error of the steps: of springs that are stiff against theirs, or of elements that collapse within a few. Those are counted.
@@ -38,7 +38,7 @@ enum End {
 }
 
 fn main() {
-    let (mut seconds, mut first, mut count) = (30.0, 1u64, u64::MAX);
+    let (mut seconds, mut first, mut count) = (60.0, 1u64, u64::MAX);
     let words: Vec<String> = std::env::args().skip(1).collect();
     for pair in words.chunks(2) {
         match (pair[0].as_str(), pair.get(1).and_then(|word| word.parse::<f64>().ok())) {

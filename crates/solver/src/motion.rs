@@ -10,7 +10,7 @@ use crate::energy::Sums;
 use crate::load::tributary::Tributary;
 use crate::rigid::space::{Attitude, Turning};
 use crate::rigid::{self, Body};
-use crate::tensor::Dim;
+use crate::tensor::{Dim, cross as cross_space};
 use crate::vector::{cross, dot};
 use std::fmt::Debug;
 use std::ops::{Index, IndexMut};
@@ -320,18 +320,6 @@ impl Motion<2> for Dim<2> {
     }
 }
 
-/// a × b.
-#[inline(always)]
-pub(crate) fn cross_space(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-/// a · b.
-#[inline(always)]
-pub(crate) fn dot_space(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
 /// A symmetric matrix (its upper triangle row by row) times a vector.
 #[inline(always)]
 pub(crate) fn times_symmetric(&[xx, xy, xz, yy, yz, zz]: &[f64; 6], [x, y, z]: [f64; 3]) -> [f64; 3] {
@@ -351,7 +339,7 @@ pub fn any_tangent(normal: [f64; 3]) -> [f64; 3] {
         [0.0, 0.0, 1.0]
     };
     let across = cross_space(normal, axis);
-    let length = dot_space(across, across).sqrt();
+    let length = dot(across, across).sqrt();
     if length > 0.0 { across.map(|c| c / length) } else { [0.0; 3] }
 }
 
@@ -525,7 +513,7 @@ impl Motion<3> for Dim<3> {
         rigid::space::chords(body, time_step)
     }
     fn chord(body: &Body<3>, chords: &[[f64; 3]; 3], arm: [f64; 3]) -> [f64; 3] {
-        [0, 1, 2].map(|d| body.velocity[d] + dot_space(chords[d], arm))
+        [0, 1, 2].map(|d| body.velocity[d] + dot(chords[d], arm))
     }
     fn turned_by(body: &Body<3>, time_step: f64) -> Attitude {
         rigid::space::turned_by(body, time_step)
@@ -535,6 +523,6 @@ impl Motion<3> for Dim<3> {
         angle.matrix()
     }
     fn place(matrix: &[[f64; 3]; 3], arm: [f64; 3]) -> [f64; 3] {
-        matrix.map(|row| dot_space(row, arm))
+        matrix.map(|row| dot(row, arm))
     }
 }

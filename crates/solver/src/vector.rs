@@ -43,6 +43,11 @@ pub(crate) fn dot<L: Lane, const D: usize>(a: [L; D], b: [L; D]) -> L {
     sum
 }
 
+/// Length of a vector.
+pub(crate) fn length<const D: usize>(a: [f64; D]) -> f64 {
+    dot(a, a).sqrt()
+}
+
 #[inline(always)]
 pub(crate) fn cross<L: Lane>(a: [L; 2], b: [L; 2]) -> L {
     a[0] * b[1] - a[1] * b[0]

@@ -109,12 +109,6 @@ pub trait World<const D: usize>: Space<D> + Meshed<D> + Tributary<D> + Motion<D>
     fn moment(arm: [f64; D], force: [f64; D]) -> [f64; 3];
 }
 
-/// The cross product of two vectors of space.
-#[must_use]
-pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
 /// A point in words, by the components that the dimension has.
 #[must_use]
 pub fn place<const D: usize>(x: [f64; D]) -> String {

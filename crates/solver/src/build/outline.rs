@@ -2,8 +2,8 @@
 
 use crate::motion::any_tangent;
 use crate::rigid::cos_sin;
+use crate::tensor::cross;
 use crate::vector::{plus, times};
-use crate::world::cross;
 use std::f64::consts::{PI, TAU};
 
 /// Points around, and from pole to pole.

@@ -21,9 +21,10 @@ use super::search::{Pair, Query, Search};
 use super::springs::End;
 use crate::archive::{Archive, Kept, keep_all};
 use crate::mesh::surface::SpaceSurface;
-use crate::motion::{Motion, cross_space as cross, dot_space as dot};
+use crate::motion::Motion;
 use crate::rows::Rows;
-use crate::tensor::Dim;
+use crate::tensor::{Dim, cross, dot};
+use crate::vector::{length, minus};
 
 /// How well the normal must be between those of the facets: of one edge at least, of the other one where a spring begins (on a flat face it is along a facet's), and as long as it is closed.
 const BETWEEN: f64 = 0.25;
@@ -217,7 +218,7 @@ impl EdgeTracker {
         near.sort_unstable();
         near.dedup();
         let nodes = |edges: [u32; 2]| [0, 1].map(|of| surfaces[self.sides[of]].edges[edges[of] as usize].nodes);
-        let way = |node: u32| size(minus(sweep.new[node as usize], sweep.old[node as usize]));
+        let way = |node: u32| length(minus(sweep.new[node as usize], sweep.old[node as usize]));
         near.retain(|&edges| {
             let [a, b] = nodes(edges);
             // A node of two surfaces joins them.
@@ -355,7 +356,7 @@ impl EdgeTracker {
         let old = nodes.map(|edge| edge.map(|node| sweep.old[node as usize]));
         let [p, q] = crossing.along;
         let moved = minus(minus(point(a, p), point(old[0], p)), minus(point(b, q), point(old[1], q)));
-        let motion = size(moved);
+        let motion = length(moved);
         if !is_closed && !is_new && crossing.gap.abs() > (near + ahead * motion).max(extra) + 2.0 * self.deepest {
             return None;
         }
@@ -480,7 +481,7 @@ fn ridges(surface: &SpaceSurface, positions: &[Vector]) -> Vec<Listed> {
     let placed = Placed { surface, positions };
     let listed = |number: u32| {
         let [a, b] = placed.edge(number);
-        let length = size(minus(b, a));
+        let length = length(minus(b, a));
         placed.ridge(number).filter(|ridge| ridge.is_sharp() && length.is_finite()).map(|_| Listed {
             number,
             length,
@@ -488,14 +489,6 @@ fn ridges(surface: &SpaceSurface, positions: &[Vector]) -> Vec<Listed> {
         })
     };
     (0..surface.edges.len() as u32).filter_map(listed).collect()
-}
-
-fn minus(a: Vector, b: Vector) -> Vector {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn size(v: Vector) -> f64 {
-    dot(v, v).sqrt()
 }
 
 /// Direction of the first edge, and the normal: what slips turn with.

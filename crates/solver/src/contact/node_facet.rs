@@ -21,8 +21,8 @@ use super::{Formulation, Scene, Sweep};
 use crate::archive::{Archive, Kept, keep_each};
 use crate::mesh::surface::{Corners, NONE};
 use crate::model;
-use crate::motion::{Motion, any_tangent, cross_space as cross, dot_space as dot};
-use crate::tensor::Dim;
+use crate::motion::{Motion, any_tangent};
+use crate::tensor::{Dim, cross, dot};
 use std::any::Any;
 use tracker::{Memory, Touch, Tracker};
 

@@ -7,8 +7,8 @@ use super::springs::{Answer, Lost, Springs};
 use crate::archive::{Archive, Keep, Kept};
 use crate::load::tributary::{Depth, shares, vector_shares};
 use crate::mesh::surface::{Corners, Sided, Surface};
-use crate::motion::{Motion, dot_space};
-use crate::tensor::Dim;
+use crate::motion::Motion;
+use crate::tensor::{Dim, dot};
 
 /// Sums over the run, and the outside that they belong to.
 #[derive(Clone, Debug)]
@@ -70,14 +70,14 @@ impl Traces<3> {
             }
         }
         let traction = |((node, &normal), area): ((usize, &[f64; 3]), &f64)| {
-            let norm = dot_space(normal, normal).sqrt();
+            let norm = dot(normal, normal).sqrt();
             if norm == 0.0 {
                 return [0.0; 2];
             }
             let (force, normal) = (forces.of(node), normal.map(|n| n / norm));
-            let across = dot_space(force, normal);
+            let across = dot(force, normal);
             let along = [0, 1, 2].map(|d| force[d] - across * normal[d]);
-            [-across / area, dot_space(along, along).sqrt() / area]
+            [-across / area, dot(along, along).sqrt() / area]
         };
         normals.iter().enumerate().zip(&area).map(traction).collect()
     }

@@ -5,7 +5,8 @@
 
 use crate::mesh::Meshed;
 use crate::mesh::surface::{Corners, Facet};
-use crate::tensor::Dim;
+use crate::tensor::{Dim, cross};
+use crate::vector::length;
 use std::f64::consts::TAU;
 
 /// What a segment's length is multiplied by.
@@ -131,14 +132,6 @@ fn spanned(x: [[f64; 3]; 4]) -> [[f64; 3]; 3] {
     [sum(NATURAL.map(|[xi, _]| xi)), sum(NATURAL.map(|[_, eta]| eta)), sum(NATURAL.map(|[xi, eta]| xi * eta))]
 }
 
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-fn length([x, y, z]: [f64; 3]) -> f64 {
-    (x * x + y * y + z * z).sqrt()
-}
-
 /// Twice the vector area of a triangle.
 fn twice_triangle([a, b, c, _]: [[f64; 3]; 4]) -> [f64; 3] {
     let from_a = |x: [f64; 3]| [x[0] - a[0], x[1] - a[1], x[2] - a[2]];
@@ -180,7 +173,7 @@ pub fn area_shares(corners: [[f64; 3]; 4], is_triangle: bool) -> [f64; 4] {
     let place = (1.0_f64 / 3.0).sqrt();
     let mut shares = [0.0; 4];
     for [xi, eta] in NATURAL.map(|point| point.map(|sign| sign * place)) {
-        let area = length(std::array::from_fn(|d| n0[d] + xi * n1[d] + eta * n2[d])) / 16.0;
+        let area = length::<3>(std::array::from_fn(|d| n0[d] + xi * n1[d] + eta * n2[d])) / 16.0;
         for (share, corner) in shares.iter_mut().zip(NATURAL) {
             *share += 0.25 * (1.0 + corner[0] * xi) * (1.0 + corner[1] * eta) * area;
         }

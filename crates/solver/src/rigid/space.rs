@@ -14,9 +14,9 @@
 use super::Body;
 use crate::archive::{Archive, Keep, Kept, keep_all};
 use crate::energy::Sums;
-use crate::motion::{Motion, cross_space, dot_space, times_symmetric};
+use crate::motion::{Motion, times_symmetric};
 use crate::rigid::cos_sin;
-use crate::tensor::Dim;
+use crate::tensor::{Dim, cross, dot};
 
 /// A rotation as a unit quaternion: w, x, y, z.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,14 +74,14 @@ impl Attitude {
     #[must_use]
     pub fn cayley(theta: [f64; 3]) -> Self {
         let half = theta.map(|t| 0.5 * t);
-        let w = 1.0 / (1.0 + dot_space(half, half)).sqrt();
+        let w = 1.0 / (1.0 + dot(half, half)).sqrt();
         Self([w, w * half[0], w * half[1], w * half[2]])
     }
 
     /// About θ by |θ|, rad.
     #[must_use]
     pub fn exponential(theta: [f64; 3]) -> Self {
-        let angle = dot_space(theta, theta).sqrt();
+        let angle = dot(theta, theta).sqrt();
         if angle == 0.0 {
             return Self::default();
         }
@@ -92,8 +92,8 @@ impl Attitude {
 
 /// v + 2 w u × v + 2 u × (u × v).
 fn quaternion_turn(w: f64, u: [f64; 3], v: [f64; 3]) -> [f64; 3] {
-    let once = cross_space(u, v);
-    let twice = cross_space(u, once);
+    let once = cross(u, v);
+    let twice = cross(u, once);
     [0, 1, 2].map(|d| v[d] + 2.0 * (w * once[d] + twice[d]))
 }
 
@@ -133,8 +133,8 @@ pub fn inverse_of(matrix: &[f64; 6], of: [bool; 3]) -> [f64; 6] {
     // What is left out counts as the unit matrix.
     let at = |i: usize, j: usize| if of[i] && of[j] { matrix[AT[i][j]] } else { f64::from(u8::from(i == j)) };
     let rows = [0, 1, 2].map(|i| [0, 1, 2].map(|j| at(i, j)));
-    let minors = [cross_space(rows[1], rows[2]), cross_space(rows[2], rows[0]), cross_space(rows[0], rows[1])];
-    let determinant = dot_space(rows[0], minors[0]);
+    let minors = [cross(rows[1], rows[2]), cross(rows[2], rows[0]), cross(rows[0], rows[1])];
+    let determinant = dot(rows[0], minors[0]);
     let mut inverse = [0.0; 6];
     for i in 0..3 {
         for j in i..3 {
@@ -154,7 +154,7 @@ fn inertia_now(body: &Body<3>) -> [f64; 6] {
     let mut now = [0.0; 6];
     for i in 0..3 {
         for j in i..3 {
-            now[AT[i][j]] = dot_space(half[i], r[j]);
+            now[AT[i][j]] = dot(half[i], r[j]);
         }
     }
     now
@@ -226,7 +226,7 @@ pub(crate) fn kinetic(body: &Body<3>, first: &[f64; 6], second: &[f64; 6]) -> f6
     let free = free_axes(body);
     let part = |row: &[f64; 6]| [0, 1, 2].map(|k| if free[k] { row[k + 3] } else { 0.0 });
     let straight = (0..3).map(|k| 0.5 * body.mass[k] * first[k] * second[k]).sum::<f64>();
-    straight + 0.5 * dot_space(part(first), times_symmetric(&inertia_now(body), part(second)))
+    straight + 0.5 * dot(part(first), times_symmetric(&inertia_now(body), part(second)))
 }
 
 /// Repetitions in search of the turn of a step.
@@ -264,8 +264,8 @@ pub(crate) fn chords(body: &Body<3>, time_step: f64) -> [[f64; 3]; 3] {
     let Attitude([w, x, y, z]) = step_turn(body, time_step);
     let u = body.angle.turned([x, y, z]);
     let columns = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|axis| {
-        let once = cross_space(u, axis);
-        let twice = cross_space(u, once);
+        let once = cross(u, axis);
+        let twice = cross(u, once);
         [0, 1, 2].map(|d| 2.0 * (w * once[d] + twice[d]) / time_step)
     });
     [0, 1, 2].map(|i| [0, 1, 2].map(|j| columns[j][i]))
@@ -370,7 +370,7 @@ mod tests {
         };
         let momentum_of = |bodies: &Bodies<3>| {
             let body = bodies.state(0);
-            let straight = cross_space(body.centre, [0, 1, 2].map(|d| body.mass[0] * body.velocity[d]));
+            let straight = cross(body.centre, [0, 1, 2].map(|d| body.mass[0] * body.velocity[d]));
             [0, 1, 2].map(|d| body.turning.momentum[d] + straight[d])
         };
         let (mut places, dt) = (positions.clone(), 0.03);
@@ -382,14 +382,12 @@ mod tests {
             let mut forces = ContactForces::new(4);
             push(step, &mut forces);
             if let Some((_, before)) = last {
-                let moment = (0..4).map(|k| cross_space(places[k], forces.of(k))).fold([0.0; 3], |sum, m| [0, 1, 2].map(|d| sum[d] + m[d]));
+                let moment = (0..4).map(|k| cross(places[k], forces.of(k))).fold([0.0; 3], |sum, m| [0, 1, 2].map(|d| sum[d] + m[d]));
                 given = [0, 1, 2].map(|d| given[d] + dt * moment[d]);
                 let mean = |x: [f64; 3]| body.velocity_at(x, &[0, 1, 2, 3, 4, 5].map(|k| 0.5 * (body.velocity_old[k] + body.velocity[k])));
                 // Rates at x^n about X^n: the body has gone on since.
                 let old = [0, 1, 2].map(|d| body.centre[d] - dt * body.velocity[d]);
-                work =
-                    (0..4).map(|k| dot_space(forces.of(k), mean([0, 1, 2].map(|d| places[k][d] - old[d] + body.centre[d])))).sum::<f64>()
-                        * dt;
+                work = (0..4).map(|k| dot(forces.of(k), mean([0, 1, 2].map(|d| places[k][d] - old[d] + body.centre[d])))).sum::<f64>() * dt;
                 let found = momentum_of(bodies);
                 assert!((0..3).all(|d| (found[d] - before[d] - given[d]).abs() < 1e-12), "{found:?} {before:?} {given:?}");
             }
@@ -401,7 +399,7 @@ mod tests {
             }
             (step, places) = (step + 1, now.to_vec());
         });
-        assert!(mass.iter().sum::<f64>() > 0.0 && dot_space(given, given) > 0.1);
+        assert!(mass.iter().sum::<f64>() > 0.0 && dot(given, given) > 0.1);
     }
 
     #[test]
@@ -443,7 +441,7 @@ mod tests {
         let (mut moments, mut expected) = ([[0.0; 3]; 3], [0.0; 3]);
         for (arm, force) in parts {
             Dim::<3>::add_weight(&mut moments, arm, force);
-            expected = Dim::<3>::plus(expected, cross_space(angle.turned(arm), force));
+            expected = Dim::<3>::plus(expected, cross(angle.turned(arm), force));
         }
         let found = Dim::<3>::weight_moment(&moments, &angle);
         assert!((0..3).all(|d| (found[d] - expected[d]).abs() < 1e-14), "{found:?} {expected:?}");

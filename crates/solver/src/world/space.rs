@@ -1,6 +1,6 @@
 //! What space means for the system: rotations about any axis, cells are tetrahedra, wedges, hexahedra and lines.
 
-use super::{Square, World, cross, inverse, transposed};
+use super::{Square, World, inverse, transposed};
 use crate::build::Builder;
 use crate::contact::Contact;
 use crate::contact::forces::ContactForces;
@@ -13,7 +13,7 @@ use crate::model::{self, Model};
 use crate::motion::Motion;
 use crate::output::CellKind;
 use crate::rigid::{Body, cos_sin};
-use crate::tensor::{Dim, Space, SymmetricTensor, product};
+use crate::tensor::{Dim, Space, SymmetricTensor, cross, product};
 use crate::vector::{dot, minus, plus, times};
 
 impl World<3> for Dim<3> {

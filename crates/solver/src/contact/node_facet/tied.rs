@@ -4,7 +4,7 @@
 //! by springs with the rows of a node against a facet ([`super::ends`]) at the node's present foot: objective, and exact in both momenta. One surface is slave. Broken ties are gone for good, what
 //! they stored is told to the ledger; nodes that are free, and those whose ties are gone, are in ordinary contact with the same surface.
 
-use super::tracker::bend;
+use super::tracker::{bend, halves};
 use super::{NodeFacet, PassInput, ends, frame, tangent};
 use crate::archive::{Archive, Kept, keep_all, keep_each};
 use crate::contact::projection::node_facet::{Feature, Placed, Projection, Vector};
@@ -14,8 +14,8 @@ use crate::contact::tied::{NEAR, Ties};
 use crate::contact::tracker::SearchReport;
 use crate::contact::{Formulation, Scene};
 use crate::mesh::surface::{Corners, SpaceSurface};
-use crate::motion::{Motion, cross_space as cross, dot_space as dot};
-use crate::tensor::Dim;
+use crate::motion::Motion;
+use crate::tensor::{Dim, dot};
 use std::any::Any;
 
 /// The formulation.
@@ -108,7 +108,7 @@ impl TiedFacet {
                 }
             }
             if let Some((_, facet, triangle)) = best
-                && let Some((place, gap, _)) = seen(&placed, facet, triangle, positions[node as usize])
+                && let Some((place, gap, _)) = placed.above(positions[node as usize], facet, triangle)
             {
                 let (stiffness, area) = (input.stiffness(slave as usize, facet), input.slaves[slave as usize].area);
                 self.bound[slave as usize] = true;
@@ -116,26 +116,6 @@ impl TiedFacet {
             }
         }
     }
-}
-
-/// Two triangles of a facet; of one with three nodes twice itself.
-fn halves(&[a, b, c, d]: &[u32; 4]) -> [[u32; 3]; 2] {
-    [[a, b, c], if c == d { [a, b, c] } else { [c, d, a] }]
-}
-
-/// Where a point is seen from a triangle: shares of its corners in the foot, height above it (m), and normal. `None` where it has no area.
-fn seen(placed: &Placed<'_>, facet: u32, triangle: usize, x: Vector) -> Option<(Vector, f64, Vector)> {
-    let minus = |a: Vector, b: Vector| [0, 1, 2].map(|d| a[d] - b[d]);
-    let [a, b, c] = placed.triangle(facet, triangle);
-    let (p, q, r) = (minus(b, a), minus(c, a), minus(x, a));
-    let area = cross(p, q);
-    let square = dot(area, area);
-    if !(square > 0.0) {
-        return None;
-    }
-    let (of_b, of_c) = (dot(cross(r, q), area) / square, dot(cross(p, r), area) / square);
-    let normal = area.map(|n| n / square.sqrt());
-    Some(([1.0 - of_b - of_c, of_b, of_c], dot(r, normal), normal))
 }
 
 impl Formulation<3> for TiedFacet {
@@ -147,7 +127,7 @@ impl Formulation<3> for TiedFacet {
             let (x, triangle) = (positions[tie.node as usize], tie.triangle as usize);
             let corners = placed.triangle(tie.facet, triangle);
             // A triangle without area is the elements' to tell; the tie does nothing.
-            let (weights, gap, normal) = seen(&placed, tie.facet, triangle, x).unwrap_or((tie.place, tie.gap, [0.0, 0.0, 1.0]));
+            let (weights, gap, normal) = placed.above(x, tie.facet, triangle).unwrap_or((tie.place, tie.gap, [0.0, 0.0, 1.0]));
             let at = |shares: Vector| [0, 1, 2].map(|d| (0..3).map(|k| shares[k] * corners[k][d]).sum::<f64>());
             let (foot, place) = (at(weights), at(tie.place));
             let along = tangent(normal, frame(&placed, tie.facet)[0]);

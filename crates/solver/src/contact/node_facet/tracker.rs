@@ -19,7 +19,8 @@ use super::super::search::{Pair, Query, Search};
 use super::super::tracker::{SKIN, SearchReport};
 use crate::archive::{Archive, Kept, keep_all, keep_each};
 use crate::mesh::surface::{Corners, NONE, SpaceSurface};
-use crate::motion::{cross_space as cross, dot_space as dot};
+use crate::tensor::{cross, dot};
+use crate::vector::{length, minus};
 
 /// Cosine of the angle between the side from which a node came and those of facets that it sees while it is inside.
 const SAME_SIDE: f64 = -0.5;
@@ -158,9 +159,7 @@ impl Tracker {
             Pass { slave, target, bodies: own, ..Pass::default() }
         };
         let passes = passes.iter().map(pass).collect();
-        let halves = |surface: &SpaceSurface| {
-            surface.facets.iter().flat_map(|&[a, b, c, d]| [[a, b, c], if c == d { [a, b, c] } else { [c, d, a] }]).collect()
-        };
+        let halves = |surface: &SpaceSurface| surface.facets.iter().flat_map(halves).collect();
         let corners = |surface: &SpaceSurface| {
             let at = |(rank, node): (usize, &u32)| {
                 let facet = surface.around(rank).first().copied().unwrap_or(0);
@@ -296,7 +295,7 @@ impl Tracker {
 
     /// Groups and candidates anew; what groups remember goes on.
     fn find_candidates(&mut self, sweep: Sweep<'_, 3>, extra: f64) {
-        let way = |node: &u32| size(minus(sweep.new[*node as usize], sweep.old[*node as usize]));
+        let way = |node: &u32| length(minus(sweep.new[*node as usize], sweep.old[*node as usize]));
         let fastest = self.nodes.iter().map(way).fold(0.0, f64::max);
         let radius = 2.0 * self.skin + extra + LOOK_AHEAD * fastest + self.deepest;
         let Self { surfaces, passes, search, triangles, bodies, pairs, .. } = self;
@@ -416,7 +415,7 @@ impl Tracker {
     ) -> bool {
         let target = &self.surfaces[pass.target];
         let (placed, before) = (Placed { surface: target, positions: sweep.new }, Placed { surface: target, positions: sweep.old });
-        let way = size(*beyond);
+        let way = length(*beyond);
         if way > BAND * placed.size(over.facet) || -over.gap > self.radius - self.skin {
             return false;
         }
@@ -436,7 +435,7 @@ impl Tracker {
         slaves.around(group.slave as usize).iter().flat_map(|&facet| slaves.facets[facet as usize]).any(|other| {
             let along = minus(positions[other as usize], x);
             // More than the rim's own direction, as far as rounding lets one tell.
-            dot(along, beyond) < -0.05 * size(along) * size(beyond)
+            dot(along, beyond) < -0.05 * length(along) * length(beyond)
         })
     }
 
@@ -444,7 +443,7 @@ impl Tracker {
     fn own_normal(&self, surface: usize, slave: u32, positions: &[Vector]) -> Vector {
         let (facet, corner) = self.corners[surface][slave as usize];
         let (normal, _) = Placed { surface: &self.surfaces[surface], positions }.node_normal(facet, corner as usize);
-        normal.map(|n| n / size(normal).max(f64::MIN_POSITIVE))
+        normal.map(|n| n / length(normal).max(f64::MIN_POSITIVE))
     }
 
     /// Keeps what is known of the past.
@@ -482,12 +481,9 @@ impl Tracker {
     }
 }
 
-fn minus(a: Vector, b: Vector) -> Vector {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn size(v: Vector) -> f64 {
-    dot(v, v).sqrt()
+/// Two triangles of a facet; of one with three nodes twice itself.
+pub(super) fn halves(&[a, b, c, d]: &[u32; 4]) -> [[u32; 3]; 2] {
+    [[a, b, c], if c == d { [a, b, c] } else { [c, d, a] }]
 }
 
 /// Mean length of the edges of surfaces, m.
@@ -495,7 +491,7 @@ fn mean_edge(surfaces: &[SpaceSurface], positions: &[Vector]) -> f64 {
     let (mut sum, mut count) = (0.0, 0usize);
     for edge in surfaces.iter().flat_map(|surface| &surface.edges) {
         let [a, b] = edge.nodes.map(|node| positions[node as usize]);
-        (sum, count) = (sum + size(minus(b, a)), count + 1);
+        (sum, count) = (sum + length(minus(b, a)), count + 1);
     }
     sum / count.max(1) as f64
 }
@@ -507,7 +503,7 @@ pub(super) fn bend(surface: &SpaceSurface, positions: &[Vector]) -> f64 {
             return 0.0;
         }
         let [a, b, c, d] = facet.map(|node| positions[node as usize]);
-        0.25 * size([0, 1, 2].map(|k| a[k] + c[k] - b[k] - d[k]))
+        0.25 * length([0, 1, 2].map(|k| a[k] + c[k] - b[k] - d[k]))
     };
     surface.facets.iter().map(of).fold(0.0, f64::max)
 }
@@ -521,7 +517,7 @@ fn motion(placed: &Placed<'_>, found: &Projection, sweep: Sweep<'_, 3>, node: u3
         let by = moved(corner);
         (0..3).for_each(|d| way[d] -= weight * by[d]);
     }
-    size(way)
+    length(way)
 }
 
 /// When (0 to 1) a node goes through a facet from outside in the step, and the facet's normal there. The height over a triangle is taken as linear in time, and where it vanishes the node

@@ -9,8 +9,8 @@ use super::super::springs::friction::cone;
 use super::super::springs::{Answers, End, Spring, Springs};
 use super::super::{Formulation, Scene};
 use crate::archive::{Archive, Kept, keep_all, keep_each};
-use crate::motion::{Motion, any_tangent, dot_space as dot};
-use crate::tensor::Dim;
+use crate::motion::{Motion, any_tangent};
+use crate::tensor::{Dim, dot};
 use std::any::Any;
 
 /// A vector of space.
@@ -184,9 +184,9 @@ mod tests {
     use crate::contact::traces::Traces;
     use crate::contact::{Contact, ContactKind, Sweep};
     use crate::load::curve::{Curves, Speed};
-    use crate::motion::cross_space as cross;
     use crate::rigid::space::Turning;
     use crate::rigid::{Acting, Bodies, Body};
+    use crate::tensor::cross;
 
     struct Nodes<'a>(&'a [f64], &'a [Vector], f64);
 

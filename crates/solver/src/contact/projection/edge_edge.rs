@@ -8,7 +8,8 @@
 
 use super::node_facet::{Placed, Vector, unit};
 use crate::mesh::surface::NONE;
-use crate::motion::{cross_space as cross, dot_space as dot};
+use crate::tensor::{cross, dot};
+use crate::vector::minus;
 
 /// Cosine of the angle between the facets of an edge below which it is a ridge (20 degrees): what nodes alone miss of flatter ones is less than 5 % of their length.
 const SHARP: f64 = 0.94;
@@ -71,10 +72,6 @@ impl Crossing {
     pub fn fits(&self, [a, b]: [&Ridge; 2]) -> [f64; 2] {
         [a.opens(self.normal.map(|n| -n)), b.opens(self.normal)]
     }
-}
-
-fn minus(a: Vector, b: Vector) -> Vector {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
 /// Place on an edge.

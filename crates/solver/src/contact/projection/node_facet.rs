@@ -12,7 +12,8 @@
 //! some of its weights are negative.
 
 use crate::mesh::surface::{Corners, NONE, SpaceSurface};
-use crate::motion::{cross_space as cross, dot_space as dot};
+use crate::tensor::{cross, dot};
+use crate::vector::minus;
 
 /// A vector of space.
 pub type Vector = [f64; 3];
@@ -56,10 +57,6 @@ struct Nearest {
     /// Barycentric.
     weights: [f64; 3],
     foot: Vector,
-}
-
-fn minus(a: Vector, b: Vector) -> Vector {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
 /// Unit vector; zero of what has no length.
@@ -306,9 +303,8 @@ impl Placed<'_> {
         (sum, true)
     }
 
-    /// Where x lies by the nearest of some facets: the first of those that are equally near. `None` where there is none, or the surface ends before x comes over it.
-    #[must_use]
-    pub fn project(&self, x: Vector, facets: impl IntoIterator<Item = u32>) -> Option<Projection> {
+    /// What of some facets is nearest, of the first of those that are equally near, and its triangle.
+    fn nearest_of(&self, x: Vector, facets: impl IntoIterator<Item = u32>) -> Option<(Nearest, u32, usize)> {
         let mut best: Option<(Nearest, u32, usize)> = None;
         for facet in facets {
             if let Some((found, k)) = self.nearest(x, facet)
@@ -317,7 +313,13 @@ impl Placed<'_> {
                 best = Some((found, facet, k));
             }
         }
-        let (nearest, facet, k) = best?;
+        best
+    }
+
+    /// Where x lies by the nearest of some facets: the first of those that are equally near. `None` where there is none, or the surface ends before x comes over it.
+    #[must_use]
+    pub fn project(&self, x: Vector, facets: impl IntoIterator<Item = u32>) -> Option<Projection> {
+        let (nearest, facet, k) = self.nearest_of(x, facets)?;
         self.seen(x, facet, k, nearest)
     }
 
@@ -329,15 +331,7 @@ impl Placed<'_> {
         facets: impl IntoIterator<Item = u32>,
         is_face: impl Fn(u32) -> bool,
     ) -> Option<(Projection, Vector)> {
-        let mut best: Option<(Nearest, u32, usize)> = None;
-        for facet in facets {
-            if let Some((found, k)) = self.nearest(x, facet)
-                && best.is_none_or(|(best, ..)| found.square < best.square)
-            {
-                best = Some((found, facet, k));
-            }
-        }
-        let (nearest, facet, k) = best?;
+        let (nearest, facet, k) = self.nearest_of(x, facets)?;
         let goes_on = |edge: usize| {
             let other = self.surface.across(facet, edge);
             other != NONE && is_face(other)
@@ -359,21 +353,25 @@ impl Placed<'_> {
         Some((over, beyond))
     }
 
-    /// The projection on the plane of triangle `k`, inside of it or not; `None` where it has no area.
-    fn over(&self, x: Vector, facet: u32, k: usize) -> Option<Projection> {
+    /// Where a point is seen from the plane of triangle `k`, over it or not: shares of its corners in the foot, height above it (m), and normal. `None` where it has no area.
+    pub(in crate::contact) fn above(&self, x: Vector, facet: u32, k: usize) -> Option<(Vector, f64, Vector)> {
         let [a, b, c] = self.triangle(facet, k);
-        let area = cross(minus(b, a), minus(c, a));
+        let (p, q, r) = (minus(b, a), minus(c, a), minus(x, a));
+        let area = cross(p, q);
         let square = dot(area, area);
         if !(square > 0.0) {
             return None;
         }
-        let normal = unit(area);
-        let gap = dot(minus(x, a), normal);
+        let (of_b, of_c) = (dot(cross(r, q), area) / square, dot(cross(p, r), area) / square);
+        let normal = area.map(|n| n / square.sqrt());
+        Some(([1.0 - of_b - of_c, of_b, of_c], dot(r, normal), normal))
+    }
+
+    /// The projection on the plane of triangle `k`, over it or not; `None` where it has no area.
+    fn over(&self, x: Vector, facet: u32, k: usize) -> Option<Projection> {
+        let (shares, gap, normal) = self.above(x, facet, k)?;
         let foot = [0, 1, 2].map(|d| x[d] - gap * normal[d]);
-        let share = |p: Vector, q: Vector| dot(cross(minus(p, x), minus(q, x)), area) / square;
-        let (first, second) = (share(b, c), share(c, a));
-        let weights = self.spread(facet, k, [first, second, 1.0 - first - second]);
-        Some(Projection { facet, feature: Feature::Face, triangle: k, weights, foot, gap, normal })
+        Some(Projection { facet, feature: Feature::Face, triangle: k, weights: self.spread(facet, k, shares), foot, gap, normal })
     }
 
     /// Gap and normal of what is nearest.

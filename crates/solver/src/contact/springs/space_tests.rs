@@ -3,9 +3,9 @@ use crate::contact::forces::ContactForces;
 use crate::contact::law::penalty::Penalty;
 use crate::contact::law::tie::Tie;
 use crate::load::curve::Curves;
-use crate::motion::{cross_space, dot_space};
 use crate::rigid::space::Turning;
 use crate::rigid::{Acting, Body};
+use crate::tensor::{cross, dot};
 use proptest::prelude::*;
 
 type Vector = [f64; 3];
@@ -71,7 +71,7 @@ impl Cloud {
         let largest = answers.clone().map(|answer| answer.solved.force).fold(0.0, f64::max);
         let error = |Answer { spring, solved, .. }: Answer<'_, 3>| {
             let ends: Vec<_> = springs.ends(spring).collect();
-            let rate = |along: Vector, v: &[Vector]| ends.iter().map(|end| end.share * dot_space(along, v[end.at as usize])).sum::<f64>();
+            let rate = |along: Vector, v: &[Vector]| ends.iter().map(|end| end.share * dot(along, v[end.at as usize])).sum::<f64>();
             // Ends that are one node count together.
             let share = |node: u32| ends.iter().filter(|end| end.at == node).map(|end| end.share).sum::<f64>();
             let mut nodes: Vec<u32> = ends.iter().map(|end| end.at).collect();
@@ -114,10 +114,10 @@ fn a_bouncing_mass_keeps_its_energy_for_every_stiffness_in_space() {
             }
             let springs = cloud.solve(terms(Tangential::Free), &bodies);
             let new = cloud.pushed(&springs)[0];
-            let energy = 0.5 * dot_space(v, new) + springs.answers(0..2).map(|answer| answer.books().energy).sum::<f64>();
+            let energy = 0.5 * dot(v, new) + springs.answers(0..2).map(|answer| answer.books().energy).sum::<f64>();
             assert!((energy / (0.5 * 0.37 * 0.37) - 1.0).abs() < 1e-9, "stiffness {k}: {energy}");
             v = new;
-            x += dot_space(v, normal);
+            x += dot(v, normal);
         }
     }
 }
@@ -242,7 +242,7 @@ proptest! {
             let share: f64 = cloud.springs[u / 3].1.iter().filter(|end| end.at as usize == node).map(|end| end.share).sum();
             direction(u).map(|n| share * n)
         };
-        let entry = |u: usize, v: usize| (0..nodes).map(|node| 0.5 * dt * dt / cloud.mass[node] * dot_space(row(u, node), row(v, node))).sum::<f64>();
+        let entry = |u: usize, v: usize| (0..nodes).map(|node| 0.5 * dt * dt / cloud.mass[node] * dot(row(u, node), row(v, node))).sum::<f64>();
         // F = -k (g⁻ + g⁺) / 2, so 2 F / k + Σ A F = -(g⁻ + g⁺ without forces); equal steps: = -2 g^n.
         let matrix: Vec<Vec<f64>> = (0..3 * count).map(|u| (0..3 * count).map(|v| entry(u, v) + if u == v { 2.0 / (k * 1e4) } else { 0.0 }).collect()).collect();
         let right = (0..3 * count).map(|u| {
@@ -356,7 +356,7 @@ fn friction_and_normal_forces_of_a_spring_keep_the_angular_momentum_where_its_ro
     assert!(answer.solved.force > 0.0 && answer.solved.slides && answer.solved.friction[0].abs() > 0.0);
     let after = cloud.pushed(&springs);
     let moment = |v: &[Vector]| {
-        let of = |k: usize| cross_space(cloud.positions[k], v[k].map(|v| cloud.mass[k] * v));
+        let of = |k: usize| cross(cloud.positions[k], v[k].map(|v| cloud.mass[k] * v));
         (0..4).map(of).fold([0.0; 3], |sum, m| [0, 1, 2].map(|d| sum[d] + m[d]))
     };
     let (before, now) = (moment(&cloud.velocities), moment(&after));

@@ -1,13 +1,10 @@
 //! Axes of a body that stands along any direction.
 
 use super::Body;
+use crate::tensor::cross;
 
 /// Three orthogonal unit vectors, right-handed; the third is the direction in which a body stands.
 pub(super) struct Axes([[f64; 3]; 3]);
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
 
 /// Unit vector; `None` for a vector without direction.
 pub(in crate::mesh) fn unit(v: [f64; 3]) -> Option<[f64; 3]> {

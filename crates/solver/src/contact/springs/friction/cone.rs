@@ -10,8 +10,8 @@
 //! inside, and at least 2 (λ − e)(σ − λ), ½ (σ² − e²) or (e − σ)(3e − σ)/2 for σ beyond λ, between, below e where it is not.) What sticks gives back exactly what it took.
 
 use super::{Slid, Stick};
-use crate::motion::{Motion, dot_space};
-use crate::tensor::Dim;
+use crate::motion::Motion;
+use crate::tensor::{Dim, dot};
 
 /// Newton's steps for λ: each squares the error, and far away they are exact.
 const STEPS: usize = 60;
@@ -129,8 +129,8 @@ pub fn tie(stick: &Stick<3>, slip: [f64; 2]) -> [f64; 2] {
 /// Components along two tangents of an elastic slip (m) that lay along another plane: turned the shortest way, so that it keeps its length and its energy.
 #[must_use]
 pub fn carried(slip: [f64; 3], to: [[f64; 3]; 2]) -> [f64; 2] {
-    let seen = to.map(|tangent| dot_space(tangent, slip));
-    let (size, length) = (dot_space(slip, slip).sqrt(), Dim::<3>::size(&seen));
+    let seen = to.map(|tangent| dot(tangent, slip));
+    let (size, length) = (dot(slip, slip).sqrt(), Dim::<3>::size(&seen));
     if length > 0.0 { seen.map(|component| component * (size / length)) } else { [0.0; 2] }
 }
 

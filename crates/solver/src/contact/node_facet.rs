@@ -78,6 +78,9 @@ pub struct NodeFacet {
     used: Vec<u32>,
     /// Positions at which the springs of this step lie: of the facets that slips turn with.
     frames: Vec<[Vector; 2]>,
+    /// Nodes whose springs were closed after the last step, and those that edges stand for in this one: slave surface, node, and facet.
+    closed_nodes: Vec<(usize, u32, u32)>,
+    superseded: Vec<(usize, u32, u32)>,
 }
 
 impl NodeFacet {
@@ -98,6 +101,8 @@ impl NodeFacet {
             let_go: 0.0,
             used: Vec::new(),
             frames: Vec::new(),
+            closed_nodes: Vec::new(),
+            superseded: Vec::new(),
         }
     }
 
@@ -153,9 +158,9 @@ impl NodeFacet {
         if self.stores { carried(&before, normal, gap, ends, self.reach, scene.sweep, self.has_begun) } else { 0.0 }
     }
 
-    /// Finds the pairs of edges that touch; `closed` are the nodes whose springs were closed.
-    fn track_edges(&mut self, scene: &Scene<'_, 3>, closed: &[(usize, u32, u32)], is_searched: bool) {
-        let Self { tracker, edges: Some(edges), passes, .. } = self else { return };
+    /// Finds the pairs of edges that touch.
+    fn track_edges(&mut self, scene: &Scene<'_, 3>, is_searched: bool) {
+        let Self { tracker, edges: Some(edges), passes, closed_nodes, .. } = self else { return };
         let (surfaces, is_new) = (tracker.surfaces(), !self.has_begun);
         let sweep = if is_new { Sweep { old: scene.sweep.new, ..scene.sweep } } else { scene.sweep };
         let around = around(tracker, sweep, is_new, [self.thickness + self.reach, self.reach]);
@@ -163,7 +168,7 @@ impl NodeFacet {
             edges.find(&around);
         }
         let sides = edges.sides();
-        let is_held = |of: usize, node: u32, facet: u32| closed.binary_search(&(sides[of], node, facet)).is_ok();
+        let is_held = |of: usize, node: u32, facet: u32| closed_nodes.binary_search(&(sides[of], node, facet)).is_ok();
         // Both passes carry a node and a facet together: so do both sides the edges.
         let make = |touch: &EdgeTouch| {
             let (mut stiffness, mut area) = (0.0, 0.0);
@@ -183,9 +188,10 @@ impl NodeFacet {
         edges.track(&around, is_held, make);
     }
 
-    /// Nodes that edges stand for, and the facets on which: slave surface, node, and facet.
-    fn superseded(&self) -> Vec<(usize, u32, u32)> {
-        let Some(edges) = &self.edges else { return Vec::new() };
+    /// Nodes that edges stand for, and the facets on which.
+    fn find_superseded(&mut self) {
+        self.superseded.clear();
+        let Some(edges) = &self.edges else { return };
         let (sides, surfaces) = (edges.sides(), self.tracker.surfaces());
         let of_touch = |touch: &EdgeTouch| {
             let facets = |of: usize| surfaces[sides[of]].edges[touch.edges[of] as usize].facets;
@@ -196,9 +202,8 @@ impl NodeFacet {
             }
             all
         };
-        let mut all: Vec<_> = edges.touches().iter().filter(|touch| touch.stands).flat_map(of_touch).collect();
-        all.sort_unstable();
-        all
+        self.superseded.extend(edges.touches().iter().filter(|touch| touch.stands).flat_map(of_touch));
+        self.superseded.sort_unstable();
     }
 
     /// The spring of a node that touches.
@@ -221,9 +226,11 @@ impl NodeFacet {
         *self.tracker.kept_mut(&touch) = Memory { offset, carried, normal, facet, stored: 0.0, ..memory };
     }
 
-    /// The spring of edges that touch.
-    fn push_edges(&mut self, touch: &EdgeTouch, scene: &Scene<'_, 3>, springs: &mut Springs<3>) {
-        let Some(edges) = &self.edges else { return };
+    /// The spring of edges that touch; the energy that it had, J.
+    fn push_edges(&mut self, at: usize, scene: &Scene<'_, 3>, springs: &mut Springs<3>) -> f64 {
+        let Some(edges) = &self.edges else { return 0.0 };
+        let touch = edges.touches()[at];
+        let touch = &touch;
         let (pair, positions, normal) = (*edges.kept(touch), scene.sweep.new, touch.crossing.normal);
         let side = if edges.sides()[0] == edges.sides()[1] { 0.0 } else { 1.0 };
         let frame = edge_edge::frame(touch, positions);
@@ -237,18 +244,21 @@ impl NodeFacet {
         if let Some(edges) = &mut self.edges {
             edges.kept_mut(touch).memory = Memory { offset, carried, normal, facet: touch.edges[1], stored: 0.0, ..pair.memory };
         }
+        pair.memory.stored
     }
 }
 
 impl NodeFacet {
     /// [`Formulation::detect`] for those slaves of the first pass that are not bound otherwise (`bound` by index; empty: all).
     fn detect_free(&mut self, bound: &[bool], scene: &Scene<'_, 3>, springs: &mut Springs<3>) {
-        let closed = if self.edges.is_some() { self.tracker.closed(self.reach) } else { Vec::new() };
+        if self.edges.is_some() {
+            self.tracker.note_closed(self.reach, &mut self.closed_nodes);
+        }
         let searches = self.tracker.search_report().searches;
         let count = self.tracker.track(scene.sweep, self.thickness + self.reach).len();
         let is_searched = self.tracker.search_report().searches != searches;
-        self.track_edges(scene, &closed, is_searched);
-        let superseded = self.superseded();
+        self.track_edges(scene, is_searched);
+        self.find_superseded();
         let mut again = Closed::default();
         self.frames.clear();
         self.used.clear();
@@ -260,17 +270,15 @@ impl NodeFacet {
             let place = (self.tracker.slave(touch.pass), touch.node, touch.projection.facet);
             let memory = *self.tracker.kept(&touch);
             let was_closed = memory.normal != [0.0; 3] && memory.half < self.reach;
-            if !superseded.is_empty() && !was_closed && superseded.binary_search(&place).is_ok() {
+            if !self.superseded.is_empty() && !was_closed && self.superseded.binary_search(&place).is_ok() {
                 continue;
             }
             again.add(memory.stored);
             self.push_node(index, scene, springs);
             self.used.push(index as u32);
         }
-        let touches: Vec<EdgeTouch> = self.edges.as_ref().map_or(Vec::new(), |edges| edges.touches().to_vec());
-        for touch in &touches {
-            again.add(self.edges.as_ref().map_or(0.0, |edges| edges.kept(touch).memory.stored));
-            self.push_edges(touch, scene, springs);
+        for at in 0..self.edges.as_ref().map_or(0, |edges| edges.touches().len()) {
+            again.add(self.push_edges(at, scene, springs));
         }
         self.let_go = self.closed.less(&again);
         self.has_begun = true;
@@ -319,6 +327,8 @@ impl Formulation<3> for NodeFacet {
             let_go: _,
             used: _,
             frames: _,
+            closed_nodes: _,
+            superseded: _,
             tracker,
             edges,
             has_begun,

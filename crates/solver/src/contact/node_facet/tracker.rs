@@ -218,18 +218,15 @@ impl Tracker {
         [START * self.skin, LOOK_AHEAD]
     }
 
-    /// Nodes whose springs were closed (gap below `open`, m) after the last step: slave surface, node, and facet.
-    #[must_use]
-    pub fn closed(&self, open: f64) -> Vec<(usize, u32, u32)> {
-        let of = |pass: &Pass| {
+    /// Fills a list with the nodes whose springs were closed (gap below `open`, m) after the last step: slave surface, node, and facet, ascending.
+    pub fn note_closed(&self, open: f64, closed: &mut Vec<(usize, u32, u32)>) {
+        closed.clear();
+        for pass in &self.passes {
             // A node that edges stand for touches without a spring.
             let is_closed = |group: &&Group| group.touches && group.memory.normal != [0.0; 3] && group.memory.half < open;
-            let groups = pass.groups.iter().filter(is_closed);
-            groups.map(|group| (pass.slave, group.node, group.memory.facet)).collect::<Vec<_>>()
-        };
-        let mut closed: Vec<_> = self.passes.iter().flat_map(of).collect();
+            closed.extend(pass.groups.iter().filter(is_closed).map(|group| (pass.slave, group.node, group.memory.facet)));
+        }
         closed.sort_unstable();
-        closed
     }
 
     /// Body of each node of the model.

@@ -356,15 +356,15 @@ impl Placed<'_> {
     /// Where a point is seen from the plane of triangle `k`, over it or not: shares of its corners in the foot, height above it (m), and normal. `None` where it has no area.
     pub(in crate::contact) fn above(&self, x: Vector, facet: u32, k: usize) -> Option<(Vector, f64, Vector)> {
         let [a, b, c] = self.triangle(facet, k);
-        let (p, q, r) = (minus(b, a), minus(c, a), minus(x, a));
-        let area = cross(p, q);
+        let area = cross(minus(b, a), minus(c, a));
         let square = dot(area, area);
         if !(square > 0.0) {
             return None;
         }
-        let (of_b, of_c) = (dot(cross(r, q), area) / square, dot(cross(p, r), area) / square);
-        let normal = area.map(|n| n / square.sqrt());
-        Some(([1.0 - of_b - of_c, of_b, of_c], dot(r, normal), normal))
+        let normal = unit(area);
+        let share = |p: Vector, q: Vector| dot(cross(minus(p, x), minus(q, x)), area) / square;
+        let (first, second) = (share(b, c), share(c, a));
+        Some(([first, second, 1.0 - first - second], dot(minus(x, a), normal), normal))
     }
 
     /// The projection on the plane of triangle `k`, over it or not; `None` where it has no area.

@@ -1,16 +1,16 @@
-//! Cost of contact in a step: `cargo bench -p embate-solver --bench contact [ELEMENTS [THREADS]]`.
+//! Cost of contact in a step: `cargo bench -p embate-solver --bench contact [plane|space] [ELEMENTS [THREADS]]`.
 //!
 //! A stack of long strips, each so near to the next that every node of their long sides is in reach of the next strip; all in one contact of bodies with each other and
 //! with themselves. At rest nothing presses; in motion every second strip moves against its neighbours. Told are the shares of the step that contact, its
-//! tracking and the swept check take, and the time of a global search.
+//! tracking and the swept check take, and the time of a global search. In space two slabs lie on each other, node on node or shifted.
 
-use embate_solver::bench::{shortest, step_times, strips};
+use embate_solver::bench::{shortest, slabs, step_times, strips};
 use embate_solver::contact::Sweep;
 use embate_solver::contact::projection::node_segment::Target;
 use embate_solver::contact::search::registry;
 use embate_solver::contact::tracker::Tracker;
 use embate_solver::mesh::Mesh;
-use embate_solver::model::{Contact, Friction, Interface, Model, Partners};
+use embate_solver::model::{Contact, Friction, Interface, Model, Partners, Shape};
 use embate_solver::simulation::Options;
 use std::hint::black_box;
 
@@ -18,42 +18,69 @@ use std::hint::black_box;
 const SIZE: f64 = 1e-3;
 
 fn main() {
-    let numbers: Vec<usize> = std::env::args().skip(1).filter_map(|word| word.parse().ok()).collect();
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let numbers: Vec<usize> = words.iter().filter_map(|word| word.parse().ok()).collect();
     let elements = numbers.first().copied().unwrap_or(1_000_000);
-    let threads = numbers.get(1).copied().unwrap_or(1);
-    let all = Contact { name: "all".into(), partners: Partners::Bodies(Vec::new()), ..Contact::default() };
-    for (name, speed, friction) in [("at rest", 0.0, 0.0), ("in motion", 2.0, 0.0), ("in motion with friction", 2.0, 0.3)] {
-        let plain = strips(elements, speed);
-        let mut touching = plain.clone();
-        let interface = Interface {
-            friction: (friction > 0.0).then_some(Friction {
-                coefficient: friction,
-                dynamic: None,
-                decay: 0.0,
-                viscosity: 0.0,
-                limit: f64::INFINITY,
-            }),
-            ..Interface::default()
-        };
-        touching.contacts.push(Contact { interface, ..all.clone() });
-        let options = Options { threads, simd: None };
-        // 44 steps: so long the strips press on each other, once they have met.
-        let ([without, with], [_, simulation]) = step_times([&plain, &touching], &options, 9, f64::INFINITY).expect("the models are sound");
-        let [without, with] = [without, with].map(|seconds| 1e3 * seconds);
-        let summary = simulation.summary();
-        println!(
-            "{name}: {} elements, {threads} thread(s): {without:.2} ms per step without contact, {with:.2} ms with it ({:.0} %); {:?}",
-            summary.elements,
-            100.0 * (with - without) / with,
-            summary.contact
-        );
-        for search in simulation.searches() {
-            println!("  {search:?}");
-        }
-        if speed == 0.0 {
-            track_alone(&touching, with);
+    let options = Options { threads: numbers.get(1).copied().unwrap_or(1), simd: None };
+    let is_wanted =
+        |dimension: &str| words.iter().any(|word| word == dimension) || !words.iter().any(|word| word == "plane" || word == "space");
+    if is_wanted("plane") {
+        for (name, speed, friction) in [("at rest", 0.0, 0.0), ("in motion", 2.0, 0.0), ("in motion with friction", 2.0, 0.3)] {
+            let plain = strips(elements, speed);
+            // 44 steps: so long the strips press on each other, once they have met.
+            let with = compare(name, &plain, Partners::Bodies(Vec::new()), friction, &options);
+            if speed == 0.0 {
+                track_alone(&plain, with);
+            }
         }
     }
+    if is_wanted("space") {
+        let n = (elements as f64 / 20.0).sqrt().round() as usize;
+        let between = || Partners::Between(["upper".into(), "lower".into()]);
+        for (name, speed, shift, friction, partners) in [
+            ("slabs at rest, 1 mm apart", 0.0, 0.0, 0.0, Partners::Bodies(Vec::new())),
+            ("slabs node on node", 2.0, 0.0, 0.0, between()),
+            ("slabs shifted", 2.0, 0.3, 0.0, between()),
+            ("slabs shifted, bodies", 2.0, 0.3, 0.0, Partners::Bodies(Vec::new())),
+            ("slabs shifted, with friction", 2.0, 0.3, 0.3, between()),
+        ] {
+            let mut plain = slabs(n, speed, shift);
+            if speed == 0.0 {
+                lift(&mut plain, SIZE);
+            }
+            compare(name, &plain, partners, friction, &options);
+        }
+    }
+}
+
+/// Moves the upper slab up, m.
+fn lift(model: &mut Model, by: f64) {
+    if let Shape::Cuboid(cuboid) = &mut model.parts[1].shape {
+        cuboid.corner[2] += by;
+    }
+}
+
+/// Times of steps with and without contact, and their shares; the time of a step with contact, ms.
+fn compare(name: &str, plain: &Model, partners: Partners, friction: f64, options: &Options) -> f64 {
+    let mut touching = plain.clone();
+    let friction = Friction { coefficient: friction, dynamic: None, decay: 0.0, viscosity: 0.0, limit: f64::INFINITY };
+    let interface = Interface { friction: (friction.coefficient > 0.0).then_some(friction), ..Interface::default() };
+    touching.contacts.push(Contact { name: "all".into(), partners, interface, ..Contact::default() });
+    let ([without, with], [_, simulation]) = step_times([plain, &touching], options, 9, f64::INFINITY).expect("the models are sound");
+    let [without, with] = [without, with].map(|seconds| 1e3 * seconds);
+    let summary = simulation.summary();
+    println!(
+        "{name}: {} elements, {} thread(s): {without:.2} ms per step without contact, {with:.2} ms with it ({:.0} %); {:?}; at most {} sweeps over the springs",
+        summary.elements,
+        options.threads,
+        100.0 * (with - without) / with,
+        summary.contact,
+        simulation.sweeps().0
+    );
+    for search in simulation.searches() {
+        println!("  {search:?}");
+    }
+    with
 }
 
 /// Tracking, sweeping and searching by themselves.

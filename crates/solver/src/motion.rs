@@ -93,6 +93,10 @@ pub trait Motion<const D: usize>: Tributary<D> {
         Dim<D>: Motion<D>;
     /// Change of velocities by a row of forces.
     fn response(mobility: &Self::Mobility, row: &Self::Row<f64>) -> Self::Row<f64>;
+    /// The same of a node by a force.
+    fn response_of_node(mobility: &Self::Mobility, force: [f64; D]) -> [f64; D];
+    /// The force in a row.
+    fn force_of(row: &Self::Row<f64>) -> [f64; D];
     /// Whether a velocity of a rigid body gives way.
     fn gives(mobility: &Self::Mobility, axis: usize) -> bool;
     /// Hands the entries of `factor` times the inverse of a rigid body's mobility over (row, column, value), of what gives way.
@@ -243,6 +247,14 @@ impl Motion<2> for Dim<2> {
     #[inline(always)]
     fn response(&[xx, xy, yy, spin]: &[f64; 4], row: &[f64; 3]) -> [f64; 3] {
         [xx * row[0] + xy * row[1], xy * row[0] + yy * row[1], spin * row[2]]
+    }
+    #[inline(always)]
+    fn response_of_node(&[xx, xy, yy, _]: &[f64; 4], [x, y]: [f64; 2]) -> [f64; 2] {
+        [xx * x + xy * y, xy * x + yy * y]
+    }
+    #[inline(always)]
+    fn force_of(&[x, y, _]: &[f64; 3]) -> [f64; 2] {
+        [x, y]
     }
     fn gives(&[x, _, y, spin]: &[f64; 4], axis: usize) -> bool {
         [x, y, spin][axis] > 0.0
@@ -431,6 +443,14 @@ impl Motion<3> for Dim<3> {
     fn response([straight, round]: &[[f64; 6]; 2], &[x, y, z, a, b, c]: &[f64; 6]) -> [f64; 6] {
         let ([x, y, z], [a, b, c]) = (times_symmetric(straight, [x, y, z]), times_symmetric(round, [a, b, c]));
         [x, y, z, a, b, c]
+    }
+    #[inline(always)]
+    fn response_of_node([straight, _]: &[[f64; 6]; 2], force: [f64; 3]) -> [f64; 3] {
+        times_symmetric(straight, force)
+    }
+    #[inline(always)]
+    fn force_of(&[x, y, z, ..]: &[f64; 6]) -> [f64; 3] {
+        [x, y, z]
     }
     fn gives(mobility: &[[f64; 6]; 2], axis: usize) -> bool {
         mobility[axis / 3][Self::AT[axis % 3][axis % 3]] > 0.0

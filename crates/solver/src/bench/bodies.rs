@@ -1,7 +1,7 @@
 //! Bodies to measure with: a patch in a given motion for the kernels alone, a spinning block for whole steps, a stack of strips for contact.
 
 use crate::material;
-use crate::model::{Material, Model, Output, Part, Rectangle, Run, Shape};
+use crate::model::{Cuboid, Material, Model, Output, Part, Rectangle, Run, Shape};
 
 /// Parameters of any law: steel that flows at once and hardens strongly; rubbers and orthotropic bodies of its stiffness.
 const NUMBERS: &[(&str, f64)] = &[
@@ -166,6 +166,40 @@ pub fn strips(elements: usize, speed: f64) -> Model {
             ..Rectangle::default()
         });
         model.parts.push(Part { name: format!("strip{strip}"), material: "soft".into(), shape, velocity, ..Part::default() });
+    }
+    model.output.pictures = false;
+    model
+}
+
+/// Layers of elements in a slab.
+const LAYERS: usize = 10;
+
+/// Two slabs of `n` × `n` × 10 bricks of one point, one on the other, which move against each other at this speed each (m/s). The upper one is shifted along both sides of its bricks by a
+/// fraction of one: 0 lets nodes meet nodes. There is no contact yet.
+#[must_use]
+pub fn slabs(n: usize, speed: f64, shift: f64) -> Model {
+    let mut model = Model { run: Run { end: 1.0, ..Run::default() }, ..Model::default() };
+    let parameters = [("young", 2e11), ("poisson", 0.3), ("density", 7800.0), ("yield", 3e8), ("hardening", 1e9)];
+    let parameters = parameters.map(|(key, value)| (key.to_string(), value));
+    model.materials.insert("steel".into(), Material { law: "j2".into(), parameters: parameters.into(), ..Material::default() });
+    for (k, name) in ["lower", "upper"].into_iter().enumerate() {
+        let [side, height] = [n, LAYERS].map(|count| count as f64 * SIZE);
+        let (shift, up) = (shift * SIZE * k as f64, k as f64);
+        let shape = Shape::Cuboid(Cuboid {
+            corner: [shift, shift, up * height],
+            size: [side, side, height],
+            elements: [n, n, LAYERS],
+            ..Cuboid::default()
+        });
+        let velocity = [0.0, 0.0, speed * (1.0 - 2.0 * up)];
+        model.parts.push(Part {
+            name: name.into(),
+            material: "steel".into(),
+            element: "hex8_reduced".into(),
+            shape,
+            velocity,
+            ..Part::default()
+        });
     }
     model.output.pictures = false;
     model

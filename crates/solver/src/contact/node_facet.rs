@@ -5,6 +5,7 @@
 //! gradient of its gap (`projection/node_facet.rs`), so resultant, momentum and angular momentum are exact, and what slides over an edge or a corner keeps its energy as far as half steps
 //! see the turn of the normal.
 
+mod far;
 pub mod tied;
 pub mod tracker;
 
@@ -66,6 +67,8 @@ pub struct NodeFacet {
     reach: f64,
     /// Whether springs store energy: multipliers do not.
     stores: bool,
+    /// Whether springs care for slip.
+    slips: bool,
     /// Whether gaps that are negative when the contact begins to act count as zero.
     ignores_start: bool,
     /// Initial positions, m: only where a surface meets itself at a distance.
@@ -94,6 +97,7 @@ impl NodeFacet {
             thickness: interface.thickness,
             reach,
             stores: is_stored(interface),
+            slips: interface.friction.is_some(),
             ignores_start: is_ignored(interface),
             initial: if interface.thickness + reach > 0.0 { initial.to_vec() } else { Vec::new() },
             has_begun: false,
@@ -208,22 +212,55 @@ impl NodeFacet {
 
     /// The spring of a node that touches.
     fn push_node(&mut self, index: usize, scene: &Scene<'_, 3>, springs: &mut Springs<3>) {
-        let positions = scene.sweep.new;
         let touch = self.tracker.touches()[index];
         let memory = *self.tracker.kept(&touch);
-        let placed = Placed { surface: self.tracker.target(touch.pass), positions };
-        let (ends, known) = ends(&placed, touch.node, &touch.projection);
-        let ends = &ends[..known];
-        let (pass, slave, Projection { normal, facet, .. }) = (&self.passes[touch.pass as usize], touch.slave as usize, touch.projection);
-        let frame = frame(&placed, facet);
-        let tangent = tangent(normal, frame[0]);
         let (gap, offset) = self.beyond(self.gap(&touch), touch.own, &memory);
-        let carried = self.carried(&memory, normal, gap, ends, scene);
-        let slip = cone::carried(slip(frame_of(&placed, &memory), &memory), Dim::<3>::tangents(normal, &tangent));
+        let (pass, node, slave) = (&self.passes[touch.pass as usize], touch.node, touch.slave as usize);
+        let Projection { normal, facet, weights, .. } = touch.projection;
         let (stiffness, area, side) = (pass.stiffness(slave, facet), pass.slaves[slave].area, self.tracker.side(touch.pass));
-        springs.push(Spring { normal, gap: gap + carried, stiffness, area, side, slip, tangent, ..Spring::default() }, ends);
+        let spring = Spring { normal, gap, stiffness, area, side, ..Spring::default() };
+        let before = Before { half: memory.half, normal: memory.normal, carried: memory.carried };
+        let steadily = before.steadily(normal, gap, self.reach, self.has_begun);
+        let placed = Placed { surface: self.tracker.target(touch.pass), positions: scene.sweep.new };
+        let (carried, frame) = match steadily {
+            // Nearly all, nearly always.
+            Some(carried) if !self.slips && weights.iter().all(|weight| *weight >= 0.0) => {
+                let carried = if self.stores { carried } else { 0.0 };
+                let corners = placed.surface.facets[facet as usize].into_iter().zip(weights);
+                let shares = corners.filter(|(_, weight)| *weight != 0.0).map(|(corner, weight)| (corner, -weight));
+                springs.push_plain(Spring { gap: gap + carried, ..spring }, std::iter::once((node, 1.0)).chain(shares));
+                (carried, [[0.0; 3]; 2])
+            }
+            _ => self.push_whole(&touch, &memory, spring, scene, springs),
+        };
         self.frames.push(frame);
         *self.tracker.kept_mut(&touch) = Memory { offset, carried, normal, facet, stored: 0.0, ..memory };
+    }
+
+    /// The same with slip, rims and gaps that jump: by what its gap was moved (m), and the frame with which its slip turns.
+    fn push_whole(
+        &self,
+        touch: &Touch,
+        memory: &Memory,
+        spring: Spring<3>,
+        scene: &Scene<'_, 3>,
+        springs: &mut Springs<3>,
+    ) -> (f64, [Vector; 2]) {
+        let Projection { normal, facet, .. } = touch.projection;
+        let placed = Placed { surface: self.tracker.target(touch.pass), positions: scene.sweep.new };
+        if !self.slips {
+            let (ends, known) = pushed(&placed, touch.node, &touch.projection);
+            let carried = self.carried(memory, normal, spring.gap, &ends[..known], scene);
+            springs.push(Spring { gap: spring.gap + carried, ..spring }, &ends[..known]);
+            return (carried, [[0.0; 3]; 2]);
+        }
+        let (ends, known) = ends(&placed, touch.node, &touch.projection);
+        let frame = frame(&placed, facet);
+        let tangent = tangent(normal, frame[0]);
+        let carried = self.carried(memory, normal, spring.gap, &ends[..known], scene);
+        let slip = cone::carried(slip(frame_of(&placed, memory), memory), Dim::<3>::tangents(normal, &tangent));
+        springs.push(Spring { gap: spring.gap + carried, slip, tangent, ..spring }, &ends[..known]);
+        (carried, frame)
     }
 
     /// The spring of edges that touch; the energy that it had, J.
@@ -294,10 +331,12 @@ impl Formulation<3> for NodeFacet {
         self.closed = Closed::default();
         let (nodes, edges) = (solved.clone().part(0, self.used.len()), solved.part(self.used.len(), usize::MAX));
         let (frames, edge_frames) = self.frames.split_at(self.used.len());
-        let (stores, reach, closed) = (self.stores, self.reach, &mut self.closed);
+        let (stores, slips, reach, closed) = (self.stores, self.slips, self.reach, &mut self.closed);
         let mut note = |memory: &mut Memory, answer: &Answer<'_, 3>, frame: [Vector; 2]| {
-            let ([first, second], [a, b]) = (answer.spring.tangents(), answer.solved.slip_new);
-            memory.slip = [0, 1, 2].map(|d| a * first[d] + b * second[d]);
+            if slips {
+                let ([first, second], [a, b]) = (answer.spring.tangents(), answer.solved.slip_new);
+                memory.slip = [0, 1, 2].map(|d| a * first[d] + b * second[d]);
+            }
             (memory.frame, memory.half) = (frame, answer.gap_new());
             if stores && memory.half < reach {
                 memory.stored = answer.stored_new();
@@ -322,6 +361,7 @@ impl Formulation<3> for NodeFacet {
             thickness: _,
             reach: _,
             stores: _,
+            slips: _,
             ignores_start: _,
             initial: _,
             let_go: _,
@@ -410,6 +450,18 @@ fn slip(frame: [Vector; 2], memory: &Memory) -> Vector {
     let (before, now) = (axes([along, normal]), axes(frame));
     let parts = before.map(|axis| dot(axis, slip));
     [0, 1, 2].map(|d| parts[0] * now[0][d] + parts[1] * now[1][d] + parts[2] * now[2][d])
+}
+
+/// The ends of a spring that does not care for slip, between a node and where it projects, and how many there are: those of corners with a share.
+fn pushed(placed: &Placed<'_>, node: u32, projection: &Projection) -> ([End<3>; 5], usize) {
+    let (corners, mut ends, mut count) = (placed.surface.facets[projection.facet as usize], [End::node(node, 1.0); 5], 1);
+    for (corner, weight) in corners.into_iter().zip(projection.weights).filter(|(_, weight)| *weight != 0.0) {
+        // As in `ends`, what is pulled belongs to the target all the same.
+        let lean = projection.normal.map(|n| (-weight).max(0.0) * n);
+        ends[count] = End { lean, ..End::node(corner, -weight.max(0.0)) };
+        count += 1;
+    }
+    (ends, count)
 }
 
 /// The ends of a spring between a node and where it projects, and how many there are.

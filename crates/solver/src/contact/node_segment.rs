@@ -13,6 +13,7 @@ use crate::mesh::surface::NONE;
 use crate::model;
 use crate::motion::Motion;
 use crate::tensor::Dim;
+use crate::vector::dot;
 use std::any::Any;
 
 /// Registry entry.
@@ -366,17 +367,11 @@ pub(super) fn carried<const D: usize>(
 where
     Dim<D>: Motion<D>,
 {
-    let Before { half, normal: before, carried } = *before;
-    let is_new = before == [0.0; D];
-    if is_new && (gap >= open || !has_begun) {
-        return 0.0;
-    }
-    let half = if is_new { open } else { half };
-    let cosine = (1..D).fold(before[0] * normal[0], |sum, d| sum + before[d] * normal[d]);
-    let stays = carried == 0.0 || half < open;
-    if cosine > STEADY && stays {
+    if let Some(carried) = before.steadily(normal, gap, open, has_begun) {
         return carried;
     }
+    let (is_new, cosine, stays) = (before.is_new(), dot(before.normal, normal), before.stays(open));
+    let (half, carried) = (before.half(open), before.carried);
     let (mut way, mut relative) = (0.0, [0.0; D]);
     for end in ends {
         let [old, new] = [sweep.old, sweep.new].map(|positions| positions[end.at as usize]);
@@ -406,6 +401,29 @@ pub(super) struct Before<const D: usize> {
     pub(super) normal: [f64; D],
     /// What its gap was moved by, m.
     pub(super) carried: f64,
+}
+
+impl<const D: usize> Before<D> {
+    fn is_new(&self) -> bool {
+        self.normal == [0.0; D]
+    }
+
+    /// Where its gap was; of what is new it was `open`.
+    fn half(&self, open: f64) -> f64 {
+        if self.is_new() { open } else { self.half }
+    }
+
+    fn stays(&self, open: f64) -> bool {
+        self.carried == 0.0 || self.half(open) < open
+    }
+
+    /// What [`carried`] finds where neither gap nor normal have jumped, as in nearly every step; `None`: it must look.
+    pub(super) fn steadily(&self, normal: [f64; D], gap: f64, open: f64, has_begun: bool) -> Option<f64> {
+        if self.is_new() && (gap >= open || !has_begun) {
+            return Some(0.0);
+        }
+        (dot(self.normal, normal) > STEADY && self.stays(open)).then_some(self.carried)
+    }
 }
 
 impl Memory {

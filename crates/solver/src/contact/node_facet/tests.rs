@@ -1,6 +1,7 @@
 mod edges;
 
 use super::*;
+use crate::bench::Random;
 use crate::contact::forces::ContactForces;
 use crate::contact::law::penalty::Penalty;
 use crate::contact::search;
@@ -188,7 +189,9 @@ fn world(bodies: [&Blocks; 2], recipe: Recipe, velocity: Vector) -> World {
     let inputs = passes.iter().map(slaves).collect();
     let search = (search::registry::<3>()[0].make)();
     let tracker = Tracker::new(surfaces, passes, &of, search, &positions);
-    let formulation = NodeFacet::new(tracker, inputs, &model::Interface::default(), 0.0, &positions);
+    let sliding = model::Friction { coefficient: friction, dynamic: None, decay: 0.0, viscosity: 0.0, limit: f64::INFINITY };
+    let interface = model::Interface { friction: (friction > 0.0).then_some(sliding), ..model::Interface::default() };
+    let formulation = NodeFacet::new(tracker, inputs, &interface, 0.0, &positions);
     let formulation = if edges { formulation.with_edges((search::registry::<3>()[0].make)()) } else { formulation };
     let contact = Contact::new("contact".into(), ContactKind::Contact, Box::new(formulation), 0, [0.0, f64::INFINITY]);
     let links = if bond > 0.0 {
@@ -402,6 +405,45 @@ fn a_body_does_not_meet_itself_where_it_is_whole_and_does_where_it_folds() {
         let deepest = gaps.iter().fold(0.0f64, |deepest, (_, gap)| deepest.max(-gap));
         assert!((deepest - depth.max(0.0)).abs() < 0.1 * depth.max(0.0) + 1e-9, "step {step}: {deepest} {depth}");
         formulation.remember(springs.answers(0..springs.list.len()));
+    }
+}
+
+#[test]
+fn who_sleeps_would_have_been_found_as_it_was() {
+    let lower = grid([0.0; 3], [0.5; 3], [4, 4, 2], |[i, j, _]| i + j < 6);
+    let upper = grid([0.13, 0.21, 1.03], [0.31, 0.37, 0.4], [3, 2, 2], |_| true);
+    let first = lower.positions.len();
+    let mut positions = [&lower.positions[..], &upper.positions[..]].concat();
+    let bodies: Vec<u32> = (0..positions.len()).map(|k| u32::from(k >= first)).collect();
+    let all = [lower.surface(0), upper.surface(first as u32)];
+    for passes in [&[(0, 1), (1, 0)][..], &[(0, 0), (1, 1)]] {
+        let make = || Tracker::new(all.to_vec(), passes, &bodies, (search::registry::<3>()[0].make)(), &positions);
+        let (mut sleepy, mut awake, mut random, mut travel, mut met) = (make(), make(), Random::new(3), 0.0, 0);
+        for step in 0..600 {
+            // The upper one swings down and up again, sideways too, and both shake.
+            let old = positions.clone();
+            let swing =
+                [0.02 * (0.05 * f64::from(step)).cos(), 0.013 * (0.031 * f64::from(step)).sin(), -0.02 * (0.043 * f64::from(step)).sin()];
+            let mut longest = 0.0_f64;
+            for (k, x) in positions.iter_mut().enumerate() {
+                let by = [0, 1, 2].map(|d| 2e-4 * (random.unit() - 0.5) + if k >= first { swing[d] } else { 0.0 });
+                (0..3).for_each(|d| x[d] += by[d]);
+                longest = longest.max(dot(by, by).sqrt());
+            }
+            travel += longest;
+            let sweep = Sweep { old: &old, new: &positions, travel };
+            let found = sleepy.track(sweep, 0.01).to_vec();
+            assert_eq!(awake.track(Sweep::between(&old, &positions), 0.01), &found[..], "step {step}");
+            assert_eq!(sleepy.search_report().searches, awake.search_report().searches);
+            met += found.len();
+            for tracker in [&mut sleepy, &mut awake] {
+                for touch in &found {
+                    let Projection { normal, facet, .. } = touch.projection;
+                    *tracker.kept_mut(touch) = Memory { normal, facet, ..*tracker.kept(touch) };
+                }
+            }
+        }
+        assert!(passes[0].0 == passes[0].1 || met > 2000, "{met}");
     }
 }
 

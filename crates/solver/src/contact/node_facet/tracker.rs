@@ -11,12 +11,15 @@
 //! - in its own body it sees only facets that its own surface looks at, and is inside only if it was seen to come in: its neighbours along the surface are near, and its own far side is
 //!   behind it.
 //!
-//! Everything within the search's radius less the skin is a candidate, until some node has moved by more than half the skin. Order is fixed: passes, slave nodes, bodies ascending.
+//! Everything within the search's radius less the skin is a candidate, until some node has moved by more than half the skin; what is far among them is not looked at (`far.rs`). Order is
+//! fixed: passes, slave nodes, bodies ascending.
 
 use super::super::Sweep;
 use super::super::projection::node_facet::{Placed, Projection, Vector};
 use super::super::search::{Pair, Query, Search};
-use super::super::tracker::{SKIN, SearchReport};
+use super::super::tracker::sleep::{AWAKE, awake, wake_at};
+use super::super::tracker::{SAFE, SKIN, SearchReport};
+use super::far::Candidates;
 use crate::archive::{Archive, Kept, keep_all, keep_each};
 use crate::mesh::surface::{Corners, NONE, SpaceSurface};
 use crate::tensor::{cross, dot};
@@ -114,6 +117,21 @@ struct Pass {
     bodies: Vec<u32>,
     groups: Vec<Group>,
     candidates: Vec<u32>,
+    /// What is known of the distances of candidates and groups; see `far.rs`.
+    clear: Vec<f64>,
+    wakes: Vec<f64>,
+    /// How far beyond what touches a rim may hold a node, m.
+    band: f64,
+}
+
+/// Where a node is with respect to a body.
+enum Place {
+    /// It touches: its projection, and the side from which it came in.
+    Touches(Projection, Vector),
+    /// Not near.
+    Away,
+    /// So deep inside, without having been seen to come in, that it is not taken for a touch.
+    Lost,
 }
 
 /// Follows the nodes of surfaces in space along the bodies of other surfaces, or of their own.
@@ -137,6 +155,9 @@ pub struct Tracker {
     radius: f64,
     /// Deepest touch of the last step, m.
     deepest: f64,
+    /// Travel of the last step, of the last search, m.
+    travel: f64,
+    searched_at: f64,
     touches: Vec<Touch>,
     pairs: Vec<Pair>,
     report: SearchReport,
@@ -176,7 +197,7 @@ impl Tracker {
         let report = SearchReport { skin, ..SearchReport::default() };
         #[rustfmt::skip]
         let tracker = Self {
-            surfaces, passes, search, triangles, corners, bodies: bodies.to_vec(), nodes, searched: Vec::new(), is_new: true, skin, radius: 0.0, deepest: 0.0, touches: Vec::new(), pairs: Vec::new(), report,
+            surfaces, passes, search, triangles, corners, bodies: bodies.to_vec(), nodes, searched: Vec::new(), is_new: true, skin, radius: 0.0, deepest: 0.0, travel: 0.0, searched_at: 0.0, touches: Vec::new(), pairs: Vec::new(), report,
         };
         tracker
     }
@@ -266,15 +287,23 @@ impl Tracker {
             // Nothing is known of the past: a node in another body is where the nearest feature says.
             sweep.old = sweep.new;
         }
+        let way = sweep.travel - std::mem::replace(&mut self.travel, sweep.travel);
         if self.is_left(sweep) {
             self.find_candidates(sweep, extra);
         }
         self.touches.clear();
         self.deepest = 0.0;
+        let mut clear = Vec::new();
         for number in 0..self.passes.len() {
-            for group in 0..self.passes[number].groups.len() {
-                self.look_at(number, group, sweep, extra);
+            let pass = &mut self.passes[number];
+            let asleep = awake(extra + START * self.skin + pass.band, LOOK_AHEAD, sweep.travel, way);
+            std::mem::swap(&mut clear, &mut pass.clear);
+            for index in 0..pass.groups.len() {
+                if self.passes[number].wakes[index] <= asleep {
+                    self.look_at([number, index], sweep, [extra, way, asleep], &mut clear);
+                }
             }
+            std::mem::swap(&mut clear, &mut self.passes[number].clear);
         }
         &self.touches
     }
@@ -282,6 +311,9 @@ impl Tracker {
     /// Whether some node has moved by more than half the skin since the last search (or there was none).
     fn is_left(&self, sweep: Sweep<'_, 3>) -> bool {
         let limit = 0.25 * self.skin * self.skin;
+        if !self.searched.is_empty() && (0.0..SAFE * self.skin).contains(&(sweep.travel - self.searched_at)) {
+            return false;
+        }
         self.searched.is_empty()
             || self.nodes.iter().zip(&self.searched).any(|(&node, from)| {
                 let moved = minus(sweep.new[node as usize], *from);
@@ -295,6 +327,7 @@ impl Tracker {
         let way = |node: &u32| length(minus(sweep.new[*node as usize], sweep.old[*node as usize]));
         let fastest = self.nodes.iter().map(way).fold(0.0, f64::max);
         let radius = 2.0 * self.skin + extra + LOOK_AHEAD * fastest + self.deepest;
+        let mut near: Vec<(u32, u32, f64)> = Vec::new();
         let Self { surfaces, passes, search, triangles, bodies, pairs, .. } = self;
         for pass in passes {
             let (slaves, target) = (&surfaces[pass.slave].nodes, &surfaces[pass.target]);
@@ -302,9 +335,11 @@ impl Tracker {
             let query = Query { positions_old: sweep.old, positions_new: sweep.new, slaves, facets: &triangles[pass.target], reach };
             search.pairs(&query, pairs);
             let placed = Placed { surface: target, positions: sweep.new };
+            pass.band = BAND * (0..target.facets.len() as u32).map(|facet| placed.size(facet)).fold(0.0, f64::max);
             let old = std::mem::take(&mut pass.groups);
             let mut old = old.iter().peekable();
             pass.candidates.clear();
+            pass.clear.clear();
             for of_slave in pairs.chunk_by(|a, b| a.slave == b.slave) {
                 let slave = of_slave[0].slave;
                 let node = slaves[slave as usize];
@@ -313,90 +348,111 @@ impl Tracker {
                     continue;
                 }
                 let x = sweep.new[node as usize];
-                let mut near: Vec<(u32, u32)> =
-                    of_slave.iter().map(|pair| (pass.bodies[pair.facet as usize / 2], pair.facet / 2)).collect();
-                near.sort_unstable();
+                near.clear();
+                near.extend(of_slave.iter().map(|pair| (pass.bodies[pair.facet as usize / 2], pair.facet / 2, AWAKE)));
+                near.sort_unstable_by_key(|&(body, facet, _)| (body, facet));
                 near.dedup();
                 // Those that the node has passed on its way stay, however far it is now.
                 let on_way = way(&node) > self.skin;
-                near.retain(|&(_, facet)| {
-                    !target.facets[facet as usize].contains(&node)
-                        && (on_way || placed.distance(x, facet).is_some_and(|found| found <= radius))
+                near.retain_mut(|(_, facet, clear)| {
+                    if target.facets[*facet as usize].contains(&node) {
+                        return false;
+                    }
+                    let distance = placed.distance(x, *facet);
+                    *clear = distance.map_or(AWAKE, |distance| wake_at(distance, sweep.travel));
+                    on_way || distance.is_some_and(|distance| distance <= radius)
                 });
                 let own = bodies.get(node as usize).copied().unwrap_or(u32::MAX);
                 for of_body in near.chunk_by(|a, b| a.0 == b.0) {
                     let (body, begin) = (of_body[0].0, pass.candidates.len() as u32);
-                    pass.candidates.extend(of_body.iter().map(|&(_, facet)| facet));
+                    pass.candidates.extend(of_body.iter().map(|&(_, facet, _)| facet));
+                    pass.clear.extend(of_body.iter().map(|&(_, _, clear)| clear));
                     let group = Group { slave, node, body, begin, end: pass.candidates.len() as u32, own: own == body, ..Group::default() };
                     while old.next_if(|old| (old.slave, old.body) < (slave, body)).is_some() {}
                     let known = old.next_if(|old| (old.slave, old.body) == (slave, body));
                     pass.groups.push(known.map_or(group, |known| Group { touches: known.touches, memory: known.memory, ..group }));
                 }
             }
+            pass.wakes.clear();
+            pass.wakes.resize(pass.groups.len(), AWAKE);
         }
         self.radius = radius;
+        self.searched_at = sweep.travel;
         self.report.searches += 1;
         self.searched.clear();
         self.searched.extend(self.nodes.iter().map(|&node| sweep.new[node as usize]));
     }
 
-    /// Where a node is with respect to a body.
-    fn look_at(&mut self, number: usize, index: usize, sweep: Sweep<'_, 3>, extra: f64) {
+    /// Where the node of group `index` of pass `number` is with respect to its body; `clear` is what is known of the distances of the pass's candidates.
+    fn look_at(&mut self, [number, index]: [usize; 2], sweep: Sweep<'_, 3>, [extra, way, asleep]: [f64; 3], clear: &mut [f64]) {
         let pass = &self.passes[number];
         let group = pass.groups[index];
-        let located = self.locate(pass, &group, sweep, extra);
-        let group = &mut self.passes[number].groups[index];
-        group.touches = located.is_some();
-        match located {
-            None => group.memory = Memory::default(),
-            Some((projection, side)) => {
-                group.memory.side = side;
-                self.deepest = self.deepest.max(-projection.gap);
-                let Group { slave, node, own, .. } = *group;
-                self.touches.push(Touch { pass: number as u32, slave, node, projection, own, group: index as u32 });
+        let range = group.begin as usize..group.end as usize;
+        let mut candidates = Candidates { facets: &pass.candidates[range.clone()], clear: &mut clear[range], travel: sweep.travel, way };
+        let place = self.locate(pass, &group, &mut candidates, sweep, extra);
+        let wake = match place {
+            Place::Away => {
+                let placed = Placed { surface: &self.surfaces[pass.target], positions: sweep.new };
+                candidates.bound(&placed, sweep.new[group.node as usize], asleep)
             }
+            _ => AWAKE,
+        };
+        let pass = &mut self.passes[number];
+        pass.wakes[index] = wake;
+        let group = &mut pass.groups[index];
+        group.touches = false;
+        if let Place::Touches(projection, side) = place {
+            group.touches = true;
+            group.memory.side = side;
+            self.deepest = self.deepest.max(-projection.gap);
+            let Group { slave, node, own, .. } = *group;
+            self.touches.push(Touch { pass: number as u32, slave, node, projection, own, group: index as u32 });
+        } else {
+            group.memory = Memory::default();
         }
     }
 
-    /// The projection of a node that touches, and the side from which it came in.
-    fn locate(&self, pass: &Pass, group: &Group, sweep: Sweep<'_, 3>, extra: f64) -> Option<(Projection, Vector)> {
+    /// Whether a node touches: its projection, and the side from which it came in.
+    fn locate(&self, pass: &Pass, group: &Group, candidates: &mut Candidates<'_>, sweep: Sweep<'_, 3>, extra: f64) -> Place {
         let placed = Placed { surface: &self.surfaces[pass.target], positions: sweep.new };
         let x = sweep.new[group.node as usize];
-        let candidates = &pass.candidates[group.begin as usize..group.end as usize];
         let facing = if group.own { Some(self.own_normal(pass.slave, group.slave, sweep.new)) } else { None };
         let faces = |facet: u32| facing.is_none_or(|own| dot(own, placed.facet_normal(facet)) < FACING);
         let mut side = group.memory.side;
         if side == [0.0; 3] {
             let entered =
-                candidates.iter().copied().filter(|&facet| faces(facet)).filter_map(|facet| entry(&placed, sweep, group.node, facet));
+                candidates.in_passage().filter(|&facet| faces(facet)).filter_map(|facet| entry(&placed, sweep, group.node, facet));
             let first = entered.reduce(|first, other| if other.0 < first.0 { other } else { first });
             side = first.map_or(side, |(_, normal)| normal);
         }
         let came = side != [0.0; 3];
-        let sees = |facet: &u32| faces(*facet) && (!came || dot(side, placed.facet_normal(*facet)) > SAME_SIDE);
-        let mut found = placed.project(x, candidates.iter().copied().filter(sees));
+        let sees = |facet: u32| faces(facet) && (!came || dot(side, placed.facet_normal(facet)) > SAME_SIDE);
+        let likely = group.memory.facet;
+        let mut found = candidates.nearest(&placed, x, likely, sees).and_then(|found| placed.seen(x, found));
         // Who goes on with its face needs no second look.
         let goes_on = |found: &Projection| group.touches && dot(group.memory.normal, found.normal) > SAME_FACE;
         if !group.own && !found.as_ref().is_some_and(goes_on) {
             let own = self.own_normal(pass.slave, group.slave, sweep.new);
             if found.is_none_or(|found| dot(own, found.normal) >= FACING) {
                 let faces = |facet: u32| dot(own, placed.facet_normal(facet)) < FACING;
-                let over = placed.project_over(x, candidates.iter().copied().filter(|facet| sees(facet) && faces(*facet)), faces);
+                let over = candidates.nearest(&placed, x, likely, |facet| sees(facet) && faces(facet));
+                let over = over.and_then(|over| placed.seen_over(x, over, faces));
                 let is_flush = found.is_some_and(|found| found.gap.abs() <= FLUSH * self.skin);
                 found = over.filter(|over| self.is_held(pass, group, side, sweep, over, is_flush)).map(|(over, _)| over).or(found);
             }
         }
-        let found = found?;
+        let Some(found) = found else { return Place::Away };
         if found.gap < 0.0 {
             // In its own body only who was seen to come in, or was just before it.
             let known = came || (group.touches && dot(group.memory.normal, found.normal) > SAME_SIDE);
-            if !known && (group.own || -found.gap > self.radius - self.skin) {
-                return None;
-            }
-            return Some((found, found.normal));
+            return match known {
+                false if group.own => Place::Away,
+                false if -found.gap > self.radius - self.skin => Place::Lost,
+                _ => Place::Touches(found, found.normal),
+            };
         }
         let near = extra + START * self.skin + LOOK_AHEAD * motion(&placed, &found, sweep, group.node);
-        (found.gap <= near.min(self.radius - self.skin).max(extra)).then_some((found, [0.0; 3]))
+        if found.gap <= near.min(self.radius - self.skin).max(extra) { Place::Touches(found, [0.0; 3]) } else { Place::Away }
     }
 
     /// Whether a face holds a node that is over its rim or beyond it, by the projection and the way from the rim: `side` is the one from which it came, `is_flush` tells whether it lies on the
@@ -446,7 +502,9 @@ impl Tracker {
     /// Keeps what is known of the past.
     pub(super) fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
         for pass in &mut self.passes {
-            keep_each!(archive; &mut pass.groups, &mut pass.candidates);
+            keep_each!(archive; &mut pass.groups, &mut pass.candidates, &mut pass.clear, &mut pass.wakes, &mut pass.band);
+            let (groups, candidates) = (pass.groups.len(), pass.candidates.len());
+            archive.check(pass.wakes.len() == groups && pass.clear.len() == candidates, "a contact knows distances of others")?;
             let (slaves, facets) = (&self.surfaces[pass.slave].nodes, pass.bodies.len());
             let is_known = |group: &Group| {
                 slaves.get(group.slave as usize) == Some(&group.node)
@@ -457,7 +515,7 @@ impl Tracker {
             let are_there = pass.candidates.iter().all(|&facet| (facet as usize) < facets);
             archive.check(are_there && pass.groups.iter().all(is_known), "a contact follows nodes or facets that are not there")?;
         }
-        keep_each!(archive; &mut self.searched, &mut self.is_new, &mut self.radius, &mut self.deepest, &mut self.report.steps, &mut self.report.searches);
+        keep_each!(archive; &mut self.searched, &mut self.is_new, &mut self.radius, &mut self.deepest, &mut self.travel, &mut self.searched_at, &mut self.report.steps, &mut self.report.searches);
         archive.check(self.searched.is_empty() || self.searched.len() == self.nodes.len(), "a contact was searched at other nodes")
     }
 
@@ -472,8 +530,10 @@ impl Tracker {
             });
             pass.groups = known.collect();
             pass.groups.sort_by_key(|group| (group.slave, group.body));
+            pass.wakes = vec![AWAKE; pass.groups.len()];
         }
         self.is_new = old.is_new;
+        (self.travel, self.searched_at) = (old.travel, old.searched_at);
         (self.deepest, self.report) = (old.deepest, SearchReport { skin: self.skin, ..old.report });
     }
 }

@@ -8,7 +8,7 @@
 //! The gap is g = ± |x − P|, its gradient the unit vector n = ± (x − P) / |x − P|, and −w_a n at the nodes: P is the nearest point, so that its own motion along the surface changes nothing.
 //! Weights are a partition of unity and x − P is along n: forces along these rows keep both momenta.
 //!
-//! Beyond the rim of a face, where its surface is cut off or goes on around a sharp edge, the plane of the last triangle goes on ([`Placed::project_over`]): P is then beyond the triangle, and
+//! Beyond the rim of a face, where its surface is cut off or goes on around a sharp edge, the plane of the last triangle goes on (`Placed::seen_over`): P is then beyond the triangle, and
 //! some of its weights are negative.
 
 use crate::mesh::surface::{Corners, NONE, SpaceSurface};
@@ -52,17 +52,22 @@ pub struct Projection {
 
 /// Nearest point of a triangle.
 #[derive(Clone, Copy, Debug)]
-struct Nearest {
-    square: f64,
+pub(in crate::contact) struct Nearest {
+    /// Square of the distance, m².
+    pub(in crate::contact) square: f64,
     /// Barycentric.
     weights: [f64; 3],
     foot: Vector,
 }
 
+/// Nearest point, facet and triangle.
+pub(in crate::contact) type Found = (Nearest, u32, usize);
+
 /// Unit vector; zero of what has no length.
+#[inline]
 pub(in crate::contact) fn unit(v: Vector) -> Vector {
     let size = dot(v, v).sqrt();
-    if size > 0.0 { v.map(|c| c / size) } else { [0.0; 3] }
+    if size > 0.0 { [v[0] / size, v[1] / size, v[2] / size] } else { [0.0; 3] }
 }
 
 /// Distances below this fraction of a facet's size have no direction of their own: the pseudo-normal is taken.
@@ -75,7 +80,8 @@ fn nearest_of_triangle(x: Vector, [a, b, c]: [Vector; 3]) -> Nearest {
     let (ab, ac, ax) = (minus(b, a), minus(c, a), minus(x, a));
     let (d1, d2) = (dot(ab, ax), dot(ac, ax));
     let at = |weights: [f64; 3]| {
-        let foot = [0, 1, 2].map(|d| weights[0] * a[d] + weights[1] * b[d] + weights[2] * c[d]);
+        let foot = |d: usize| weights[0] * a[d] + weights[1] * b[d] + weights[2] * c[d];
+        let foot = [foot(0), foot(1), foot(2)];
         let away = minus(x, foot);
         Nearest { square: dot(away, away), weights, foot }
     };
@@ -112,6 +118,13 @@ fn nearest_of_triangle(x: Vector, [a, b, c]: [Vector; 3]) -> Nearest {
     at([1.0 - v - w, v, w])
 }
 
+/// The middle of four corners.
+#[inline]
+fn middle([a, b, c, d]: &[Vector; 4]) -> Vector {
+    let middle = |axis: usize| 0.25 * (a[axis] + b[axis] + c[axis] + d[axis]);
+    [middle(0), middle(1), middle(2)]
+}
+
 /// A surface in space with positions.
 #[derive(Clone, Copy, Debug)]
 pub struct Placed<'a> {
@@ -122,14 +135,18 @@ pub struct Placed<'a> {
 }
 
 impl Placed<'_> {
+    #[inline]
     fn corners(&self, facet: u32) -> ([Vector; 4], usize) {
-        let nodes = self.surface.facets[facet as usize];
-        (nodes.map(|node| self.positions[node as usize]), nodes.corners().len())
+        let [a, b, c, d] = self.surface.facets[facet as usize];
+        let at = |node: u32| self.positions[node as usize];
+        ([at(a), at(b), at(c), at(d)], if c == d { 3 } else { 4 })
     }
 
     /// The triangles of a facet: how many there are.
+    #[inline]
     fn triangles(&self, facet: u32) -> usize {
-        if self.surface.facets[facet as usize].corners().len() == 3 { 1 } else { 4 }
+        let [_, _, c, d] = self.surface.facets[facet as usize];
+        if c == d { 1 } else { 4 }
     }
 
     /// Corners of triangle `k` of a facet.
@@ -138,8 +155,7 @@ impl Placed<'_> {
         if count == 3 {
             return [x[0], x[1], x[2]];
         }
-        let middle = [0, 1, 2].map(|d| 0.25 * (x[0][d] + x[1][d] + x[2][d] + x[3][d]));
-        [x[k], x[(k + 1) % 4], middle]
+        [x[k], x[(k + 1) % 4], middle(&x)]
     }
 
     /// Shares of a facet's corners from those of triangle `k`.
@@ -194,10 +210,12 @@ impl Placed<'_> {
     }
 
     /// What of a facet is nearest to x, m; nothing is said of inside or outside. `None` where that is no number.
-    fn nearest(&self, x: Vector, facet: u32) -> Option<(Nearest, usize)> {
+    pub(in crate::contact) fn nearest(&self, x: Vector, facet: u32) -> Option<(Nearest, usize)> {
+        let (corners, count) = self.corners(facet);
+        let (last, triangles) = if count == 3 { (corners[2], 1) } else { (middle(&corners), 4) };
         let mut best: Option<(Nearest, usize)> = None;
-        for k in 0..self.triangles(facet) {
-            let found = nearest_of_triangle(x, self.triangle(facet, k));
+        for k in 0..triangles {
+            let found = nearest_of_triangle(x, [corners[k], corners[(k + 1) % 4], last]);
             if found.square.is_finite() && best.is_none_or(|(best, _)| found.square < best.square) {
                 best = Some((found, k));
             }
@@ -304,8 +322,8 @@ impl Placed<'_> {
     }
 
     /// What of some facets is nearest, of the first of those that are equally near, and its triangle.
-    fn nearest_of(&self, x: Vector, facets: impl IntoIterator<Item = u32>) -> Option<(Nearest, u32, usize)> {
-        let mut best: Option<(Nearest, u32, usize)> = None;
+    fn nearest_of(&self, x: Vector, facets: impl IntoIterator<Item = u32>) -> Option<Found> {
+        let mut best: Option<Found> = None;
         for facet in facets {
             if let Some((found, k)) = self.nearest(x, facet)
                 && best.is_none_or(|(best, ..)| found.square < best.square)
@@ -319,19 +337,12 @@ impl Placed<'_> {
     /// Where x lies by the nearest of some facets: the first of those that are equally near. `None` where there is none, or the surface ends before x comes over it.
     #[must_use]
     pub fn project(&self, x: Vector, facets: impl IntoIterator<Item = u32>) -> Option<Projection> {
-        let (nearest, facet, k) = self.nearest_of(x, facets)?;
-        self.seen(x, facet, k, nearest)
+        self.seen(x, self.nearest_of(x, facets)?)
     }
 
-    /// As [`Placed::project`], but the plane of the nearest triangle goes on beyond the rim of what `is_face` says is the face; with it the way from the rim to P, m, zero over the face.
-    #[must_use]
-    pub fn project_over(
-        &self,
-        x: Vector,
-        facets: impl IntoIterator<Item = u32>,
-        is_face: impl Fn(u32) -> bool,
-    ) -> Option<(Projection, Vector)> {
-        let (nearest, facet, k) = self.nearest_of(x, facets)?;
+    /// As [`Placed::seen`], but the plane of the nearest triangle goes on beyond the rim of what `is_face` says is the face; with it the way from the rim to P, m, zero over the face.
+    pub(in crate::contact) fn seen_over(&self, x: Vector, found: Found, is_face: impl Fn(u32) -> bool) -> Option<(Projection, Vector)> {
+        let (nearest, facet, k) = found;
         let goes_on = |edge: usize| {
             let other = self.surface.across(facet, edge);
             other != NONE && is_face(other)
@@ -346,7 +357,7 @@ impl Placed<'_> {
             }
         };
         if is_inside {
-            return self.seen(x, facet, k, nearest).map(|found| (found, [0.0; 3]));
+            return self.seen(x, found).map(|found| (found, [0.0; 3]));
         }
         let over = self.over(x, facet, k)?;
         let beyond = minus(over.foot, nearest.foot);
@@ -374,8 +385,8 @@ impl Placed<'_> {
         Some(Projection { facet, feature: Feature::Face, triangle: k, weights: self.spread(facet, k, shares), foot, gap, normal })
     }
 
-    /// Gap and normal of what is nearest.
-    fn seen(&self, x: Vector, facet: u32, triangle: usize, nearest: Nearest) -> Option<Projection> {
+    /// Gap and normal of what is nearest. `None` where the surface ends before x comes over it.
+    pub(in crate::contact) fn seen(&self, x: Vector, (nearest, facet, triangle): Found) -> Option<Projection> {
         let Nearest { square, weights, foot } = nearest;
         let feature = self.feature(facet, triangle, weights);
         let (pseudo, ends) = self.pseudo_normal(facet, triangle, feature, weights);

@@ -105,8 +105,9 @@ where
             return;
         }
         totals.pressing += solved.force.abs();
+        let tangents = (solved.friction != Default::default()).then(|| spring.tangents());
         for end in self.ends() {
-            let force = end.force(spring, solved);
+            let force = tangents.as_ref().map_or_else(|| end.push(spring, solved), |tangents| end.drag(spring, tangents, solved));
             if end.share > 0.0 {
                 totals.resultant.iter_mut().zip(force).for_each(|(sum, force)| *sum += spring.side * force);
             }

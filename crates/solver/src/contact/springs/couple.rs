@@ -9,10 +9,26 @@ use super::link::{Arm, Link, Slips, Slot};
 use crate::motion::Motion;
 use crate::rows::Rows;
 use crate::tensor::Dim;
+use crate::vector::dot;
 use std::ops::Range;
 
 /// Springs at a node that know each other one by one; with more it is a hub.
 const PAIRS: usize = 8;
+
+/// An arm at a slot.
+#[derive(Clone, Copy)]
+pub(super) struct Touch<const D: usize> {
+    pub(super) link: u32,
+    pub(super) arm: u32,
+    /// The force in its row: all that there is at a node.
+    force: [f64; D],
+}
+
+impl<const D: usize> Default for Touch<D> {
+    fn default() -> Self {
+        Self { link: 0, arm: 0, force: [0.0; D] }
+    }
+}
 
 /// Springs by what they share.
 #[derive(Default)]
@@ -20,8 +36,8 @@ pub(super) struct Couplings<const D: usize>
 where
     Dim<D>: Motion<D>,
 {
-    /// The (link, arm) at each slot, in the order of the links.
-    touches: Rows<[u32; 2]>,
+    /// What touches each slot, in the order of the links.
+    touches: Rows<Touch<D>>,
     /// Where the neighbours of each link end.
     rows: Vec<u32>,
     neighbours: Vec<u32>,
@@ -67,7 +83,8 @@ where
 {
     /// Finds who touches which slot, which slots are hubs, and what springs do to each other; `slides`: whether any of them cares for slip.
     pub(super) fn find(&mut self, links: &mut [Link<D>], arms: &[Arm<D>], slips: &[Slips<D>], slots: &mut [Slot<D>], slides: bool) {
-        let at_arms = |(i, link): (usize, &Link<D>)| link.arms().map(move |k| (arms[k].slot, [i as u32, k as u32]));
+        let touch = |i: usize, k: usize| Touch { link: i as u32, arm: k as u32, force: Dim::<D>::force_of(&arms[k].row) };
+        let at_arms = |(i, link): (usize, &Link<D>)| link.arms().map(move |k| (arms[k].slot, touch(i, k)));
         self.touches.fill(slots.len(), links.iter().enumerate().flat_map(at_arms));
         for (number, slot) in slots.iter_mut().enumerate() {
             slot.is_hub = slot.is_body || self.touches.of(number).len() > PAIRS;
@@ -88,10 +105,11 @@ where
                     link.is_at_hub = true;
                     continue;
                 }
-                let response = Dim::<D>::response(&slot.mobility, &row);
-                let response_along =
-                    Dim::<D>::along(|a| if slides { Dim::<D>::response(&slot.mobility, &slips[k][a]) } else { Default::default() });
-                for &[j, other] in touches.of(number) {
+                // No body is here: what is no hub is a node.
+                let respond = |row| Dim::<D>::response_of_node(&slot.mobility, Dim::<D>::force_of(row));
+                let response = respond(&row);
+                let response_along = Dim::<D>::vectors(|a| if slides { respond(&slips[k][a]) } else { [0.0; D] });
+                for &Touch { link: j, arm: other, force } in touches.of(number) {
                     // Ends that move as one leave a spring its own neighbour.
                     if j as usize == i && other as usize == k {
                         continue;
@@ -107,15 +125,15 @@ where
                         }
                     }
                     // Mobilities are symmetric: what j does to i is what i does to j.
-                    let row = &arms[other as usize].row;
-                    normal[place] += Dim::<D>::dot(&response, row);
+                    normal[place] += dot(response, force);
                     if slides {
-                        let (cross, slip) = (&mut along[place], &slips[other as usize]);
+                        let cross = &mut along[place];
+                        let slip = Dim::<D>::vectors(|a| Dim::<D>::force_of(&slips[other as usize][a]));
                         for a in 0..D - 1 {
-                            cross.gap[a] += Dim::<D>::dot(&response, &slip[a]);
-                            cross.slip[a] += Dim::<D>::dot(&response_along[a], row);
+                            cross.gap[a] += dot(response, slip[a]);
+                            cross.slip[a] += dot(response_along[a], force);
                             for b in 0..D - 1 {
-                                cross.along[a][b] += Dim::<D>::dot(&response_along[a], &slip[b]);
+                                cross.along[a][b] += dot(response_along[a], slip[b]);
                             }
                         }
                     }
@@ -125,8 +143,8 @@ where
         }
     }
 
-    /// The springs at a slot: (link, arm).
-    pub(super) fn touches(&self, slot: usize) -> &[[u32; 2]] {
+    /// The arms at a slot.
+    pub(super) fn touches(&self, slot: usize) -> &[Touch<D>] {
         self.touches.of(slot)
     }
 

@@ -74,6 +74,12 @@ where
         self.list.push(Kept { at, more: number, share, turn });
     }
 
+    /// Nodes with shares in the gap, and nothing else.
+    #[inline]
+    pub(super) fn extend(&mut self, shares: impl Iterator<Item = (u32, f64)>) {
+        self.list.extend(shares.map(|(at, share)| Kept { at, more: NONE, share, turn: Default::default() }));
+    }
+
     #[inline]
     pub(super) fn get(&self, k: usize) -> End<D> {
         let Kept { at, more, share, turn } = self.list[k];

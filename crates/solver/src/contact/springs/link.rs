@@ -188,7 +188,7 @@ where
 {
     pub(super) links: Vec<Link<D>>,
     pub(super) arms: Vec<Arm<D>>,
-    /// Rows of the slips, as `arms`.
+    /// Rows of the slips, as `arms`; empty where no spring cares.
     pub(super) slips: Vec<Slips<D>>,
     pub(super) slots: Vec<Slot<D>>,
     pub(super) forces: Vec<Forces<D>>,
@@ -228,10 +228,13 @@ where
     pub(super) fn link(&self, number: u32, tangential: Tangential, bench: &mut Bench<D>) {
         let spring = &self.list[number as usize];
         let [before, after] = self.update.time_steps;
-        let tangents = spring.tangents();
         let has_slip = !matches!(tangential, Tangential::Free);
+        let tangents = if has_slip { spring.tangents() } else { Default::default() };
         let mut held = Movable::default();
-        bench.slides |= has_slip;
+        if has_slip && !bench.slides {
+            bench.slides = true;
+            bench.slips.resize(bench.arms.len(), Slips::<D>::default());
+        }
         let mut link = Link::new(number, bench.arms.len() as u32);
         for k in spring.ends() {
             let (end, slot) = (self.ends.get(k), self.slots[self.places[k] as usize]);
@@ -265,7 +268,9 @@ where
                 }
             }
             bench.arms.push(Arm { slot, row });
-            bench.slips.push(slip_row);
+            if bench.slides {
+                bench.slips.push(slip_row);
+            }
             link.count += 1;
         }
         link.compliance = 0.5 * after * link.own[0];

@@ -206,7 +206,19 @@ where
     #[must_use]
     #[inline]
     pub fn force(&self, spring: &Spring<D>, solved: &Solved<D>) -> [f64; D] {
-        let (gap_row, slip_rows) = (self.gap_row(spring.normal), self.slip_rows(&spring.tangents()));
+        if solved.friction == Default::default() { self.push(spring, solved) } else { self.drag(spring, &spring.tangents(), solved) }
+    }
+
+    /// The same where there is no friction.
+    #[inline]
+    fn push(&self, spring: &Spring<D>, solved: &Solved<D>) -> [f64; D] {
+        self.gap_row(spring.normal).map(|row| row * solved.force)
+    }
+
+    /// The same with friction along the spring's `tangents`.
+    #[inline]
+    fn drag(&self, spring: &Spring<D>, tangents: &<Dim<D> as Motion<D>>::Tangents, solved: &Solved<D>) -> [f64; D] {
+        let (gap_row, slip_rows) = (self.gap_row(spring.normal), self.slip_rows(tangents));
         std::array::from_fn(|d| {
             let mut sum = gap_row[d] * solved.force;
             for a in 0..D - 1 {
@@ -382,6 +394,14 @@ where
         let first = self.ends.len();
         ends.iter().for_each(|end| self.ends.push(end));
         self.list.push(Spring { first, count: ends.len() as u32, ..spring });
+    }
+
+    /// Adds a spring between nodes that have shares in its gap, and whose slip counts for nothing.
+    #[inline]
+    pub fn push_plain(&mut self, spring: Spring<D>, shares: impl Iterator<Item = (u32, f64)>) {
+        let first = self.ends.len();
+        self.ends.extend(shares);
+        self.list.push(Spring { first, count: self.ends.len() - first, ..spring });
     }
 
     /// Ends the springs of a contact: what was pushed since the last group follows the terms number `terms`.

@@ -10,7 +10,7 @@
 //! neighbours: they are ordered from one end to the other (Cuthill and McKee), rigid bodies come last as unknowns of their own, and the solution costs as much as a few sweeps.
 //! Where springs say the same twice the forces are not unique (the motion is); [`SOFTNESS`] keeps the factors then. Nothing is trusted: sweeps confirm or go on.
 
-use super::couple::{Forces, Rates};
+use super::couple::{Forces, Rates, Touch};
 use super::friction::Stick;
 use super::link::Link;
 use super::relax::Island;
@@ -25,6 +25,8 @@ const SOFTNESS: f64 = 1e-10;
 const DIFFERENCE: f64 = 1e-6;
 /// Multiplications that a solution may take per unknown, and in all.
 const WORK: [usize; 2] = [10_000, 100_000_000];
+/// Springs of an island from which on it is measured before its springs are looked at.
+const LARGE: usize = 2_000;
 /// No unknown.
 const NONE: u32 = u32::MAX;
 
@@ -69,8 +71,11 @@ impl<const D: usize> Newton<D>
 where
     Dim<D>: Motion<D>,
 {
-    /// Moves the forces of an island by a `fraction` of the way to where its springs agree, were they as they are now.
-    pub(super) fn predict(&mut self, island: &mut Island<'_, D>, fraction: f64) {
+    /// Moves the forces of an island by a `fraction` of the way to where its springs agree, were they as they are now; `false`: the island is far too wide for that, and stays so.
+    pub(super) fn predict(&mut self, island: &mut Island<'_, D>, fraction: f64) -> bool {
+        if self.is_wide(island) {
+            return false;
+        }
         self.look(island);
         self.arrange(island);
         if self.number(island) {
@@ -80,6 +85,44 @@ where
                 self.apply(island, fraction);
             }
         }
+        true
+    }
+
+    /// Whether the matrix of a large island is seen to be too much work before its springs are looked at: those that push are taken neighbour by neighbour, and where the fronts get so wide
+    /// that half of them all along were too much, nothing else needs to be known.
+    fn is_wide(&mut self, island: &Island<'_, D>) -> bool {
+        let links = island.links.len();
+        if links < LARGE {
+            return false;
+        }
+        let pushes = |link: usize| island.forces[link] != [0.0; D];
+        let limit = WORK[1].min(WORK[0] * links);
+        let (mut work, mut next) = (0usize, 0);
+        self.order.clear();
+        self.seen.clear();
+        self.seen.resize(links, false);
+        for first in 0..links {
+            if !pushes(first) || std::mem::replace(&mut self.seen[first], true) {
+                continue;
+            }
+            self.order.push(first as u32);
+            while next < self.order.len() {
+                let end = self.order.len();
+                work = work.saturating_add((end - next) * ((end - next) / 2).pow(2));
+                if work > limit {
+                    return true;
+                }
+                for k in next..end {
+                    for &other in island.couplings.neighbours(self.order[k] as usize) {
+                        if pushes(other as usize) && !std::mem::replace(&mut self.seen[other as usize], true) {
+                            self.order.push(other);
+                        }
+                    }
+                }
+                next = end;
+            }
+        }
+        false
     }
 
     /// Who pushes, and how stiff. Forces that want to vanish do.
@@ -244,7 +287,7 @@ where
             for slot in island.arms[island.links[link as usize].arms()].iter().map(|arm| arm.slot as usize) {
                 let is_joint = island.slots[slot].is_hub && !island.slots[slot].is_body;
                 if is_joint && !std::mem::replace(&mut self.seen[links + slot], true) {
-                    island.couplings.touches(slot).iter().for_each(|&[other, _]| self.see(other));
+                    island.couplings.touches(slot).iter().for_each(|other| self.see(other.link));
                 }
             }
         }
@@ -283,12 +326,12 @@ where
                 continue;
             }
             let touches = island.couplings.touches(slot);
-            let low = touches.iter().map(|&[link, _]| self.state[link as usize].lowest()).min().unwrap_or(NONE);
+            let low = touches.iter().map(|touch| self.state[touch.link as usize].lowest()).min().unwrap_or(NONE);
             if low == NONE {
                 continue;
             }
             if !hub.is_body {
-                touches.iter().for_each(|&[link, _]| begin_at(&mut self.first, self.state[link as usize].unknown, low));
+                touches.iter().for_each(|touch| begin_at(&mut self.first, self.state[touch.link as usize].unknown, low));
                 continue;
             }
             for axis in (0..Dim::<D>::ROW).filter(|&axis| Dim::<D>::gives(&hub.mobility, axis)) {
@@ -333,9 +376,9 @@ where
                 continue;
             }
             let (mobility, touches) = (island.slots[slot].mobility, island.couplings.touches(slot));
-            for &[j, l] in touches.iter().filter(|&&[j, _]| self.state[j as usize].is_unknown()) {
+            for &Touch { link: j, arm: l, .. } in touches.iter().filter(|touch| self.state[touch.link as usize].is_unknown()) {
                 let responses = island.rows(l as usize).map(|row| Dim::<D>::response(&mobility, &row));
-                for &[i, k] in touches {
+                for &Touch { link: i, arm: k, .. } in touches {
                     let states = [i, j].map(|link| &self.state[link as usize]);
                     add(
                         &mut self.matrix,
@@ -352,7 +395,7 @@ where
     fn fill_body(&mut self, island: &Island<'_, D>, slot: usize) {
         let half = 0.5 * island.time_steps[1];
         let unknowns = self.bodies[slot];
-        for &[i, k] in island.couplings.touches(slot) {
+        for &Touch { link: i, arm: k, .. } in island.couplings.touches(slot) {
             let (state, rows) = (self.state[i as usize], island.rows(k as usize));
             let row = |own: usize, axis: usize| match own {
                 0 => rows[0][axis],

@@ -30,7 +30,7 @@ where
 {
     pub(super) links: &'a mut [Link<D>],
     pub(super) arms: &'a [Arm<D>],
-    /// Rows of the slips, as `arms`; zero of springs that do not care.
+    /// Rows of the slips, as `arms`; zero of springs that do not care, empty where none does.
     pub(super) slips: &'a [Slips<D>],
     pub(super) slots: &'a mut [Slot<D>],
     pub(super) couplings: &'a Couplings<D>,
@@ -90,11 +90,13 @@ struct Pace {
     fraction: f64,
     /// Least change of a sweep over all springs.
     best: f64,
+    /// Whether predictions are too much work.
+    is_wide: bool,
 }
 
 impl Default for Pace {
     fn default() -> Self {
-        Self { sweeps: 0, predictions: 0, patience: 1, fraction: 1.0, best: f64::INFINITY }
+        Self { sweeps: 0, predictions: 0, patience: 1, fraction: 1.0, best: f64::INFINITY, is_wide: false }
     }
 }
 
@@ -167,13 +169,15 @@ where
             if now.is_small() || pace.sweeps >= SWEEPS {
                 return;
             }
-            if sweep >= pace.patience && now.sweeps_left(last) > WORTH {
+            if !pace.is_wide && sweep >= pace.patience && now.sweeps_left(last) > WORTH {
                 if pace.predictions == 0 {
                     self.soften();
                 }
                 pace.predictions += 1;
-                newton.predict(self, pace.fraction);
-                return;
+                pace.is_wide = !newton.predict(self, pace.fraction);
+                if !pace.is_wide {
+                    return;
+                }
             }
             last = now.change;
         }
@@ -266,8 +270,10 @@ where
                     let own = Dim::<D>::response(&slot.mobility, &self.pull(k, self.forces[i]));
                     let others = Dim::<D>::row(|d| slot.change[d] - own[d]);
                     rates[0] += Dim::<D>::dot(&self.arms[k].row, &others);
-                    for a in 0..D - 1 {
-                        rates[a + 1] += Dim::<D>::dot(&self.slips[k][a], &others);
+                    if let Some(slips) = self.slips.get(k) {
+                        for a in 0..D - 1 {
+                            rates[a + 1] += Dim::<D>::dot(&slips[a], &others);
+                        }
                     }
                 }
             }
@@ -278,7 +284,8 @@ where
     /// Rows of the gap and of the slips at the arm `k`.
     #[inline]
     pub(super) fn rows(&self, k: usize) -> [Row<D>; D] {
-        std::array::from_fn(|axis| if axis == 0 { self.arms[k].row } else { self.slips[k][axis - 1] })
+        let slips = self.slips.get(k);
+        std::array::from_fn(|axis| if axis == 0 { self.arms[k].row } else { slips.map_or_else(Default::default, |slips| slips[axis - 1]) })
     }
 
     /// Force of a spring on what is at its arm `k`.

@@ -11,12 +11,13 @@ mod group;
 mod locate;
 mod past;
 mod reach;
-mod sleep;
+pub(in crate::contact) mod sleep;
 mod start;
 mod steady;
 
 pub use certificate::{Certificate, SearchReport};
 pub use ends::is_facing;
+pub(in crate::contact) use reach::SAFE;
 pub use reach::SKIN;
 
 use super::Sweep;

@@ -11,7 +11,7 @@ pub const SKIN: f64 = 0.25;
 /// The global search is asked for a little more than is kept, so that what is kept does not depend on how each search rounds.
 pub(super) const SLACK: f64 = 1.001;
 /// Where no node has gone so far since the search, as a fraction of the skin, none has gone half of it.
-const SAFE: f64 = 0.499;
+pub(in crate::contact) const SAFE: f64 = 0.499;
 
 /// The global search, and what it found.
 pub(super) struct Reach {

@@ -9,18 +9,18 @@
 //! same bits as what is looked at in vain.
 
 /// Wakes at once.
-pub(super) const AWAKE: f64 = f64::NEG_INFINITY;
+pub(in crate::contact) const AWAKE: f64 = f64::NEG_INFINITY;
 /// Bound of √8 with what rounding may add.
 const MOTION: f64 = 2.83;
 
 /// What a group that is `clear` (m) from all its candidates keeps, at the travel (m) of this step.
-pub(super) fn wake_at(clear: f64, travel: f64) -> f64 {
+pub(in crate::contact) fn wake_at(clear: f64, travel: f64) -> f64 {
     let wake = clear + 2.0 * travel;
     if wake < f64::INFINITY { wake } else { AWAKE }
 }
 
 /// What is kept must be more than this for a group to sleep on in a step of the way `way` (m) that ends at the travel `travel` (m).
-pub(super) fn awake(near: f64, look_ahead: f64, travel: f64, way: f64) -> f64 {
+pub(in crate::contact) fn awake(near: f64, look_ahead: f64, travel: f64, way: f64) -> f64 {
     let bound = near + 2.0 * travel + look_ahead * MOTION * way;
     // A little for rounding. Where travels are not known nothing sleeps.
     if way >= 0.0 && bound < f64::INFINITY { bound * (1.0 + 1e-12) } else { f64::INFINITY }

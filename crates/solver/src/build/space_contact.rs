@@ -106,7 +106,7 @@ impl Builder<'_, 3> {
         let along = if let ObstacleShape::Plane { normal, .. } = obstacle.shape { unit(normal) } else { None };
         let is_held = |node: u32| along.is_some_and(|n| self.constraints.mirror_normals(node).any(|m| dot(m, n).abs() > 1.0 - 1e-12));
         let slave = |(&node, &own): (&u32, &Tributary)| {
-            let here = Node { own, other: own.stiffness, share: 1.0 };
+            let here = Node { own, other: own.stiffness, share: self.constraints.share(node) };
             (!is_held(node)).then(|| (node, Slave { stiffness: stiffness_of(&obstacle.interface, here, 1), area: own.area }))
         };
         let nodes = outside.nodes.iter().zip(&own).filter_map(slave).collect();
@@ -270,7 +270,9 @@ impl Builder<'_, 3> {
             Ok(surface) if surface.facets.is_empty() => {
                 Err(Fault::new(&ON_SYMMETRY, path, format!("{what} lies on a symmetry plane altogether"), "name another surface"))
             }
-            Ok(surface) => Ok(surface),
+            Ok(surface) => {
+                Ok(surface.with_mirrors(|edge| self.constraints.common_mirrors(&edge).collect::<Vec<_>>(), &self.mesh.positions))
+            }
             Err(fault) => Err(Fault { path, ..fault }),
         };
         let made: Vec<Result<SpaceSurface, Fault>> = match &contact.partners {
@@ -320,7 +322,8 @@ impl Builder<'_, 3> {
             moduli = surface.facets.iter().map(|facet| facet.iter().map(of).fold(f64::INFINITY, f64::min)).collect();
             facets.clone_from(&moduli);
         }
-        Sided { nodes, moduli, facets }
+        let shares = surface.nodes.iter().map(|&node| self.constraints.share(node)).collect();
+        Sided { nodes, shares, moduli, facets }
     }
 }
 
@@ -328,6 +331,8 @@ impl Builder<'_, 3> {
 struct Sided {
     /// What each node stands for.
     nodes: Vec<Tributary>,
+    /// Part of each that belongs to the model, and not to its images in symmetry planes.
+    shares: Vec<f64>,
     /// Pressure stiffness κ behind each facet, Pa/m: the softest of its part.
     moduli: Vec<f64>,
     /// The same of the element itself.
@@ -338,15 +343,15 @@ impl Sided {
     /// Its nodes as slaves against another surface, in one of so many `passes` that carry the pressure together.
     fn against(&self, target: &Self, interface: &Interface, passes: usize) -> PassInput {
         let penalty = if let ContactLaw::Penalty(penalty) = interface.law { penalty } else { Penalty::default() };
-        let slave = |&own: &Tributary| {
-            let node = Node { own, other: f64::INFINITY, share: 1.0 };
+        let slave = |(&own, &share): (&Tributary, &f64)| {
+            let node = Node { own, other: f64::INFINITY, share };
             Slave { stiffness: law::penalty::stiffness(penalty, node, passes), area: own.area / passes as f64 }
         };
         let per_modulus = match penalty {
             Penalty::Automatic { scale, .. } => self.nodes.iter().map(|own| scale * own.area / passes as f64).collect(),
             Penalty::PerNode(_) | Penalty::Pressure(_) => Vec::new(),
         };
-        PassInput { slaves: self.nodes.iter().map(slave).collect(), per_modulus, moduli: target.moduli.clone() }
+        PassInput { slaves: self.nodes.iter().zip(&self.shares).map(slave).collect(), per_modulus, moduli: target.moduli.clone() }
     }
 }
 

@@ -457,8 +457,14 @@ impl<const D: usize> Constraints<D> {
     /// Whether all nodes of a segment or facet lie on the same symmetry line (in space: plane).
     #[must_use]
     pub fn is_mirror(&self, facet: impl Corners) -> bool {
-        let Some((&first, others)) = facet.corners().split_first() else { return false };
-        self.mirrors_of(first).any(|a| others.iter().all(|&node| self.mirrors_of(node).any(|b| a.line == b.line)))
+        self.common_mirrors(facet.corners()).next().is_some()
+    }
+
+    /// Normals of the symmetry lines (in space: planes) on which all these nodes lie.
+    pub fn common_mirrors<'a>(&'a self, nodes: &'a [u32]) -> impl Iterator<Item = [f64; D]> + 'a {
+        let (first, others) = nodes.split_first().map_or((u32::MAX, nodes), |(&first, others)| (first, others));
+        let is_common = |a: &&Mirror<D>| others.iter().all(|&node| self.mirrors_of(node).any(|b| a.line == b.line));
+        self.mirrors_of(first).filter(is_common).map(|mirror| mirror.normal)
     }
 }
 

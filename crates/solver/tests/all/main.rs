@@ -56,6 +56,7 @@ mod shocks;
 mod softening;
 mod space;
 mod stress_states;
+mod symmetry_planes;
 mod swept;
 mod ties_in_space;
 mod trusses;

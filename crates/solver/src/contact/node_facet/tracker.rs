@@ -595,7 +595,11 @@ fn entry(placed: &Placed<'_>, sweep: Sweep<'_, 3>, node: u32, facet: u32) -> Opt
         let between = |p: Vector, q: Vector| [0, 1, 2].map(|d| p[d] + at * (q[d] - p[d]));
         let (x, t) = (between(from, to), [0, 1, 2].map(|i| between(old[i], new[i])));
         let normal = cross(minus(t[1], t[0]), minus(t[2], t[0]));
-        let is_over = (0..3).all(|i| dot(cross(minus(t[(i + 1) % 3], t[i]), minus(x, t[i])), normal) >= 0.0);
+        // A symmetry plane keeps a node over a side that lies on it, whatever rounds.
+        let is_over = (0..3).all(|i| match placed.mirror_at(facet, k, i) {
+            Some(mirror) => Placed::is_before(x, t[i], mirror, placed.size(facet)),
+            None => dot(cross(minus(t[(i + 1) % 3], t[i]), minus(x, t[i])), normal) >= 0.0,
+        });
         if is_over && first.is_none_or(|(first, _)| at < first) {
             first = Some((at, placed.facet_normal(facet)));
         }

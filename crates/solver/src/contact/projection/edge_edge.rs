@@ -116,7 +116,7 @@ impl Placed<'_> {
         self.surface.edges[edge as usize].nodes.map(|node| self.positions[node as usize])
     }
 
-    /// An edge that folds outward; `None` where it folds inward, or the surface ends.
+    /// An edge that folds outward; `None` where it folds inward, or the surface ends: on a symmetry plane other edges, which end there too, meet it with their nodes.
     #[must_use]
     pub fn ridge(&self, edge: u32) -> Option<Ridge> {
         let [first, other] = self.surface.edges[edge as usize].facets;

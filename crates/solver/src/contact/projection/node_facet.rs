@@ -10,7 +10,11 @@
 //!
 //! Beyond the rim of a face, where its surface is cut off or goes on around a sharp edge, the plane of the last triangle goes on (`Placed::seen_over`): P is then beyond the triangle, and
 //! some of its weights are negative.
+//!
+//! Where a surface ends on a symmetry plane its image goes on: the pseudo-normals of such edges and nodes are those of the surface together with its image, and lie in the plane. The image needs no
+//! facets of its own, since a point on the model's side of the plane is never farther from the model's own side.
 
+use super::node_segment::END_TOLERANCE;
 use crate::mesh::surface::{Corners, NONE, SpaceSurface};
 use crate::tensor::{cross, dot};
 use crate::vector::minus;
@@ -62,6 +66,32 @@ pub(in crate::contact) struct Nearest {
 
 /// Nearest point, facet and triangle.
 pub(in crate::contact) type Found = (Nearest, u32, usize);
+
+/// Whether a surface ends at an edge or a node.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Border {
+    /// It goes on all around.
+    None,
+    /// It is cut off.
+    Cut,
+    /// Its image in symmetry planes goes on: their unit normals, which point to the body; of an edge twice the same.
+    Mirrors([Vector; 2]),
+}
+
+impl Border {
+    /// Without the components that a vector and its images take from each other.
+    fn kept(self, vector: Vector) -> Vector {
+        let Self::Mirrors([first, second]) = self else { return vector };
+        let without = |vector: Vector, normal: Vector| {
+            let along = dot(vector, normal);
+            [0, 1, 2].map(|d| vector[d] - along * normal[d])
+        };
+        let rest = unit(without(second, first));
+        let vector = without(vector, first);
+        // Of one plane the second normal leaves nothing.
+        if dot(without(second, first), second) > ROUNDING { without(vector, rest) } else { vector }
+    }
+}
 
 /// Unit vector; zero of what has no length.
 #[inline]
@@ -246,10 +276,10 @@ impl Placed<'_> {
     }
 
     /// Direction by which a feature tells outside from inside, not of unit length, and whether the surface ends there.
-    fn pseudo_normal(&self, facet: u32, k: usize, feature: Feature, weights: [f64; 3]) -> (Vector, bool) {
+    fn pseudo_normal(&self, facet: u32, k: usize, feature: Feature, weights: [f64; 3]) -> (Vector, Border) {
         let plus = |a: Vector, b: Vector| [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
         match feature {
-            Feature::Face => (self.normal(facet, k), false),
+            Feature::Face => (self.normal(facet, k), Border::None),
             Feature::Crease => {
                 // Between two triangles, or in the middle of all four.
                 let along = |k: usize| self.normal(facet, k);
@@ -258,17 +288,18 @@ impl Placed<'_> {
                     (_, true) => plus(along(k), along((k + 1) % 4)),
                     _ => (0..4).fold([0.0; 3], |sum, k| plus(sum, self.angle_weighted(facet, k, 2))),
                 };
-                (sum, false)
+                (sum, Border::None)
             }
             Feature::Edge(corner) => {
                 let own = self.normal(facet, self.at_edge(facet, corner));
                 let other = self.surface.across(facet, corner);
                 if other == NONE {
-                    return (own, true);
+                    let border = self.border(facet, corner);
+                    return (border.kept(own), border);
                 }
                 let edge = self.surface.edges_of[facet as usize][corner];
                 let there = (0..4).find(|&k| self.surface.edges_of[other as usize][k] == edge).unwrap_or(0);
-                (plus(own, self.normal(other, self.at_edge(other, there))), false)
+                (plus(own, self.normal(other, self.at_edge(other, there))), Border::None)
             }
             Feature::Node(corner) => self.node_normal(facet, corner),
         }
@@ -295,21 +326,23 @@ impl Placed<'_> {
 
     /// Angle-weighted normal at a corner of a facet, over the facets that follow each other around it, and whether the surface ends there.
     #[must_use]
-    pub fn node_normal(&self, facet: u32, corner: usize) -> (Vector, bool) {
+    pub fn node_normal(&self, facet: u32, corner: usize) -> (Vector, Border) {
         let node = self.surface.facets[facet as usize][corner];
         let mut sum = self.corner_weighted(facet, corner);
         let most = self.surface.facets_at(node).len();
+        let mut borders = [Border::Cut; 2];
         // One way around, and where the surface ends the other way from the beginning.
-        for forward in [true, false] {
+        for (way, forward) in [true, false].into_iter().enumerate() {
             let mut here = (facet, corner);
             for _ in 0..most {
                 let count = self.surface.facets[here.0 as usize].corners().len();
                 let edge = if forward { here.1 } else { (here.1 + count - 1) % count };
                 let other = self.surface.across(here.0, edge);
                 if other == facet {
-                    return (sum, false);
+                    return (sum, Border::None);
                 }
                 if other == NONE {
+                    borders[way] = self.border(here.0, edge);
                     break;
                 }
                 let Some(at) = self.surface.facets[other as usize].corners().iter().position(|&there| there == node) else { break };
@@ -318,7 +351,28 @@ impl Placed<'_> {
                 here = (other, at);
             }
         }
-        (sum, true)
+        let [Border::Mirrors([first, _]), Border::Mirrors([second, _])] = borders else { return (sum, Border::Cut) };
+        let border = Border::Mirrors([first, second]);
+        (border.kept(sum), border)
+    }
+
+    /// How the surface ends at the edge from a corner of a facet on, at which it ends.
+    fn border(&self, facet: u32, corner: usize) -> Border {
+        let edge = self.surface.edges_of[facet as usize][corner];
+        self.surface.mirror(edge).map_or(Border::Cut, |normal| Border::Mirrors([normal; 2]))
+    }
+
+    /// Normal of the symmetry plane on which the surface ends at the side of triangle `k` from its corner `side` to the next one, if it does.
+    pub(in crate::contact) fn mirror_at(&self, facet: u32, k: usize, side: usize) -> Option<Vector> {
+        if self.surface.mirrors.is_empty() || (side > 0 && self.triangles(facet) == 4) {
+            return None;
+        }
+        self.surface.mirror(self.surface.edges_of[facet as usize][k + side])
+    }
+
+    /// Whether a point is on the model's side of a symmetry plane that goes through `at`, by its normal there; `size` (m) is that of the facet.
+    pub(in crate::contact) fn is_before(x: Vector, at: Vector, normal: Vector, size: f64) -> bool {
+        dot(minus(x, at), normal) >= -BORDER * size
     }
 
     /// What of some facets is nearest, of the first of those that are equally near, and its triangle.
@@ -345,15 +399,15 @@ impl Placed<'_> {
         let (nearest, facet, k) = found;
         let goes_on = |edge: usize| {
             let other = self.surface.across(facet, edge);
-            other != NONE && is_face(other)
+            if other == NONE { self.border(facet, edge) != Border::Cut } else { is_face(other) }
         };
         let is_inside = match self.feature(facet, k, nearest.weights) {
             Feature::Face | Feature::Crease => true,
             Feature::Edge(edge) => goes_on(edge),
             Feature::Node(corner) => {
                 let node = self.surface.facets[facet as usize][corner];
-                let (_, ends) = self.node_normal(facet, corner);
-                !ends && self.surface.facets_at(node).iter().all(|&other| is_face(other))
+                let (_, border) = self.node_normal(facet, corner);
+                border != Border::Cut && self.surface.facets_at(node).iter().all(|&other| is_face(other))
             }
         };
         if is_inside {
@@ -385,11 +439,25 @@ impl Placed<'_> {
         Some(Projection { facet, feature: Feature::Face, triangle: k, weights: self.spread(facet, k, shares), foot, gap, normal })
     }
 
+    /// Whether the foot on the plane of a triangle is on it as far as rounding lets one tell: by the same fraction of a facet as in the plane.
+    fn is_over(&self, over: &Projection) -> bool {
+        let [a, b, c, d] = over.weights;
+        let least = if self.triangles(over.facet) == 1 {
+            a.min(b).min(c)
+        } else {
+            // The middle has four times the least share; it is half as far from a side as the opposite one.
+            let middle = 4.0 * [a, b, c, d][(over.triangle + 2) % 4];
+            let own = [a, b, c, d][over.triangle] - 0.25 * middle;
+            (0.5 * middle).min(own).min(1.0 - middle - own)
+        };
+        least >= -END_TOLERANCE
+    }
+
     /// Gap and normal of what is nearest. `None` where the surface ends before x comes over it.
     pub(in crate::contact) fn seen(&self, x: Vector, (nearest, facet, triangle): Found) -> Option<Projection> {
         let Nearest { square, weights, foot } = nearest;
         let feature = self.feature(facet, triangle, weights);
-        let (pseudo, ends) = self.pseudo_normal(facet, triangle, feature, weights);
+        let (pseudo, border) = self.pseudo_normal(facet, triangle, feature, weights);
         let (away, distance) = (minus(x, foot), square.sqrt());
         let spread = self.spread(facet, triangle, weights);
         let projection = |gap: f64, normal: Vector| Projection { facet, feature, triangle, weights: spread, foot, gap, normal };
@@ -397,7 +465,17 @@ impl Placed<'_> {
             return Some(projection(dot(away, pseudo), pseudo));
         }
         let size = self.size(facet);
-        if ends {
+        if let Border::Mirrors(normals) = border {
+            // Beyond the plane is nothing of the model's: what is there meets no image.
+            if !normals.into_iter().all(|normal| Self::is_before(x, foot, normal, size)) {
+                return None;
+            }
+            // Who is over a facet as far as rounding lets one tell sees its normal, as in the plane.
+            if let Some(over) = self.over(x, facet, triangle).filter(|over| self.is_over(over)) {
+                return Some(over);
+            }
+        }
+        if border == Border::Cut {
             // At the border: over it, as far as rounding lets one tell, it is the facet's.
             let over = self.over(x, facet, triangle)?;
             let beside = minus(over.foot, foot);

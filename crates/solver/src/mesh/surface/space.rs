@@ -7,6 +7,8 @@ use super::{Corners, NONE, named};
 use crate::error::Fault;
 use crate::mesh::messages::{BAD_ELEMENT, NOT_A_SURFACE, OVERLAP};
 use crate::rows::Rows;
+use crate::tensor::{cross, dot};
+use crate::vector::minus;
 
 /// An edge of a surface in space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,11 +30,46 @@ pub struct SpaceSurface {
     pub edges: Vec<SurfaceEdge>,
     /// Edge from each corner of each facet to the next one; the fourth of a triangle is [`NONE`].
     pub edges_of: Vec<[u32; 4]>,
+    /// Edges at which the surface ends on a symmetry plane, and the unit normal of that, which points to the body: its image goes on there. Ascending.
+    pub mirrors: Vec<(u32, [f64; 3])>,
     /// Facets at each of `nodes`, ascending.
     around: Rows<u32>,
 }
 
 impl SpaceSurface {
+    /// The same with the symmetry planes at which it ends: `normals_of` gives the unit normals of the planes that both nodes of an edge lie on, `positions` (m) tell on which side the body is.
+    #[must_use]
+    pub fn with_mirrors<I: IntoIterator<Item = [f64; 3]>>(self, normals_of: impl Fn([u32; 2]) -> I, positions: &[[f64; 3]]) -> Self {
+        let at = |node: u32| positions[node as usize];
+        let mirror = |(edge, number): (&SurfaceEdge, u32)| {
+            let SurfaceEdge { nodes, facets: [facet, other] } = *edge;
+            if other != NONE {
+                return None;
+            }
+            let [a, b, c, d] = self.facets[facet as usize].map(at);
+            let out = if c == d { cross(minus(b, a), minus(c, a)) } else { cross(minus(c, a), minus(d, b)) };
+            // The facet is on the body's side of the plane. Where two planes meet, the one that the body behind the facet reaches.
+            let inward = |normal: [f64; 3]| {
+                let off = |&node: &u32| dot(minus(at(node), at(nodes[0])), normal);
+                let side: f64 = self.facets[facet as usize].corners().iter().map(off).sum();
+                if side < 0.0 { normal.map(|n| -n) } else { normal }
+            };
+            let better = |one: [f64; 3], two: [f64; 3]| if dot(out, two) > dot(out, one) { two } else { one };
+            normals_of(nodes).into_iter().map(inward).reduce(better).map(|normal| (number, normal))
+        };
+        let mirrors = self.edges.iter().zip(0..).filter_map(mirror).collect();
+        Self { mirrors, ..self }
+    }
+
+    /// Normal of the symmetry plane on which the surface ends at an edge, if it does; it points to the body.
+    #[must_use]
+    pub fn mirror(&self, edge: u32) -> Option<[f64; 3]> {
+        if self.mirrors.is_empty() {
+            return None;
+        }
+        self.mirrors.binary_search_by_key(&edge, |&(edge, _)| edge).ok().map(|at| self.mirrors[at].1)
+    }
+
     /// The outside facets of `cells`, not linked; see [`exterior`](super::exterior).
     pub(in crate::mesh) fn exterior<'a>(cells: impl IntoIterator<Item = &'a [u32], IntoIter: Clone>) -> Result<Vec<[u32; 4]>, Fault> {
         Ok(Table::new(cells)?.exterior())
@@ -137,7 +174,7 @@ impl SpaceSurface {
         let rank = |node: u32| nodes.binary_search(&node).map_or(0, |rank| rank as u32);
         let at_nodes = facets.iter().zip(0..).flat_map(|(facet, f)| facet.corners().iter().map(move |&node| (rank(node), f)));
         let around = Rows::new(nodes.len(), at_nodes);
-        Ok(Self { facets, nodes, edges, edges_of, around })
+        Ok(Self { facets, nodes, edges, edges_of, mirrors: Vec::new(), around })
     }
 }
 

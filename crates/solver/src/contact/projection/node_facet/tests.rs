@@ -190,6 +190,75 @@ fn an_open_surface_meets_what_is_over_it_and_nothing_beside_it() {
     assert!((flush.gap + 0.1).abs() < 1e-15 && flush.normal == [0.0, 0.0, 1.0]);
 }
 
+/// A block of 4 × 2 × 4 hexahedra, symmetric in x = 0 and z = 0: the surface of all of it, that of the quarter x ≥ 0, z ≥ 0 with its symmetry planes, and positions. `there` tells which
+/// hexahedra of the quarter are there, `shift` how its nodes are moved.
+fn whole_and_quarter(
+    there: impl Fn([usize; 3]) -> bool,
+    shift: impl Fn([usize; 3]) -> Vector,
+) -> (SpaceSurface, SpaceSurface, Vec<Vector>) {
+    let node = |i: usize, j: usize, k: usize| ((k * 3 + j) * 5 + i) as u32;
+    let nodes = (0..5).flat_map(|k| (0..3).flat_map(move |j| (0..5).map(move |i| [i, j, k])));
+    let place = |[i, j, k]: [usize; 3]| {
+        let by = shift([i.abs_diff(2), j, k.abs_diff(2)]);
+        let away = |at: usize, by: f64| if at == 2 { 0.0 } else { (at as f64 - 2.0) * (1.0 + by) };
+        [away(i, by[0]), j as f64 + by[1], away(k, by[2])]
+    };
+    let positions: Vec<Vector> = nodes.map(place).collect();
+    let (mut all, mut quarter) = (Vec::new(), Vec::new());
+    for (k, j, i) in (0..4).flat_map(|k| (0..2).flat_map(move |j| (0..4).map(move |i| (k, j, i)))) {
+        let fold = |at: usize| if at < 2 { 1 - at } else { at - 2 };
+        if there([fold(i), j, fold(k)]) {
+            let square = |k: usize| [node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k), node(i, j + 1, k)];
+            let cell = [square(k), square(k + 1)].concat();
+            if i >= 2 && k >= 2 {
+                quarter.push(cell.clone());
+            }
+            all.push(cell);
+        }
+    }
+    let on = |nodes: &[u32], d: usize| nodes.iter().all(|&node| positions[node as usize][d] == 0.0);
+    let whole = Surface::<3>::outside(all.iter().map(|cell| &cell[..])).unwrap();
+    let half = Surface::<3>::outside_without(quarter.iter().map(|cell| &cell[..]), |facet| on(&facet, 0) || on(&facet, 2)).unwrap();
+    // Normals away from the body are turned.
+    let normals =
+        |edge: [u32; 2]| [0, 2].into_iter().filter(move |&d| on(&edge, d)).map(|d| [0, 1, 2].map(|e| if d == e { -1.0 } else { 0.0 }));
+    let half = half.with_mirrors(|edge| normals(edge).collect::<Vec<_>>(), &positions);
+    (whole, half, positions)
+}
+
+#[test]
+fn a_surface_that_ends_on_symmetry_planes_knows_their_normals_and_no_others() {
+    let (whole, quarter, positions) = whole_and_quarter(|_| true, |_| [0.0; 3]);
+    assert!(whole.mirrors.is_empty());
+    let open = quarter.edges.iter().filter(|edge| edge.facets[1] == NONE).count();
+    assert_eq!((quarter.mirrors.len(), open), (12, 12));
+    for &(edge, normal) in &quarter.mirrors {
+        let nodes = quarter.edges[edge as usize].nodes;
+        let d = normal.iter().position(|n| *n == 1.0).unwrap();
+        assert!(nodes.iter().all(|&node| positions[node as usize][d] == 0.0) && dot(normal, normal) == 1.0);
+    }
+    // What lies on a symmetry plane is no ridge, however sharp: others meet it in nodes.
+    let bent: Vec<Vector> = positions.iter().map(|x| [x[0], x[1] - 2.0 * x[0], x[2]]).collect();
+    assert!(quarter.mirrors.iter().all(|&(edge, _)| Placed { surface: &quarter, positions: &bent }.ridge(edge).is_none()));
+    // A border that is on none.
+    let mut bare = quarter.clone();
+    bare.mirrors.clear();
+    let placed = [&bare, &quarter].map(|surface| Placed { surface, positions: &positions });
+    let (x, beyond) = ([0.0, 2.1, 0.4], [-0.3, 2.1, 0.4]);
+    assert!(placed.iter().all(|placed| (placed.project(x, all(placed.surface)).unwrap().gap - 0.1).abs() < 1e-15));
+    // What is beyond the plane is no concern of the model's.
+    assert!(placed.iter().all(|placed| placed.project(beyond, all(placed.surface)).is_none()));
+    // A symmetry plane is no rim.
+    let corner = quarter.facets.iter().position(|facet| facet.iter().any(|&node| positions[node as usize] == [0.0, 2.0, 0.0])).unwrap();
+    let at = quarter.facets[corner].iter().position(|&node| positions[node as usize] == [0.0, 2.0, 0.0]).unwrap();
+    let (normal, border) = placed[1].node_normal(corner as u32, at);
+    assert!(matches!(border, Border::Mirrors(_)) && normal[0] == 0.0 && normal[2] == 0.0 && normal[1] > 0.0);
+    assert_eq!(placed[0].node_normal(corner as u32, at).1, Border::Cut);
+    let x = [0.0, 2.1, 0.0];
+    let (_, way) = placed[1].seen_over(x, placed[1].nearest_of(x, all(&quarter)).unwrap(), |_| true).unwrap();
+    assert_eq!(way, [0.0; 3]);
+}
+
 #[test]
 fn angles_are_those_of_the_platform() {
     for i in 0..=2000 {
@@ -225,6 +294,34 @@ proptest! {
             let inside = is_inside(&placed, x, [0.351, 0.432, 0.831]);
             let again = is_inside(&placed, x, [-0.251, 0.732, -0.631]);
             prop_assert!(inside != again || (found.gap < 0.0) == inside, "{:?} {:?} {}", x, found, inside);
+        }
+    }
+
+    #[test]
+    fn a_quarter_of_a_surface_with_its_symmetry_planes_is_seen_as_the_whole(
+        there in prop::collection::vec(prop::bool::weighted(0.7), 8),
+        shifts in prop::collection::vec(-0.18f64..0.18, 81),
+        points in prop::collection::vec((-0.3f64..2.8, -0.8f64..2.8, -0.3f64..2.8), 24),
+    ) {
+        let mut kept = [false; 8];
+        kept[0] = true;
+        for _ in 0..8 {
+            for a in 0..8usize {
+                kept[a] |= there[a] && (0..3).any(|d| kept[a ^ (1 << d)]);
+            }
+        }
+        let shift = |[i, j, k]: [usize; 3]| [0, 1, 2].map(|d| shifts[3 * (9 * k + 3 * j + i) + d]);
+        let (whole, quarter, positions) = whole_and_quarter(|[i, j, k]| kept[i + 2 * j + 4 * k], shift);
+        let [whole, quarter] = [&whole, &quarter].map(|surface| Placed { surface, positions: &positions });
+        for (a, b, c) in points {
+            // Many of them on a plane, or on both.
+            let x = [a.max(0.0), b, c.max(0.0)];
+            let [one, two] = [whole, quarter].map(|placed| placed.project(x, all(placed.surface)).unwrap());
+            prop_assert!((one.gap - two.gap).abs() < 1e-12, "{:?} {:?} {:?}", x, one, two);
+            // From a plane the whole may see a facet or its image: then the direction is that or its image.
+            let apart = |d: usize| (one.normal[d].abs() - two.normal[d].abs()).abs();
+            prop_assert!(one.gap.abs() < 1e-6 || (0..3).all(|d| apart(d) < 1e-9), "{:?} {:?} {:?}", x, one, two);
+            prop_assert!(two.foot[0] >= -1e-12 && two.foot[2] >= -1e-12, "{:?} {:?}", x, two);
         }
     }
 }

@@ -11,6 +11,7 @@ pub mod picture;
 pub mod post_mortem;
 mod reach;
 pub mod results;
+pub mod stl;
 pub mod sweep;
 pub mod threads;
 pub mod verification;

@@ -2,7 +2,7 @@
 //!
 //! Entries stand beside the code that raises them ([`embate_solver::message`]); the program adds its own and prints them (`embate explain`).
 
-use crate::{abaqus, checkpoint, gmsh, model_file, results, sweep, verification};
+use crate::{abaqus, checkpoint, gmsh, model_file, results, stl, sweep, verification};
 use embate_solver::message::{self, AREAS, BASE, Example, Message, SHOWN};
 use std::fmt::Write;
 
@@ -12,6 +12,7 @@ pub fn all() -> Vec<&'static Message> {
     let rooms = [
         model_file::messages::MESSAGES,
         gmsh::messages::MESSAGES,
+        stl::messages::MESSAGES,
         abaqus::messages::MESSAGES,
         results::messages::MESSAGES,
         checkpoint::messages::MESSAGES,

@@ -15,6 +15,7 @@ pub(crate) mod plane;
 mod space;
 mod space_contact;
 mod start;
+mod triangles;
 
 use crate::contact::messages::{NO_STEP, TIED_TWICE};
 use crate::material::messages::INITIAL_STATE;

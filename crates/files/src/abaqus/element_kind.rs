@@ -79,7 +79,7 @@ pub(super) static KINDS: &[ElementKind] = &[
     solid("C3D6", WEDGE, "wedge6", ""),
     solid("C3D8", HEXAHEDRON, "hex8", ""),
     solid("C3D8R", HEXAHEDRON, "hex8_reduced", REDUCED),
-    solid("C3D8I", HEXAHEDRON, "hex8", "no incompatible modes: mean dilatation, which is stiffer in bending"),
+    solid("C3D8I", HEXAHEDRON, "hex8_reduced_assumed_strain", BENT),
 ];
 
 /// What a type is.

@@ -141,7 +141,7 @@ impl Described {
     ) -> Result<(Self, T), Diagnostics> {
         let mut faults = Faults::default();
         let (source, root) = parsed(source(file)?)?;
-        let made = make(&reader::read(&root, vocabulary, &mut faults), &mut faults);
+        let made = make(&reader::read(&root, vocabulary, false, &mut faults), &mut faults);
         if faults.is_empty() { Ok((Self { source, root }, made)) } else { Err(faults.into_diagnostics(&[source], Some(&root))) }
     }
 

@@ -52,6 +52,8 @@ pub(crate) struct Record {
 /// All tables of a file.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Document {
+    /// Whether units were read as those of solids.
+    pub(super) is_of_solids: bool,
     /// Keys above all sections.
     pub(crate) top: Record,
     sections: BTreeMap<&'static str, Vec<Record>>,
@@ -212,10 +214,11 @@ fn whole(value: u64) -> usize {
     usize::try_from(value).unwrap_or(usize::MAX)
 }
 
-/// Reads all sections.
-pub(super) fn read(root: &Node, vocabulary: &Vocabulary, faults: &mut Faults) -> Document {
-    let mut reader = Reader { vocabulary, faults, extent: extent(root) };
-    let mut document = Document::default();
+/// Reads all sections. Where keys alone do not say so, `solids` tells that parts are solids.
+pub(super) fn read(root: &Node, vocabulary: &Vocabulary, solids: bool, faults: &mut Faults) -> Document {
+    let extent = if solids { Extent::Solid } else { extent(root) };
+    let mut reader = Reader { vocabulary, faults, extent };
+    let mut document = Document { is_of_solids: extent == Extent::Solid, ..Document::default() };
     let Value::Table(entries) = &root.value else { return document };
     let (sections, others): (Vec<&Entry>, Vec<&Entry>) = entries.iter().partition(|entry| vocabulary.section(&entry.key).is_some());
     let others: Vec<Entry> = others.into_iter().cloned().collect();
@@ -260,7 +263,7 @@ enum Extent {
     Solid,
 }
 
-/// What its parts say: whether one is axisymmetric or a solid; those that don't agree are told later.
+/// What the keys of its parts say: whether one is axisymmetric or a solid; those that don't agree are told later. Of groups of mesh files the files know ([`read`]).
 fn extent(root: &Node) -> Extent {
     let Value::Table(sections) = &root.value else { return Extent::Slice };
     let parts = sections.iter().filter(|section| section.key == "part").filter_map(|section| match &section.node.value {

@@ -105,8 +105,17 @@ impl Template {
 
     fn read(&self, changes: &[Change<'_>]) -> (Loaded, Faults) {
         let (root, mut faults) = self.changed(changes);
-        let document = reader::read(&root, &reader::MODEL, &mut faults);
-        let model = build::model(&document, &self.name, (&self.folder, self.reach), &mut faults);
+        let before = faults.clone();
+        let document = reader::read(&root, &reader::MODEL, false, &mut faults);
+        let mut meshes = build::Meshes::new(&self.folder, self.reach);
+        let mut model = build::model(&document, &self.name, &mut meshes, &mut faults);
+        // Parts may be solids by their meshes alone: then all was read with the units of the plane.
+        if !document.is_of_solids && model.parts.iter().any(|part| model.dimension_of(part) == 3) {
+            faults = before;
+            meshes.forget_faults();
+            let document = reader::read(&root, &reader::MODEL, true, &mut faults);
+            model = build::model(&document, &self.name, &mut meshes, &mut faults);
+        }
         note(&mut faults, model.check());
         (Loaded { model, sources: self.sources.clone(), root }, faults)
     }

@@ -11,3 +11,4 @@ mod picture_space;
 mod post_mortem;
 mod reach;
 mod results;
+mod stl;

@@ -88,7 +88,7 @@ impl Builder<'_, 2> {
             ObstacleShape::Plane { point, normal, length } => self.plane(obstacle, met, first(*point), first(*normal), *length),
             ObstacleShape::Circle { centre, radius, hollow } => self.circle(obstacle, met, first(*centre), *radius, *hollow),
             ObstacleShape::Polyline { points } => Ok(self.polyline(obstacle, met, points)),
-            ObstacleShape::Sphere { .. } | ObstacleShape::Cylinder { .. } => {
+            ObstacleShape::Sphere { .. } | ObstacleShape::Cylinder { .. } | ObstacleShape::Triangles(_) => {
                 Err(Fault::new(&OBSTACLE, "", "this obstacle is one of space", "take `circle` in the plane"))
             }
         }

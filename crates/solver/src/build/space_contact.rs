@@ -73,7 +73,7 @@ impl Builder<'_, 3> {
             }
         }
         for (model, contact) in self.model.obstacles.iter().zip(obstacles) {
-            match self.node_solid(model) {
+            match self.obstacle_in_space(model) {
                 Ok((_, formulation)) => contact.renew(formulation),
                 Err(_) => contact.end(),
             }
@@ -84,7 +84,7 @@ impl Builder<'_, 3> {
     pub(crate) fn obstacles_in_space(&mut self) -> Vec<Contact<3>> {
         let mut contacts = Vec::new();
         for (i, obstacle) in self.model.obstacles.iter().enumerate() {
-            match self.node_solid(obstacle) {
+            match self.obstacle_in_space(obstacle) {
                 Ok((body, formulation)) => {
                     let (kind, terms) = (ContactKind::Obstacle(body), self.add_terms(terms_of(&obstacle.interface)));
                     contacts.push(Contact::new(obstacle.name.clone(), kind, formulation, terms, obstacle.interface.active));
@@ -95,12 +95,23 @@ impl Builder<'_, 3> {
         contacts
     }
 
-    /// The body of an obstacle, and what makes springs at it.
-    fn node_solid(&mut self, obstacle: &Obstacle) -> Result<(usize, Box<dyn Formulation<3>>), Fault> {
-        let (reference, solid, (points, facets)) = self.solid(obstacle)?;
+    /// The body of an obstacle, and what makes springs at it. Faults have paths relative to the obstacle.
+    fn obstacle_in_space(&mut self, obstacle: &Obstacle) -> Result<(usize, Box<dyn Formulation<3>>), Fault> {
+        if obstacle.interface.initial_penetration == InitialPenetration::PushOut {
+            let help = "move the bodies apart, or take \"ignore\"";
+            return Err(Fault::new(&NOT_IN_SPACE, "initial_penetration", "in space nothing is pushed out", help));
+        }
         let outside = self.mesh.outside_without(&obstacle.parts, |facet| self.constraints.is_mirror(facet));
         let outside = outside.map_err(|fault| Fault { path: "parts".into(), ..fault })?;
-        let Sided { nodes: own, .. } = self.sided(&outside, &obstacle.interface);
+        match &obstacle.shape {
+            ObstacleShape::Triangles(surface) => self.triangles(obstacle, surface, outside),
+            _ => self.node_solid(obstacle, &outside),
+        }
+    }
+
+    fn node_solid(&mut self, obstacle: &Obstacle, outside: &SpaceSurface) -> Result<(usize, Box<dyn Formulation<3>>), Fault> {
+        let (reference, solid, (points, facets)) = self.solid(obstacle)?;
+        let Sided { nodes: own, .. } = self.sided(outside, &obstacle.interface);
         let spacing = own.iter().map(|own| own.area.sqrt()).sum::<f64>() / own.len().max(1) as f64;
         // What a symmetry plane keeps at its distance from a plane needs no spring.
         let along = if let ObstacleShape::Plane { normal, .. } = obstacle.shape { unit(normal) } else { None };
@@ -155,11 +166,12 @@ impl Builder<'_, 3> {
             ObstacleShape::Circle { .. } => {
                 Err(Fault::new(&NOT_IN_SPACE, "circle", "there are no circles in space", "take `sphere` or `cylinder`"))
             }
-            ObstacleShape::Polyline { .. } => Err(Fault::new(
+            // Made of facets.
+            ObstacleShape::Polyline { .. } | ObstacleShape::Triangles(_) => Err(Fault::new(
                 &NOT_IN_SPACE,
                 "polyline",
                 "there are no polylines in space",
-                "take `plane`, `sphere` or `cylinder`, or a rigid part",
+                "take `plane`, `sphere`, `cylinder` or `stl`, or a rigid part",
             )),
         }
     }
@@ -203,6 +215,7 @@ impl Builder<'_, 3> {
                 }
             }
         }
+        lines.extend(self.inside_triangles(tolerance));
         lines
     }
 
@@ -289,7 +302,7 @@ impl Builder<'_, 3> {
     }
 
     /// What a surface has behind it.
-    fn sided(&self, surface: &SpaceSurface, interface: &Interface) -> Sided {
+    pub(super) fn sided(&self, surface: &SpaceSurface, interface: &Interface) -> Sided {
         let source = source_of(interface);
         let mut softest: Vec<f64> = vec![f64::INFINITY; self.mesh.parts.len()];
         let (mut behind, mut facets) = (Vec::with_capacity(surface.facets.len()), Vec::with_capacity(surface.facets.len()));
@@ -328,20 +341,20 @@ impl Builder<'_, 3> {
 }
 
 /// A surface, and what contact needs of the elements behind it.
-struct Sided {
+pub(super) struct Sided {
     /// What each node stands for.
-    nodes: Vec<Tributary>,
+    pub(super) nodes: Vec<Tributary>,
     /// Part of each that belongs to the model, and not to its images in symmetry planes.
-    shares: Vec<f64>,
+    pub(super) shares: Vec<f64>,
     /// Pressure stiffness κ behind each facet, Pa/m: the softest of its part.
-    moduli: Vec<f64>,
+    pub(super) moduli: Vec<f64>,
     /// The same of the element itself.
-    facets: Vec<f64>,
+    pub(super) facets: Vec<f64>,
 }
 
 impl Sided {
     /// Its nodes as slaves against another surface, in one of so many `passes` that carry the pressure together.
-    fn against(&self, target: &Self, interface: &Interface, passes: usize) -> PassInput {
+    pub(super) fn against(&self, target: &Self, interface: &Interface, passes: usize) -> PassInput {
         let penalty = if let ContactLaw::Penalty(penalty) = interface.law { penalty } else { Penalty::default() };
         let slave = |(&own, &share): (&Tributary, &f64)| {
             let node = Node { own, other: f64::INFINITY, share };

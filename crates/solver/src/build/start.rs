@@ -143,7 +143,10 @@ impl Builder<'_, 2> {
                 let ends = plane(first(*point), first(*normal), *length, thickness, 0.0).ok()?.ends()?.into_iter();
                 (ends.filter(|&x| !self.is_beyond_mirrors(x, &obstacle.parts)).collect(), None, 0.0)
             }
-            ObstacleShape::Circle { hollow: true, .. } | ObstacleShape::Sphere { .. } | ObstacleShape::Cylinder { .. } => return None,
+            ObstacleShape::Circle { hollow: true, .. }
+            | ObstacleShape::Sphere { .. }
+            | ObstacleShape::Cylinder { .. }
+            | ObstacleShape::Triangles(_) => return None,
         };
         let first = self.mesh.positions.len() as u32;
         let nodes: Vec<u32> = (first..first + points.len() as u32).collect();
@@ -171,7 +174,7 @@ fn behind(obstacle: &Obstacle, surface: &Surface, positions: &[Vector]) -> Optio
             let lengths: f64 = surface.segments.iter().map(|&segment| length(segment, positions)).sum();
             Box::new(plane(first(*point), first(*normal), *wide, thickness, lengths / surface.nodes.len().max(1) as f64).ok()?)
         }
-        ObstacleShape::Sphere { .. } | ObstacleShape::Cylinder { .. } => return None,
+        ObstacleShape::Sphere { .. } | ObstacleShape::Cylinder { .. } | ObstacleShape::Triangles(_) => return None,
         ObstacleShape::Circle { centre, radius, hollow } => Box::new(circle(first(*centre), *radius, *hollow, thickness).ok()?),
         ObstacleShape::Polyline { points } => {
             let (own, closed) = distinct(points);

@@ -14,6 +14,8 @@ pub(crate) static MESSAGES: &[&Message] = &[
     &TIED_TWICE,
     &ON_SYMMETRY,
     &OBSTACLE,
+    &TURNED,
+    &OPEN,
     &NO_STEP,
     &IDLE,
     &NO_FORCE,
@@ -126,6 +128,18 @@ pub(crate) static OBSTACLE: Message = Message {
     cure: "Correct the points or the radius.",
 };
 
+pub(crate) static TURNED: Message = Message {
+    code: "E0413",
+    title: "triangles of an obstacle that make no surface",
+    example: Example::Shell(
+        "printf 'solid two\\n facet normal 0 0 1\\n outer loop\\n vertex -1 -1 0\\n vertex 1 -1 0\\n vertex 1 1 0\\n endloop\\n endfacet\\n facet normal 0 0 -1\\n outer loop\\n \
+         vertex -1 -1 0\\n vertex -1 1 0\\n vertex 1 1 0\\n endloop\\n endfacet\\nendsolid two\\n' > two.stl\n\
+         embate check model.toml --set 'part=[{name=\"b\",material=\"steel\",box={corner=[0,0,0],size=[1,1,1],elements=[1,1,1]}}]' --set 'contact=[]' --set 'obstacle=[{stl={file=\"two.stl\"}}]'\n",
+    ),
+    cause: "Two triangles that have an edge in common look to opposite sides there, or more than two have it, so that nobody can say where outside is.",
+    cure: "Repair the surface in the program that made it: all normals outward, nothing twice, each body closed.",
+};
+
 pub(crate) static NO_STEP: Message = Message {
     code: "E0412",
     title: "a penalty from a time step that nothing gives",
@@ -146,6 +160,17 @@ pub(crate) static IDLE: Message = Message {
     ),
     cause: "No contact, obstacle, joint, load or motion has to do with the part: it stays as it is, and others go through it.",
     cure: "Name it in a contact, move it or load it, or leave it out.",
+};
+
+pub(crate) static OPEN: Message = Message {
+    code: "W0407",
+    title: "the surface of an obstacle is not closed",
+    example: Example::Shell(
+        "printf 'solid one\\n facet normal 0 0 1\\n outer loop\\n vertex -1 -1 0\\n vertex 1 -1 0\\n vertex 1 1 0\\n endloop\\n endfacet\\nendsolid one\\n' > one.stl\n\
+         embate check model.toml --set 'part=[{name=\"b\",material=\"steel\",box={corner=[0,0,0],size=[1,1,1],elements=[1,1,1]}}]' --set 'contact=[]' --set 'obstacle=[{stl={file=\"one.stl\"}}]'\n",
+    ),
+    cause: "Some edges of the triangles have a triangle on one side alone: the surface is a sheet, or has holes, or the corners of neighbours differ in their last digits.",
+    cure: "Of a sheet nothing is to be done if bodies meet its front and stay within its rim. Else close the surface in the program that made it, or merge its points.",
 };
 
 pub(crate) static NO_FORCE: Message = Message {

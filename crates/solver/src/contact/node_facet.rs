@@ -305,6 +305,10 @@ impl NodeFacet {
                 continue;
             }
             let place = (self.tracker.slave(touch.pass), touch.node, touch.projection.facet);
+            // Who stands for nothing presses on nothing.
+            if self.passes[touch.pass as usize].slaves[touch.slave as usize].area == 0.0 {
+                continue;
+            }
             let memory = *self.tracker.kept(&touch);
             let was_closed = memory.normal != [0.0; 3] && memory.half < self.reach;
             if !self.superseded.is_empty() && !was_closed && self.superseded.binary_search(&place).is_ok() {

@@ -64,10 +64,10 @@ impl Default for Copies {
 }
 
 /// A turn by an angle (rad) about an axis.
-struct Turn {
-    angle: f64,
-    about: [f64; 3],
-    axis: [f64; 3],
+pub(crate) struct Turn {
+    pub(crate) angle: f64,
+    pub(crate) about: [f64; 3],
+    pub(crate) axis: [f64; 3],
 }
 
 impl Placement {
@@ -136,7 +136,7 @@ where
 }
 
 /// Turns points `times` times: x ← p + (r·u) u + cos α (r − (r·u) u) + sin α u × r with r = x − p.
-fn turn<const D: usize>(positions: &mut [[f64; D]], turn: &Turn, times: usize) {
+pub(crate) fn turn<const D: usize>(positions: &mut [[f64; D]], turn: &Turn, times: usize) {
     if turn.angle == 0.0 {
         return;
     }
@@ -159,7 +159,7 @@ fn turn<const D: usize>(positions: &mut [[f64; D]], turn: &Turn, times: usize) {
     }
 }
 
-fn shift<const D: usize>(positions: &mut [[f64; D]], by: [f64; 3], times: usize) {
+pub(crate) fn shift<const D: usize>(positions: &mut [[f64; D]], by: [f64; 3], times: usize) {
     if by != [0.0; 3] {
         positions.iter_mut().for_each(|x| *x = std::array::from_fn(|d| x[d] + times as f64 * by[d]));
     }

@@ -4,6 +4,8 @@
 
 use super::in_space;
 use super::motion::Motion;
+use super::triangles::TriangleSurface;
+use std::sync::Arc;
 
 /// What a contact makes of its surfaces.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -249,6 +251,8 @@ pub enum ObstacleShape {
         /// Points, m; the first once more at the end: closed.
         points: Vec<[f64; 2]>,
     },
+    /// In space: triangles, counter-clockwise seen from the side on which bodies are.
+    Triangles(Arc<TriangleSurface>),
 }
 
 /// `[[obstacle]]`: a rigid body without elements.
@@ -262,7 +266,8 @@ pub struct Obstacle {
     pub shape: ObstacleShape,
     /// How it moves.
     pub motion: Motion,
-    /// Reference point of rotation and moments, m; `None`: the plane's point, the circle's centre, the mean of the polyline's points.
+    /// Reference point of rotation and moments, m; `None`: the plane's point, the circle's centre, the mean of the polyline's points, the middle of the box around
+    /// triangles.
     pub reference: Option<[f64; 3]>,
     /// Mass per metre of depth, kg/m; needed where it is free to move.
     pub mass: Option<f64>,

@@ -11,6 +11,7 @@ mod initial;
 mod load;
 mod motion;
 pub mod reference;
+mod triangles;
 
 pub use contact::{
     Contact, ContactLaw, Formulation, Friction, InitialPenetration, Interface, Obstacle, ObstacleShape, Partners, Penalty, PenaltySource,
@@ -19,6 +20,7 @@ pub use discrete::{PointMass, Spring};
 pub use initial::InitialStress;
 pub use load::{Axis, Constraint, Image, Join, Load, NonReflecting, Rotation, Symmetry};
 pub use motion::{Curve, CurveShape, Drive, Motion};
+pub use triangles::TriangleSurface;
 
 use crate::block::stress_state::STRESS_STATES;
 use crate::element::{BARS, ELEMENTS, ElementKind, elements_of};
@@ -131,10 +133,15 @@ pub struct MassScaling {
 }
 
 impl Model {
-    /// 2 in the plane, 3 in space: what its first part is; the check finds models with parts of both kinds.
+    /// 2 in the plane, 3 in space: what its first part is whose mesh is there; the check finds models with parts of both kinds.
     #[must_use]
     pub fn dimension(&self) -> usize {
-        self.parts.first().map_or(2, |part| self.dimension_of(part))
+        self.parts.iter().find(|part| !self.lacks_mesh(part)).map_or(2, |part| self.dimension_of(part))
+    }
+
+    /// Whether the mesh file of a part is not there, so that nobody knows its dimension.
+    pub(crate) fn lacks_mesh(&self, part: &Part) -> bool {
+        matches!(part.shape, Shape::Group { mesh, .. } if part.sweep.is_none() && mesh >= self.meshes.len())
     }
 
     /// Dimension of a part: of a group of a mesh file that of the file, unless it is swept.

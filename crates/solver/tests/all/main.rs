@@ -59,6 +59,7 @@ mod stress_states;
 mod symmetry_planes;
 mod swept;
 mod ties_in_space;
+mod triangles;
 mod trusses;
 mod viscosity;
 mod warnings;

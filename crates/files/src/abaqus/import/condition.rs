@@ -24,7 +24,7 @@ pub(super) enum Prescribed {
     Acceleration,
 }
 
-/// One component of prescribed motion: 0 x, 1 y, 2 rotation about z.
+/// One component of prescribed motion: 0 x, 1 y, 2 z, 3 rotation about z, 4 about x and 5 about y.
 #[derive(Clone, Debug)]
 pub(super) struct Boundary {
     pub(super) at: usize,
@@ -41,8 +41,8 @@ pub(super) struct Boundary {
 /// A load.
 #[derive(Clone, Debug)]
 pub(super) enum Load {
-    Gravity { at: usize, elements: BTreeSet<u32>, acceleration: [f64; 2], amplitude: Option<String> },
-    Force { at: usize, group: String, force: [f64; 2], amplitude: Option<String> },
+    Gravity { at: usize, elements: BTreeSet<u32>, acceleration: [f64; 3], amplitude: Option<String> },
+    Force { at: usize, group: String, force: [f64; 3], amplitude: Option<String> },
     Pressure { at: usize, group: String, pressure: f64, amplitude: Option<String> },
 }
 
@@ -80,11 +80,11 @@ fn amplitude_of(importer: &Importer<'_>, at: usize) -> Option<String> {
 /// The components that a degree of freedom or a label stands for; `None`: not known.
 fn axes(word: &str) -> Option<Vec<usize>> {
     Some(match word {
-        "XSYMM" => vec![0, 2],
-        "YSYMM" => vec![1, 2],
-        "ZSYMM" => vec![],
-        "ENCASTRE" => vec![0, 1, 2],
-        "PINNED" => vec![0, 1],
+        "XSYMM" => vec![0, 3, 5],
+        "YSYMM" => vec![1, 3, 4],
+        "ZSYMM" => vec![2, 4, 5],
+        "ENCASTRE" => vec![0, 1, 2, 3, 4, 5],
+        "PINNED" => vec![0, 1, 2],
         _ => return None,
     })
 }
@@ -115,10 +115,11 @@ pub(super) fn boundary(importer: &mut Importer<'_>, at: usize) -> Result<(), Fau
                 let first = importer.text.tag(line, field(1), "a degree of freedom")?;
                 let last = if field(2).is_empty() { first } else { importer.text.tag(line, field(2), "a degree of freedom")? };
                 let value = if field(3).is_empty() { 0.0 } else { importer.text.number(line, field(3), "a prescribed value")? };
-                // Out of the plane (3, 4, 5) nothing moves anyway.
-                ((0..3).filter(|axis| (first..=last).contains(&[1, 2, 6][*axis])).collect(), value)
+                ((0..6).filter(|axis| (first..=last).contains(&[1, 2, 3, 6, 4, 5][*axis])).collect(), value)
             }
         };
+        // Out of the plane nothing moves anyway.
+        let all: Vec<usize> = all.into_iter().filter(|axis| importer.is_solid() || [0, 1, 3].contains(axis)).collect();
         for instance in importer.deck.instances_of(at) {
             let (group, nodes) = importer.node_group(line, instance, field(0))?;
             for &axis in &all {
@@ -141,8 +142,12 @@ pub(super) fn initial(importer: &mut Importer<'_>, at: usize) -> Result<(), Faul
         let field = |k: usize| fields.get(k).copied().unwrap_or_default();
         let axis = importer.text.tag(line, field(1), "a degree of freedom")?;
         let value = importer.text.number(line, field(2), "a velocity")?;
-        if axis > 2 {
-            importer.ignored(at, line, "a velocity out of the plane, or an angular velocity");
+        if axis == 0 || axis as usize > importer.dimension() {
+            importer.ignored(
+                at,
+                line,
+                if importer.is_solid() { "an angular velocity" } else { "a velocity out of the plane, or an angular velocity" },
+            );
             continue;
         }
         for instance in importer.deck.instances_of(at) {
@@ -163,11 +168,12 @@ pub(super) fn nodal_force(importer: &mut Importer<'_>, at: usize) -> Result<(), 
         let value = importer.text.number(line, field(2), "a force")?;
         for instance in importer.deck.instances_of(at) {
             let (group, nodes) = importer.node_group(line, instance, field(0))?;
-            let (Some(group), 1..=2) = (group, axis) else {
+            let is_there = (1..=importer.dimension()).contains(&(axis as usize));
+            let (Some(group), true) = (group, is_there) else {
                 importer.ignored(at, line, "a moment, a force out of the plane, or one on nodes of no element");
                 continue;
             };
-            let mut force = [0.0; 2];
+            let mut force = [0.0; 3];
             force[axis as usize - 1] = value * nodes.len() as f64;
             let amplitude = amplitude_of(importer, at);
             importer.loads.push(Load::Force { at, group, force, amplitude });
@@ -209,11 +215,11 @@ fn gravity(importer: &mut Importer<'_>, at: usize, line: Line, instance: usize) 
     let field = |k: usize| fields.get(k).copied().unwrap_or_default();
     let number = |k: usize| if field(k).is_empty() { Ok(0.0) } else { importer.text.number(line, field(k), "a number of gravity") };
     let (size, direction) = (number(2)?, [number(3)?, number(4)?, number(5)?]);
-    if direction[2] != 0.0 {
+    if direction[2] != 0.0 && !importer.is_solid() {
         importer.ignored(at, line, "gravity out of the plane does not act");
         return Ok(());
     }
-    let length = direction[0].hypot(direction[1]);
+    let length = direction[0].hypot(direction[1]).hypot(direction[2]);
     if length == 0.0 {
         return Err(importer.text.fault(&SYNTAX, line, "gravity has no direction", "write set, GRAV, size, x, y, z"));
     }
@@ -221,7 +227,7 @@ fn gravity(importer: &mut Importer<'_>, at: usize, line: Line, instance: usize) 
         "" => BTreeSet::new(),
         name => importer.deck.elements_named(importer.text, line, instance, name)?.into_iter().collect(),
     };
-    let acceleration = [0, 1].map(|axis| if direction[axis] == 0.0 { 0.0 } else { size * (direction[axis] / length) });
+    let acceleration = [0, 1, 2].map(|axis| if direction[axis] == 0.0 { 0.0 } else { size * (direction[axis] / length) });
     let amplitude = amplitude_of(importer, at);
     importer.loads.push(Load::Gravity { at, elements, acceleration, amplitude });
     Ok(())
@@ -234,7 +240,7 @@ pub(super) fn surface_load(importer: &mut Importer<'_>, at: usize) -> Result<(),
         let key = importer.surface(line, field(0))?;
         let group = importer.names.surfaces.get(&key).cloned();
         let (Some(group), "P") = (group, folded(field(1)).as_str()) else {
-            importer.ignored(at, line, "only a pressure (P) on edges of elements is read");
+            importer.ignored(at, line, "only a pressure (P) on edges or faces of elements is read");
             continue;
         };
         let pressure = importer.text.number(line, field(2), "a pressure")?;

@@ -156,7 +156,7 @@ fn add(importer: &mut Importer<'_>, at: usize, line: Line, interaction: Option<S
                 return Ok(());
             }
             _ => {
-                importer.ignored(at, line, &format!("surface {surface} has no edges of elements; this contact does not act"));
+                importer.ignored(at, line, &format!("surface {surface} has no edges or faces of elements; this contact does not act"));
                 return Ok(());
             }
         }
@@ -214,7 +214,11 @@ pub(super) fn rigid_body(importer: &mut Importer<'_>, at: usize) -> Result<(), F
             importer.note(
                 at,
                 Ignored,
-                "a rigid body without plane elements: draw it as an `[[obstacle]]` with `polyline`; it does not act",
+                if importer.is_solid() {
+                    "a rigid body without solid elements: give its surface as an `[[obstacle]]`, with `stl` for example; it does not act"
+                } else {
+                    "a rigid body without plane elements: draw it as an `[[obstacle]]` with `polyline`; it does not act"
+                },
             );
             continue;
         }

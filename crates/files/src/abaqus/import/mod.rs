@@ -21,7 +21,7 @@ pub use units::Units;
 use super::deck::Deck;
 use super::mesh::{self, Names};
 use super::text::{Block, Line, Text, folded, shown};
-use crate::abaqus::messages::{NO_COUNTERPART, SYNTAX, UNKNOWN};
+use crate::abaqus::messages::{SYNTAX, UNKNOWN};
 use crate::reach::{Bounds, Reach};
 use embate_solver::error::Fault;
 use std::collections::{BTreeMap, BTreeSet};
@@ -52,11 +52,6 @@ pub fn import(path: &Path, units: &Units, reach: Reach) -> Result<Imported, Vec<
         Text::read(path, &shown, &Bounds::of(path.parent().unwrap_or(Path::new("")), "deck's", reach)).map_err(|fault| vec![fault])?;
     let deck = Deck::read(&text).map_err(|fault| vec![fault])?;
     mesh::mesh(&deck, &text, 1.0)?;
-    if let Some(solid) = deck.elements.iter().find(|element| element.kind.dimension() == 3) {
-        let message = format!("element {} is a {}: models of solids are not imported yet", solid.tag, solid.kind.name);
-        let help = "write a model whose parts name the deck's sets: mesh = { file = \"deck.inp\", group = \"ELSET\" }";
-        return Err(vec![text.fault(&NO_COUNTERPART, solid.line, message, help)]);
-    }
     let mut importer = Importer::new(&text, &deck, units.clone());
     importer.read().map_err(|fault| vec![fault])?;
     let model = importer.write().map_err(|fault| vec![fault])?;
@@ -91,7 +86,7 @@ struct Importer<'a> {
     sections: Vec<material::Section>,
     amplitudes: BTreeMap<String, condition::Amplitude>,
     boundaries: Vec<condition::Boundary>,
-    velocities: BTreeMap<u32, [f64; 2]>,
+    velocities: BTreeMap<u32, [f64; 3]>,
     velocity_blocks: Vec<usize>,
     loads: Vec<condition::Load>,
     interactions: BTreeMap<String, contact::Interaction>,
@@ -167,6 +162,25 @@ impl<'a> Importer<'a> {
 
     fn block(&self, at: usize) -> &'a Block {
         &self.text.blocks[at]
+    }
+
+    /// Components of positions, velocities and forces: 2 in the plane, 3 of solids.
+    fn dimension(&self) -> usize {
+        usize::from(self.deck.dimension())
+    }
+
+    fn is_solid(&self) -> bool {
+        self.dimension() == 3
+    }
+
+    /// What is done with penetrations at the start: in the plane bodies are pushed apart without stress, as the deck means it; of solids they count as zero.
+    fn initial_penetration(&self) -> &'static str {
+        if self.is_solid() { "initial_penetration = \"ignore\"\n" } else { "initial_penetration = \"push_out\"\n" }
+    }
+
+    /// A list of the components that the model has.
+    fn vector(&self, vector: [f64; 3], text: impl Fn(f64) -> String) -> String {
+        format!("[{}]", vector[..self.dimension()].iter().map(|value| text(*value)).collect::<Vec<_>>().join(", "))
     }
 
     /// Adds a line to the report.

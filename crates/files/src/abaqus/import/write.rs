@@ -135,7 +135,7 @@ impl Importer<'_> {
             let first = self.text.blocks.iter().position(|block| block.keyword == "ELEMENT").unwrap_or_default();
             self.note(first, Ignored, &format!("{without} elements have no section: they are no part of the model"));
         }
-        if w.parts.iter().any(|part| part.thickness != w.parts[0].thickness) {
+        if !self.is_solid() && w.parts.iter().any(|part| part.thickness != w.parts[0].thickness) {
             let at = w.parts[0].at;
             self.note(at, Ignored, "sections have different thicknesses: each part is computed per unit of depth, so those of different thickness don't fit together");
         }
@@ -189,12 +189,13 @@ impl Importer<'_> {
         Ok(Part { element, ..part })
     }
 
-    /// The element of the quadrilaterals of a part, if it is not the usual one; what differs is noted.
+    /// The element of the quadrilaterals or hexahedra of a part, if it is not the usual one; what differs is noted. Triangles, wedges and tetrahedra are the usual ones.
     fn element(&mut self, part: &Part, kinds: &BTreeMap<&str, &'static ElementKind>) -> Option<&'static str> {
-        let known = |name: &str| embate_solver::element::registry().iter().any(|kind| kind.name == name);
-        let mut quads = kinds.values().filter(|kind| kind.nodes == 4);
-        let first = quads.next().copied();
-        for other in quads {
+        let (largest, usual, of) = if self.is_solid() { (8, "hex8", 3) } else { (4, "quad4", 2) };
+        let known = |name: &str| embate_solver::element::elements_of(of).iter().any(|kind| kind.name == name);
+        let mut largest = kinds.values().filter(|kind| kind.nodes == largest);
+        let first = largest.next().copied();
+        for other in largest {
             self.approximated(
                 part.at,
                 &format!("part {}: {} are computed as the others, {}", part.name, other.name, first.map_or("", |it| it.name)),
@@ -207,12 +208,12 @@ impl Importer<'_> {
             && !known(kind.element)
         {
             let text = format!(
-                "part {}: {} are computed as quad4, with full integration and mean dilatation: stiffer and without hourglass modes",
+                "part {}: {} are computed as {usual}, with full integration and mean dilatation: stiffer and without hourglass modes",
                 part.name, kind.name
             );
             self.approximated(part.at, &text);
         }
-        first.map(|kind| kind.element).filter(|name| known(name) && *name != "quad4")
+        first.map(|kind| kind.element).filter(|name| known(name) && *name != usual)
     }
 
     fn write_materials(&mut self, w: &mut Writing) -> Result<(), Fault> {
@@ -290,7 +291,7 @@ impl Importer<'_> {
             if let Some(element) = part.element {
                 let _ = writeln!(w.out, "element = \"{element}\"");
             }
-            if part.state != "plane_strain" {
+            if !matches!(part.state, "" | "plane_strain") {
                 let _ = writeln!(w.out, "stress_state = \"{}\"", part.state);
             }
             let rigid = self.rigid_of(&part, w);
@@ -298,8 +299,8 @@ impl Importer<'_> {
                 let _ = writeln!(w.out, "rigid = {text}");
             }
             if let Some(velocity) = self.velocity(&part, rigid.map(|(reference, _)| reference)) {
-                let [x, y] = velocity.map(|value| self.units.write(value, Dimension::VELOCITY));
-                let _ = writeln!(w.out, "velocity = [{x}, {y}]");
+                let velocity = self.vector(velocity, |value| self.units.write(value, Dimension::VELOCITY));
+                let _ = writeln!(w.out, "velocity = {velocity}");
             }
             w.out.push('\n');
         }
@@ -307,15 +308,15 @@ impl Importer<'_> {
     }
 
     /// The initial velocity of a part, if it is one and not zero.
-    fn velocity(&mut self, part: &Part, reference: Option<u32>) -> Option<[f64; 2]> {
+    fn velocity(&mut self, part: &Part, reference: Option<u32>) -> Option<[f64; 3]> {
         if let Some(velocity) = reference.and_then(|node| self.velocities.get(&node)) {
             return Some(*velocity);
         }
         let at = *self.velocity_blocks.first()?;
-        let mut all: Vec<[f64; 2]> = part.nodes.iter().map(|node| self.velocities.get(node).copied().unwrap_or_default()).collect();
+        let mut all: Vec<[f64; 3]> = part.nodes.iter().map(|node| self.velocities.get(node).copied().unwrap_or_default()).collect();
         all.dedup();
         if let [velocity] = all.as_slice() {
-            return (*velocity != [0.0; 2]).then_some(*velocity);
+            return (*velocity != [0.0; 3]).then_some(*velocity);
         }
         // Parts that share nodes with a moving one have a few moving nodes.
         let text = format!("part {}: its nodes don't begin with one velocity; it begins at rest (a spin is the key `spin`)", part.name);
@@ -329,12 +330,12 @@ impl Importer<'_> {
             let inside = part.elements.iter().filter(|element| rigid.elements.contains(element)).count();
             if inside == part.elements.len() {
                 let motion = self.motion_of(rigid.reference, w);
-                let fixed: Vec<String> = ["x", "y", "rotation"]
+                let fixed: Vec<String> = ["x", "y", "z", "rotation"]
                     .iter()
                     .zip(&motion)
                     .filter_map(|(axis, it)| it.as_ref().map(|it| format!("{axis} = {it}")))
                     .collect();
-                if motion[2].as_deref() != Some("0") && (motion[0].is_some() || motion[1].is_some()) {
+                if motion[3].as_deref() != Some("0") && motion[..3].iter().any(Option::is_some) {
                     self.approximated(rigid.at, "what is prescribed at the reference node holds for the centre of mass");
                 }
                 return Some((rigid.reference, if fixed.is_empty() { "true".into() } else { format!("{{ {} }}", fixed.join(", ")) }));

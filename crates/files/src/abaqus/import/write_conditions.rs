@@ -77,7 +77,7 @@ impl Importer<'_> {
 
     pub(super) fn write_contacts(&mut self, w: &mut Writing) {
         if let Some((at, interaction)) = self.all.clone() {
-            let _ = writeln!(w.out, "[[contact]]\nbodies = \"all\"\ninitial_penetration = \"push_out\"");
+            let _ = write!(w.out, "[[contact]]\nbodies = \"all\"\n{}", self.initial_penetration());
             self.write_interaction(interaction.as_deref(), at, w);
             w.out.push('\n');
         }
@@ -90,7 +90,7 @@ impl Importer<'_> {
             if contact.tied {
                 w.out.push_str("tied = true\n");
             } else {
-                w.out.push_str("initial_penetration = \"push_out\"\n");
+                w.out.push_str(self.initial_penetration());
             }
             if contact.single {
                 let _ = writeln!(w.out, "formulation = \"single_pass\"\nslave = {}", quoted(&one));
@@ -104,7 +104,8 @@ impl Importer<'_> {
     pub(super) fn write_obstacles(&mut self, w: &mut Writing) {
         for rigid in self.rigid.clone() {
             let Some(surface) = rigid.surface else { continue };
-            let Some(points) = self.rigid_surface(&surface).cloned() else {
+            let points = self.rigid_surface(&surface).filter(|_| !self.is_solid()).cloned();
+            let Some(points) = points else {
                 self.note(rigid.at, Ignored, "its surface is not one of straight lines; nothing meets it");
                 continue;
             };
@@ -133,12 +134,13 @@ impl Importer<'_> {
             let [x, y, _] = self.deck.nodes[rigid.reference as usize].position;
             let _ = writeln!(w.out, "reference = {}", point(&[x, y]));
             let motion = self.motion_of(rigid.reference, w);
-            if motion.iter().any(Option::is_none) {
+            if [0, 1, 3].iter().any(|axis| motion[*axis].is_none()) {
                 self.note(rigid.at, Ignored, "it is free in a direction, but a rigid surface has no mass in the import; it is fixed there");
             }
-            let driven = ["x", "y", "rotation"]
+            let driven = ["x", "y", "z", "rotation"]
                 .iter()
                 .zip(&motion)
+                .filter(|(axis, _)| **axis != "z")
                 .filter_map(|(axis, it)| it.as_ref().filter(|it| *it != "0").map(|it| format!("{axis} = {it}")));
             let driven: Vec<String> = driven.collect();
             if !driven.is_empty() {
@@ -158,11 +160,22 @@ impl Importer<'_> {
         })
     }
 
-    /// What the boundary conditions of a reference node say, by x, y and rotation; `None`: free.
-    pub(super) fn motion_of(&mut self, reference: u32, w: &mut Writing) -> [Option<String>; 3] {
-        let mut motion = [None, None, None];
+    /// What the boundary conditions of a reference node say, by x, y, z and rotation; `None`: free. The one rotation that a model names is that about z: with it those of solids about other axes
+    /// are none.
+    pub(super) fn motion_of(&mut self, reference: u32, w: &mut Writing) -> [Option<String>; 4] {
+        let mut motion = [None, None, None, None];
+        let mut turns: BTreeMap<usize, usize> = BTreeMap::new();
         for boundary in self.boundaries.clone().iter().filter(|boundary| boundary.nodes == [reference]) {
-            let dimension = if boundary.axis == 2 { Dimension::RATE } else { Dimension::VELOCITY };
+            let dimension = if boundary.axis > 2 { Dimension::RATE } else { Dimension::VELOCITY };
+            if boundary.axis > 2 {
+                turns.insert(boundary.axis, boundary.at);
+            }
+            if boundary.axis > 3 {
+                if boundary.value != 0.0 {
+                    self.note(boundary.at, Ignored, "a rigid body is turned about z alone; about this axis it is held");
+                }
+                continue;
+            }
             let text = if boundary.value == 0.0 {
                 Some("0".to_string())
             } else if boundary.prescribed == Prescribed::Velocity {
@@ -172,6 +185,14 @@ impl Importer<'_> {
                 None
             };
             motion[boundary.axis] = Some(text.unwrap_or("0".into()));
+        }
+        if self.is_solid()
+            && let Some(&at) = turns.values().next()
+        {
+            if turns.len() < 3 {
+                self.approximated(at, "rotations are held about all axes or about none: here about all");
+            }
+            motion[3].get_or_insert("0".into());
         }
         motion
     }
@@ -201,16 +222,16 @@ impl Importer<'_> {
                 groups.push(group.clone());
             }
             // Nodes of solids don't turn.
-            if boundary.axis < 2 {
+            if boundary.axis < self.dimension() {
                 last.insert((group.clone(), boundary.axis), boundary);
             }
         }
         for group in groups {
             let mut fixed = Vec::new();
             let mut moved: BTreeMap<&str, Vec<String>> = BTreeMap::new();
-            for axis in 0..2 {
+            for axis in 0..self.dimension() {
                 let Some(boundary) = last.get(&(group.clone(), axis)).cloned() else { continue };
-                let letter = ["x", "y"][axis];
+                let letter = ["x", "y", "z"][axis];
                 if boundary.value == 0.0 {
                     fixed.push(format!("\"{letter}\""));
                 } else if let Some((key, text)) = self.moved(&boundary, w) {
@@ -259,23 +280,25 @@ impl Importer<'_> {
             let (text, amplitude, at) = match load {
                 Load::Gravity { at, elements, acceleration, amplitude } => {
                     let Some(parts) = self.parts_of(at, &elements, w) else { continue };
-                    let [x, y] = acceleration.map(|value| self.units.write(value, Dimension::ACCELERATION));
-                    (format!("gravity = [{x}, {y}]\n{parts}"), amplitude, at)
+                    let acceleration = self.vector(acceleration, |value| self.units.write(value, Dimension::ACCELERATION));
+                    (format!("gravity = {acceleration}\n{parts}"), amplitude, at)
                 }
                 Load::Force { at, group, force, amplitude } => {
-                    if !round && !one_thickness {
+                    if !round && !one_thickness && !self.is_solid() {
                         self.note(at, Ignored, "a force on parts of different thicknesses has no counterpart per unit of depth");
                         continue;
                     }
-                    let [x, y] = force.map(|value| {
-                        // In newtons, whatever the unit of the key: the force is that on the whole circumference.
-                        if round {
+                    let force = self.vector(force, |value| {
+                        if self.is_solid() {
+                            self.units.write(value, FORCE)
+                        } else if round {
+                            // In newtons, whatever the unit of the key: the force is that on the whole circumference.
                             self.units.write_si(value, FORCE)
                         } else {
                             self.units.write(value / thickness, Dimension::FORCE_PER_LENGTH)
                         }
                     });
-                    (format!("force = [{x}, {y}]\non = {}\n", quoted(&group)), amplitude, at)
+                    (format!("force = {force}\non = {}\n", quoted(&group)), amplitude, at)
                 }
                 Load::Pressure { at, group, pressure, amplitude } => {
                     (format!("pressure = {}\non = {}\n", self.units.write(pressure, Dimension::PRESSURE), quoted(&group)), amplitude, at)

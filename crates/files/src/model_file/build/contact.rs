@@ -1,6 +1,6 @@
 //! Contacts and obstacles of a model from the records of a file, and what both share: law, friction, times.
 
-use super::motion;
+use super::{Meshes, motion};
 use crate::model_file::diagnostics::Faults;
 use crate::model_file::reader::Record;
 use crate::model_file::units::shorten;
@@ -8,7 +8,9 @@ use crate::model_file::value::Datum;
 use embate_solver::model::messages::{CLASH, UNKNOWN_NAME};
 use embate_solver::model::{
     Contact, ContactLaw, Formulation, Friction, InitialPenetration, Interface, Obstacle, ObstacleShape, Partners, Penalty, PenaltySource,
+    Placement, TriangleSurface,
 };
+use std::sync::Arc;
 
 pub(super) fn contact(record: &Record, faults: &mut Faults) -> Contact {
     let bodies = record.written("bodies").is_some() && record.written("between").is_none();
@@ -82,7 +84,7 @@ fn formulation(record: &Record, between: Option<&[String; 2]>, faults: &mut Faul
     }
 }
 
-pub(super) fn obstacle(record: &Record, faults: &mut Faults) -> Obstacle {
+pub(super) fn obstacle(record: &Record, meshes: &Meshes<'_>, faults: &mut Faults) -> Obstacle {
     if record.written("motion").is_some() && record.datum("motion").is_none() {
         // What it is free in is not known.
         ["mass", "inertia", "velocity", "spin"].iter().for_each(|name| faults.cover(&record.key(name)));
@@ -90,7 +92,7 @@ pub(super) fn obstacle(record: &Record, faults: &mut Faults) -> Obstacle {
     Obstacle {
         name: record.text("name"),
         parts: record.texts("parts"),
-        shape: shape(record, faults),
+        shape: shape(record, meshes, faults),
         motion: motion::fixed_but(record.datum("motion")),
         reference: record.written("reference").map(|_| record.spatial("reference")),
         mass: record.written("mass").map(|_| record.number("mass").unwrap_or(f64::NAN)),
@@ -101,7 +103,7 @@ pub(super) fn obstacle(record: &Record, faults: &mut Faults) -> Obstacle {
     }
 }
 
-fn shape(record: &Record, faults: &mut Faults) -> ObstacleShape {
+fn shape(record: &Record, meshes: &Meshes<'_>, faults: &mut Faults) -> ObstacleShape {
     if let Some(it) = record.table("circle") {
         let radius = it.number("radius").unwrap_or(f64::NAN);
         return ObstacleShape::Circle { centre: it.spatial("centre"), radius, hollow: it.is("hollow") };
@@ -114,6 +116,9 @@ fn shape(record: &Record, faults: &mut Faults) -> ObstacleShape {
         let radius = it.number("radius").unwrap_or(f64::NAN);
         return ObstacleShape::Cylinder { point: it.spatial("point"), axis: it.spatial("axis"), radius, hollow: it.is("hollow") };
     }
+    if let Some(it) = record.table("stl") {
+        return triangles(it, meshes, faults);
+    }
     if let Some(it) = record.table("polyline") {
         let points = if let Some(Datum::Points(points)) = it.datum("points") { points.clone() } else { Vec::new() };
         return ObstacleShape::Polyline { points };
@@ -123,6 +128,17 @@ fn shape(record: &Record, faults: &mut Faults) -> ObstacleShape {
         return ObstacleShape::Plane { point: [f64::NAN; 3], normal: [f64::NAN; 3], length: None };
     };
     ObstacleShape::Plane { point: it.spatial("point"), normal: it.spatial("normal"), length: it.number("length") }
+}
+
+fn triangles(record: &Record, meshes: &Meshes<'_>, faults: &mut Faults) -> ObstacleShape {
+    let mut placement = Placement { translation: record.spatial("translation"), ..Placement::default() };
+    super::turn(record, &mut placement);
+    let surface = meshes.surface(record, faults).unwrap_or_else(|| {
+        faults.cover(&record.path);
+        TriangleSurface::default()
+    });
+    let placed = surface.placed(&placement);
+    ObstacleShape::Triangles(Arc::new(if record.is("hollow") { placed.turned_over() } else { placed }))
 }
 
 /// The keys that contacts and obstacles share.

@@ -10,25 +10,27 @@ mod motion;
 
 use super::diagnostics::Faults;
 use super::reader::{Document, Record};
+use super::tree::Place;
 use super::units::shorten;
 use super::value::Datum;
 use crate::gmsh::messages::MESH_FILE;
 use crate::reach::{Bounds, Reach};
-use crate::{abaqus, gmsh};
+use crate::{abaqus, gmsh, stl};
+use embate_solver::error::Fault;
 use embate_solver::mesh::shapes::Values;
 use embate_solver::model::{
     Cadence, Camera, Copies, ImportedMesh, InitialStress, MassScaling, Material, Mirror, Model, Output, Part, Partners, PictureView,
-    Placement, Probe, ProbeAt, Relaxation, Run, Shape, Sweep, Symmetry,
+    Placement, Probe, ProbeAt, Relaxation, Run, Shape, Sweep, Symmetry, TriangleSurface,
 };
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The model of a file in `folder`.
-pub(super) fn model(document: &Document, name: &str, (folder, reach): (&Path, Reach), faults: &mut Faults) -> Model {
-    let mut meshes = Meshes { folder, bounds: Bounds::of(folder, "model's", reach), read: Vec::new(), loaded: Vec::new() };
-    let parts = document.section("part").iter().map(|record| part(record, &mut meshes, faults)).collect();
-    let mut model = Model { name: name.to_string(), meshes: meshes.loaded, ..Model::default() };
+/// The model of a file; `meshes` are its mesh files.
+pub(super) fn model(document: &Document, name: &str, meshes: &mut Meshes<'_>, faults: &mut Faults) -> Model {
+    let parts = document.section("part").iter().map(|record| part(record, meshes, faults)).collect();
+    let obstacles = document.section("obstacle").iter().map(|record| contact::obstacle(record, meshes, faults)).collect();
+    let mut model = Model { name: name.to_string(), meshes: meshes.loaded.clone(), obstacles, ..Model::default() };
     model.title = document.top.text("title");
     model.run = run(&document.single("run"));
     let material = |record: &Record| Material {
@@ -41,7 +43,6 @@ pub(super) fn model(document: &Document, name: &str, (folder, reach): (&Path, Re
     model.materials = document.section("material").iter().map(|record| (record.name.clone(), material(record))).collect();
     model.parts = parts;
     model.contacts = document.section("contact").iter().map(|record| contact::contact(record, faults)).collect();
-    model.obstacles = document.section("obstacle").iter().map(|record| contact::obstacle(record, faults)).collect();
     model.curves = document.section("curve").iter().map(|record| (record.name.clone(), motion::curve(record, faults))).collect();
     model.symmetries = document.section("symmetry").iter().map(symmetry).collect();
     model.constraints = document.section("constraint").iter().map(|record| motion::constraint(record, faults)).collect();
@@ -126,11 +127,7 @@ fn placement(part: &Record) -> Placement {
     if let Some(it) = part.table("mirror") {
         placement.mirror = Some(Mirror { point: it.spatial("point"), normal: it.spatial("normal") });
     }
-    if let Some(it) = part.table("rotation") {
-        placement.rotation = it.number("angle").unwrap_or(f64::NAN);
-        placement.rotation_point = it.spatial("point");
-        placement.rotation_axis = it.spatial("axis");
-    }
+    turn(part, &mut placement);
     if let Some(it) = part.table("copies") {
         let angle = it.number("angle").unwrap_or(f64::NAN);
         let count = Values::count(it, "count");
@@ -140,15 +137,33 @@ fn placement(part: &Record) -> Placement {
     placement
 }
 
-/// The mesh files of a model, each read once per scale.
-struct Meshes<'a> {
+fn turn(record: &Record, placement: &mut Placement) {
+    if let Some(it) = record.table("rotation") {
+        placement.rotation = it.number("angle").unwrap_or(f64::NAN);
+        placement.rotation_point = it.spatial("point");
+        placement.rotation_axis = it.spatial("axis");
+    }
+}
+
+/// The mesh files of a model, each read once per scale, and where files of surfaces are.
+pub(super) struct Meshes<'a> {
     folder: &'a Path,
     bounds: Bounds,
     read: Vec<(PathBuf, u64, Option<usize>)>,
     loaded: Vec<Arc<ImportedMesh>>,
 }
 
-impl Meshes<'_> {
+impl<'a> Meshes<'a> {
+    /// Those of a file in `folder`, none of them read yet.
+    pub(super) fn new(folder: &'a Path, reach: Reach) -> Self {
+        Self { folder, bounds: Bounds::of(folder, "model's", reach), read: Vec::new(), loaded: Vec::new() }
+    }
+
+    /// Files that could not be read are tried again, so that their faults are told again.
+    pub(super) fn forget_faults(&mut self) {
+        self.read.retain(|(.., index)| index.is_some());
+    }
+
     /// Index into the model's meshes; `None` with a fault noted if the file can't be read.
     fn index(&mut self, record: &Record, faults: &mut Faults) -> Option<usize> {
         let (file, scale) = (record.text("file"), record.number("scale")?);
@@ -157,10 +172,7 @@ impl Meshes<'_> {
         if let Some((.., index)) = self.read.iter().find(|(known, bits, _)| *known == path && *bits == scale.to_bits()) {
             return *index;
         }
-        let index = if let Err((kind, message, help)) = self.bounds.hold(&path, &shorten(&file)) {
-            faults.value(kind, &record.key("file"), place, (message, help));
-            None
-        } else if path.is_file() {
+        let index = if self.is_there(&path, &file, (record, place), faults) {
             let is_deck = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("inp"));
             match if is_deck { abaqus::read_within(&path, scale, &self.bounds) } else { gmsh::read(&path, scale) } {
                 Ok(mesh) => {
@@ -168,24 +180,50 @@ impl Meshes<'_> {
                     Some(self.loaded.len() - 1)
                 }
                 Err(wrong) => {
-                    for fault in wrong {
-                        let within = if fault.path.is_empty() { String::new() } else { format!(", {}", fault.path) };
-                        let message = format!("{}{within}: {}", shorten(&file), fault.message);
-                        faults.value(fault.kind, &record.key("file"), place, (message, fault.help));
-                    }
+                    wrong.into_iter().for_each(|fault| tell(fault, &file, (record, place), faults));
                     None
                 }
             }
         } else {
-            let message = format!("there is no file {}", shorten(&file));
-            let slashes = if file.contains('\\') { "; between folders stands / on every system" } else { "" };
-            let help = format!("paths begin at the model's folder, {}{slashes}", self.folder.display());
-            faults.value(&MESH_FILE, &record.key("file"), place, (message, help));
             None
         };
         self.read.push((path, scale.to_bits(), index));
         index
     }
+
+    /// The surface of an obstacle; `None` with a fault noted if the file can't be read.
+    fn surface(&self, record: &Record, faults: &mut Faults) -> Option<TriangleSurface> {
+        let (file, scale) = (record.text("file"), record.number("scale")?);
+        let place = record.written("file").filter(|_| record.datum("file").is_some())?;
+        let path = self.folder.join(&file);
+        if !self.is_there(&path, &file, (record, place), faults) {
+            return None;
+        }
+        stl::read(&path, &file, scale).map_err(|fault| tell(fault, &file, (record, place), faults)).ok()
+    }
+
+    /// Whether a file may be read and is one; else its fault is noted.
+    fn is_there(&self, path: &Path, file: &str, (record, place): (&Record, Place), faults: &mut Faults) -> bool {
+        if let Err((kind, message, help)) = self.bounds.hold(path, &shorten(file)) {
+            faults.value(kind, &record.key("file"), place, (message, help));
+            return false;
+        }
+        if !path.is_file() {
+            let message = format!("there is no file {}", shorten(file));
+            let slashes = if file.contains('\\') { "; between folders stands / on every system" } else { "" };
+            let help = format!("paths begin at the model's folder, {}{slashes}", self.folder.display());
+            faults.value(&MESH_FILE, &record.key("file"), place, (message, help));
+            return false;
+        }
+        true
+    }
+}
+
+/// Notes a fault within a file.
+fn tell(fault: Fault, file: &str, (record, place): (&Record, Place), faults: &mut Faults) {
+    let within = if fault.path.is_empty() { String::new() } else { format!(", {}", fault.path) };
+    let message = format!("{}{within}: {}", shorten(file), fault.message);
+    faults.value(fault.kind, &record.key("file"), place, (message, fault.help));
 }
 
 fn symmetry(record: &Record) -> Symmetry {

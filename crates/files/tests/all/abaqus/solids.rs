@@ -5,7 +5,7 @@ use embate_files::Reach;
 use embate_files::abaqus::import::{Units, import};
 use embate_files::model_file::load_text;
 use embate_solver::mesh::{Mesh, signed_volume};
-use embate_solver::model::ImportedMesh;
+use embate_solver::model::{Constraint, CurveShape, Drive, ImportedMesh, InitialPenetration, Load, Model, Motion, Partners};
 use std::fs;
 
 /// A cube on [0, 1]³, a wedge beside it (x from 1 to 2) and a tetrahedron above it.
@@ -121,15 +121,12 @@ fn instances_of_solids_are_turned_about_any_axis() {
 }
 
 #[test]
-fn plane_elements_do_not_go_with_solids_and_solids_are_not_imported() {
+fn plane_elements_do_not_go_with_solids() {
     let faults = read(&format!("{SOLID}*ELEMENT, TYPE=S4\n7, 1,2,3,4\n")).unwrap_err();
     assert!(faults[0].message == "element 7 is a S4, beside solids", "{}", faults[0]);
     let folder = std::env::temp_dir().join(format!("embate-deck-solids-{}", std::process::id()));
     fs::create_dir_all(&folder).unwrap();
     fs::write(folder.join("solid.inp"), SOLID).unwrap();
-    let units = Units::parse("m,kg,s").unwrap();
-    let faults = import(&folder.join("solid.inp"), &units, Reach::Folder).unwrap_err();
-    assert!(faults[0].message.contains("models of solids are not imported yet"), "{}", faults[0]);
     // As a mesh they are parts of a model.
     let model = "run.end = \"1 us\"\n[material.steel]\nlaw = \"elastic\"\ndensity = 7800\nyoung = \"200 GPa\"\npoisson = 0.3\n\
         [[part]]\nname = \"a\"\nmaterial = \"steel\"\nelement = \"hex8_reduced\"\nmesh = { file = \"solid.inp\", group = \"body\", scale = \"1 mm\" }\n\
@@ -142,4 +139,156 @@ fn plane_elements_do_not_go_with_solids_and_solids_are_not_imported() {
     let surface = mesh.surface("bottom", |_| false).unwrap();
     assert_eq!(embate_solver::mesh::surface::Sided::facets(&surface).len(), 2);
     fs::remove_dir_all(&folder).unwrap();
+}
+
+/// A cube of C3D8R that flies at a rigid plate of C3D8I and a held bar of C3D6 and C3D4, in mm, t, s.
+const DECK: &str = "*HEADING
+two blocks
+*NODE
+ 1, 0,0,0
+ 2, 1,0,0
+ 3, 1,1,0
+ 4, 0,1,0
+ 5, 0,0,1
+ 6, 1,0,1
+ 7, 1,1,1
+ 8, 0,1,1
+11, 0,0,-2
+12, 1,0,-2
+13, 1,1,-2
+14, 0,1,-2
+15, 0,0,-1
+16, 1,0,-1
+17, 1,1,-1
+18, 0,1,-1
+21, 5,0,0
+22, 6,0,0
+23, 5,1,0
+24, 5,0,1
+25, 6,0,1
+26, 5,1,1
+27, 5,0,3
+99, 0.5,0.5,-2
+*ELEMENT, TYPE=C3D8R, ELSET=CUBE
+1, 1,2,3,4,5,6,7,8
+*ELEMENT, TYPE=C3D8I, ELSET=PLATE
+2, 11,12,13,14,15,16,17,18
+*ELEMENT, TYPE=C3D6, ELSET=BAR
+3, 21,22,23,24,25,26
+*ELEMENT, TYPE=C3D4, ELSET=BAR
+4, 24,25,26,27
+*NSET, NSET=REF
+99
+*NSET, NSET=FOOT
+21, 22, 23
+*NSET, NSET=TIP
+27
+*NSET, NSET=ALL-CUBE
+1,2,3,4,5,6,7,8
+*SURFACE, NAME=UNDER
+CUBE, S1
+*SURFACE, NAME=OVER
+PLATE, S2
+*SOLID SECTION, ELSET=CUBE, MATERIAL=STEEL
+*SOLID SECTION, ELSET=PLATE, MATERIAL=STEEL
+*SOLID SECTION, ELSET=BAR, MATERIAL=STEEL
+*MATERIAL, NAME=STEEL
+*DENSITY
+7.85e-9
+*ELASTIC
+210000, 0.3
+*RIGID BODY, REF NODE=REF, ELSET=PLATE
+*AMPLITUDE, NAME=RAMP
+0, 0, 1e-3, 1
+*SURFACE INTERACTION, NAME=ROUGH
+*FRICTION
+0.2
+*BOUNDARY
+REF, 1, 2
+REF, 4, 6
+FOOT, ENCASTRE
+TIP, ZSYMM
+*INITIAL CONDITIONS, TYPE=VELOCITY
+ALL-CUBE, 1, 10
+ALL-CUBE, 3, -5000
+*STEP
+*DYNAMIC, EXPLICIT
+, 1e-5
+*BOUNDARY, TYPE=VELOCITY, AMPLITUDE=RAMP
+REF, 3, 3, 200
+*CLOAD
+TIP, 2, 3
+*DLOAD
+CUBE, GRAV, 9810, 0, 0, -1
+BAR, P1, 4
+*CONTACT PAIR, INTERACTION=ROUGH
+UNDER, OVER
+*END STEP
+";
+
+/// The model that is made of a deck, and the report.
+fn imported(name: &str, deck: &str) -> (Model, String, String) {
+    let folder = std::env::temp_dir().join(format!("embate-import-solids-{name}-{}", std::process::id()));
+    fs::create_dir_all(&folder).unwrap();
+    fs::write(folder.join("deck.inp"), deck).unwrap();
+    let units = Units::parse("mm,t,s").unwrap();
+    let made = import(&folder.join("deck.inp"), &units, Reach::Folder).unwrap_or_else(|faults| panic!("{faults:#?}"));
+    fs::write(folder.join("mesh.inp"), &made.mesh).unwrap();
+    let model = load_text("m", &made.model, &folder, &[]).unwrap_or_else(|diagnostics| panic!("{diagnostics}\n{}", made.model));
+    fs::remove_dir_all(&folder).unwrap();
+    (model, made.model, made.report.text())
+}
+
+#[test]
+fn a_deck_of_solids_becomes_a_model_of_space() {
+    let (model, text, report) = imported("all", DECK);
+    assert!(report.contains("nothing was ignored"), "{report}");
+    assert!(model.is_of_whole_bodies() && Mesh::<3>::new(&model).is_ok());
+    let part = |name: &str| model.parts.iter().find(|part| part.name == name).unwrap_or_else(|| panic!("{name}: {text}"));
+    let elements: Vec<&str> = ["CUBE", "PLATE"].iter().map(|name| part(name).element.as_str()).collect();
+    assert_eq!(elements, ["hex8_reduced", "hex8_reduced_assumed_strain"]);
+    let bar: Vec<&str> = [6, 4].iter().filter_map(|&nodes| part("BAR").element_in(3, nodes)).map(|kind| kind.name).collect();
+    assert_eq!(bar, ["wedge6", "tet4"]);
+    assert!([[0.01, 0.0, -5.0]].iter().all(|v| part("CUBE").velocity.iter().zip(v).all(|(a, b)| (a - b).abs() < 1e-12)), "{text}");
+    assert_eq!(part("BAR").velocity, [0.0; 3]);
+    // Held along x and y and against turning; along z it follows the amplitude.
+    let still = || Some(Drive::Constant(0.0));
+    let velocity = [still(), still(), Some(Drive::Curve("RAMP".into()))];
+    assert_eq!(part("PLATE").rigid, Some(Motion { velocity, spin: still() }));
+    let CurveShape::Table { values, .. } = &model.curves["RAMP"].shape else { panic!("{text}") };
+    assert!((values[1] - 0.2).abs() < 1e-12 && model.curves.len() == 1, "{text}");
+    let fixed = |on: &str| {
+        let all: Vec<&Constraint> = model.constraints.iter().filter(|it| it.on == on).collect();
+        assert_eq!(all.len(), 1, "{on}: {text}");
+        all[0].velocity.clone()
+    };
+    assert_eq!((fixed("FOOT"), fixed("TIP")), ([still(), still(), still()], [None, None, still()]));
+    assert_eq!(model.contacts.len(), 1);
+    let contact = &model.contacts[0];
+    assert_eq!(contact.partners, Partners::Between(["UNDER".into(), "OVER".into()]));
+    assert_eq!(contact.interface.friction.map(|it| it.coefficient), Some(0.2));
+    assert_eq!(contact.interface.initial_penetration, InitialPenetration::Ignore);
+    let loads = |wanted: fn(&Load) -> bool| model.loads.iter().filter(|load| wanted(load)).count();
+    assert_eq!(model.loads.len(), 3, "{text}");
+    assert_eq!(loads(|load| matches!(load, Load::Force { force: [0.0, f, 0.0], .. } if (f - 3.0).abs() < 1e-12)), 1, "{text}");
+    assert_eq!(loads(|load| matches!(load, Load::Gravity { acceleration: [0.0, 0.0, g], .. } if (g + 9.81).abs() < 1e-12)), 1, "{text}");
+    assert_eq!(loads(|load| matches!(load, Load::Pressure { .. })), 1);
+}
+
+#[test]
+fn what_solids_can_not_have_is_told() {
+    let (model, text, report) = imported(
+        "all-exterior",
+        &DECK.replace("*CONTACT PAIR, INTERACTION=ROUGH\nUNDER, OVER\n", "*CONTACT\n*CONTACT INCLUSIONS, ALL EXTERIOR\n"),
+    );
+    assert!(matches!(&model.contacts[0].partners, Partners::Bodies(parts) if parts.is_empty()), "{text}");
+    assert!(report.contains("nothing was ignored"), "{report}");
+    // Turned about x alone: held about all axes.
+    let (model, _, report) = imported("turned", &DECK.replace("REF, 4, 6\n", "REF, 4, 4\n"));
+    let plate = model.parts.iter().find(|part| part.name == "PLATE").unwrap();
+    assert_eq!(plate.rigid.as_ref().unwrap().spin, Some(Drive::Constant(0.0)));
+    assert!(report.contains("rotations are held about all axes or about none"), "{report}");
+    // A spin at the start has no place in the import.
+    let (_, _, report) = imported("spin", &DECK.replace("ALL-CUBE, 1, 10\n", "ALL-CUBE, 1, 10\nALL-CUBE, 6, 3\n"));
+    assert!(report.contains("an angular velocity"), "{report}");
 }

@@ -84,3 +84,43 @@ fn bars_beside_solids_have_an_area() {
     assert_eq!(bars("\"1 cm^2\""), Vec::<String>::new());
     assert_eq!(bars("\"1 cm\"").len(), 1);
 }
+
+/// A deck with a cube, and one whose cube has no eighth corner.
+const CUBE: &str = "*NODE\n1, 0,0,0\n2, 1,0,0\n3, 1,1,0\n4, 0,1,0\n5, 0,0,1\n6, 1,0,1\n7, 1,1,1\n8, 0,1,1\n*ELEMENT, TYPE=C3D8, ELSET=cube\n1, 1,2,3,4,5,6,7,8\n*NSET, NSET=low\n1,2,3,4\n*NSET, NSET=high\n5,6,7,8\n";
+
+#[test]
+fn parts_that_are_solids_by_their_mesh_alone_have_the_units_of_solids() {
+    let folder = std::env::temp_dir().join(format!("embate-solids-by-mesh-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::write(folder.join("cube.inp"), CUBE).unwrap();
+    std::fs::write(folder.join("flat.inp"), "*NODE\n1, 0,0\n2, 1,0\n3, 0,1\n*ELEMENT, TYPE=CPE3, ELSET=cube\n1, 1,2,3\n").unwrap();
+    std::fs::write(folder.join("wrong.inp"), CUBE.replace("6,7,8\n", "6,7,9\n")).unwrap();
+    let load = |file: &str, sections: &str| {
+        let steel = "[run]\nend = \"1 ms\"\n[material.steel]\nlaw = \"elastic\"\nyoung = \"200 GPa\"\npoisson = 0.3\ndensity = 7800\n";
+        let part = |name: &str, file: &str| {
+            format!("[[part]]\nname = \"{name}\"\nmaterial = \"steel\"\nmesh = {{ file = \"{file}\", group = \"cube\" }}\n")
+        };
+        let text = format!("{steel}{}{}{sections}\n", part("one", file), part("two", "cube.inp"));
+        embate_files::model_file::load_text("model.toml", &text, &folder, &[])
+    };
+    let told = |file: &str, sections: &str| {
+        let entries = load(file, sections).map_or_else(|diagnostics| diagnostics.entries, |_| Vec::new());
+        entries.iter().map(|fault| format!("{}: {} | {}", fault.path, fault.message, fault.help)).collect::<Vec<_>>()
+    };
+    let model = load("cube.inp", "[[point_mass]]\non = \"one\"\nmass = \"2 kg\"\n[[load]]\non = \"low\"\nforce = [0, 0, \"3 N\"]").unwrap();
+    assert!(model.is_of_whole_bodies());
+    assert_eq!(model.point_masses, [PointMass { on: "one".into(), mass: 2.0 }]);
+    // What is wrong is told once, and with the unit of solids.
+    let found = told("cube.inp", "[[point_mass]]\non = \"one\"\nmass = \"2 kg/m\"");
+    assert!(found.len() == 1 && found[0].starts_with("point_mass[0].mass: ") && !found[0].contains("\"1 kg/m\""), "{found:?}");
+    // One of the meshes is faulty: it is told, and the other one decides.
+    let found = told("wrong.inp", "[[point_mass]]\non = \"two\"\nmass = \"2 kg\"");
+    assert!(found.len() == 1 && found[0].starts_with("part[0].mesh.file: "), "{found:?}");
+    // Of the plane nothing changes.
+    let plane = |mass: &str| {
+        let found = told("flat.inp", &format!("[[point_mass]]\non = \"one\"\nmass = \"{mass}\""));
+        found.into_iter().filter(|fault| fault.starts_with("point_mass")).count()
+    };
+    assert_eq!((plane("2 kg"), plane("2 kg/m")), (0, 1));
+    std::fs::remove_dir_all(&folder).unwrap();
+}

@@ -151,6 +151,8 @@ pub struct Tracker {
     /// Whether nothing is known of the past.
     is_new: bool,
     skin: f64,
+    /// A face holds nodes no farther beyond its rim than this, m.
+    band: f64,
     /// Everything nearer was found by the last search, m.
     radius: f64,
     /// Deepest touch of the last step, m.
@@ -197,9 +199,18 @@ impl Tracker {
         let report = SearchReport { skin, ..SearchReport::default() };
         #[rustfmt::skip]
         let tracker = Self {
-            surfaces, passes, search, triangles, corners, bodies: bodies.to_vec(), nodes, searched: Vec::new(), is_new: true, skin, radius: 0.0, deepest: 0.0, travel: 0.0, searched_at: 0.0, touches: Vec::new(), pairs: Vec::new(), report,
+            surfaces, passes, search, triangles, corners, bodies: bodies.to_vec(), nodes, searched: Vec::new(), is_new: true, skin, band: f64::INFINITY, radius: 0.0, deepest: 0.0, travel: 0.0, searched_at: 0.0, touches: Vec::new(), pairs: Vec::new(), report,
         };
         tracker
+    }
+
+    /// The same where the lengths of `surface` count alone, however large facets of others are: those of an obstacle may have any size.
+    #[must_use]
+    pub fn measured_by(self, surface: usize, positions: &[Vector]) -> Self {
+        let edge = mean_edge(&self.surfaces[surface..=surface], positions);
+        let skin = self.skin.min(SKIN * edge);
+        // The diagonals of a square.
+        Self { skin, band: 2.0 * BAND * edge, report: SearchReport { skin, ..self.report }, ..self }
     }
 
     /// The surfaces.
@@ -328,14 +339,15 @@ impl Tracker {
         let fastest = self.nodes.iter().map(way).fold(0.0, f64::max);
         let radius = 2.0 * self.skin + extra + LOOK_AHEAD * fastest + self.deepest;
         let mut near: Vec<(u32, u32, f64)> = Vec::new();
-        let Self { surfaces, passes, search, triangles, bodies, pairs, .. } = self;
+        let Self { surfaces, passes, search, triangles, bodies, pairs, band, .. } = self;
         for pass in passes {
             let (slaves, target) = (&surfaces[pass.slave].nodes, &surfaces[pass.target]);
             let reach = SLACK * (radius + bend(target, sweep.new));
             let query = Query { positions_old: sweep.old, positions_new: sweep.new, slaves, facets: &triangles[pass.target], reach };
             search.pairs(&query, pairs);
             let placed = Placed { surface: target, positions: sweep.new };
-            pass.band = BAND * (0..target.facets.len() as u32).map(|facet| placed.size(facet)).fold(0.0, f64::max);
+            let largest = (0..target.facets.len() as u32).map(|facet| placed.size(facet)).fold(0.0, f64::max);
+            pass.band = (BAND * largest).min(*band);
             let old = std::mem::take(&mut pass.groups);
             let mut old = old.iter().peekable();
             pass.candidates.clear();
@@ -469,7 +481,7 @@ impl Tracker {
         let target = &self.surfaces[pass.target];
         let (placed, before) = (Placed { surface: target, positions: sweep.new }, Placed { surface: target, positions: sweep.old });
         let way = length(*beyond);
-        if way > BAND * placed.size(over.facet) || -over.gap > self.radius - self.skin {
+        if way > (BAND * placed.size(over.facet)).min(self.band) || -over.gap > self.radius - self.skin {
             return false;
         }
         let held = dot(side, over.normal) > SAME_FACE || (group.touches && dot(group.memory.normal, over.normal) > SAME_FACE);

@@ -6,6 +6,7 @@
 use super::{Corners, NONE, named};
 use crate::error::Fault;
 use crate::mesh::messages::{BAD_ELEMENT, NOT_A_SURFACE, OVERLAP};
+use crate::model::TriangleSurface;
 use crate::rows::Rows;
 use crate::tensor::{cross, dot};
 use crate::vector::minus;
@@ -107,6 +108,51 @@ impl SpaceSurface {
         Self::linked(facets.into_iter().map(Corners::canonical).collect(), &Table::new(cells)?)
     }
 
+    /// A surface of triangles that is no outside of cells: point `k` is node `first + k`. Where more than two triangles have an edge, or two of them in one direction, they end there.
+    #[must_use]
+    pub fn of_triangles(triangles: &TriangleSurface, first: u32) -> Self {
+        let facets: Vec<[u32; 4]> =
+            triangles.triangles.iter().map(|&[a, b, c]| [a, b, c, c].map(|point| first + point).canonical()).collect();
+        let mut partners = vec![[NONE; 3]; facets.len()];
+        let corner = |triangle: u32, node: u32| facets[triangle as usize].iter().position(|&other| other == first + node).unwrap_or(0);
+        for here in triangles.edges().chunk_by(|a, b| a.key() == b.key()) {
+            if let [a, b] = here
+                && a.nodes != b.nodes
+            {
+                partners[a.triangle as usize][corner(a.triangle, a.nodes[0])] = b.triangle;
+                partners[b.triangle as usize][corner(b.triangle, b.nodes[0])] = a.triangle;
+            }
+        }
+        let (mut edges, mut edges_of) = (Vec::with_capacity(3 * facets.len() / 2), vec![[NONE; 4]; facets.len()]);
+        for (f, facet) in (0_u32..).zip(&facets) {
+            for k in 0..3 {
+                if edges_of[f as usize][k] != NONE {
+                    continue; // its neighbour has made this edge
+                }
+                let (nodes, number, other) = ([facet[k], facet[(k + 1) % 3]], edges.len() as u32, partners[f as usize][k]);
+                edges_of[f as usize][k] = number;
+                if other != NONE
+                    && let Some(at) = (0..3).find(|&at| facets[other as usize][at] == nodes[1])
+                {
+                    edges_of[other as usize][at] = number;
+                }
+                edges.push(SurfaceEdge { nodes, facets: [f, other] });
+            }
+        }
+        let mut nodes: Vec<u32> = facets.iter().flat_map(Corners::corners).copied().collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        let around = Self::around_nodes(&facets, &nodes);
+        Self { facets, nodes, edges, edges_of, mirrors: Vec::new(), around }
+    }
+
+    /// Facets at each node.
+    fn around_nodes(facets: &[[u32; 4]], nodes: &[u32]) -> Rows<u32> {
+        let rank = |node: u32| nodes.binary_search(&node).map_or(0, |rank| rank as u32);
+        let at_nodes = facets.iter().zip(0..).flat_map(|(facet, f)| facet.corners().iter().map(move |&node| (rank(node), f)));
+        Rows::new(nodes.len(), at_nodes)
+    }
+
     /// Facets at the node that stands at `rank` in [`SpaceSurface::nodes`], ascending.
     #[must_use]
     pub fn around(&self, rank: usize) -> &[u32] {
@@ -171,9 +217,7 @@ impl SpaceSurface {
         let mut nodes: Vec<u32> = facets.iter().flat_map(Corners::corners).copied().collect();
         nodes.sort_unstable();
         nodes.dedup();
-        let rank = |node: u32| nodes.binary_search(&node).map_or(0, |rank| rank as u32);
-        let at_nodes = facets.iter().zip(0..).flat_map(|(facet, f)| facet.corners().iter().map(move |&node| (rank(node), f)));
-        let around = Rows::new(nodes.len(), at_nodes);
+        let around = Self::around_nodes(&facets, &nodes);
         Ok(Self { facets, nodes, edges, edges_of, mirrors: Vec::new(), around })
     }
 }

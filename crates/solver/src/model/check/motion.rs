@@ -226,6 +226,11 @@ impl Check<'_> {
                 self.direction(&format!("{path}.cylinder.axis"), *axis);
                 self.number(&format!("{path}.cylinder.radius"), *radius);
             }
+            ObstacleShape::Triangles(surface) => {
+                self.faults.extend(
+                    surface.faults().into_iter().map(|fault| crate::error::Fault { path: format!("{path}.{}", fault.path), ..fault }),
+                );
+            }
             ObstacleShape::Polyline { points } => self.polyline(&format!("{path}.polyline.points"), points),
         }
     }

@@ -198,8 +198,9 @@ impl Check<'_> {
     /// Parts of the plane and of space do not go together; nor does a sweep with what has no area, or is a solid as it is.
     fn sweep(&mut self, path: &str, part: &Part) {
         let dimension = self.model.dimension();
-        if self.model.dimension_of(part) != dimension {
-            let first = excerpt(&self.model.parts[0].name);
+        let known = |part: &&Part| !self.model.lacks_mesh(part);
+        if known(&part) && self.model.dimension_of(part) != dimension {
+            let first = excerpt(self.model.parts.iter().find(known).map_or("", |first| &first.name));
             let (own, other) = if dimension == 2 { ("a solid", "in the plane") } else { ("in the plane", "a solid") };
             let at = part.sweep.as_ref().map_or_else(|| size_key(&part.shape), |sweep| sweep.key().to_string());
             let at = at.split('.').next().unwrap_or_default().to_string();

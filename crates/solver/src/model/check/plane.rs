@@ -62,6 +62,7 @@ impl Check<'_> {
                 ObstacleShape::Circle { centre, .. } => self.flat(&format!("{path}.circle.centre"), *centre),
                 ObstacleShape::Polyline { .. } => {}
                 ObstacleShape::Sphere { .. } => self.third(format!("{path}.sphere"), "there are no spheres in the plane; take `circle`"),
+                ObstacleShape::Triangles(_) => self.third(format!("{path}.stl"), "a surface of triangles is one of space; take `polyline`"),
                 ObstacleShape::Cylinder { .. } => {
                     self.third(format!("{path}.cylinder"), "there are no cylinders in the plane; take `circle`")
                 }

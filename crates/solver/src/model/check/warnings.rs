@@ -3,11 +3,13 @@
 //! Only what is certain before a run: a warning that is wrong once is read no more. What needs the mesh is told by `build/idle.rs`.
 
 use crate::block::stress_state::{PlaneStress, StressState};
+use crate::contact::messages::OPEN;
 use crate::element::{Element, Quad4, Quad4Full, Tri3};
 use crate::error::Warning;
 use crate::material::messages::{FLUID, LOCKING, SOFTENING};
 use crate::material::{self, Law, Null, Parameters};
-use crate::model::{Material, Model, Part, Shape};
+use crate::model::{Material, Model, ObstacleShape, Part, Shape, TriangleSurface};
+use crate::world::place;
 
 /// From this Poisson's ratio on elements without averaged dilatation are too stiff for any use: K is fifty times µ.
 const LOCKS: f64 = 0.49;
@@ -24,6 +26,11 @@ impl Model {
             let Some(it) = self.materials.get(&part.material) else { continue };
             warnings.extend(self.locking(index, part, it));
             warnings.extend(self.fluid(index, part, it));
+        }
+        for (index, obstacle) in self.obstacles.iter().enumerate() {
+            if let ObstacleShape::Triangles(surface) = &obstacle.shape {
+                warnings.extend(open(index, surface));
+            }
         }
         warnings
     }
@@ -96,6 +103,20 @@ impl Model {
             _ => part.nodes_per_element().is_some_and(is),
         }
     }
+}
+
+/// A surface with a rim.
+fn open(index: usize, surface: &TriangleSurface) -> Option<Warning> {
+    let (count, first) = surface.open_edges()?;
+    let [a, b] = first.map(place);
+    let edges = if count == 1 { "1 edge belongs".to_string() } else { format!("{count} edges belong") };
+    Some(Warning {
+        kind: &OPEN,
+        path: format!("obstacle[{index}].stl.file"),
+        message: format!("{}: {edges} to one triangle alone, the first from {a} to {b} m", surface.source),
+        consequence: "bodies meet its triangles from the front; who passes beside its rim comes behind it unseen".into(),
+        help: "nothing is to be done if it is meant as a sheet that bodies do not leave; else close it in the program that made it".into(),
+    })
 }
 
 /// The parameters of a material; `None` when there is no such law.

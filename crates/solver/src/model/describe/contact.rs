@@ -33,7 +33,7 @@ pub(super) static CONTACT: Section = Section {
 
 pub(super) static OBSTACLE: Section = Section {
     name: "obstacle",
-    doc: "A rigid body without elements that parts can't go through: fixed, moved, or free with a mass. Exactly one of `plane`, `circle` and `polyline` is its shape.",
+    doc: "A rigid body without elements that parts can't go through: fixed, moved, or free with a mass. Exactly one of `plane`, `circle` and `polyline`, in space of `plane`, `sphere`, `cylinder` and `stl`, is its shape.",
     form: Form::Repeated,
     keys: &[
         key("name", Name, Optional("`obstacle`, `obstacle2`, ..."), "Unique name."),
@@ -43,6 +43,7 @@ pub(super) static OBSTACLE: Section = Section {
         key("polyline", Table(&POLYLINE), Optional("another shape"), "Straight lines from point to point."),
         key("sphere", Table(&SPHERE), Optional("another shape"), "In space: a sphere."),
         key("cylinder", Table(&CYLINDER), Optional("another shape"), "In space: a cylinder without ends."),
+        key("stl", Table(&STL), Optional("another shape"), "In space: the triangles of an STL file."),
         key(
             "motion",
             Kind::Motion,
@@ -52,7 +53,9 @@ pub(super) static OBSTACLE: Section = Section {
         key(
             "reference",
             Spatial(Dimension::LENGTH, Finite),
-            Optional("the plane's point, the circle's centre, the mean of the polyline's points"),
+            Optional(
+                "the plane's point, the circle's centre, the mean of the polyline's points, the middle of the box around the triangles",
+            ),
             "Reference point of rotation and moments.",
         ),
         key(
@@ -71,7 +74,7 @@ pub(super) static OBSTACLE: Section = Section {
         key("spin", Angle(Dimension::RATE, Finite), Default("0"), "Initial angular velocity where it is free, counter-clockwise."),
     ],
     groups: &[&INTERFACE],
-    rules: &[Rule::OneOf(&["plane", "circle", "polyline", "sphere", "cylinder"])],
+    rules: &[Rule::OneOf(&["plane", "circle", "polyline", "sphere", "cylinder", "stl"])],
     ..Section::EMPTY
 };
 
@@ -116,6 +119,24 @@ static CYLINDER: Section = Section {
         key("axis", Spatial(Dimension::NONE, Finite), Required, "Direction of the axis; any length but zero."),
         key("radius", Quantity(Dimension::LENGTH, Positive), Required, "Radius."),
         key("hollow", Flag, Default("false"), "Whether the bodies are inside of it."),
+    ],
+    ..Section::EMPTY
+};
+
+static STL: Section = Section {
+    name: "stl",
+    doc: "In space: the triangles of an STL file, text or binary. Corners that are equal to the last bit are one point. Bodies are on the side from which triangles are counter-clockwise, which is outside of a closed surface; the normals that the file gives don't count.",
+    keys: &[
+        key("file", Kind::Text, Required, "Path of the file, from the model file's folder."),
+        key(
+            "scale",
+            Quantity(Dimension::LENGTH, Positive),
+            Default("\"1 m\""),
+            "Length of one unit of the file; `\"1 mm\"` of most programs for construction.",
+        ),
+        key("rotation", Table(&super::sections::ROTATION), Optional("as in the file"), "How it is turned."),
+        key("translation", Spatial(Dimension::LENGTH, Finite), Default("[0, 0, 0]"), "How far it is moved after that."),
+        key("hollow", Flag, Default("false"), "Whether the bodies are on the other side: inside of a closed surface."),
     ],
     ..Section::EMPTY
 };

@@ -289,7 +289,7 @@ static MIRROR: Section = Section {
     ..Section::EMPTY
 };
 
-static ROTATION: Section = Section {
+pub(super) static ROTATION: Section = Section {
     name: "rotation",
     doc: "The shape is turned about a point, in space about an axis.",
     keys: &[

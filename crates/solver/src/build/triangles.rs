@@ -1,0 +1,171 @@
+//! Obstacles of triangles: points and triangles are nodes and facets that move with a rigid body, and meet the outside of the parts as surfaces meet, nodes against facets and edges against edges.
+//!
+//! The surface comes from the model; the search, the nearest feature, friction and memory are those of contact between bodies (`contact/node_facet.rs`). Nodes of the parts press with all that they
+//! stand for, as on every obstacle, where the triangles are larger than the facets of the parts; then only points that stick out press back, each with as much as a node of the parts has. Surfaces as
+//! fine as the parts meet them half in each pass.
+
+use super::space_contact::Sided;
+use super::{Builder, law_of, search_by_name};
+use crate::contact::edge_edge::EdgeTouch;
+use crate::contact::initial::{self, Inside, Penetration};
+use crate::contact::node_facet::tracker::{Touch, Tracker};
+use crate::contact::node_facet::{NodeFacet, edges_at_start};
+use crate::contact::obstacle::OutlineShape;
+use crate::contact::projection::edge_edge::point;
+use crate::contact::projection::node_facet::Placed;
+use crate::contact::search::Search;
+use crate::contact::{Formulation, Sweep, Tributary};
+use crate::error::Fault;
+use crate::mesh::surface::SpaceSurface;
+use crate::model::{InitialPenetration, Obstacle, ObstacleShape, TriangleSurface};
+use crate::rigid::Member;
+use crate::vector::minus;
+
+/// Nodes of the parts against triangles, and points of these against facets of the parts.
+const PASSES: &[(usize, usize)] = &[(0, 1), (1, 0)];
+
+impl Builder<'_, 3> {
+    /// The body of an obstacle of triangles, and what makes springs where `outside` of the parts meets it.
+    pub(super) fn triangles(
+        &mut self,
+        obstacle: &Obstacle,
+        surface: &TriangleSurface,
+        outside: SpaceSurface,
+    ) -> Result<(usize, Box<dyn Formulation<3>>), Fault> {
+        let interface = &obstacle.interface;
+        let parts = self.sided(&outside, interface);
+        let (body, first) = self.body_of_triangles(obstacle, surface);
+        let own = SpaceSurface::of_triangles(surface, first);
+        let (points, passes) = self.points_of_triangles(&own, &parts.nodes);
+        let count = own.facets.len();
+        // Nothing of it gives way.
+        let rigid = Sided { shares: vec![1.0; points.len()], nodes: points, moduli: vec![f64::INFINITY; count], facets: vec![f64::INFINITY; count] };
+        let inputs = vec![parts.against(&rigid, interface, passes), rigid.against(&parts, interface, passes)];
+        let tracker =
+            Tracker::new(vec![outside, own], PASSES, &self.body_of_node, search(), &self.positions).measured_by(0, &self.positions);
+        let made = NodeFacet::new(tracker, inputs, interface, law_of(interface).reach(), &self.positions).with_edges(search());
+        Ok((body, Box::new(made)))
+    }
+
+    /// The rigid body, and the number of the node of its first point. Those that are there already, where contacts are made again.
+    fn body_of_triangles(&mut self, obstacle: &Obstacle, surface: &TriangleSurface) -> (usize, u32) {
+        if let Some(&body) = self.made.get(&obstacle.name) {
+            return (body, self.bodies.state(body).members.first().map_or(0, |member| member.node));
+        }
+        let reference = obstacle.reference.unwrap_or_else(|| surface.middle());
+        let first = self.positions.len() as u32;
+        self.positions.extend(&surface.positions);
+        self.mass.resize(self.positions.len(), 1.0);
+        let mut rigid = self.obstacle_body_in_space(obstacle, reference);
+        rigid.members = (first..).zip(&surface.positions).map(|(node, &x)| Member { node, arm: minus(x, reference) }).collect();
+        let points = rigid.members.iter().map(|member| member.arm).collect();
+        let body = self.bodies.add_with_nodes(rigid, self.positions.len());
+        let facets = surface.triangles.iter().map(|&[a, b, c]| [a, b, c, c]).collect();
+        self.outlines.push(OutlineShape { name: obstacle.name.clone(), body, points, facets });
+        (body, first)
+    }
+
+    /// What each point of an obstacle stands for beside the nodes of the parts, and the number of passes that carry the pressure together.
+    fn points_of_triangles(&self, own: &SpaceSurface, parts: &[Tributary]) -> (Vec<Tributary>, usize) {
+        let placed = Placed { surface: own, positions: &self.positions };
+        let mut areas = vec![0.0; own.nodes.len()];
+        for (facet, number) in own.facets.iter().zip(0..) {
+            let share = placed.area(number) / 3.0;
+            for node in &facet[..3] {
+                if let Ok(rank) = own.nodes.binary_search(node) {
+                    areas[rank] += share;
+                }
+            }
+        }
+        let mean = parts.iter().map(|own| own.area).sum::<f64>() / parts.len().max(1) as f64;
+        let fine: f64 = areas.iter().filter(|&&area| area <= mean).sum();
+        let passes = if 2.0 * fine > areas.iter().sum::<f64>() { 2 } else { 1 };
+        // Of triangles that are larger than facets of the parts, what goes in between their nodes.
+        let mut counts: Vec<bool> = areas.iter().map(|&area| passes == 2 || area <= mean).collect();
+        for (edge, number) in own.edges.iter().zip(0..) {
+            if placed.ridge(number).is_some_and(|ridge| ridge.is_sharp()) {
+                edge.nodes.iter().filter_map(|node| own.nodes.binary_search(node).ok()).for_each(|rank| counts[rank] = true);
+            }
+        }
+        let of = |(area, counts): (f64, bool)| {
+            let area = if !counts {
+                0.0
+            } else if passes == 2 {
+                area
+            } else {
+                area.min(mean)
+            };
+            Tributary { area, length: area, stiffness: f64::INFINITY }
+        };
+        (areas.into_iter().zip(counts).map(of).collect(), passes)
+    }
+
+    /// Penetrations of obstacles of triangles at the start: faults, or lines for the overview of those that count as zero.
+    pub(super) fn inside_triangles(&mut self, tolerance: f64) -> Vec<String> {
+        let mut lines = Vec::new();
+        for (i, obstacle) in self.model.obstacles.iter().enumerate() {
+            let ObstacleShape::Triangles(surface) = &obstacle.shape else { continue };
+            let outside = self.mesh.outside_without(&obstacle.parts, |facet| self.constraints.is_mirror(facet));
+            // Wrong parts are told when obstacles are made; who begins later can't know.
+            let (Ok(outside), true) = (outside, obstacle.interface.active[0] <= 0.0) else { continue };
+            let found = self.penetrations_of_triangles(surface, outside, obstacle.interface.thickness, tolerance);
+            match obstacle.interface.initial_penetration {
+                InitialPenetration::Ignore => lines.extend(initial::lines(&obstacle.name, &found, super::start::IGNORED)),
+                InitialPenetration::Error | InitialPenetration::PushOut => {
+                    self.faults.extend(initial::faults(&format!("obstacle[{i}]"), &obstacle.name, &found));
+                }
+            }
+        }
+        lines
+    }
+
+    fn penetrations_of_triangles(
+        &self,
+        surface: &TriangleSurface,
+        outside: SpaceSurface,
+        thickness: f64,
+        tolerance: f64,
+    ) -> Vec<Penetration<3>> {
+        let positions: Vec<[f64; 3]> = self.mesh.positions.iter().chain(&surface.positions).copied().collect();
+        let own = SpaceSurface::of_triangles(surface, self.mesh.positions.len() as u32);
+        let mut tracker = Tracker::new(vec![outside, own], PASSES, &self.body_of_node, search(), &positions).measured_by(0, &positions);
+        let touches = tracker.track(Sweep::between(&positions, &positions), thickness).iter();
+        let of = |touch: &Touch| {
+            let place = positions[touch.node as usize];
+            Penetration { what: Inside::Node, place, depth: thickness - touch.projection.gap }
+        };
+        let mut found: Vec<_> = touches.map(of).filter(|found| found.depth > tolerance).collect();
+        if found.is_empty() {
+            let crossing = edges_at_start(&tracker, search(), &positions, thickness);
+            let of = |touch: &EdgeTouch| {
+                let [a, b] = touch.nodes[0].map(|node| positions[node as usize]);
+                Penetration { what: Inside::Edge, place: point([a, b], touch.crossing.along[0]), depth: thickness - touch.crossing.gap }
+            };
+            found = crossing.iter().map(of).filter(|found| found.depth > tolerance).collect();
+        }
+        if found.is_empty() && surface.open_edges().is_none() {
+            found = self.bodies_in_triangles(&tracker, &positions, tolerance);
+        }
+        found
+    }
+
+    /// A node of each body that is inside of a closed surface altogether, where no node is near it.
+    fn bodies_in_triangles(&self, tracker: &Tracker, positions: &[[f64; 3]], tolerance: f64) -> Vec<Penetration<3>> {
+        let [parts, own] = tracker.surfaces() else { return Vec::new() };
+        let mut nodes: Vec<(u32, u32)> = parts.nodes.iter().map(|&node| (self.body_of_node[node as usize], node)).collect();
+        nodes.sort_unstable();
+        nodes.dedup_by_key(|(body, _)| *body);
+        let placed = Placed { surface: own, positions };
+        let of = |(_, node): (u32, u32)| {
+            let place = positions[node as usize];
+            let depth = -placed.project(place, 0..own.facets.len() as u32)?.gap;
+            (depth > tolerance).then_some(Penetration { what: Inside::Node, place, depth })
+        };
+        nodes.into_iter().filter_map(of).collect()
+    }
+}
+
+/// The search of obstacles.
+fn search() -> Box<dyn Search<3>> {
+    (search_by_name("").expect("the registry of searches is not empty").make)()
+}

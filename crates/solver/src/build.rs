@@ -14,6 +14,7 @@ mod outline;
 pub(crate) mod plane;
 mod space;
 mod space_contact;
+mod space_pinball;
 mod start;
 mod triangles;
 

@@ -13,7 +13,8 @@ use crate::contact::node_facet::{NodeFacet, PassInput, Slave, edges_at_start};
 use crate::contact::obstacle::OutlineShape;
 use crate::contact::obstacle::space::{NodeSolid, Solid, Vector};
 use crate::contact::projection::edge_edge::point;
-use crate::contact::search::Search;
+use crate::contact::proof::Proof;
+use crate::contact::search::{Search, registry};
 use crate::contact::tracker::SKIN;
 use crate::contact::{Contact, ContactKind, Formulation, Sweep, Tributary};
 use crate::error::Fault;
@@ -28,8 +29,8 @@ use std::collections::BTreeMap;
 /// What a contact of the plane may do and one of space may not (yet).
 fn refused(contact: &model::Contact) -> Option<(&'static str, &'static str, &'static str)> {
     let name = contact.formulation.name();
-    if !["double_pass", "single_pass"].contains(&name) {
-        return Some(("formulation", "nodes meet facets", "take `double_pass` or `single_pass`"));
+    if !["double_pass", "single_pass", "pinball"].contains(&name) {
+        return Some(("formulation", "there are no segments", "take `double_pass`, `single_pass` or `pinball`"));
     }
     if contact.interface.initial_penetration == InitialPenetration::PushOut {
         return Some(("initial_penetration", "nothing is pushed out", "move the bodies apart, or take \"ignore\""));
@@ -224,6 +225,9 @@ impl Builder<'_, 3> {
         if let Some((key, message, help)) = refused(contact) {
             return Err(vec![Fault::new(&NOT_IN_SPACE, key, format!("in space {message}"), help)]);
         }
+        if contact.formulation == model::Formulation::Pinball {
+            return self.pinball_in_space(contact);
+        }
         let terms = self.add_terms(terms_of(&contact.interface));
         let (tracker, passes) = self.tracker_in_space(contact)?;
         let sides: Vec<Sided> = tracker.surfaces().iter().map(|surface| self.sided(surface, &contact.interface)).collect();
@@ -236,7 +240,9 @@ impl Builder<'_, 3> {
             (strength, PassInput { moduli: sides[target].facets.clone(), ..inputs[0].clone() })
         });
         let reach = law_of(&contact.interface).reach();
-        let made = NodeFacet::new(tracker, inputs, &contact.interface, reach, &self.mesh.positions);
+        let with_edges = contact.tied.is_none() && meets_edges(contact, passes);
+        let proof = Proof::new(tracker.surfaces(), passes, &self.body_of_node, &self.mesh.positions, with_edges, registry::<3>()[0].make);
+        let made = NodeFacet::new(tracker, inputs, &contact.interface, reach, &self.mesh.positions).with_proof(proof);
         let Some((strength, input)) = tied else {
             let made = if meets_edges(contact, passes) { made.with_edges(Self::search_in_space(contact)?) } else { made };
             return Ok((Box::new(made), terms));
@@ -268,7 +274,7 @@ impl Builder<'_, 3> {
     }
 
     /// The search that a contact names.
-    fn search_in_space(contact: &model::Contact) -> Result<Box<dyn Search<3>>, Vec<Fault>> {
+    pub(super) fn search_in_space(contact: &model::Contact) -> Result<Box<dyn Search<3>>, Vec<Fault>> {
         let Some(found) = search_by_name::<3>(&contact.search) else {
             let message = format!("there is no search \"{}\"", contact.search);
             return Err(vec![Fault::new(&UNKNOWN_NAME, "search", message, "see `embate list searches`")]);
@@ -277,7 +283,7 @@ impl Builder<'_, 3> {
     }
 
     /// The surfaces of a contact: two, or one that meets itself.
-    fn surfaces_in_space(&self, contact: &model::Contact) -> Result<Vec<SpaceSurface>, Vec<Fault>> {
+    pub(super) fn surfaces_in_space(&self, contact: &model::Contact) -> Result<Vec<SpaceSurface>, Vec<Fault>> {
         let is_mirror = |facet: [u32; 4]| self.constraints.is_mirror(facet);
         let whole = |surface: Result<SpaceSurface, Fault>, path: String, what: String| match surface {
             Ok(surface) if surface.facets.is_empty() => {

@@ -17,6 +17,7 @@ pub mod edge_edge;
 pub mod node_facet;
 pub mod node_segment;
 pub mod pinball;
+pub mod proof;
 pub mod segment;
 pub mod tied;
 pub mod obstacle;

@@ -14,10 +14,11 @@ use super::initial::{is_ignored, kept};
 use super::node_segment::{Before, Closed, carried, is_stored};
 use super::projection::edge_edge::distance;
 use super::projection::node_facet::{Placed, Projection, Vector, unit};
+use super::proof::Proof;
 use super::search::Search;
 use super::springs::friction::cone;
 use super::springs::{Answer, Answers, End, Spring, Springs};
-use super::tracker::SearchReport;
+use super::tracker::{Certificate, SearchReport};
 use super::{Formulation, Scene, Sweep};
 use crate::archive::{Archive, Kept, keep_each};
 use crate::mesh::surface::{Corners, NONE};
@@ -60,6 +61,8 @@ pub struct NodeFacet {
     tracker: Tracker,
     /// Edges against edges, if they meet.
     edges: Option<EdgeTracker>,
+    /// What proves that nothing was missed.
+    proof: Option<Proof>,
     passes: Vec<PassInput>,
     /// Distance that the surfaces keep, m.
     thickness: f64,
@@ -93,6 +96,7 @@ impl NodeFacet {
         Self {
             tracker,
             edges: None,
+            proof: None,
             passes,
             thickness: interface.thickness,
             reach,
@@ -114,6 +118,12 @@ impl NodeFacet {
     #[must_use]
     pub fn with_edges(self, search: Box<dyn Search<3>>) -> Self {
         Self { edges: Some(EdgeTracker::new(self.tracker.surfaces(), self.tracker.bodies(), search)), ..self }
+    }
+
+    /// The same with a proof that nothing is missed.
+    #[must_use]
+    pub fn with_proof(self, proof: Proof) -> Self {
+        Self { proof: Some(proof), ..self }
     }
 
     /// What follows the edges.
@@ -295,6 +305,9 @@ impl NodeFacet {
         let count = self.tracker.track(scene.sweep, self.thickness + self.reach).len();
         let is_searched = self.tracker.search_report().searches != searches;
         self.track_edges(scene, is_searched);
+        if let Some(proof) = &mut self.proof {
+            proof.look_at(&self.tracker, self.edges.as_ref(), scene.sweep);
+        }
         self.find_superseded();
         let mut again = Closed::default();
         self.frames.clear();
@@ -375,10 +388,14 @@ impl Formulation<3> for NodeFacet {
             superseded: _,
             tracker,
             edges,
+            proof,
             has_begun,
             closed,
         } = self;
         tracker.keep(archive)?;
+        if let Some(proof) = proof {
+            proof.keep(archive, tracker.surfaces())?;
+        }
         if let Some(edges) = edges {
             edges.keep(archive, tracker.surfaces())?;
         }
@@ -393,8 +410,15 @@ impl Formulation<3> for NodeFacet {
             if let (Some(edges), Some(before)) = (&mut self.edges, &old.edges) {
                 edges.inherit(before, old.tracker.surfaces(), self.tracker.surfaces());
             }
+            if let (Some(proof), Some(before)) = (&mut self.proof, &old.proof) {
+                proof.inherit(before, self.tracker.surfaces());
+            }
             self.has_begun = old.has_begun;
         }
+    }
+
+    fn certificate(&self) -> Certificate {
+        self.proof.as_ref().map(Proof::certificate).unwrap_or_default()
     }
 
     fn let_go(&self) -> f64 {

@@ -10,6 +10,8 @@
 //! Surfaces of disks are bumpy by 0.13 of the disks' diameter: bodies on each other's disks stand nearer or farther by that, and sliding is rough. Good for impact and penetration, not for
 //! pressures. Stiffness of a pair: that of the automatic penalty, min(κ₁, κ₂) times the shorter of the two lengths (the penalty form); with the law `multiplier` the Lagrangian form.
 
+pub mod space;
+
 use super::formulation::{FormulationKind, Setup, Side, both_passes};
 use super::initial::kept;
 use super::law::penalty;
@@ -24,8 +26,8 @@ use std::any::Any;
 /// Registry entry.
 pub const KIND: FormulationKind = FormulationKind {
     name: "pinball",
-    doc: "disks in the elements under the surfaces against each other: simple and robust, bumpy where bodies slide",
-    source: "Belytschko and Neal (1991), split as by Belytschko and Yeh (1993); disks that touch the surface from inside",
+    doc: "disks (in space balls) in the elements under the surfaces against each other: simple and robust, bumpy where bodies slide",
+    source: "Belytschko and Neal (1991), split as by Belytschko and Yeh (1993); disks and balls that touch the surface from inside",
     passes: both_passes,
     make: |setup| Ok(Box::new(Pinball::of(&setup))),
 };

@@ -63,11 +63,10 @@ where
         }
         let unverified = self.certificate().unverified;
         if unverified > 0 {
+            let who = if D == 3 { "a node or an edge went into a body, or was let go in it," } else { "a node was inside a body" };
             tell(
                 &MISSED,
-                format!(
-                    "{unverified} time(s) a node was inside a body without being in contact with it: a contact was missed, or a body went through itself"
-                ),
+                format!("{unverified} time(s) {who} without being in contact with it: a contact was missed, or a body went through itself"),
             );
         }
         for contact in self.system.contacts.iter().filter(|contact| self.system.step > 0 && !contact.has_pressed) {

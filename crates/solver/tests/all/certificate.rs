@@ -8,7 +8,7 @@ use embate_solver::contact::projection::node_segment::{Target, Vector};
 use embate_solver::contact::search::registry;
 use embate_solver::contact::tracker::Tracker;
 use embate_solver::mesh::surface::Surface;
-use embate_solver::model::{Contact, Disk, Partners, Shape};
+use embate_solver::model::{Contact, Cuboid, Disk, Part, Partners, Shape};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
@@ -243,5 +243,33 @@ proptest! {
         }
         prop_assert_eq!(sleepy.certificate(), awake.certificate());
         prop_assert_eq!(sleepy.search_report(), awake.search_report());
+    }
+}
+
+/// A block that is thrown on a pile of plates as solids, everybody against everybody.
+#[test]
+fn runs_of_solids_certify_themselves() {
+    for element in ["hex8", "hex8_reduced"] {
+        let mut model = model(4e-3);
+        let solid = |name: &str, corner: [f64; 3], size: [f64; 3], elements: [usize; 3], velocity: [f64; 3]| Part {
+            name: name.into(),
+            material: "soft".into(),
+            element: element.into(),
+            shape: Shape::Cuboid(Cuboid { corner, size, elements, ..Cuboid::default() }),
+            velocity,
+            ..Part::default()
+        };
+        for plate in 0..3 {
+            let (name, z) = (format!("plate{plate}"), -0.012 * f64::from(plate));
+            model.parts.push(solid(&name, [0.0, 0.0, z], [0.1, 0.1, 0.006], [8, 8, 1], [0.0; 3]));
+        }
+        model.parts.push(solid("block", [0.032, 0.037, 0.01], [0.035, 0.03, 0.03], [4, 3, 3], [2.0, 1.0, -20.0]));
+        model.contacts.push(Contact { name: "all".into(), partners: Partners::Bodies(vec![]), ..Contact::default() });
+        let (simulation, history) = run(&model);
+        let summary = simulation.summary();
+        println!("{element}: {:?}, penetration {}", summary.contact, summary.penetration_max);
+        assert!(history.largest("energy.contact") > 0.1);
+        assert!(summary.contact.unverified == 0 && summary.contact.crossings_found > 50, "{summary:?}");
+        assert!(summary.contact.pairs_swept > 100_000 && summary.warnings.is_empty(), "{:?}", summary.warnings);
     }
 }

@@ -11,7 +11,7 @@ use crate::contact::projection::node_facet::{Feature, Placed, Projection, Vector
 use crate::contact::search::{Query, Search};
 use crate::contact::springs::{Answers, Spring, Springs};
 use crate::contact::tied::{NEAR, Ties};
-use crate::contact::tracker::SearchReport;
+use crate::contact::tracker::{Certificate, SearchReport};
 use crate::contact::{Formulation, Scene};
 use crate::mesh::surface::{Corners, SpaceSurface};
 use crate::motion::Motion;
@@ -209,6 +209,10 @@ impl Formulation<3> for TiedFacet {
                 _ => self.broken += 1,
             }
         }
+    }
+
+    fn certificate(&self) -> Certificate {
+        self.loose.certificate()
     }
 
     fn search_report(&self) -> Option<SearchReport> {

@@ -505,7 +505,7 @@ impl Tracker {
     }
 
     /// Normal of a slave at its own surface.
-    fn own_normal(&self, surface: usize, slave: u32, positions: &[Vector]) -> Vector {
+    pub(in crate::contact) fn own_normal(&self, surface: usize, slave: u32, positions: &[Vector]) -> Vector {
         let (facet, corner) = self.corners[surface][slave as usize];
         let (normal, _) = Placed { surface: &self.surfaces[surface], positions }.node_normal(facet, corner as usize);
         normal.map(|n| n / length(normal).max(f64::MIN_POSITIVE))
@@ -551,12 +551,12 @@ impl Tracker {
 }
 
 /// Two triangles of a facet; of one with three nodes twice itself.
-pub(super) fn halves(&[a, b, c, d]: &[u32; 4]) -> [[u32; 3]; 2] {
+pub(in crate::contact) fn halves(&[a, b, c, d]: &[u32; 4]) -> [[u32; 3]; 2] {
     [[a, b, c], if c == d { [a, b, c] } else { [c, d, a] }]
 }
 
 /// Mean length of the edges of surfaces, m.
-fn mean_edge(surfaces: &[SpaceSurface], positions: &[Vector]) -> f64 {
+pub(in crate::contact) fn mean_edge(surfaces: &[SpaceSurface], positions: &[Vector]) -> f64 {
     let (mut sum, mut count) = (0.0, 0usize);
     for edge in surfaces.iter().flat_map(|surface| &surface.edges) {
         let [a, b] = edge.nodes.map(|node| positions[node as usize]);
@@ -566,7 +566,7 @@ fn mean_edge(surfaces: &[SpaceSurface], positions: &[Vector]) -> f64 {
 }
 
 /// How far the middle of a facet is from that of its diagonal at most, m: by so much it may be outside the boxes of its halves.
-pub(super) fn bend(surface: &SpaceSurface, positions: &[Vector]) -> f64 {
+pub(in crate::contact) fn bend(surface: &SpaceSurface, positions: &[Vector]) -> f64 {
     let of = |facet: &[u32; 4]| {
         if facet.corners().len() == 3 {
             return 0.0;

@@ -3,3 +3,4 @@
 pub mod edge_edge;
 pub mod node_facet;
 pub mod node_segment;
+pub mod swept;

@@ -19,7 +19,7 @@ pub(super) static CONTACT: Section = Section {
             "formulation",
             Choice(formulations),
             Default("\"double_pass\""),
-            "What is checked: the nodes of each surface against the segments of the other, only the nodes of `slave`, segments against segments, or disks in the elements. In space nodes meet facets, in a double pass also edges edges; there are no segments and disks.",
+            "What is checked: the nodes of each surface against the segments of the other, only the nodes of `slave`, segments against segments, or disks in the elements. In space nodes meet facets, in a double pass also edges edges, and the elements have balls; there are no segments.",
         ),
         key("slave", Reference, Optional("needed for, and only for, `single_pass`"), "The surface of `between` whose nodes are checked."),
         key("tied", Flag, Default("false"), "Whether what touches at the start stays together."),

@@ -1,0 +1,26 @@
+//! Pinballs between surfaces in space: the surfaces that a contact names, the elements behind their facets and their stiffness.
+
+use super::space_contact::Sided;
+use super::{Builder, law_of, terms_of};
+use crate::contact::Formulation;
+use crate::contact::pinball::space::{Layer, Pinball};
+use crate::error::Fault;
+use crate::model::{self, ContactLaw, Penalty};
+
+impl Builder<'_, 3> {
+    /// What makes the springs of a contact between balls, and the number of the terms that they follow. Faults have paths relative to the contact.
+    pub(super) fn pinball_in_space(&mut self, contact: &model::Contact) -> Result<(Box<dyn Formulation<3>>, usize), Vec<Fault>> {
+        let terms = self.add_terms(terms_of(&contact.interface));
+        let (search, surfaces) = (Self::search_in_space(contact)?, self.surfaces_in_space(contact)?);
+        let layers = surfaces.iter().map(|surface| {
+            let Sided { facets: stiffness, .. } = self.sided(surface, &contact.interface);
+            let cell = |&facet: &[u32; 4]| self.under(facet).map_or(&[][..], |under| self.mesh.groups[under.group].cell(under.element));
+            Layer { surface, cells: surface.facets.iter().map(cell).collect(), stiffness }
+        });
+        let layers: Vec<Layer<'_>> = layers.collect();
+        let penalty = if let ContactLaw::Penalty(penalty) = contact.interface.law { penalty } else { Penalty::default() };
+        let reach = law_of(&contact.interface).reach();
+        let made = Pinball::new(&layers, contact, penalty, reach, search, (&self.body_of_node, &self.mesh.positions));
+        Ok((Box::new(made), terms))
+    }
+}

@@ -1,0 +1,388 @@
+//! Proof that no contact between solids was missed: beside the trackers of nodes and edges, with a search of its own, every pair of a node and a facet, and of two ridges, is swept in every
+//! step, and who goes into a body has to be in contact with it.
+//!
+//! Surfaces, positions and touches come from the formulation ([`super::node_facet`]), counts go to the [`Certificate`]. What is proven:
+//!
+//! - a node that goes through a facet of a body from its front (`projection/swept.rs`; of its own body only such as face it) has a touch with that body on the side where it came in: else it is
+//!   `unverified` in that step. A touch on the far side of a thin body is none;
+//! - a node that was inside a body and has no touch with it any more is outside by the nearest feature, else it is `unverified`;
+//! - ridges that go through each other, so that both wedges open there, have a spring, or one of them has in the same line, or a node of theirs touches the other body: else they are.
+//!
+//! Pairs within the margin are searched; they are all until nodes have gone half of it (by the travel, ∑ dt max |v|, that none exceeds), when they are searched anew. A pair that was d apart at
+//! the travel T can't have met before 2 (T' − T) > d: until then it sleeps, and counts as swept. What touches and goes on doing so was not missed, and is not swept.
+
+use super::Sweep;
+use super::edge_edge::{Around, EdgeTouch, EdgeTracker};
+use super::node_facet::tracker::{Touch, Tracker, bend, halves, mean_edge};
+use super::projection::edge_edge::{crossing, distance};
+use super::projection::node_facet::{Placed, Vector};
+use super::projection::swept::{crossings, entries};
+use super::search::{Pair, Query, Search};
+use super::tracker::Certificate;
+use crate::archive::{Archive, Kept, keep_all, keep_each};
+use crate::mesh::surface::{Corners, SpaceSurface};
+use crate::tensor::dot;
+use crate::vector::{length, minus};
+
+/// How far is searched, as a fraction of the mean edge.
+const MARGIN: f64 = 1.0;
+/// The global search is asked for a little more than is needed: it may round.
+const SLACK: f64 = 1.001;
+/// A sleeper wakes a little before it has to.
+const EARLY: f64 = 1.0 - 1e-9;
+/// Cosine of the angle between the side where a node goes in and that on which it is held.
+const SAME_SIDE: f64 = -0.5;
+/// The same between a node's own normal and those of facets of its own body that it can meet.
+const FACING: f64 = -0.2;
+/// How well both ridges open where they go through each other.
+const BETWEEN: f64 = 0.25;
+/// Wakes at once.
+const AWAKE: f64 = f64::NEG_INFINITY;
+/// Who is less deep than this fraction of a facet's size is on the surface, as far as rounding lets one tell.
+const ROUNDING: f64 = 1e-9;
+
+/// A slave node and a body of the target.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Group {
+    slave: u32,
+    node: u32,
+    body: u32,
+    /// Its candidates are `candidates[begin..end]`.
+    begin: u32,
+    end: u32,
+    /// Whether it is the node's own body.
+    own: bool,
+    /// Whether it was inside after the last step.
+    inside: bool,
+    /// Sleeps up to this travel, m.
+    wake: f64,
+}
+
+keep_all!(Group { slave, node, body, begin, end, own, inside, wake });
+
+/// Nodes of one surface against another one, or the same.
+#[derive(Default)]
+struct Pass {
+    slave: usize,
+    target: usize,
+    triangles: Vec<[u32; 3]>,
+    groups: Vec<Group>,
+    candidates: Vec<u32>,
+}
+
+/// The proof of one contact.
+pub struct Proof {
+    passes: Vec<Pass>,
+    bodies: Vec<u32>,
+    search: Box<dyn Search<3>>,
+    pairs: Vec<Pair>,
+    edges: Option<EdgeTracker>,
+    /// Travel up to which each pair of edges sleeps, m.
+    wakes: Vec<f64>,
+    /// Everything nearer was found by the last search, m.
+    margin: f64,
+    /// Travel at the last search, m; minus infinity before the first.
+    searched: f64,
+    /// Whether it is known who was inside in the last step.
+    has_begun: bool,
+    certificate: Certificate,
+}
+
+impl Proof {
+    /// For the passes (slave, target) of surfaces; `bodies` of each node of the model, `positions` the initial ones. `makes` a search, which is not that of the contact.
+    #[must_use]
+    pub fn new(
+        surfaces: &[SpaceSurface],
+        passes: &[(usize, usize)],
+        bodies: &[u32],
+        positions: &[Vector],
+        with_edges: bool,
+        makes: fn() -> Box<dyn Search<3>>,
+    ) -> Self {
+        let pass = |&(slave, target): &(usize, usize)| {
+            let triangles = surfaces[target].facets.iter().flat_map(halves).collect();
+            Pass { slave, target, triangles, ..Pass::default() }
+        };
+        Self {
+            passes: passes.iter().map(pass).collect(),
+            bodies: bodies.to_vec(),
+            search: makes(),
+            pairs: Vec::new(),
+            edges: with_edges.then(|| EdgeTracker::new(surfaces, bodies, makes())),
+            wakes: Vec::new(),
+            margin: MARGIN * mean_edge(surfaces, positions),
+            searched: f64::NEG_INFINITY,
+            has_begun: false,
+            certificate: Certificate::default(),
+        }
+    }
+
+    /// What was proven so far.
+    #[must_use]
+    pub fn certificate(&self) -> Certificate {
+        self.certificate
+    }
+
+    /// Looks at a step after the trackers have, and before anything is noted of their touches.
+    pub fn look_at(&mut self, tracker: &Tracker, edges: Option<&EdgeTracker>, sweep: Sweep<'_, 3>) {
+        // At the start nothing is known of the past.
+        let sweep = if self.has_begun { sweep } else { Sweep { old: sweep.new, ..sweep } };
+        // What is not known counts as gone too far.
+        if !(2.0 * (sweep.travel - self.searched) < EARLY * self.margin) {
+            self.find(tracker.surfaces(), sweep);
+        }
+        let mut touches = tracker.touches();
+        for number in 0..self.passes.len() {
+            let count = touches.iter().take_while(|touch| touch.pass as usize == number).count();
+            let (own, rest) = touches.split_at(count);
+            touches = rest;
+            self.look_at_nodes(number, tracker, own, sweep);
+        }
+        if let (Some(own), Some(edges)) = (self.edges.take(), edges) {
+            self.look_at_edges(&own, edges.touches(), tracker, sweep);
+            self.edges = Some(own);
+        }
+        self.has_begun = true;
+    }
+
+    fn body(&self, node: u32) -> u32 {
+        self.bodies.get(node as usize).copied().unwrap_or(u32::MAX)
+    }
+
+    /// Pairs anew; what is known of nodes that are inside goes on.
+    fn find(&mut self, surfaces: &[SpaceSurface], sweep: Sweep<'_, 3>) {
+        let way = |node: u32| length(minus(sweep.new[node as usize], sweep.old[node as usize]));
+        for pass in &mut self.passes {
+            let (slaves, target) = (&surfaces[pass.slave].nodes, &surfaces[pass.target]);
+            let fastest = slaves.iter().chain(&target.nodes).map(|&node| way(node)).fold(0.0, f64::max);
+            let reach = SLACK * (self.margin + bend(target, sweep.new));
+            let query = Query { positions_old: sweep.old, positions_new: sweep.new, slaves, facets: &pass.triangles, reach };
+            self.search.pairs(&query, &mut self.pairs);
+            let placed = Placed { surface: target, positions: sweep.new };
+            // Who ends beyond the margin may have gone through.
+            let farthest = self.margin.max(2.0 * fastest);
+            let body = |node: u32| self.bodies.get(node as usize).copied().unwrap_or(u32::MAX);
+            let old = std::mem::take(&mut pass.groups);
+            let mut old = old.iter().filter(|group| group.inside).peekable();
+            pass.candidates.clear();
+            for of_slave in self.pairs.chunk_by(|a, b| a.slave == b.slave) {
+                let slave = of_slave[0].slave;
+                let node = slaves[slave as usize];
+                // A node of two surfaces joins them: it can't go in.
+                if pass.slave != pass.target && target.nodes.binary_search(&node).is_ok() {
+                    continue;
+                }
+                let x = sweep.new[node as usize];
+                let mut near: Vec<(u32, u32)> =
+                    of_slave.iter().map(|pair| pair.facet / 2).map(|facet| (body(target.facets[facet as usize][0]), facet)).collect();
+                near.sort_unstable();
+                near.dedup();
+                near.retain(|&(_, facet)| {
+                    !target.facets[facet as usize].contains(&node) && placed.distance(x, facet).is_none_or(|found| found <= farthest)
+                });
+                for of_body in near.chunk_by(|a, b| a.0 == b.0) {
+                    let (body_there, begin) = (of_body[0].0, pass.candidates.len() as u32);
+                    pass.candidates.extend(of_body.iter().map(|&(_, facet)| facet));
+                    while old.next_if(|old| (old.slave, old.body) < (slave, body_there)).is_some() {}
+                    let inside = old.next_if(|old| (old.slave, old.body) == (slave, body_there)).is_some();
+                    let (end, own) = (pass.candidates.len() as u32, body(node) == body_there);
+                    pass.groups.push(Group { slave, node, body: body_there, begin, end, own, inside, wake: AWAKE });
+                }
+            }
+        }
+        if let Some(edges) = &mut self.edges {
+            let near = [0.0; 2];
+            edges.find(&Around {
+                surfaces,
+                sweep,
+                is_new: false,
+                radius: self.margin,
+                skin: 0.25 * self.margin,
+                near,
+                extra: 0.0,
+                open: 0.0,
+            });
+            self.wakes.clear();
+            self.wakes.resize(edges.candidates(), AWAKE);
+        }
+        self.searched = sweep.travel;
+    }
+
+    /// Sweeps the nodes of a pass that do not sleep, `touches` are theirs.
+    fn look_at_nodes(&mut self, number: usize, tracker: &Tracker, touches: &[Touch], sweep: Sweep<'_, 3>) {
+        let mut pass = std::mem::take(&mut self.passes[number]);
+        let target = &tracker.surfaces()[pass.target];
+        let placed = Placed { surface: target, positions: sweep.new };
+        let mut touches = touches.iter().peekable();
+        self.certificate.pairs_swept += pass.candidates.len() as u64;
+        let bodies = &self.bodies;
+        let key = |touch: &Touch| {
+            let node = target.facets[touch.projection.facet as usize][0];
+            (touch.slave, bodies.get(node as usize).copied().unwrap_or(u32::MAX))
+        };
+        for group in &mut pass.groups {
+            while touches.next_if(|touch| key(touch) < (group.slave, group.body)).is_some() {}
+            let touch = touches.next_if(|touch| key(touch) == (group.slave, group.body));
+            let was_inside = std::mem::replace(&mut group.inside, touch.is_some_and(|touch| touch.projection.gap < 0.0));
+            if group.inside {
+                // What is there at the start did not go in.
+                self.certificate.crossings_found += u64::from(!was_inside && self.has_begun);
+                group.wake = AWAKE;
+                continue;
+            }
+            if group.wake > sweep.travel {
+                continue;
+            }
+            // Who goes on with its face has not passed.
+            if touch.is_some_and(|touch| dot(tracker.kept(touch).normal, touch.projection.normal) > 0.0) {
+                group.wake = AWAKE;
+                continue;
+            }
+            let candidates = &pass.candidates[group.begin as usize..group.end as usize];
+            let own = if group.own { tracker.own_normal(pass.slave, group.slave, sweep.new) } else { [0.0; 3] };
+            let found = sweep_through(group, candidates, &placed, own, sweep);
+            let is_held = |side: Vector| touch.is_some_and(|touch| dot(side, touch.projection.normal) > SAME_SIDE);
+            let is_missed = found.side.is_some_and(|side| !is_held(side));
+            let is_lost = || {
+                let left = was_inside && !group.own && touch.is_none();
+                let nearest = if left { placed.project(sweep.new[group.node as usize], candidates.iter().copied()) } else { None };
+                nearest.is_some_and(|nearest| nearest.gap < -ROUNDING * placed.size(nearest.facet))
+            };
+            self.certificate.unverified += u64::from(is_missed || is_lost());
+            group.wake = if touch.is_some() { AWAKE } else { wake_at(found.clear, sweep.travel) };
+        }
+        self.passes[number] = pass;
+    }
+
+    /// Sweeps the pairs of ridges that do not sleep.
+    fn look_at_edges(&mut self, own: &EdgeTracker, touches: &[EdgeTouch], tracker: &Tracker, sweep: Sweep<'_, 3>) {
+        let (surfaces, sides) = (tracker.surfaces(), own.sides());
+        self.certificate.pairs_swept += own.candidates() as u64;
+        for (number, edges) in own.pairs().enumerate() {
+            if self.wakes[number] > sweep.travel {
+                continue;
+            }
+            let nodes = [0, 1].map(|of| surfaces[sides[of]].edges[edges[of] as usize].nodes);
+            let at = |positions: &[Vector]| nodes.map(|edge| edge.map(|node| positions[node as usize]));
+            let (old, new) = (at(sweep.old), at(sweep.new));
+            let apart = distance(new[0], new[1]);
+            self.wakes[number] = wake_at(apart, sweep.travel);
+            let way = |of: usize| (0..2).map(|k| length(minus(new[of][k], old[of][k]))).fold(0.0, f64::max);
+            if apart > (way(0) + way(1)) * SLACK {
+                continue;
+            }
+            let placed = [0, 1].map(|of| Placed { surface: &surfaces[sides[of]], positions: sweep.new });
+            let [Some(first), Some(second)] = [0, 1].map(|of| placed[of].ridge(edges[of])) else { continue };
+            if !(first.is_sharp() && second.is_sharp()) {
+                continue;
+            }
+            let mut goes_through = false;
+            for sign in [1.0, -1.0] {
+                crossings(sign, old, new, |time, _| {
+                    let then = [0, 1].map(|of| [0, 1].map(|k| [0, 1, 2].map(|d| (1.0 - time) * old[of][k][d] + time * new[of][k][d])));
+                    let Some(found) = crossing(then[0], then[1]) else { return };
+                    let found = if sign > 0.0 { found } else { found.turned() };
+                    goes_through |= found.fits([&first, &second]).into_iter().all(|fit| fit >= BETWEEN);
+                });
+            }
+            if goes_through && !self.is_held(edges, nodes, touches, tracker, sides) {
+                self.certificate.unverified += 1;
+            }
+        }
+    }
+
+    /// Whether edges that went through each other are held: by a spring of theirs or of edges at their nodes, or by a node of theirs.
+    fn is_held(&self, edges: [u32; 2], nodes: [[u32; 2]; 2], touches: &[EdgeTouch], tracker: &Tracker, sides: [usize; 2]) -> bool {
+        let meets = |a: [u32; 2], b: [u32; 2]| a.iter().any(|node| b.contains(node));
+        let by_edges =
+            touches.iter().any(|touch| touch.edges == edges || (meets(touch.nodes[0], nodes[0]) && meets(touch.nodes[1], nodes[1])));
+        let touches_body = |touch: &Touch, of: usize| {
+            let target = tracker.target(touch.pass);
+            tracker.slave(touch.pass) == sides[of]
+                && nodes[of].contains(&touch.node)
+                && self.body(target.facets[touch.projection.facet as usize][0]) == self.body(nodes[1 - of][0])
+        };
+        by_edges || tracker.touches().iter().any(|touch| touches_body(touch, 0) || touches_body(touch, 1))
+    }
+
+    /// Keeps what was proven, and which pairs sleep.
+    pub(super) fn keep(&mut self, archive: &mut Archive<'_>, surfaces: &[SpaceSurface]) -> Kept {
+        let Self { passes, bodies: _, search: _, pairs: _, edges, wakes, margin: _, searched, has_begun, certificate } = self;
+        for pass in passes {
+            keep_each!(archive; &mut pass.groups, &mut pass.candidates);
+            let (slaves, facets) = (&surfaces[pass.slave].nodes, surfaces[pass.target].facets.len());
+            let is_known = |group: &Group| {
+                slaves.get(group.slave as usize) == Some(&group.node)
+                    && group.begin <= group.end
+                    && group.end as usize <= pass.candidates.len()
+            };
+            let are_there = pass.candidates.iter().all(|&facet| (facet as usize) < facets);
+            archive.check(are_there && pass.groups.iter().all(is_known), "a proof follows nodes or facets that are not there")?;
+        }
+        keep_each!(archive; wakes, searched, has_begun, certificate);
+        if let Some(edges) = edges {
+            edges.keep(archive, surfaces)?;
+            archive.check(wakes.len() == edges.candidates(), "a proof follows more or fewer edges than there are")?;
+        }
+        Ok(())
+    }
+
+    /// Goes on with what another one knew whose surfaces were those before they changed to `surfaces`: counts, and who is inside. Pairs are searched anew in the next step.
+    pub(super) fn inherit(&mut self, old: &Self, surfaces: &[SpaceSurface]) {
+        for (pass, before) in self.passes.iter_mut().zip(&old.passes) {
+            let slaves = &surfaces[pass.slave].nodes;
+            let known = before.groups.iter().filter(|group| group.inside).filter_map(|group| {
+                let slave = slaves.binary_search(&group.node).ok()? as u32;
+                Some(Group { slave, begin: 0, end: 0, ..*group })
+            });
+            pass.groups = known.collect();
+            pass.groups.sort_by_key(|group| (group.slave, group.body));
+        }
+        (self.certificate, self.has_begun) = (old.certificate, old.has_begun);
+    }
+}
+
+/// What a node did in a step.
+struct Passed {
+    /// Normal of the facet through which it went in first.
+    side: Option<Vector>,
+    /// Distance from all candidates at the end of the step, m.
+    clear: f64,
+}
+
+/// The travel up to which what is `clear` (m) apart can't meet.
+fn wake_at(clear: f64, travel: f64) -> f64 {
+    let wake = travel + 0.5 * EARLY * clear;
+    if wake < f64::INFINITY { wake } else { AWAKE }
+}
+
+/// What a node did with the facets of a body in the step.
+fn sweep_through(group: &Group, candidates: &[u32], placed: &Placed<'_>, own: Vector, sweep: Sweep<'_, 3>) -> Passed {
+    let before = Placed { surface: placed.surface, positions: sweep.old };
+    let way = |node: u32| length(minus(sweep.new[node as usize], sweep.old[node as usize]));
+    let (from, x) = (sweep.old[group.node as usize], sweep.new[group.node as usize]);
+    let (own_way, mut passed) = (way(group.node), Passed { side: None, clear: f64::INFINITY });
+    let mut first = f64::INFINITY;
+    for &facet in candidates {
+        if group.own && dot(own, placed.facet_normal(facet)) >= FACING {
+            // What turns towards it later is looked at then.
+            passed.clear = passed.clear.min(placed.distance(x, facet).unwrap_or(0.0));
+            continue;
+        }
+        let apart = placed.distance(x, facet).unwrap_or(0.0);
+        passed.clear = passed.clear.min(apart);
+        let corners = placed.surface.facets[facet as usize];
+        let fastest = corners.corners().iter().map(|&node| way(node)).fold(0.0, f64::max);
+        if apart > (own_way + fastest) * SLACK {
+            continue;
+        }
+        for k in 0..if corners.corners().len() == 3 { 1 } else { 4 } {
+            for time in entries([from, x], before.triangle(facet, k), placed.triangle(facet, k)).iter() {
+                if time < first {
+                    (first, passed.side) = (time, Some(placed.facet_normal(facet)));
+                }
+            }
+        }
+    }
+    passed
+}

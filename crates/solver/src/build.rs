@@ -15,6 +15,7 @@ pub(crate) mod plane;
 mod space;
 mod space_contact;
 mod space_pinball;
+mod space_start;
 mod start;
 mod triangles;
 

@@ -2,21 +2,19 @@
 
 use super::outline::{self, Outline};
 use super::{Builder, law_of, search_by_name, source_of, stiffness_of, terms_of, terms_of_ties};
-use crate::contact::edge_edge::EdgeTouch;
 use crate::contact::formulation::{self, Passes};
-use crate::contact::initial::{self, Inside, Penetration};
+use crate::contact::initial;
 use crate::contact::law::{self, Node};
 use crate::contact::messages::{ON_SYMMETRY, TIE};
 use crate::contact::node_facet::tied::{TiedFacet, Unborn};
-use crate::contact::node_facet::tracker::{Touch, Tracker};
-use crate::contact::node_facet::{NodeFacet, PassInput, Slave, edges_at_start};
+use crate::contact::node_facet::tracker::Tracker;
+use crate::contact::node_facet::{NodeFacet, PassInput, Slave};
 use crate::contact::obstacle::OutlineShape;
 use crate::contact::obstacle::space::{NodeSolid, Solid, Vector};
-use crate::contact::projection::edge_edge::point;
 use crate::contact::proof::Proof;
 use crate::contact::search::{Search, registry};
 use crate::contact::tracker::SKIN;
-use crate::contact::{Contact, ContactKind, Formulation, Sweep, Tributary};
+use crate::contact::{Contact, ContactKind, Formulation, Tributary};
 use crate::error::Fault;
 use crate::load::constraint::unit;
 use crate::load::tributary::{self, Depth};
@@ -32,14 +30,11 @@ fn refused(contact: &model::Contact) -> Option<(&'static str, &'static str, &'st
     if !["double_pass", "single_pass", "pinball"].contains(&name) {
         return Some(("formulation", "there are no segments", "take `double_pass`, `single_pass` or `pinball`"));
     }
-    if contact.interface.initial_penetration == InitialPenetration::PushOut {
-        return Some(("initial_penetration", "nothing is pushed out", "move the bodies apart, or take \"ignore\""));
-    }
     None
 }
 
 /// Whether edges meet edges too: a single pass looks at the nodes of one surface alone.
-fn meets_edges(contact: &model::Contact, passes: Passes) -> bool {
+pub(super) fn meets_edges(contact: &model::Contact, passes: Passes) -> bool {
     matches!(contact.partners, Partners::Bodies(_)) || passes.len() > 1
 }
 
@@ -180,42 +175,24 @@ impl Builder<'_, 3> {
     /// See [`crate::world::World::part_at_start`].
     pub(crate) fn part_at_start_in_space(&mut self) -> Vec<String> {
         let tolerance = initial::TOLERANCE * initial::size(&self.mesh.positions);
-        let mut lines = Vec::new();
+        let (mut lines, mut pushed) = (Vec::new(), Vec::new());
         for (i, contact) in self.model.contacts.iter().enumerate() {
-            let Interface { initial_penetration, thickness, active, .. } = contact.interface;
+            let Interface { initial_penetration, active, .. } = contact.interface;
             // Ties hold what is there; who begins later can't know. Wrong surfaces are told when contacts are made.
             if refused(contact).is_some() || contact.tied.is_some() || active[0] > 0.0 {
                 continue;
             }
-            let (Ok((mut tracker, passes)), Ok(search)) = (self.tracker_in_space(contact), Self::search_in_space(contact)) else {
-                continue;
-            };
-            let positions = &self.mesh.positions;
-            let touches = tracker.track(Sweep::between(positions, positions), thickness).iter();
-            let deep = touches.filter(|touch| !touch.own && touch.projection.gap - thickness < -tolerance);
-            let of = |touch: &Touch| {
-                let (place, depth) = (positions[touch.node as usize], thickness - touch.projection.gap);
-                Penetration { what: Inside::Node, place, depth }
-            };
-            let mut found: Vec<Penetration<3>> = deep.map(of).collect();
-            // Where nodes are inside, edges cross too.
-            if found.is_empty() && meets_edges(contact, passes) {
-                let touches = edges_at_start(&tracker, search, positions, thickness);
-                let deep = touches.iter().filter(|touch| !touch.own && touch.crossing.gap - thickness < -tolerance);
-                let of = |touch: &EdgeTouch| {
-                    let [a, b] = touch.nodes[0].map(|node| positions[node as usize]);
-                    let place = point([a, b], touch.crossing.along[0]);
-                    Penetration { what: Inside::Edge, place, depth: thickness - touch.crossing.gap }
-                };
-                found = deep.map(of).collect();
-            }
+            let found = self.look(contact, |look| look.penetrations(&self.mesh.positions, tolerance));
             match initial_penetration {
                 InitialPenetration::Ignore => lines.extend(initial::lines(&contact.name, &found, super::start::IGNORED)),
-                InitialPenetration::Error | InitialPenetration::PushOut => {
-                    self.faults.extend(initial::faults(&format!("contact[{i}]"), &contact.name, &found));
+                InitialPenetration::Error => self.faults.extend(initial::faults(&format!("contact[{i}]"), &contact.name, &found)),
+                InitialPenetration::PushOut => {
+                    lines.extend(initial::lines(&contact.name, &found, super::start::PUSHED));
+                    pushed.push(i);
                 }
             }
         }
+        self.push_out_in_space(&pushed, tolerance);
         lines.extend(self.inside_triangles(tolerance));
         lines
     }
@@ -262,7 +239,7 @@ impl Builder<'_, 3> {
     }
 
     /// What follows the nodes of a contact, and its passes.
-    fn tracker_in_space(&self, contact: &model::Contact) -> Result<(Tracker, Passes), Vec<Fault>> {
+    pub(super) fn tracker_in_space(&self, contact: &model::Contact) -> Result<(Tracker, Passes), Vec<Fault>> {
         let search = Self::search_in_space(contact)?;
         let Some(kind) = formulation::kind_of(contact) else {
             let message = format!("there is no formulation \"{}\"", contact.formulation.name());

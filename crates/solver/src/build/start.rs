@@ -17,7 +17,7 @@ use crate::model::{InitialPenetration, Interface, Obstacle, ObstacleShape};
 use crate::vector::first;
 
 /// Rounds over all contacts and obstacles: what is pushed out of one may come into another.
-const ROUNDS: usize = 20;
+pub(super) const ROUNDS: usize = 20;
 
 /// A contact, or an obstacle made of nodes and segments, with what decides whether it penetrates.
 struct Meeting {
@@ -161,7 +161,7 @@ impl Builder<'_, 2> {
 
 /// What is done, in words.
 pub(super) const IGNORED: &str = "this counts as zero";
-const PUSHED: &str = "it was pushed out";
+pub(super) const PUSHED: &str = "it was pushed out";
 
 /// Gap (m) and normal of a point at an obstacle; `None` where the obstacle is not.
 type Behind = Box<dyn Fn(Vector) -> Option<(f64, Vector)>>;

@@ -3,6 +3,8 @@
 //! Surfaces come from the builder as trackers that know nothing of the past; what is found goes to the model's faults, or to the overview. Bodies with themselves are
 //! never thought to penetrate at the start.
 
+pub mod space;
+
 use super::tracker::{Touch, Tracker};
 use super::{Sweep, Vector};
 use crate::contact::messages::PENETRATION;
@@ -52,12 +54,7 @@ impl<const D: usize> Penetration<D> {
 /// Faults of a contact or obstacle at `path` with these penetrations; the first 20 are told, the rest is counted.
 #[must_use]
 pub fn faults<const D: usize>(path: &str, name: &str, found: &[Penetration<D>]) -> Vec<Fault> {
-    // Nothing is pushed out in space.
-    let help = if D == 3 {
-        "move the bodies apart, or set `initial_penetration` to \"ignore\""
-    } else {
-        "move the bodies apart, or set `initial_penetration` to \"push_out\" or \"ignore\""
-    };
+    let help = "move the bodies apart, or set `initial_penetration` to \"push_out\" or \"ignore\"";
     let one = |penetration: &Penetration<D>| Fault::new(&PENETRATION, path, format!("\"{name}\": {}", penetration.line()), help);
     let mut faults: Vec<Fault> = found.iter().take(TOLD).map(one).collect();
     if found.len() > TOLD {

@@ -2,7 +2,9 @@
 #![allow(clippy::unwrap_used)] // what tests call may stop a test like the tests themselves
 
 use crate::bodies::*;
-use embate_solver::model::{Contact, Disk, InitialPenetration, Model, Obstacle, ObstacleShape, Partners, Ring, Shape, Symmetry};
+use embate_solver::model::{
+    Constraint, Contact, Cuboid, Disk, InitialPenetration, Model, Obstacle, ObstacleShape, Part, Partners, Ring, Shape, Symmetry,
+};
 
 use std::f64::consts::TAU;
 
@@ -283,4 +285,67 @@ fn levels_are_right_in_a_hole_whatever_was_inside_at_the_start() {
         assert!(history.largest("energy.contact") > 0.0 && summary.contact.unverified == 0, "{summary:?}");
         assert!(summary.energy_drift < 0.01 && summary.ledger_residual < 1e-12, "{summary:?}");
     }
+}
+
+/// Two cubes of which the upper one is in the lower by a part of an element, moved sideways.
+fn solids_in_each_other(depth: f64, off: [f64; 2], what: InitialPenetration) -> Model {
+    let mut model = model(2e-4);
+    let cube = |name: &str, corner: [f64; 3], elements: [usize; 3]| Part {
+        name: name.into(),
+        material: "soft".into(),
+        element: "hex8".into(),
+        shape: Shape::Cuboid(Cuboid { corner, size: [0.1; 3], elements, ..Cuboid::default() }),
+        ..Part::default()
+    };
+    model.parts = vec![cube("lower", [0.0; 3], [3; 3]), cube("upper", [off[0], off[1], 0.1 - depth], [2, 3, 3])];
+    touch(&mut model, "lower", "upper");
+    model.contacts[0].interface.initial_penetration = what;
+    model
+}
+
+#[test]
+fn solids_that_overlap_are_told_ignored_or_pushed_out_without_stress() {
+    // Flush below each other, beside each other, and over the rim, where only edges cross.
+    for (depth, off) in [(0.01, [0.031, 0.027]), (0.002, [-0.02, 0.013]), (0.02, [0.01, 0.0]), (0.003, [0.085, -0.083])] {
+        let told = model_faults(&solids_in_each_other(depth, off, InitialPenetration::Error));
+        assert!(!told.is_empty() && told.iter().all(|fault| fault.path == "contact[0]" && fault.help.contains("push_out")), "{told:?}");
+        let deepest = format!("{depth:.3e} m inside");
+        assert!(told.iter().any(|fault| fault.message.contains(&deepest)), "{depth} {off:?}: {told:?}");
+        let model = solids_in_each_other(depth, off, InitialPenetration::PushOut);
+        let begin = simulation(&model);
+        let lines = begin.overview().initial_penetrations;
+        assert!(lines.iter().any(|line| line.contains("it was pushed out")), "{lines:?}");
+        // Moved by less than the depth, and nothing is inside any more.
+        let [ignored, pushed] = [InitialPenetration::Ignore, InitialPenetration::PushOut].map(|what| {
+            let simulation = to_end(&solids_in_each_other(depth, off, what));
+            assert!(simulation.summary().penetration_max < 1e-9, "{depth} {off:?} {what:?}: {}", simulation.summary().penetration_max);
+            assert!(value(&simulation, "energy.kinetic") < 1e-12);
+            simulation.frame().positions::<3>().to_vec()
+        });
+        let ways: Vec<f64> = ignored.iter().zip(&pushed).map(|(a, b)| (0..3).map(|d| (a[d] - b[d]).powi(2)).sum::<f64>().sqrt()).collect();
+        let longest = ways.iter().copied().fold(0.0, f64::max);
+        println!("{depth} {off:?}: {} nodes moved, {longest} m", ways.iter().filter(|way| **way > 1e-9).count());
+        assert!(longest > 0.3 * depth && longest < 1.5 * depth, "{longest}");
+    }
+}
+
+#[test]
+fn what_is_held_on_both_sides_can_not_be_pushed_out_of_each_other() {
+    let mut model = solids_in_each_other(0.01, [0.031, 0.027], InitialPenetration::PushOut);
+    for part in ["lower", "upper"] {
+        model.constraints.push(Constraint { on: part.into(), velocity: [(); 3].map(|()| Some(0.0.into())), ..Constraint::default() });
+    }
+    let told = model_faults(&model);
+    assert!(!told.is_empty() && told.iter().all(|fault| fault.message.contains("can't be pushed out")), "{told:?}");
+    // What is held on one side moves on the other.
+    model.constraints.pop();
+    let lower = |simulation: &embate_solver::simulation::Simulation| simulation.frame().positions::<3>().to_vec();
+    let pushed = lower(&simulation(&model));
+    let mut model = solids_in_each_other(0.01, [0.031, 0.027], InitialPenetration::Ignore);
+    let told = lower(&simulation(&model));
+    model.constraints.clear();
+    let moved = |from: f64, to: f64| {
+        pushed.iter().zip(&told).filter(|(a, b)| (from..to).contains(&b[2]) && (0..3).any(|d| (a[d] - b[d]).abs() > 1e-9)).count()
+    };
+    assert!(moved(0.0899, 0.0901) > 0 && moved(-1.0, 0.0899) == 0, "the lower cube stays");
 }

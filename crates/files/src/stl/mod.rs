@@ -89,9 +89,12 @@ fn binary(bytes: &[u8], count: Option<usize>, fits: bool) -> Result<Vec<[[f64; 3
     Ok(triangles)
 }
 
+/// Words with their lines.
+type Words<'a> = Box<dyn Iterator<Item = (usize, &'a [u8])> + 'a>;
+
 /// The words of a text with their lines.
 struct Text<'a> {
-    words: std::iter::Peekable<Box<dyn Iterator<Item = (usize, &'a [u8])> + 'a>>,
+    words: std::iter::Peekable<Words<'a>>,
     /// Line of the last word, from 1.
     line: usize,
 }
@@ -106,8 +109,7 @@ impl<'a> Text<'a> {
             let most = if named { 1 } else { usize::MAX };
             std::iter::from_fn(move || words.next()).take(most).map(move |word| (line, word))
         };
-        let words: Box<dyn Iterator<Item = (usize, &'a [u8])> + 'a> =
-            Box::new((1..).zip(bytes.split(|&byte| byte == b'\n')).flat_map(of_line));
+        let words: Words<'a> = Box::new((1..).zip(bytes.split(|&byte| byte == b'\n')).flat_map(of_line));
         Self { words: words.peekable(), line: 1 }
     }
 

@@ -39,7 +39,12 @@ impl Builder<'_, 3> {
         let (points, passes) = self.points_of_triangles(&own, &parts.nodes);
         let count = own.facets.len();
         // Nothing of it gives way.
-        let rigid = Sided { shares: vec![1.0; points.len()], nodes: points, moduli: vec![f64::INFINITY; count], facets: vec![f64::INFINITY; count] };
+        let rigid = Sided {
+            shares: vec![1.0; points.len()],
+            nodes: points,
+            moduli: vec![f64::INFINITY; count],
+            facets: vec![f64::INFINITY; count],
+        };
         let inputs = vec![parts.against(&rigid, interface, passes), rigid.against(&parts, interface, passes)];
         let tracker =
             Tracker::new(vec![outside, own], PASSES, &self.body_of_node, search(), &self.positions).measured_by(0, &self.positions);

@@ -352,7 +352,11 @@ fn obstacles_and_moving_parts_that_make_no_sense_are_refused() {
     let both = SOUND.replace("name = \"tube\"\nm", &format!("name = \"tube\"\n{held}m"));
     let both = both.replace("name = \"ball\"\nm", &format!("name = \"ball\"\n{held}m"));
     each_has(&[
-        (and("[[obstacle]]\nparts = \"ball\""), "obstacle[3]", "needs one of `plane`, `circle`, `polyline`, `sphere`, `cylinder` and `stl`"),
+        (
+            and("[[obstacle]]\nparts = \"ball\""),
+            "obstacle[3]",
+            "needs one of `plane`, `circle`, `polyline`, `sphere`, `cylinder` and `stl`",
+        ),
         (circle("plane.normal = [0, 1]"), "obstacle[3]", "has `plane` and `circle` at once"),
         (circle("motion = { x = \"free\" }"), "obstacle[3].mass", "the obstacle is free to move, so it needs `mass`"),
         (circle("motion = { rotation = \"free\" }"), "obstacle[3].inertia", "the obstacle is free to turn, so it needs `inertia`"),

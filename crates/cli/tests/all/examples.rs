@@ -81,6 +81,7 @@ fn every_example_is_listed_here() {
     names.sort();
     let listed = [
         "ball-through-plate",
+        "box-section",
         "buckling-column",
         "bullet",
         "crossing-tubes",
@@ -338,6 +339,29 @@ fn tubes_that_cross_dent_each_other_alike() {
         let drift = results.summary["momentum_drift"][direction].as_f64().unwrap();
         assert!(drift < 1e-12, "{direction}: {drift}");
     }
+}
+
+#[test]
+#[cfg_attr(debug_assertions, ignore = "takes minutes without optimization; release tests run it")]
+fn a_box_section_folds_under_the_mean_force_of_the_plastic_hinges() {
+    let results = run("box-section", "example-box-section");
+    results.is_sound(1e-3);
+    let rows: Vec<(f64, f64)> = results
+        .column("obstacle.z[ram]")
+        .into_iter()
+        .zip(results.column("obstacle.force_z[ram]"))
+        .map(|(z, f)| (-z, 4.0 * f.abs()))
+        .collect();
+    let work: f64 = rows.windows(2).map(|pair| (pair[1].0 - pair[0].0) * 0.5 * (pair[0].1 + pair[1].1)).sum();
+    let way = rows.last().unwrap().0 - rows[0].0;
+    is_near(way, 64.5e-3, 1e-6);
+    let (yields, thickness, side): (f64, f64, f64) = (200e6, 1.5e-3, 40e-3);
+    let expected = 52.22 * 0.25 * yields * thickness.powi(2) * (side / thickness).cbrt();
+    is_near(work / way, expected, 0.15 * expected);
+    let peak = rows.iter().fold(0.0, |peak: f64, row| peak.max(row.1));
+    assert!((42e3..=55e3).contains(&peak), "{peak}");
+    let [kinetic, internal] = ["energy.kinetic", "energy.internal"].map(|name| *results.column(name).last().unwrap());
+    assert!(kinetic < 0.05 * internal, "{kinetic} of {internal}");
 }
 
 #[test]

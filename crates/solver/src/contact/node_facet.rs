@@ -456,7 +456,7 @@ fn frame(placed: &Placed<'_>, facet: u32) -> [Vector; 2] {
 }
 
 /// The unit vector at right angles to a unit vector that is nearest to a direction.
-fn tangent(normal: Vector, direction: Vector) -> Vector {
+pub(super) fn tangent(normal: Vector, direction: Vector) -> Vector {
     let along = dot(direction, normal);
     let across = unit([0, 1, 2].map(|d| direction[d] - along * normal[d]));
     // A direction along the normal has none.
@@ -471,13 +471,20 @@ fn frame_of(placed: &Placed<'_>, memory: &Memory) -> [Vector; 2] {
 /// The elastic slip of the step before, turned with what it lies on, which is at `frame` now.
 fn slip(frame: [Vector; 2], memory: &Memory) -> Vector {
     let Memory { slip, facet, frame: [along, normal], .. } = *memory;
-    if facet == NONE || slip == [0.0; 3] {
+    if facet == NONE {
         return slip;
     }
     let axes = |[along, normal]: [Vector; 2]| [along, cross(normal, along), normal];
-    let (before, now) = (axes([along, normal]), axes(frame));
-    let parts = before.map(|axis| dot(axis, slip));
-    [0, 1, 2].map(|d| parts[0] * now[0][d] + parts[1] * now[1][d] + parts[2] * now[2][d])
+    turned(slip, &axes([along, normal]), &axes(frame))
+}
+
+/// A slip that turns with axes.
+pub(super) fn turned(slip: Vector, from: &[Vector; 3], to: &[Vector; 3]) -> Vector {
+    if slip == [0.0; 3] {
+        return slip;
+    }
+    let parts = from.map(|axis| dot(axis, slip));
+    [0, 1, 2].map(|d| parts[0] * to[0][d] + parts[1] * to[1][d] + parts[2] * to[2][d])
 }
 
 /// The ends of a spring that does not care for slip, between a node and where it projects, and how many there are: those of corners with a share.

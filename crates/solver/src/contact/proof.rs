@@ -13,12 +13,13 @@
 
 use super::Sweep;
 use super::edge_edge::{Around, EdgeTouch, EdgeTracker};
-use super::node_facet::tracker::{Touch, Tracker, bend, halves, mean_edge};
+use super::node_facet::tracker::{FACING, SAME_SIDE, Touch, Tracker, bend, halves, mean_edge};
 use super::projection::edge_edge::{crossing, distance};
 use super::projection::node_facet::{Placed, Vector};
 use super::projection::swept::{crossings, entries};
 use super::search::{Pair, Query, Search};
 use super::tracker::Certificate;
+use super::tracker::sleep::AWAKE;
 use crate::archive::{Archive, Kept, keep_all, keep_each};
 use crate::mesh::surface::{Corners, SpaceSurface};
 use crate::tensor::dot;
@@ -30,14 +31,8 @@ const MARGIN: f64 = 1.0;
 const SLACK: f64 = 1.001;
 /// A sleeper wakes a little before it has to.
 const EARLY: f64 = 1.0 - 1e-9;
-/// Cosine of the angle between the side where a node goes in and that on which it is held.
-const SAME_SIDE: f64 = -0.5;
-/// The same between a node's own normal and those of facets of its own body that it can meet.
-const FACING: f64 = -0.2;
 /// How well both ridges open where they go through each other.
 const BETWEEN: f64 = 0.25;
-/// Wakes at once.
-const AWAKE: f64 = f64::NEG_INFINITY;
 /// Who is less deep than this fraction of a facet's size is on the surface, as far as rounding lets one tell.
 const ROUNDING: f64 = 1e-9;
 

@@ -26,9 +26,9 @@ use crate::tensor::{cross, dot};
 use crate::vector::{length, minus};
 
 /// Cosine of the angle between the side from which a node came and those of facets that it sees while it is inside.
-const SAME_SIDE: f64 = -0.5;
+pub(in crate::contact) const SAME_SIDE: f64 = -0.5;
 /// The same between a node's own normal and those of facets of its own body that it can meet.
-const FACING: f64 = -0.2;
+pub(in crate::contact) const FACING: f64 = -0.2;
 /// Nodes are seen that may come in with so many times the last motion, and this fraction of the skin for those that are set in motion now.
 const LOOK_AHEAD: f64 = 4.0;
 const START: f64 = 0.02;

@@ -11,6 +11,7 @@ mod geometry;
 
 use super::super::initial::{is_ignored, kept};
 use super::super::law::penalty;
+use super::super::node_facet::{tangent, turned};
 use super::super::projection::node_facet::{Placed, unit};
 use super::super::search::{Pair, Query, Search};
 use super::super::springs::friction::cone;
@@ -20,7 +21,7 @@ use super::super::{Formulation, Scene, Sweep};
 use crate::archive::{Archive, Kept, keep_all, keep_each};
 use crate::mesh::surface::{Corners, SpaceSurface};
 use crate::model;
-use crate::motion::{Motion, any_tangent};
+use crate::motion::Motion;
 use crate::tensor::{Dim, cross, dot};
 use crate::vector::{length, minus};
 use geometry::Ball;
@@ -231,7 +232,7 @@ impl Formulation<3> for Pinball {
             let area = one.area.min(other.area);
             let stiffness = area * penalty::pressure(self.penalty, one.stiffness, other.stiffness);
             let frame = one.axes(positions);
-            let tangent = across(normal, frame[0]);
+            let tangent = tangent(normal, frame[0]);
             let tangents = Dim::<3>::tangents(normal, &tangent);
             let slip = cone::carried(turned(near.slip, &near.frame, &frame), tangents);
             // Friction acts at both centres; each element takes the part of the couple that its radius has in the distance.
@@ -342,23 +343,6 @@ fn solved([a, b, c]: &[Vector; 3], right: Vector) -> Vector {
     let (bc, ca, ab) = (cross(*b, *c), cross(*c, *a), cross(*a, *b));
     let whole = dot(*a, bc);
     if whole.abs() > f64::MIN_POSITIVE { [dot(bc, right), dot(ca, right), dot(ab, right)].map(|part| part / whole) } else { [0.0; 3] }
-}
-
-/// The unit vector at right angles to a unit vector that is nearest to a direction.
-fn across(normal: Vector, direction: Vector) -> Vector {
-    let along = dot(direction, normal);
-    let across = unit([0, 1, 2].map(|d| direction[d] - along * normal[d]));
-    // A direction along the normal has none.
-    if dot(across, across) > 0.5 && dot(across, normal).abs() < 1e-6 { across } else { any_tangent(normal) }
-}
-
-/// A slip that turns with axes.
-fn turned(slip: Vector, from: &[Vector; 3], to: &[Vector; 3]) -> Vector {
-    if slip == [0.0; 3] {
-        return slip;
-    }
-    let parts = from.map(|axis| dot(axis, slip));
-    [0, 1, 2].map(|d| parts[0] * to[0][d] + parts[1] * to[1][d] + parts[2] * to[2][d])
 }
 
 #[cfg(test)]

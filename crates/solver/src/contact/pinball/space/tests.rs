@@ -112,7 +112,7 @@ fn slip_is_blind_to_rigid_motions_of_both_and_its_rows_keep_the_angular_momentum
         let (one, other) = (ball(0), ball(8));
         let away = minus(one.centre(&positions), other.centre(&positions));
         let (distance, normal) = (length(away), unit(away));
-        let tangents = Dim::<3>::tangents(normal, &across(normal, one.axes(&positions)[0]));
+        let tangents = Dim::<3>::tangents(normal, &tangent(normal, one.axes(&positions)[0]));
         let part = distance / (one.radius + other.radius);
         let arms = tangents.map(|tangent| cross(normal, tangent));
         let mut ends = [End::<3>::default(); 16];

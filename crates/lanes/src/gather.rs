@@ -1,19 +1,27 @@
-//! Places of the corners of batches of elements, checked once against their bound so that gathers and scatters in kernels need no check per place.
+//! Lists of vectors as kernels read and add to them, and places in them, checked once against their bound so that gathers and scatters need no check per place.
+//!
+//! Each vector of space lies in a room of four values, so that a register takes it at once; one of the plane takes two, and with another that belongs to it four.
 
-use crate::BATCH;
+use crate::{BATCH, Batch};
+
+/// Values from one place to the next in [`Moving`]: places are kept times this, which is what an address takes.
+pub(crate) const ROOM: usize = 4;
 
 /// Rows of [`BATCH`] places in a short list, all below [`Indices::bound`].
 #[derive(Clone, Debug, Default)]
 pub struct Indices {
+    /// Times [`ROOM`].
     rows: Box<[[u16; BATCH]]>,
     bound: usize,
 }
 
 impl Indices {
-    /// Takes rows of indices and finds their bound.
+    /// Takes rows of places and finds their bound. Panics where one is 16,384 or more: lists are short.
     #[must_use]
-    pub fn new(rows: Vec<[u16; BATCH]>) -> Self {
+    pub fn new(mut rows: Vec<[u16; BATCH]>) -> Self {
         let bound = rows.iter().flatten().map(|&index| index as usize + 1).max().unwrap_or(0);
+        assert!(bound <= usize::from(u16::MAX) / ROOM + 1, "the list is too long for places of two bytes");
+        rows.as_flattened_mut().iter_mut().for_each(|place| *place *= ROOM as u16);
         Self { rows: rows.into_boxed_slice(), bound }
     }
 
@@ -22,24 +30,153 @@ impl Indices {
         self.rows[to_row][to] = self.rows[from_row][from];
     }
 
-    /// One more than the largest index: the shortest list of points that may be gathered from.
+    /// One more than the largest place: the shortest list that may be gathered from.
     #[must_use]
     pub fn bound(&self) -> usize {
         self.bound
     }
 
-    /// The indices of a row.
+    /// A place.
     #[inline(always)]
     #[must_use]
-    pub fn row(&self, row: usize) -> &[u16; BATCH] {
-        &self.rows[row]
+    pub fn place(&self, row: usize, lane: usize) -> usize {
+        usize::from(self.rows[row][lane]) / ROOM
     }
 
-    /// The indices of `N` rows after the checks that make unchecked access to `points` sound: they are there, `width` of them from `at` on in each, and every one
-    /// is a valid index of `points`.
+    /// The places of `N` rows, times [`ROOM`], after the checks that make unchecked access to a list of `length` sound: they are there, `width` of them from `at` on in each, and every one is
+    /// a valid place.
     #[inline(always)]
-    pub(crate) fn checked<T, const N: usize>(&self, points: &[T], row: usize, at: usize, width: usize) -> &[[u16; BATCH]; N] {
-        assert!(points.len() >= self.bound && at + width <= BATCH, "fewer points than the indices need");
+    #[cfg(target_arch = "x86_64")]
+    pub(crate) fn checked<const N: usize>(&self, length: usize, row: usize, at: usize, width: usize) -> &[[u16; BATCH]; N] {
+        assert!(length >= self.bound && at + width <= BATCH, "fewer places than the indices need");
         self.rows[row..].first_chunk().expect("fewer rows than the kernel reads")
+    }
+}
+
+/// Points with two vectors each, as position and velocity.
+#[derive(Clone, Debug, Default)]
+pub struct Moving<const D: usize> {
+    /// Of the plane both vectors, of space the first.
+    first: Vec<Batch>,
+    /// Of space the second vectors.
+    second: Vec<Batch>,
+    count: usize,
+}
+
+/// The room of a vector in a list of batches: which batch, and where in it.
+#[inline(always)]
+fn room(index: usize, width: usize) -> (usize, usize) {
+    (index * width / BATCH, index * width % BATCH)
+}
+
+impl<const D: usize> Moving<D> {
+    /// Makes room for `count` points, which hold anything.
+    pub fn resize(&mut self, count: usize) {
+        const { assert!(D == 2 || D == 3, "vectors are of the plane or of space") };
+        let batches = (count * ROOM).div_ceil(BATCH);
+        self.first.resize(batches, Batch::default());
+        self.second.resize(if D == 2 { 0 } else { batches }, Batch::default());
+        self.count = count;
+    }
+
+    /// Number of points.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.count
+    }
+
+    /// Whether there is none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.count == 0
+    }
+
+    /// Sets both vectors of a point.
+    #[inline(always)]
+    pub fn set(&mut self, index: usize, first: &[f64; D], second: &[f64; D]) {
+        let (batch, at) = room(index, ROOM);
+        if D == 2 {
+            let both = &mut self.first[batch].0[at..at + ROOM];
+            both[..D].copy_from_slice(first);
+            both[D..].copy_from_slice(second);
+        } else {
+            self.first[batch].0[at..at + D].copy_from_slice(first);
+            self.second[batch].0[at..at + D].copy_from_slice(second);
+        }
+    }
+
+    /// Both vectors of a point.
+    #[inline(always)]
+    pub(crate) fn point(&self, index: usize) -> [[f64; D]; 2] {
+        assert!(index < self.count, "there is no such point");
+        let ((batch, at), mut out) = (room(index, ROOM), [[0.0; D]; 2]);
+        let (second, from) = if D == 2 { (&self.first, at + D) } else { (&self.second, at) };
+        out[0].copy_from_slice(&self.first[batch].0[at..at + D]);
+        out[1].copy_from_slice(&second[batch].0[from..from + D]);
+        out
+    }
+
+    /// The first of all values: of the plane those of both vectors, of space those of the first or second ones.
+    #[inline(always)]
+    #[cfg(target_arch = "x86_64")]
+    pub(crate) fn as_ptr<const SECOND: bool>(&self) -> *const f64 {
+        if SECOND && D > 2 { self.second.as_ptr().cast() } else { self.first.as_ptr().cast() }
+    }
+}
+
+/// Sums of vectors.
+#[derive(Clone, Debug, Default)]
+pub struct VectorSums<const D: usize> {
+    values: Vec<Batch>,
+    count: usize,
+}
+
+impl<const D: usize> VectorSums<D> {
+    /// Values from one vector to the next.
+    pub(crate) const WIDTH: usize = D.next_power_of_two();
+
+    /// `count` sums of nothing.
+    pub fn clear(&mut self, count: usize) {
+        const { assert!(D == 2 || D == 3, "vectors are of the plane or of space") };
+        self.values.clear();
+        self.values.resize((count * Self::WIDTH).div_ceil(BATCH), Batch::default());
+        self.count = count;
+    }
+
+    /// Number of sums.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.count
+    }
+
+    /// Whether there is none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.count == 0
+    }
+
+    /// Writes all sums to `out`, as many as there are.
+    #[inline]
+    pub fn copy_to(&self, out: &mut [[f64; D]]) {
+        for (out, batch) in out[..self.count].chunks_mut(BATCH / Self::WIDTH).zip(&self.values) {
+            for (out, vector) in out.iter_mut().zip(batch.0.chunks_exact(Self::WIDTH)) {
+                out.copy_from_slice(&vector[..D]);
+            }
+        }
+    }
+
+    /// The components of a sum.
+    #[inline(always)]
+    pub(crate) fn row_mut(&mut self, index: usize) -> &mut [f64] {
+        assert!(index < self.count, "there is no such sum");
+        let (batch, at) = room(index, Self::WIDTH);
+        &mut self.values[batch].0[at..at + D]
+    }
+
+    /// The first of all values.
+    #[inline(always)]
+    #[cfg(target_arch = "x86_64")]
+    pub(crate) fn as_mut_ptr(&mut self) -> *mut f64 {
+        self.values.as_mut_ptr().cast()
     }
 }

@@ -18,7 +18,7 @@ mod team;
 mod x86;
 
 pub use dispatch::{Kernel, Level};
-pub use gather::Indices;
+pub use gather::{Indices, Moving, VectorSums};
 pub use lane::{BATCH, Batch, Lane};
 pub use team::{Chunks, Parts, Team};
 

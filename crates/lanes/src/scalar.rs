@@ -1,6 +1,6 @@
 //! `f64` as a lane of width one: the reference that the others must equal to the bit.
 
-use crate::{Batch, Indices, Lane};
+use crate::{Batch, Indices, Lane, Moving, VectorSums};
 
 impl Lane for f64 {
     const WIDTH: usize = 1;
@@ -19,13 +19,32 @@ impl Lane for f64 {
         batch.0[at] = self;
     }
     #[inline(always)]
-    fn gather<const D: usize>(points: &[[[f64; D]; 2]], indices: &Indices, row: usize, at: usize) -> [[Self; D]; 2] {
-        points[usize::from(indices.row(row)[at])]
+    fn gather<const D: usize>(points: &Moving<D>, indices: &Indices, row: usize, at: usize) -> [[Self; D]; 2] {
+        points.point(indices.place(row, at))
     }
     #[inline(always)]
-    fn scatter<const D: usize, const N: usize>(values: &[[Self; D]; N], sums: &mut [[f64; D]], indices: &Indices, row: usize, at: usize) {
+    fn gather_one<const D: usize, const N: usize, const SECOND: bool>(
+        points: &Moving<D>,
+        indices: &Indices,
+        row: usize,
+        at: usize,
+    ) -> [[Self; D]; N] {
+        let mut out = [[0.0; D]; N];
+        for (a, vector) in out.iter_mut().enumerate() {
+            *vector = points.point(indices.place(row + a, at))[usize::from(SECOND)];
+        }
+        out
+    }
+    #[inline(always)]
+    fn scatter<const D: usize, const N: usize>(
+        values: &[[Self; D]; N],
+        sums: &mut VectorSums<D>,
+        indices: &Indices,
+        row: usize,
+        at: usize,
+    ) {
         for (a, value) in values.iter().enumerate() {
-            let sum = &mut sums[usize::from(indices.row(row + a)[at])];
+            let sum = sums.row_mut(indices.place(row + a, at));
             for d in 0..D {
                 sum[d] += value[d];
             }

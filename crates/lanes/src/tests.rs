@@ -81,6 +81,7 @@ fn every_operation_gives_the_same_bits_on_every_level() {
 /// Gathers rows of points, adds them in a scatter of `N` rows at a time, and moves points without indices.
 struct Walk<'a, const D: usize, const N: usize> {
     points: &'a [[[f64; D]; 2]],
+    moving: &'a Moving<D>,
     indices: &'a Indices,
     rows: usize,
 }
@@ -89,13 +90,24 @@ impl<const D: usize, const N: usize> Kernel for Walk<'_, D, N> {
     type Output = [Vec<f64>; 3];
     #[inline(always)]
     fn run<L: Lane>(self) -> [Vec<f64>; 3] {
-        let (mut gathered, mut sums) = (Vec::new(), vec![[0.0; D]; self.points.len()]);
+        let (mut gathered, mut sums) = (Vec::new(), VectorSums::default());
+        sums.clear(self.points.len());
         for row in (0..self.rows).step_by(N) {
             let mut out = [[[Batch::default(); D]; 2]; N];
+            let mut ones = out;
             for at in (0..BATCH).step_by(L::WIDTH) {
                 let mut values = [[L::splat(0.0); D]; N];
+                let one = [
+                    L::gather_one::<D, N, false>(self.moving, self.indices, row, at),
+                    L::gather_one::<D, N, true>(self.moving, self.indices, row, at),
+                ];
                 for a in 0..N {
-                    let both = L::gather(self.points, self.indices, row + a, at);
+                    for k in 0..2 {
+                        for d in 0..D {
+                            one[k][a][d].store(&mut ones[a][k][d], at);
+                        }
+                    }
+                    let both = L::gather(self.moving, self.indices, row + a, at);
                     values[a] = both[1];
                     for (component, slot) in both.as_flattened().iter().zip(out[a].as_flattened_mut()) {
                         component.store(slot, at);
@@ -103,6 +115,7 @@ impl<const D: usize, const N: usize> Kernel for Walk<'_, D, N> {
                 }
                 L::scatter(&values, &mut sums, self.indices, row, at);
             }
+            assert_eq!(out, ones, "one vector after the other is both at once");
             gathered.extend(out.as_flattened().as_flattened().iter().flat_map(|batch| batch.0));
         }
         let firsts: Vec<[f64; D]> = self.points.iter().map(|point| point[0]).collect();
@@ -110,7 +123,9 @@ impl<const D: usize, const N: usize> Kernel for Walk<'_, D, N> {
         for first in (0..firsts.len() / BATCH * BATCH).step_by(L::WIDTH) {
             L::store_points(L::load_points(&firsts, first).map(|value| value + value), &mut moved, first);
         }
-        [gathered, sums.as_flattened().to_vec(), moved.as_flattened().to_vec()]
+        let mut all = vec![[0.0; D]; sums.len()];
+        sums.copy_to(&mut all);
+        [gathered, all.as_flattened().to_vec(), moved.as_flattened().to_vec()]
     }
 }
 
@@ -131,8 +146,11 @@ fn walks<const D: usize, const N: usize>() {
     }
     let moved: Vec<f64> = points.iter().enumerate().flat_map(|(i, point)| point[0].map(|x| if i < 96 { x + x } else { 0.0 })).collect();
     let indices = Indices::new(rows);
+    let mut moving = Moving::default();
+    moving.resize(points.len());
+    points.iter().enumerate().for_each(|(i, [first, second])| moving.set(i, first, second));
     for level in Level::available() {
-        let walk = Walk::<D, N> { points: &points, indices: &indices, rows: 5 * N };
+        let walk = Walk::<D, N> { points: &points, moving: &moving, indices: &indices, rows: 5 * N };
         assert_eq!([gathered.clone(), sums.as_flattened().to_vec(), moved.clone()], level.run(walk), "{}", level.name());
     }
 }
@@ -148,8 +166,12 @@ fn gathers_and_scatters_find_the_right_points_in_the_plane_and_in_space() {
 #[test]
 fn a_gather_from_too_few_points_is_refused_on_every_level() {
     let indices = Indices::new(vec![[9; BATCH]; 2]);
+    let mut moving = Moving::default();
+    moving.resize(9);
     for level in Level::available() {
-        let refused = std::panic::catch_unwind(|| level.run(Walk::<2, 1> { points: &[[[0.0; 2]; 2]; 9], indices: &indices, rows: 1 }));
+        let refused = std::panic::catch_unwind(|| {
+            level.run(Walk::<2, 1> { points: &[[[0.0; 2]; 2]; 9], moving: &moving, indices: &indices, rows: 1 })
+        });
         assert!(refused.is_err(), "{}", level.name());
     }
 }

@@ -3,7 +3,8 @@
 //! The types are private to the crate and only reach kernels through [`crate::Level::run`], which proves that the machine has
 //! the instructions; that is what makes every intrinsic call below sound. No closures: they are compiled for the machine's baseline.
 
-use crate::{Batch, Indices, Lane};
+use crate::gather::ROOM;
+use crate::{Batch, Indices, Lane, Moving, VectorSums};
 use std::arch::x86_64::*;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
@@ -17,123 +18,72 @@ pub struct F64x4(__m256d);
 #[repr(transparent)]
 pub struct F64x8(__m512d);
 
-/// The first four of the components of both vectors of a point in one register: all of the plane, of space the first vector and one more.
+/// The four values of a place: of the plane both vectors, of space the first or the second vector and one value more.
 ///
 /// # Safety
-/// `index` must be less than `points.len()`, `D` must be 2 or 3, and the machine must have AVX.
+/// `place` must be that of a point, times [`ROOM`], and the machine must have AVX.
 #[inline(always)]
-unsafe fn point<const D: usize>(points: &[[[f64; D]; 2]], index: u16) -> __m256d {
-    // SAFETY: by the contract above there are at least four components in each point of the slice; unaligned loads need no alignment.
-    unsafe { _mm256_loadu_pd(points.as_ptr().add(usize::from(index)).cast::<f64>()) }
+unsafe fn four<const D: usize, const SECOND: bool>(points: &Moving<D>, place: u16) -> __m256d {
+    // SAFETY: by the contract above there are four values from there on, and batches are aligned to 64 bytes.
+    unsafe { _mm256_load_pd(points.as_ptr::<SECOND>().add(usize::from(place))) }
 }
 
-/// The last two components of the second vectors of two points of space in one register.
+/// Those of two places in one register.
 ///
 /// # Safety
-/// As for [`point`], but that `D` must be 3.
+/// As for [`four`], and the machine must have AVX-512.
 #[inline(always)]
-unsafe fn two_rests<const D: usize>(points: &[[[f64; D]; 2]], low: u16, high: u16) -> __m256d {
-    // SAFETY: by the contract above each point has six components; unaligned loads need no alignment.
-    unsafe {
-        let low = points.as_ptr().add(usize::from(low)).cast::<f64>().add(4);
-        let high = points.as_ptr().add(usize::from(high)).cast::<f64>().add(4);
-        _mm256_insertf128_pd::<1>(_mm256_castpd128_pd256(_mm_loadu_pd(low)), _mm_loadu_pd(high))
-    }
+unsafe fn two_fours<const D: usize, const SECOND: bool>(points: &Moving<D>, low: u16, high: u16) -> __m512d {
+    // SAFETY: by the contract above.
+    unsafe { _mm512_insertf64x4::<1>(_mm512_castpd256_pd512(four::<D, SECOND>(points, low)), four::<D, SECOND>(points, high)) }
 }
 
-/// Both vectors from their components in turn, the first four and the last two; of the plane there are four.
+/// The first of some components as those of a vector.
 #[inline(always)]
-fn vectors<L: Copy, const D: usize>(first: [L; 4], last: [L; 2]) -> [[L; D]; 2] {
-    let all = [first[0], first[1], first[2], first[3], last[0], last[1]];
-    let mut out = [[all[0]; D]; 2];
-    for k in 0..2 {
-        for d in 0..D {
-            out[k][d] = all[k * D + d];
-        }
+fn vector<L: Copy, const D: usize>(components: [L; 4], from: usize) -> [L; D] {
+    let mut out = [components[0]; D];
+    for d in 0..D {
+        out[d] = components[from + d];
     }
     out
 }
 
-/// Two points in one register.
+/// Adds a vector to one of `sums`; of space with a fourth component, which is zero.
 ///
 /// # Safety
-/// As for [`point`], and the machine must have AVX-512.
+/// `place` must be that of a sum, times [`ROOM`], `row` must hold 2 or 4 values and be aligned to 16 or 32 bytes, and the machine must have AVX.
 #[inline(always)]
-unsafe fn two_points<const D: usize>(points: &[[[f64; D]; 2]], low: u16, high: u16) -> __m512d {
-    // SAFETY: by the contract above.
-    unsafe { _mm512_insertf64x4::<1>(_mm512_castpd256_pd512(point(points, low)), point(points, high)) }
-}
-
-/// Adds a vector of the plane, or the first two components of one of space, to one of `sums`.
-///
-/// # Safety
-/// `index` must be less than `sums.len()`, `D` must be at least 2, and `pair` must be aligned to 16 bytes.
-#[inline(always)]
-unsafe fn add_pair<const D: usize>(sums: &mut [[f64; D]], index: u16, pair: &[f64; 2]) {
-    // SAFETY: by the contract above both components lie inside the slice; its loads and stores need no alignment.
+unsafe fn add_row<const D: usize>(sums: &mut VectorSums<D>, place: u16, row: *const f64) {
+    // SAFETY: by the contract above all components lie inside the sums, whose rows are aligned to their width.
     unsafe {
-        let sum = sums.as_mut_ptr().add(usize::from(index)).cast::<f64>();
-        _mm_storeu_pd(sum, _mm_add_pd(_mm_loadu_pd(sum), _mm_load_pd(pair.as_ptr())));
+        let sum = sums.as_mut_ptr().add(usize::from(place) / (ROOM / VectorSums::<D>::WIDTH));
+        if D == 2 {
+            _mm_store_pd(sum, _mm_add_pd(_mm_load_pd(sum), _mm_load_pd(row)));
+        } else {
+            _mm256_store_pd(sum, _mm256_add_pd(_mm256_load_pd(sum), _mm256_load_pd(row)));
+        }
     }
 }
 
-/// Adds the third component of a vector of space to one of `sums`.
-///
-/// # Safety
-/// `index` must be less than `sums.len()`, and `D` must be 3.
-#[inline(always)]
-unsafe fn add_third<const D: usize>(sums: &mut [[f64; D]], index: u16, value: f64) {
-    // SAFETY: by the contract above there is such a component.
-    unsafe { *sums.as_mut_ptr().add(usize::from(index)).cast::<f64>().add(2) += value };
-}
-
-/// Pairs of components of the lanes, as they lie in a register or two.
+/// The vectors of the lanes one after the other, as they lie in registers: those of even lanes before those of odd ones.
 #[repr(C, align(64))]
-struct Pairs<const W: usize>([[f64; 2]; W]);
+struct Vectors<const W: usize>([[f64; W]; 4]);
+
+/// Does the work for each row, straight on: values that wait in registers can't be kept in a list that a loop goes through.
+macro_rules! each_row {
+    ($rows:ident, $row:ident, $work:block) => { each_row!(@ 0 1 2 3 4 5 6 7, $rows, $row, $work) };
+    (@ $($number:literal)*, $rows:ident, $row:ident, $work:block) => {
+        const { assert!($rows <= 8, "more rows than are written out") };
+        $(if $number < $rows {
+            let $row: usize = $number;
+            $work
+        })*
+    };
+}
 
 /// Any dimension: value by value.
 mod plain {
-    use crate::{Batch, Indices, Lane};
-
-    #[inline(always)]
-    pub(super) fn gather<L: Lane, const D: usize>(points: &[[[f64; D]; 2]], indices: &Indices, row: usize, at: usize) -> [[L; D]; 2] {
-        let indices = &indices.row(row)[at..at + L::WIDTH];
-        let mut out = [[L::splat(0.0); D]; 2];
-        for (k, vector) in out.iter_mut().enumerate() {
-            for (d, component) in vector.iter_mut().enumerate() {
-                let mut batch = Batch::default();
-                for (value, &index) in batch.0.iter_mut().zip(indices) {
-                    *value = points[usize::from(index)][k][d];
-                }
-                *component = L::load(&batch, 0);
-            }
-        }
-        out
-    }
-
-    #[inline(always)]
-    pub(super) fn scatter<L: Lane, const D: usize, const N: usize>(
-        values: &[[L; D]; N],
-        sums: &mut [[f64; D]],
-        indices: &Indices,
-        row: usize,
-        at: usize,
-    ) {
-        let mut batches = [[Batch::default(); D]; N];
-        for (vector, batches) in values.iter().zip(&mut batches) {
-            for (value, batch) in vector.iter().zip(batches) {
-                value.store(batch, 0);
-            }
-        }
-        for lane in 0..L::WIDTH {
-            for (a, batches) in batches.iter().enumerate() {
-                let sum = &mut sums[usize::from(indices.row(row + a)[at + lane])];
-                for d in 0..D {
-                    sum[d] += batches[d].0[lane];
-                }
-            }
-        }
-    }
+    use crate::{Batch, Lane};
 
     #[inline(always)]
     pub(super) fn load_points<L: Lane, const D: usize>(points: &[[f64; D]], first: usize) -> [L; D] {
@@ -205,6 +155,24 @@ operators!(F64x8, _mm512_add_pd, _mm512_sub_pd, _mm512_mul_pd, _mm512_div_pd);
 const EXPONENT_MAGIC: f64 = 4_503_599_627_370_496.0 + 1023.0;
 
 impl F64x4 {
+    /// The values of four rows of four, column by column.
+    ///
+    /// # Safety
+    /// The machine must have AVX.
+    #[inline(always)]
+    unsafe fn components([r, s, t, u]: [__m256d; 4]) -> [Self; 4] {
+        // SAFETY: by the contract above.
+        unsafe {
+            let (low, high) = ([_mm256_unpacklo_pd(r, s), _mm256_unpacklo_pd(t, u)], [_mm256_unpackhi_pd(r, s), _mm256_unpackhi_pd(t, u)]);
+            [
+                Self(_mm256_permute2f128_pd::<0x20>(low[0], low[1])),
+                Self(_mm256_permute2f128_pd::<0x20>(high[0], high[1])),
+                Self(_mm256_permute2f128_pd::<0x31>(low[0], low[1])),
+                Self(_mm256_permute2f128_pd::<0x31>(high[0], high[1])),
+            ]
+        }
+    }
+
     #[inline(always)]
     fn flip_sign(self) -> Self {
         // SAFETY: as for the operators.
@@ -234,64 +202,83 @@ impl Lane for F64x4 {
         unsafe { _mm256_storeu_pd(values.as_mut_ptr(), self.0) }
     }
     #[inline(always)]
-    fn gather<const D: usize>(points: &[[[f64; D]; 2]], indices: &Indices, row: usize, at: usize) -> [[Self; D]; 2] {
-        if D != 2 && D != 3 {
-            return plain::gather(points, indices, row, at);
-        }
-        let [index] = indices.checked::<_, 1>(points, row, at, 4);
-        // SAFETY: `checked` has shown that every index is below `points.len()`; the instructions are there as for the operators.
-        let [x, y, u, v] = unsafe {
-            let (a, b) = (point(points, index[at]), point(points, index[at + 1]));
-            let (c, d) = (point(points, index[at + 2]), point(points, index[at + 3]));
-            let [ab, cd] = [_mm256_unpacklo_pd(a, b), _mm256_unpacklo_pd(c, d)];
-            let [ab_high, cd_high] = [_mm256_unpackhi_pd(a, b), _mm256_unpackhi_pd(c, d)];
-            [
-                _mm256_permute2f128_pd::<0x20>(ab, cd),
-                _mm256_permute2f128_pd::<0x20>(ab_high, cd_high),
-                _mm256_permute2f128_pd::<0x31>(ab, cd),
-                _mm256_permute2f128_pd::<0x31>(ab_high, cd_high),
-            ]
+    fn gather<const D: usize>(points: &Moving<D>, indices: &Indices, row: usize, at: usize) -> [[Self; D]; 2] {
+        let [place] = indices.checked::<1>(points.len(), row, at, 4);
+        // SAFETY: `checked` has shown that every place is one of the points; the instructions are there as for the operators.
+        let all = unsafe {
+            Self::components([
+                four::<D, false>(points, place[at]),
+                four::<D, false>(points, place[at + 1]),
+                four::<D, false>(points, place[at + 2]),
+                four::<D, false>(points, place[at + 3]),
+            ])
         };
-        let first = [Self(x), Self(y), Self(u), Self(v)];
         if D == 2 {
-            return vectors(first, [Self(x); 2]);
+            return [vector(all, 0), vector(all, 2)];
         }
-        // SAFETY: as above.
-        let last = unsafe {
-            let (even, odd) = (two_rests(points, index[at], index[at + 2]), two_rests(points, index[at + 1], index[at + 3]));
-            [_mm256_unpacklo_pd(even, odd), _mm256_unpackhi_pd(even, odd)]
-        };
-        vectors(first, [Self(last[0]), Self(last[1])])
+        let [second] = Self::gather_one::<D, 1, true>(points, indices, row, at);
+        [vector(all, 0), second]
     }
     #[inline(always)]
-    fn scatter<const D: usize, const N: usize>(values: &[[Self; D]; N], sums: &mut [[f64; D]], indices: &Indices, row: usize, at: usize) {
-        if D != 2 && D != 3 {
-            return plain::scatter(values, sums, indices, row, at);
-        }
-        let rows = indices.checked::<_, N>(sums, row, at, 4);
-        let mut pairs = [const { Pairs([[0.0; 2]; 4]) }; N];
-        for (vector, pairs) in values.iter().zip(&mut pairs) {
-            let all = pairs.0.as_flattened_mut();
-            // SAFETY: there are eight values, aligned to 64 bytes; the instructions are there as for the operators.
+    fn gather_one<const D: usize, const N: usize, const SECOND: bool>(
+        points: &Moving<D>,
+        indices: &Indices,
+        row: usize,
+        at: usize,
+    ) -> [[Self; D]; N] {
+        let places = indices.checked::<N>(points.len(), row, at, 4);
+        let from = if D == 2 && SECOND { 2 } else { 0 };
+        let mut out = [[Self::splat(0.0); D]; N];
+        each_row!(N, a, {
+            let place = &places[a];
+            // SAFETY: `checked` has shown that every place is one of the points; the instructions are there as for the operators.
+            out[a] = vector(
+                unsafe {
+                    Self::components([
+                        four::<D, SECOND>(points, place[at]),
+                        four::<D, SECOND>(points, place[at + 1]),
+                        four::<D, SECOND>(points, place[at + 2]),
+                        four::<D, SECOND>(points, place[at + 3]),
+                    ])
+                },
+                from,
+            );
+        });
+        out
+    }
+    #[inline(always)]
+    fn scatter<const D: usize, const N: usize>(
+        values: &[[Self; D]; N],
+        sums: &mut VectorSums<D>,
+        indices: &Indices,
+        row: usize,
+        at: usize,
+    ) {
+        let rows = indices.checked::<N>(sums.len(), row, at, 4);
+        let mut all = [const { Vectors([[0.0; 4]; 4]) }; N];
+        for (vector, all) in values.iter().zip(&mut all) {
+            let all = all.0.as_flattened_mut();
+            // SAFETY: there are sixteen values, aligned to 64 bytes; the instructions are there as for the operators.
             unsafe {
-                _mm256_store_pd(all[..4].as_mut_ptr(), _mm256_unpacklo_pd(vector[0].0, vector[1].0));
-                _mm256_store_pd(all[4..].as_mut_ptr(), _mm256_unpackhi_pd(vector[0].0, vector[1].0));
-            }
-        }
-        let mut thirds = [const { Batch([0.0; 8]) }; N];
-        if D == 3 {
-            for a in 0..N {
-                values[a][2].store(&mut thirds[a], 0);
+                let (even, odd) = (_mm256_unpacklo_pd(vector[0].0, vector[1].0), _mm256_unpackhi_pd(vector[0].0, vector[1].0));
+                if D == 2 {
+                    _mm256_store_pd(all[..4].as_mut_ptr(), even);
+                    _mm256_store_pd(all[4..].as_mut_ptr(), odd);
+                } else {
+                    let (zero, z) = (_mm256_setzero_pd(), vector[2].0);
+                    let (rest, odd_rest) = (_mm256_unpacklo_pd(z, zero), _mm256_unpackhi_pd(z, zero));
+                    _mm256_store_pd(all[..4].as_mut_ptr(), _mm256_permute2f128_pd::<0x20>(even, rest));
+                    _mm256_store_pd(all[4..].as_mut_ptr(), _mm256_permute2f128_pd::<0x31>(even, rest));
+                    _mm256_store_pd(all[8..].as_mut_ptr(), _mm256_permute2f128_pd::<0x20>(odd, odd_rest));
+                    _mm256_store_pd(all[12..].as_mut_ptr(), _mm256_permute2f128_pd::<0x31>(odd, odd_rest));
+                }
             }
         }
         for lane in 0..4 {
             for a in 0..N {
-                // SAFETY: `checked` has shown that every index is below `sums.len()`; pairs lie at multiples of 16 bytes.
-                unsafe { add_pair(sums, rows[a][at + lane], &pairs[a].0[lane % 2 * 2 + lane / 2]) };
-                if D == 3 {
-                    // SAFETY: as above.
-                    unsafe { add_third(sums, rows[a][at + lane], thirds[a].0[lane]) };
-                }
+                let place = (lane % 2 * 2 + lane / 2) * VectorSums::<D>::WIDTH;
+                // SAFETY: `checked` has shown that every place is one of the sums; vectors lie at multiples of their width.
+                unsafe { add_row(sums, rows[a][at + lane], all[a].0.as_flattened().as_ptr().add(place)) };
             }
         }
     }
@@ -393,6 +380,25 @@ impl Lane for F64x4 {
 }
 
 impl F64x8 {
+    /// The values of eight rows of four, column by column: of the first four rows in the low halves.
+    ///
+    /// # Safety
+    /// The machine must have AVX-512.
+    #[inline(always)]
+    unsafe fn components([r, s, t, u]: [__m512d; 4]) -> [Self; 4] {
+        // SAFETY: by the contract above.
+        unsafe {
+            let (low, high) = ([_mm512_unpacklo_pd(r, s), _mm512_unpacklo_pd(t, u)], [_mm512_unpackhi_pd(r, s), _mm512_unpackhi_pd(t, u)]);
+            let (former, latter) = (_mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13), _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15));
+            [
+                Self(_mm512_permutex2var_pd(low[0], former, low[1])),
+                Self(_mm512_permutex2var_pd(high[0], former, high[1])),
+                Self(_mm512_permutex2var_pd(low[0], latter, low[1])),
+                Self(_mm512_permutex2var_pd(high[0], latter, high[1])),
+            ]
+        }
+    }
+
     #[inline(always)]
     fn flip_sign(self) -> Self {
         // SAFETY: as for the operators.
@@ -422,69 +428,85 @@ impl Lane for F64x8 {
         unsafe { _mm512_storeu_pd(values.as_mut_ptr(), self.0) }
     }
     #[inline(always)]
-    fn gather<const D: usize>(points: &[[[f64; D]; 2]], indices: &Indices, row: usize, at: usize) -> [[Self; D]; 2] {
-        if D != 2 && D != 3 {
-            return plain::gather(points, indices, row, at);
-        }
-        let [index] = indices.checked::<_, 1>(points, row, at, 8);
-        // SAFETY: `checked` has shown that every index is below `points.len()`; the instructions are there as for the operators.
-        let [x, y, u, v] = unsafe {
-            let (a, b) = (two_points(points, index[0], index[4]), two_points(points, index[1], index[5]));
-            let (c, d) = (two_points(points, index[2], index[6]), two_points(points, index[3], index[7]));
-            let [ab, cd] = [_mm512_unpacklo_pd(a, b), _mm512_unpacklo_pd(c, d)];
-            let [ab_high, cd_high] = [_mm512_unpackhi_pd(a, b), _mm512_unpackhi_pd(c, d)];
-            let (first, second) = (_mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13), _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15));
-            [
-                _mm512_permutex2var_pd(ab, first, cd),
-                _mm512_permutex2var_pd(ab_high, first, cd_high),
-                _mm512_permutex2var_pd(ab, second, cd),
-                _mm512_permutex2var_pd(ab_high, second, cd_high),
-            ]
+    fn gather<const D: usize>(points: &Moving<D>, indices: &Indices, row: usize, at: usize) -> [[Self; D]; 2] {
+        let [place] = indices.checked::<1>(points.len(), row, at, 8);
+        // SAFETY: `checked` has shown that every place is one of the points; the instructions are there as for the operators.
+        let all = unsafe {
+            Self::components([
+                two_fours::<D, false>(points, place[0], place[4]),
+                two_fours::<D, false>(points, place[1], place[5]),
+                two_fours::<D, false>(points, place[2], place[6]),
+                two_fours::<D, false>(points, place[3], place[7]),
+            ])
         };
-        let first = [Self(x), Self(y), Self(u), Self(v)];
         if D == 2 {
-            return vectors(first, [Self(x); 2]);
+            return [vector(all, 0), vector(all, 2)];
         }
-        // SAFETY: as above.
-        let last = unsafe {
-            let (a, b) = (two_rests(points, index[0], index[2]), two_rests(points, index[4], index[6]));
-            let (c, d) = (two_rests(points, index[1], index[3]), two_rests(points, index[5], index[7]));
-            let even = _mm512_insertf64x4::<1>(_mm512_castpd256_pd512(a), b);
-            let odd = _mm512_insertf64x4::<1>(_mm512_castpd256_pd512(c), d);
-            [_mm512_unpacklo_pd(even, odd), _mm512_unpackhi_pd(even, odd)]
-        };
-        vectors(first, [Self(last[0]), Self(last[1])])
+        let [second] = Self::gather_one::<D, 1, true>(points, indices, row, at);
+        [vector(all, 0), second]
     }
     #[inline(always)]
-    fn scatter<const D: usize, const N: usize>(values: &[[Self; D]; N], sums: &mut [[f64; D]], indices: &Indices, row: usize, at: usize) {
-        if D != 2 && D != 3 {
-            return plain::scatter(values, sums, indices, row, at);
-        }
-        let rows = indices.checked::<_, N>(sums, row, at, 8);
-        let mut pairs = [const { Pairs([[0.0; 2]; 8]) }; N];
-        for (vector, pairs) in values.iter().zip(&mut pairs) {
-            let all = pairs.0.as_flattened_mut();
-            // SAFETY: there are sixteen values, aligned to 64 bytes; the instructions are there as for the operators.
+    fn gather_one<const D: usize, const N: usize, const SECOND: bool>(
+        points: &Moving<D>,
+        indices: &Indices,
+        row: usize,
+        at: usize,
+    ) -> [[Self; D]; N] {
+        let places = indices.checked::<N>(points.len(), row, at, 8);
+        let from = if D == 2 && SECOND { 2 } else { 0 };
+        let mut out = [[Self::splat(0.0); D]; N];
+        each_row!(N, a, {
+            let place = &places[a];
+            // SAFETY: `checked` has shown that every place is one of the points; the instructions are there as for the operators.
+            out[a] = vector(
+                unsafe {
+                    Self::components([
+                        two_fours::<D, SECOND>(points, place[0], place[4]),
+                        two_fours::<D, SECOND>(points, place[1], place[5]),
+                        two_fours::<D, SECOND>(points, place[2], place[6]),
+                        two_fours::<D, SECOND>(points, place[3], place[7]),
+                    ])
+                },
+                from,
+            );
+        });
+        out
+    }
+    #[inline(always)]
+    fn scatter<const D: usize, const N: usize>(
+        values: &[[Self; D]; N],
+        sums: &mut VectorSums<D>,
+        indices: &Indices,
+        row: usize,
+        at: usize,
+    ) {
+        let rows = indices.checked::<N>(sums.len(), row, at, 8);
+        let mut all = [const { Vectors([[0.0; 8]; 4]) }; N];
+        for (vector, all) in values.iter().zip(&mut all) {
+            let all = all.0.as_flattened_mut();
+            // SAFETY: there are 32 values, aligned to 64 bytes; the instructions are there as for the operators.
             unsafe {
-                _mm512_store_pd(all[..8].as_mut_ptr(), _mm512_unpacklo_pd(vector[0].0, vector[1].0));
-                _mm512_store_pd(all[8..].as_mut_ptr(), _mm512_unpackhi_pd(vector[0].0, vector[1].0));
-            }
-        }
-        let mut thirds = [const { Batch([0.0; 8]) }; N];
-        if D == 3 {
-            for a in 0..N {
-                values[a][2].store(&mut thirds[a], 0);
+                let (even, odd) = (_mm512_unpacklo_pd(vector[0].0, vector[1].0), _mm512_unpackhi_pd(vector[0].0, vector[1].0));
+                if D == 2 {
+                    _mm512_store_pd(all[..8].as_mut_ptr(), even);
+                    _mm512_store_pd(all[8..].as_mut_ptr(), odd);
+                } else {
+                    let (zero, z) = (_mm512_setzero_pd(), vector[2].0);
+                    let (rest, odd_rest) = (_mm512_unpacklo_pd(z, zero), _mm512_unpackhi_pd(z, zero));
+                    let (former, latter) = (_mm512_setr_epi64(0, 1, 8, 9, 2, 3, 10, 11), _mm512_setr_epi64(4, 5, 12, 13, 6, 7, 14, 15));
+                    _mm512_store_pd(all[..8].as_mut_ptr(), _mm512_permutex2var_pd(even, former, rest));
+                    _mm512_store_pd(all[8..].as_mut_ptr(), _mm512_permutex2var_pd(even, latter, rest));
+                    _mm512_store_pd(all[16..].as_mut_ptr(), _mm512_permutex2var_pd(odd, former, odd_rest));
+                    _mm512_store_pd(all[24..].as_mut_ptr(), _mm512_permutex2var_pd(odd, latter, odd_rest));
+                }
             }
         }
         #[allow(clippy::needless_range_loop)] // lanes are summed one after the other, corner by corner
         for lane in 0..8 {
             for a in 0..N {
-                // SAFETY: `checked` has shown that every index is below `sums.len()`; pairs lie at multiples of 16 bytes.
-                unsafe { add_pair(sums, rows[a][lane], &pairs[a].0[lane % 2 * 4 + lane / 2]) };
-                if D == 3 {
-                    // SAFETY: as above.
-                    unsafe { add_third(sums, rows[a][lane], thirds[a].0[lane]) };
-                }
+                let place = (lane % 2 * 4 + lane / 2) * VectorSums::<D>::WIDTH;
+                // SAFETY: `checked` has shown that every place is one of the sums; vectors lie at multiples of their width.
+                unsafe { add_row(sums, rows[a][lane], all[a].0.as_flattened().as_ptr().add(place)) };
             }
         }
     }

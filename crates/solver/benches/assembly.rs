@@ -4,7 +4,7 @@
 //! oracle: the forces of all corners are stored, and each node gathers its corners. Forces are made on the spot from one number per element, as kernels have them in registers.
 //! One thread, both in turns in the same run; their sums must agree.
 
-use embate_lanes::{BATCH, Batch, Kernel, Lane, Level};
+use embate_lanes::{BATCH, Batch, Kernel, Lane, Level, VectorSums};
 use embate_solver::assembly::Assembly;
 use embate_solver::bench::spinning_block;
 use embate_solver::block::{CHUNK, LocalNodes};
@@ -45,13 +45,15 @@ impl Kernel for Scatter<'_> {
 
     #[inline(always)]
     fn run<L: Lane>(self) {
+        let mut sums = VectorSums::default();
         for (chunk, pulls) in self.slots.chunks_exact_mut(self.nodes.width()).enumerate() {
-            pulls.fill([0.0; 2]);
+            sums.clear(pulls.len());
             for batch in chunk * CHUNK..((chunk + 1) * CHUNK).min(self.numbers.len()) {
                 for at in (0..BATCH).step_by(L::WIDTH) {
-                    L::scatter(&corners::<L>(self.numbers, batch, at), pulls, &self.nodes.places, batch * N, at);
+                    L::scatter(&corners::<L>(self.numbers, batch, at), &mut sums, &self.nodes.places, batch * N, at);
                 }
             }
+            sums.copy_to(pulls);
         }
     }
 }

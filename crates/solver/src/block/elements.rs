@@ -103,7 +103,7 @@ where
 
     fn strip(law: &dyn PointLaw, damping: f64, batches: usize) -> Strip<D> {
         let turn = <<Tensor<D, f64> as SymmetricTensor<f64>>::Rotation as Turn<f64>>::COMPONENTS;
-        let shape = Shape { nodes: N, points: P, components: Self::COMPONENTS, turn, hourglass: E::HOURGLASS };
+        let shape = Shape { parts: E::PARTS, points: P, components: Self::COMPONENTS, turn, hourglass: E::HOURGLASS };
         Strip::new(&shape, law, damping > 0.0, batches)
     }
 
@@ -193,7 +193,7 @@ where
         let mut sums = Sums::new();
         let count = chunk.elements.len();
         common.nodes.copy(chunk.index, common.motion, &mut strip.moving);
-        chunk.pulls.fill([0.0; D]);
+        strip.pulls.clear(common.nodes.width());
         for from in (0..count).step_by(STRIP) {
             let to = (from + STRIP).min(count);
             let points = (to - from) * P;
@@ -265,12 +265,12 @@ where
                 resistance,
                 places: &common.nodes.places,
                 first: chunk.index * CHUNK + from,
-                pulls: chunk.pulls,
                 kept: if common.keeps_forces { &mut chunk.kept[from * N * D..to * N * D] } else { &mut [] },
                 sums: &mut sums,
                 kind: PhantomData,
             }));
         }
+        strip.pulls.copy_to(chunk.pulls);
         sums.report()
     }
 }

@@ -12,7 +12,7 @@ use crate::element::{Element, map_of};
 use crate::failure::{Criterion, Seen, failing};
 use crate::material::Variable;
 use crate::tensor::{Dim, Space};
-use embate_lanes::{BATCH, Batch, Lane};
+use embate_lanes::{BATCH, Batch, Lane, VectorSums};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -208,7 +208,7 @@ where
         Ok(())
     }
 
-    /// Sums the forces of a chunk again, without elements that are gone.
+    /// VectorSums the forces of a chunk again, without elements that are gone.
     fn sum_again(&mut self, chunk: usize, gone: &[u32], slots: &mut [[f64; D]]) {
         if !self.keeps_forces {
             return;
@@ -218,14 +218,15 @@ where
             self.kept[first..first + N * D].iter_mut().for_each(|batch| batch.0[element as usize % BATCH] = 0.0);
         }
         let width = self.nodes.width();
-        let pulls = &mut slots[chunk * width..(chunk + 1) * width];
-        pulls.fill([0.0; D]);
+        let mut pulls = VectorSums::default();
+        pulls.clear(width);
         for batch in chunk * CHUNK..((chunk + 1) * CHUNK).min(self.elements.len()) {
             for lane in 0..BATCH {
                 let forces: [[f64; D]; N] = std::array::from_fn(|a| std::array::from_fn(|d| self.kept[(batch * N + a) * D + d].0[lane]));
-                Lane::scatter(&forces, pulls, &self.nodes.places, batch * N, lane);
+                Lane::scatter(&forces, &mut pulls, &self.nodes.places, batch * N, lane);
             }
         }
+        pulls.copy_to(&mut slots[chunk * width..(chunk + 1) * width]);
     }
 
     /// Makes a lane that counts for nothing a copy of a live element.

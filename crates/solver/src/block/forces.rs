@@ -22,7 +22,7 @@ use embate_lanes::{Batch, Indices, Lane, math};
 use std::f64::consts::TAU;
 use std::marker::PhantomData;
 
-/// Elements of a strip after their law has answered.
+/// Elements of a strip after their law has answered. Their forces, N/m in the plane, are added to those on the nodes of the chunk.
 pub(super) struct Forces<'a, E, S, const D: usize, const N: usize, const P: usize> {
     pub(super) element: &'a E,
     pub(super) family: Family,
@@ -47,15 +47,13 @@ pub(super) struct Forces<'a, E, S, const D: usize, const N: usize, const P: usiz
     pub(super) initial: &'a [Batch],
     /// What the element keeps: [`Element::HOURGLASS`] per element.
     pub(super) hourglass: &'a mut [Batch],
-    pub(super) strip: &'a Strip<D>,
+    pub(super) strip: &'a mut Strip<D>,
     pub(super) elements: &'a mut [ElementBatch],
     /// What bulk viscosity and damping remember; empty without them.
     pub(super) resistance: &'a mut [Resistance],
     /// `N` rows of places among the nodes of the chunk per batch, from `first` on.
     pub(super) places: &'a Indices,
     pub(super) first: usize,
-    /// Forces on the nodes of the chunk, N/m in the plane; those of these elements are added.
-    pub(super) pulls: &'a mut [[f64; D]],
     /// Forces of the elements, where they are kept; else empty.
     pub(super) kept: &'a mut [Batch],
     pub(super) sums: &'a mut Sums,
@@ -109,6 +107,7 @@ fn least(batch: &Batch) -> f64 {
 
 /// Geometry of the elements in a lane.
 struct Geometry<L, const D: usize, const N: usize, const P: usize> {
+    /// Positions in natural parts.
     x: [[L; D]; N],
     map: Map<L, D, P>,
     /// Volume per area of each point: circumference, thickness, or one.
@@ -178,7 +177,7 @@ where
         if E::HOURGLASS > 0 && !E::WARPED {
             for a in 0..N {
                 for i in 0..D {
-                    nodal[a][i] += held.forces[a][i];
+                    nodal[a][i] = nodal[a][i] - held.forces[a][i];
                 }
             }
         }
@@ -187,11 +186,6 @@ where
         let time_step_squared = step_squared(time_step_squared, self.damping);
         // Nearly every batch is whole.
         let is_whole = !L::any(live.less(L::splat(1.0)));
-        for a in 0..N {
-            for i in 0..D {
-                nodal[a][i] = -nodal[a][i];
-            }
-        }
         if !is_whole {
             for a in 0..N {
                 for i in 0..D {
@@ -206,7 +200,7 @@ where
                 }
             }
         }
-        L::scatter(&nodal, self.pulls, self.places, (self.first + batch) * N, at);
+        L::scatter(&nodal, &mut self.strip.pulls, self.places, (self.first + batch) * N, at);
         let element = &mut self.elements[batch];
         time_step_squared.store(&mut element.time_step_squared, at);
         let stored = match self.family {
@@ -246,10 +240,10 @@ where
     fn geometry<L: Lane>(&self, batch: usize, at: usize) -> Geometry<L, D, N, P> {
         let (zero, one) = (L::splat(0.0), L::splat(1.0));
         let mut x = [[zero; D]; N];
-        let nodes = &self.strip.nodes[batch * (N * D)..][..N * D];
-        for a in 0..N {
+        let parts = &self.strip.parts[batch * (E::PARTS * D)..][..E::PARTS * D];
+        for a in 0..E::PARTS {
             for i in 0..D {
-                x[a][i] = L::load(&nodes[a * D + i], at);
+                x[a][i] = L::load(&parts[a * D + i], at);
             }
         }
         let nothing = L::splat(-0.0);
@@ -271,10 +265,9 @@ where
     /// maps, but adj(F) takes adjugates of the start to those of now.
     #[inline(always)]
     fn map<L: Lane>(&self, batch: usize, at: usize, x: &[[L; D]; N]) -> Map<L, D, P> {
-        let jacobians = E::gradients(x);
-        let mut map = map::<E, L, D, N, P>(&jacobians, &E::warp(x));
+        let mut map = map::<E, L, D, N, P>(E::gradients(x), &E::warp(x));
         if E::WARPED && matches!(self.family, Family::Hyperelastic) {
-            let width = initial_width::<E, S, D, N, P>();
+            let (width, jacobians) = (initial_width::<E, S, D, N, P>(), E::gradients(x));
             for p in 0..P {
                 let initial = &self.initial[(batch * P + p) * width..][..width];
                 let f = deformation::<E, L, D, N, P>(&jacobians[p], x, initial, at);
@@ -287,57 +280,60 @@ where
         map
     }
 
-    /// Forces of the stresses, and of an additional `pressure`, on the nodes; of an element that is warped those of hourglass control too.
+    /// Stress of a point, and its weight in the forces.
+    #[inline(always)]
+    fn stress_and_weight<L: Lane>(&self, point: usize, p: usize, at: usize, depth: &[L; P]) -> (Tensor<D, L>, L) {
+        let components = <Tensor<D, L> as SymmetricTensor<L>>::COMPONENTS;
+        let mut stress = Tensor::<D, L>::load(&self.stress[point * components..(point + 1) * components], at);
+        if !self.damped.is_empty() {
+            stress = stress.plus(Tensor::<D, L>::load(&self.damped[point * components..(point + 1) * components], at));
+        }
+        let mut weight = match self.family {
+            Family::Rate => L::splat(E::WEIGHTS[p]),
+            Family::Hyperelastic => L::load(&self.strip.weight[point], at),
+        };
+        if S::PLANE_STRESS || S::AXISYMMETRIC {
+            weight = weight * depth[p];
+        }
+        (stress, weight)
+    }
+
+    /// Forces of the stresses, and of an additional `pressure`, on the nodes, which they pull back; of an element that is warped those of hourglass control too.
     #[inline(always)]
     fn nodal<L: Lane>(&self, batch: usize, at: usize, geometry: &Geometry<L, D, N, P>, pressure: L, held: &Held<L, D, N>) -> [[L; D]; N] {
         let (zero, third) = (L::splat(0.0), L::splat(1.0 / 3.0));
-        let components = <Tensor<D, L> as SymmetricTensor<L>>::COMPONENTS;
         let Geometry { map: Map { adjugates, warped, determinants }, depth, .. } = geometry;
-        let mut stress = [Tensor::<D, L>::isotropic(zero); P];
-        let mut weight = [zero; P];
-        for p in 0..P {
-            let point = batch * P + p;
-            stress[p] = Tensor::<D, L>::load(&self.stress[point * components..(point + 1) * components], at);
-            if !self.damped.is_empty() {
-                stress[p] = stress[p].plus(Tensor::<D, L>::load(&self.damped[point * components..(point + 1) * components], at));
-            }
-            weight[p] = match self.family {
-                Family::Rate => L::splat(E::WEIGHTS[p]),
-                Family::Hyperelastic => L::load(&self.strip.weight[point], at),
-            };
-            if S::PLANE_STRESS || S::AXISYMMETRIC {
-                weight[p] = weight[p] * depth[p];
-            }
-        }
         let mut mean = L::splat(-0.0);
         if averages::<E, S, D, N, P>() {
             for p in 0..P {
-                mean += stress[p].trace() * third * (determinants[p] * weight[p]);
+                let (stress, weight) = self.stress_and_weight(batch * P + p, p, at, depth);
+                mean += stress.trace() * third * (determinants[p] * weight);
             }
             mean = mean / geometry.volume;
         }
         let mut flux = [[[zero; D]; D]; P];
-        let mut pulls = held.pulls;
+        let mut pulls = Pulls::none();
         let mut hoop = [zero; P];
         for p in 0..P {
-            let mut weighted = stress[p].times(weight[p]);
+            let (stress, weight) = self.stress_and_weight(batch * P + p, p, at, depth);
+            let mut weighted = stress.times(-weight);
             let share = L::splat(E::WEIGHTS[p]);
             // In plane stress nothing is averaged, and the pressure of the bulk viscosity has the thickness.
             let share = if S::AXISYMMETRIC { share * depth[p] } else { share };
             if averages::<E, S, D, N, P>() {
-                let own = stress[p].trace() * third * weight[p];
-                weighted = weighted.plus_isotropic(mean * share - own);
+                let own = stress.trace() * third * weight;
+                weighted = weighted.plus_isotropic(own - mean * share);
             }
             if self.viscosity.is_some() {
-                weighted = weighted.plus_isotropic(-(pressure * share));
+                weighted = weighted.plus_isotropic(pressure * share);
             }
             flux[p] = Dim::<D>::flux(&weighted, &adjugates[p]);
             if E::WARPED {
                 let warp = Dim::<D>::flux(&weighted, warped);
                 for i in 0..D {
                     for k in 0..D {
-                        flux[p][i][k] += held.flux[i][k];
-                        pulls.warp[i][k] += warp[i][k];
+                        flux[p][i][k] = flux[p][i][k] - held.flux[i][k];
+                        pulls.warp[i][k] = warp[i][k] - held.pulls.warp[i][k];
                     }
                 }
             }
@@ -345,6 +341,9 @@ where
                 // The weight has 2πx already; the hoop strain is u/x.
                 hoop[p] = weighted.zz() * determinants[p] * (L::splat(TAU) / depth[p]);
             }
+        }
+        for i in 0..D {
+            pulls.rest[i] = -held.pulls.rest[i];
         }
         let mut nodal = if E::WARPED { E::divergence_warped(&flux, &pulls) } else { E::divergence(&flux) };
         if S::AXISYMMETRIC {

@@ -7,7 +7,7 @@
 use super::batch::element_of;
 use super::elements::CHUNK;
 use super::{Motion, NO_NODE};
-use embate_lanes::{BATCH, Indices};
+use embate_lanes::{BATCH, Indices, Moving};
 
 /// Places of the corners of a block's elements among the nodes of their chunk.
 pub struct LocalNodes {
@@ -69,17 +69,15 @@ impl LocalNodes {
 
     /// The node of a lane in a row of places.
     pub(super) fn node(&self, row: usize, lane: usize, corners: usize) -> usize {
-        self.of_chunk(row / (CHUNK * corners))[usize::from(self.places.row(row)[lane])] as usize
+        self.of_chunk(row / (CHUNK * corners))[self.places.place(row, lane)] as usize
     }
 
     /// Copies positions and velocities of the nodes of a chunk.
     #[inline]
-    pub(super) fn copy<const D: usize>(&self, chunk: usize, motion: &Motion<'_, D>, moving: &mut Vec<[[f64; D]; 2]>) {
-        moving.resize(self.width(), [[0.0; D]; 2]);
-        for (own, &node) in moving.iter_mut().zip(self.of_chunk(chunk)) {
-            let (position, velocity) = (&motion.positions[node as usize], &motion.velocities[node as usize]);
-            own[0] = *position;
-            own[1] = *velocity;
+    pub(super) fn copy<const D: usize>(&self, chunk: usize, motion: &Motion<'_, D>, moving: &mut Moving<D>) {
+        moving.resize(self.width());
+        for (place, &node) in self.of_chunk(chunk).iter().enumerate() {
+            moving.set(place, &motion.positions[node as usize], &motion.velocities[node as usize]);
         }
     }
 }

@@ -280,22 +280,23 @@ where
         let (means, places) = (&nodal.mean, &self.nodes.places);
         let (keeps_forces, kept) = (self.keeps_forces, chunk(self.kept_width()));
         let (resists, resistance) = (self.resists(), chunk(self.resistance_width()));
-        let (strips, eroded) = (&nodal.strips, &self.eroded);
+        let (slots_of_chunk, eroded) = (self.nodes.width(), &self.eroded);
         let parts = (
             Chunks::new(&mut self.elements, CHUNK),
             Chunks::new(&mut nodal.stress, CHUNK * components),
-            Chunks::new(slots, self.nodes.width()),
+            Chunks::new(&mut nodal.strips, 1),
+            Chunks::new(slots, slots_of_chunk),
             Chunks::new(&mut self.kept, kept),
             Chunks::new(&mut self.resistance, resistance),
             Chunks::new(&mut self.reports, 1),
         );
-        team.each(parts, |index, _, (elements, stress, pulls, kept, resistance, report)| {
+        team.each(parts, |index, _, (elements, stress, strips, pulls, kept, resistance, report)| {
             if eroded.is_gone(index) {
                 pulls.fill([0.0; D]);
                 report.fill(Report::NOTHING);
                 return;
             }
-            let strip = &strips[index];
+            let strip = &mut strips[0];
             let (first, count) = (index * CHUNK, elements.len());
             stress.copy_from_slice(&all_stress[first * components..(first + count) * components]);
             for batch in 0..count {
@@ -315,7 +316,7 @@ where
                 }
             }
             let mut sums = Sums::new();
-            pulls.fill([0.0; D]);
+            strip.pulls.clear(slots_of_chunk);
             level.run(Every(Forces::<E, S, D, N, P> {
                 element,
                 family,
@@ -331,16 +332,16 @@ where
                 thickness,
                 initial: &[],
                 hourglass: &mut [],
-                strip,
+                strip: &mut *strip,
                 elements,
                 resistance: if resists { resistance } else { &mut [] },
                 places,
                 first,
-                pulls,
                 kept: if keeps_forces { kept } else { &mut [] },
                 sums: &mut sums,
                 kind: PhantomData,
             }));
+            strip.pulls.copy_to(pulls);
             report.fill(sums.report());
         });
         self.reports.iter().fold(self.eroded.left, |sum, &report| sum.join(report))
@@ -376,7 +377,7 @@ fn volume<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, c
 where
     Dim<D>: Space<D>,
 {
-    let x: [[f64; D]; N] = std::array::from_fn(|a| std::array::from_fn(|i| f64::load(&strip.nodes[(batch * N + a) * D + i], lane)));
+    let x: [[f64; D]; N] = std::array::from_fn(|a| std::array::from_fn(|i| f64::load(&strip.parts[(batch * N + a) * D + i], lane)));
     let area = Dim::<D>::determinant(&E::gradients(&x)[0]) * E::WEIGHTS[0];
     circumference::<S, f64, D, N>(area, &x, &E::shape(E::POINTS[0]))
 }

@@ -8,7 +8,7 @@
 use super::batch::Resistance;
 use super::stress_state::StressState;
 use super::strip::{Parts, Strip};
-use crate::element::{Element, PATTERNS, map};
+use crate::element::{Element, PATTERNS, map, map_at};
 use crate::material::Family;
 use crate::tensor::{Dim, Matrix, Space, SymmetricTensor, Turn, Turns, product};
 use embate_lanes::{Batch, Indices, Lane};
@@ -86,7 +86,7 @@ pub(super) fn determinants<E: Element<D, N, P>, L: Lane, const D: usize, const N
 where
     Dim<D>: Space<D>,
 {
-    map::<E, L, D, N, P>(jacobians, &E::warp(x)).determinants
+    map::<E, L, D, N, P>(*jacobians, &E::warp(x)).determinants
 }
 
 /// Shape functions at a point, where the radius is asked for: in bodies of revolution.
@@ -150,18 +150,26 @@ where
     fn part<L: Lane>(&mut self, batch: usize, at: usize) {
         let row = (self.first + batch) * N;
         let (mut x, mut v) = ([[L::splat(0.0); D]; N], [[L::splat(0.0); D]; N]);
-        // One check of the bounds for all nodes.
-        let nodes = &mut self.strip.nodes[batch * (N * D)..][..N * D];
-        for a in 0..N {
-            [x[a], v[a]] = L::gather(&self.strip.moving, self.places, row + a, at);
+        if D == 2 {
+            // Position and velocity of a node of the plane are one load.
+            for a in 0..N {
+                [x[a], v[a]] = L::gather(&self.strip.moving, self.places, row + a, at);
+            }
+            (x, v) = (E::natural(&x), E::natural(&v));
+        } else {
+            x = E::natural(&L::gather_one::<D, N, false>(&self.strip.moving, self.places, row, at));
+            v = E::natural(&L::gather_one::<D, N, true>(&self.strip.moving, self.places, row, at));
+        }
+        // One check of the bounds for all parts.
+        let parts = &mut self.strip.parts[batch * (E::PARTS * D)..][..E::PARTS * D];
+        for a in 0..E::PARTS {
             for i in 0..D {
-                x[a][i].store(&mut nodes[a * D + i], at);
+                x[a][i].store(&mut parts[a * D + i], at);
             }
         }
-        let jacobians = E::gradients(&x);
         match self.measures.family {
-            Family::Rate => self.rate(batch, at, &x, &v, &jacobians),
-            Family::Hyperelastic => self.hyperelastic(batch, at, &x, &v, &jacobians),
+            Family::Rate => self.rate(batch, at, &x, &v),
+            Family::Hyperelastic => self.hyperelastic(batch, at, &x, &v),
         }
     }
 }
@@ -172,12 +180,12 @@ where
 {
     /// Strain increment and rotation from the mid-step configuration; turns the stresses.
     #[inline(always)]
-    fn rate<L: Lane>(&mut self, batch: usize, at: usize, x: &[[L; D]; N], v: &[[L; D]; N], jacobians: &[Matrix<L, D>; P]) {
+    fn rate<L: Lane>(&mut self, batch: usize, at: usize, x: &[[L; D]; N], v: &[[L; D]; N]) {
         let (zero, half, third) = (L::splat(0.0), L::splat(0.5), L::splat(1.0 / 3.0));
         let dt = L::splat(self.time_step);
         let mut step = [[zero; D]; N];
         let mut x_middle = *x;
-        for a in 0..N {
+        for a in 0..E::PARTS {
             for i in 0..D {
                 step[a][i] = v[a][i] * dt;
                 x_middle[a][i] = x[a][i] - step[a][i] * half;
@@ -185,36 +193,30 @@ where
         }
         let increments = E::gradients(&step);
         let warp_step = E::warp(&step);
-        let mut warp = E::warp(x);
-        // Positions at mid-step are x − ½ step, so the same holds for their gradients.
-        let mut middle = *jacobians;
-        for p in 0..P {
-            for i in 0..D {
-                for k in 0..D {
-                    middle[p][i][k] = middle[p][i][k] - increments[p][i][k] * half;
-                }
-            }
-        }
-        if E::WARPED {
-            for i in 0..D {
-                for k in 0..D {
-                    warp[i][k] = warp[i][k] - warp_step[i][k] * half;
-                }
-            }
-        }
-        let map = map::<E, L, D, N, P>(&middle, &warp);
-        let mut rotations = [[Rotation::<D, L>::none(); 2]; P];
+        let warp = E::warp(&x_middle);
+        let jacobians = E::gradients(if E::PARTS < N { &x_middle } else { x });
+        let components = <Tensor<D, L> as SymmetricTensor<L>>::COMPONENTS;
+        let turn = <Rotation<D, L> as Turn<L>>::COMPONENTS;
         // Sums begin with -0: the first addition is none.
         let (mut dilatation, mut volume) = (L::splat(-0.0), L::splat(-0.0));
-        let mut unturned = [Tensor::<D, L>::isotropic(zero); P];
+        let mut traces = [zero; P];
         for p in 0..P {
-            let determinant = map.determinants[p];
+            let mut middle = jacobians[p];
+            if E::PARTS == N {
+                // Positions at mid-step are x − ½ step, so the same holds for their gradients.
+                for i in 0..D {
+                    for k in 0..D {
+                        middle[i][k] = middle[i][k] - increments[p][i][k] * half;
+                    }
+                }
+            }
+            let ([adjugate, warped], determinant) = map_at::<E, L, D, N, P>(&middle, &warp);
             let shape = shape_at::<E, S, D, N, P>(p);
             let own = circumference::<S, L, D, N>(determinant * L::splat(E::WEIGHTS[p]), &x_middle, &shape);
             own.store(&mut self.strip.volume[batch * P + p], at);
-            let mut natural = product(&increments[p], &map.adjugates[p]);
+            let mut natural = product(&increments[p], &adjugate);
             if E::WARPED {
-                let more = product(&warp_step, &map.warped);
+                let more = product(&warp_step, &warped);
                 for i in 0..D {
                     for k in 0..D {
                         natural[i][k] += more[i][k];
@@ -225,38 +227,33 @@ where
             if E::SWINGS > 0 {
                 self.swing(batch, at, &E::swing(x, &step, &gradient), &turns);
             }
-            rotations[p] = turns;
-            unturned[p] = Dim::<D>::symmetric(&gradient);
+            let mut strain = Dim::<D>::symmetric(&gradient);
             if S::AXISYMMETRIC {
-                unturned[p] = unturned[p].plus_zz(radius(&step, &shape) / radius(&x_middle, &shape));
+                strain = strain.plus_zz(radius(&step, &shape) / radius(&x_middle, &shape));
             }
             if averages::<E, S, D, N, P>() {
-                dilatation += unturned[p].trace() * own;
+                traces[p] = strain.trace();
+                dilatation += traces[p] * own;
                 volume += own;
             }
-        }
-        if averages::<E, S, D, N, P>() {
-            dilatation = dilatation / volume;
-        }
-        if self.measures.volume {
-            self.volume_ratio(batch, at, x, jacobians);
-        }
-        let components = <Tensor<D, L> as SymmetricTensor<L>>::COMPONENTS;
-        let turn = <Rotation<D, L> as Turn<L>>::COMPONENTS;
-        for p in 0..P {
-            let point = batch * P + p;
-            let [half_way, rotation] = rotations[p];
+            let (point, [half_way, rotation]) = (batch * P + p, turns);
             // Strain increment and old stress meet at the end of the step; without its half rotation the update is of first order only.
-            let mut strain = unturned[p].rotated(&half_way);
-            if averages::<E, S, D, N, P>() {
-                strain = strain.plus_isotropic((dilatation - unturned[p].trace()) * third);
-            }
-            strain.store(&mut self.strip.strain[point * components..(point + 1) * components], at);
+            strain.rotated(&half_way).store(&mut self.strip.strain[point * components..(point + 1) * components], at);
             let stress = &mut self.stress[point * components..(point + 1) * components];
             Tensor::<D, L>::load(stress, at).rotated(&rotation).store(stress, at);
             if self.measures.rotation {
                 rotation.store(&mut self.strip.rotation[point * turn..(point + 1) * turn], at);
             }
+        }
+        if averages::<E, S, D, N, P>() {
+            dilatation = dilatation / volume;
+            for p in 0..P {
+                let strain = &mut self.strip.strain[(batch * P + p) * components..][..components];
+                Tensor::<D, L>::load(strain, at).plus_isotropic((dilatation - traces[p]) * third).store(strain, at);
+            }
+        }
+        if self.measures.volume {
+            self.volume_ratio(batch, at, x);
         }
     }
 
@@ -284,9 +281,9 @@ where
 
     /// Volume of the element over its initial volume, and the heat of the bulk viscosity, for laws with an equation of state.
     #[inline(always)]
-    fn volume_ratio<L: Lane>(&mut self, batch: usize, at: usize, x: &[[L; D]; N], jacobians: &[Matrix<L, D>; P]) {
+    fn volume_ratio<L: Lane>(&mut self, batch: usize, at: usize, x: &[[L; D]; N]) {
         let mut volume = L::splat(0.0);
-        let determinants = determinants::<E, L, D, N, P>(x, jacobians);
+        let determinants = determinants::<E, L, D, N, P>(x, &E::gradients(x));
         for p in 0..P {
             let own = determinants[p] * L::splat(E::WEIGHTS[p]);
             volume += circumference::<S, L, D, N>(own, x, &shape_at::<E, S, D, N, P>(p));
@@ -305,7 +302,8 @@ where
 
     /// b and J from the deformation gradient, the volume ratio averaged over the element with mean dilatation.
     #[inline(always)]
-    fn hyperelastic<L: Lane>(&mut self, batch: usize, at: usize, x: &[[L; D]; N], v: &[[L; D]; N], jacobians: &[Matrix<L, D>; P]) {
+    fn hyperelastic<L: Lane>(&mut self, batch: usize, at: usize, x: &[[L; D]; N], v: &[[L; D]; N]) {
+        let jacobians = &E::gradients(x);
         let one = L::splat(1.0);
         let width = initial_width::<E, S, D, N, P>();
         let components = <Tensor<D, L> as SymmetricTensor<L>>::COMPONENTS;
@@ -322,7 +320,7 @@ where
         if E::SWINGS > 0 {
             let (dt, half) = (L::splat(self.time_step), L::splat(0.5));
             let mut step = *v;
-            for a in 0..N {
+            for a in 0..E::PARTS {
                 for i in 0..D {
                     step[a][i] = v[a][i] * dt;
                 }

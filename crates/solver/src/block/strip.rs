@@ -3,7 +3,7 @@
 //! The motion is gathered and strained ([`super::strain`]), the law answers ([`crate::material::points`]), the forces follow ([`super::forces`]).
 
 use crate::material::points::{PointLaw, RESPONSE, Room};
-use embate_lanes::{BATCH, Batch, Kernel, Lane};
+use embate_lanes::{BATCH, Batch, Kernel, Lane, Moving, VectorSums};
 
 /// Batches of elements in a strip.
 pub(super) const STRIP: usize = 8;
@@ -12,9 +12,11 @@ pub(super) const STRIP: usize = 8;
 #[derive(Debug, Default)]
 pub(super) struct Strip<const D: usize> {
     /// Positions and velocities of the nodes of a chunk.
-    pub(super) moving: Vec<[[f64; D]; 2]>,
-    /// Positions of the nodes of each element: nodes × dimensions.
-    pub(super) nodes: Vec<Batch>,
+    pub(super) moving: Moving<D>,
+    /// Forces on them.
+    pub(super) pulls: VectorSums<D>,
+    /// Positions of the nodes of each element in natural parts ([`crate::element::Element::natural`]): parts × dimensions.
+    pub(super) parts: Vec<Batch>,
     /// Changes of the amplitudes of hourglass patterns, in directions of the end of the step.
     pub(super) swing: Vec<Batch>,
     /// Strain increment, or b.
@@ -38,7 +40,7 @@ pub(super) struct Strip<const D: usize> {
 /// Numbers of values that a strip holds.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shape {
-    pub(super) nodes: usize,
+    pub(super) parts: usize,
     pub(super) points: usize,
     pub(super) components: usize,
     pub(super) turn: usize,
@@ -49,10 +51,11 @@ impl<const D: usize> Strip<D> {
     /// Room for so many batches of elements; `turns`: someone besides the law wants the rotations.
     pub(super) fn new(shape: &Shape, law: &dyn PointLaw, turns: bool, batches: usize) -> Self {
         let room = |values: usize| vec![Batch::default(); batches * values];
-        let Shape { nodes, points, components, turn, hourglass } = *shape;
+        let Shape { parts, points, components, turn, hourglass } = *shape;
         Self {
-            moving: Vec::new(),
-            nodes: room(nodes * D),
+            moving: Moving::default(),
+            pulls: VectorSums::default(),
+            parts: room(parts * D),
             swing: room(hourglass),
             strain: room(points * components),
             rotation: room(if law.needs_rotation() || turns { points * turn } else { 0 }),

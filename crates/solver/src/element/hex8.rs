@@ -63,7 +63,14 @@ impl<L: Lane> Parts<L> {
         }
     }
 
-    /// The transpose: what the parts spend, spent by the nodes.
+    /// Of component `i` of what [`Element::natural`] made.
+    #[inline(always)]
+    pub(super) fn from(natural: &[[L; 3]; 8], i: usize) -> Self {
+        let [a, b, c, d, e, f, g, _] = *natural;
+        Self { linear: [a[i], b[i], c[i]], bilinear: [d[i], e[i], f[i]], trilinear: g[i] }
+    }
+
+    /// The transpose of [`Parts::of`]: what the parts spend, spent by the nodes.
     #[inline(always)]
     pub(super) fn spread(&self, out: &mut [[L; 3]; 8], i: usize) {
         let ([a, b, c], [h_1, h_2, h_3]) = (self.linear, self.bilinear);
@@ -79,6 +86,38 @@ impl<L: Lane> Parts<L> {
         (out[4][i], out[5][i]) = (sum_2 - along_2, sum_2 + along_2);
         (out[6][i], out[7][i]) = (sum_3 + along_3, sum_3 - along_3);
     }
+}
+
+/// [`Element::PARTS`] and [`Element::natural`] of hexahedra: linear, bilinear and trilinear parts.
+pub(super) const PARTS: usize = 7;
+
+#[inline(always)]
+pub(super) fn natural<L: Lane>(u: &[[L; 3]; 8]) -> [[L; 3]; 8] {
+    let mut out = [[L::splat(0.0); 3]; 8];
+    for i in 0..3 {
+        let parts = Parts::of(u, i);
+        for k in 0..3 {
+            out[k][i] = parts.linear[k];
+            out[3 + k][i] = parts.bilinear[k];
+        }
+        out[6][i] = parts.trilinear;
+    }
+    out
+}
+
+/// The two points along each direction, at the low and high values of the last coordinate, and in it of the next one in turn: after ξ come η and ζ.
+const ALONG: [[[[usize; 2]; 2]; 2]; 3] =
+    [[[[0, 1], [3, 2]], [[4, 5], [7, 6]]], [[[0, 3], [4, 7]], [[1, 2], [5, 6]]], [[[0, 4], [1, 5]], [[3, 7], [2, 6]]]];
+
+/// Does the work for each direction, straight on, so that places in lists are known to the compiler.
+macro_rules! each_direction {
+    ($k:ident, $work:block) => { each_direction!(@ 0 1 2, $k, $work) };
+    (@ $($direction:literal)*, $k:ident, $work:block) => {
+        $({
+            const $k: usize = $direction;
+            $work
+        })*
+    };
 }
 
 /// Mean dilatation: pressure constant in the element, deviator at eight points.
@@ -105,25 +144,30 @@ impl Element<3, 8, 8> for Hex8 {
         shape(natural)
     }
 
+    const PARTS: usize = PARTS;
     #[inline(always)]
-    fn gradients<L: Lane>(u: &[[L; 3]; 8]) -> [Matrix<L, 3>; 8] {
+    fn natural<L: Lane>(nodal: &[[L; 3]; 8]) -> [[L; 3]; 8] {
+        natural(nodal)
+    }
+    #[inline(always)]
+    fn gradients<L: Lane>(natural: &[[L; 3]; 8]) -> [Matrix<L, 3>; 8] {
         let (eighth, first, second) = (L::splat(0.125), L::splat(0.125 * G), L::splat(0.125 * G * G));
         let mut out = [[[L::splat(0.0); 3]; 3]; 8];
         for i in 0..3 {
-            let Parts { linear, bilinear, trilinear } = Parts::of(u, i);
+            let Parts { linear, bilinear, trilinear } = Parts::from(natural, i);
             let h = [bilinear[0] * first, bilinear[1] * first, bilinear[2] * first];
             let twist = trilinear * second;
-            for k in 0..3 {
+            each_direction!(K, {
                 // The derivative by coordinate k at low and high values of the next two.
-                let ((next, last), centre) = ((h[(k + 2) % 3], h[(k + 1) % 3]), linear[k] * eighth);
+                let ((next, last), centre) = ((h[(K + 2) % 3], h[(K + 1) % 3]), linear[K] * eighth);
                 let (below, above) = (centre - last, centre + last);
                 let (low, high) = (next - twist, next + twist);
-                let values = [[below - low, below + low], [above - high, above + high]];
-                for p in 0..8 {
-                    let is_high = |k: usize| usize::from(POINTS[p][k] > 0.0);
-                    out[p][i][k] = values[is_high((k + 2) % 3)][is_high((k + 1) % 3)];
-                }
-            }
+                let [[[a, b], [c, d]], [[e, f], [g, h]]] = ALONG[K];
+                (out[a][i][K], out[c][i][K]) = (below - low, below + low);
+                (out[b][i][K], out[d][i][K]) = (out[a][i][K], out[c][i][K]);
+                (out[e][i][K], out[g][i][K]) = (above - high, above + high);
+                (out[f][i][K], out[h][i][K]) = (out[e][i][K], out[g][i][K]);
+            });
         }
         out
     }
@@ -135,20 +179,19 @@ impl Element<3, 8, 8> for Hex8 {
         let mut out = [[zero; 3]; 8];
         for i in 0..3 {
             let mut parts = Parts { linear: [zero; 3], bilinear: [zero; 3], trilinear: zero };
-            for k in 0..3 {
-                let mut values = [[zero; 2]; 2];
-                for (last, values) in values.iter_mut().enumerate() {
-                    for (next, value) in values.iter_mut().enumerate() {
-                        *value = flux[point(k, 0, next, last)][i][k] + flux[point(k, 1, next, last)][i][k];
-                    }
-                }
+            each_direction!(K, {
+                let [[[a, b], [c, d]], [[e, f], [g, h]]] = ALONG[K];
+                let values = [
+                    [flux[a][i][K] + flux[b][i][K], flux[c][i][K] + flux[d][i][K]],
+                    [flux[e][i][K] + flux[f][i][K], flux[g][i][K] + flux[h][i][K]],
+                ];
                 let (below, above) = (values[0][0] + values[0][1], values[1][0] + values[1][1]);
                 let (low, high) = (values[0][1] - values[0][0], values[1][1] - values[1][0]);
-                parts.linear[k] = (above + below) * eighth;
-                parts.bilinear[(k + 1) % 3] += (above - below) * first;
-                parts.bilinear[(k + 2) % 3] += (high + low) * first;
+                parts.linear[K] = (above + below) * eighth;
+                parts.bilinear[(K + 1) % 3] += (above - below) * first;
+                parts.bilinear[(K + 2) % 3] += (high + low) * first;
                 parts.trilinear += (high - low) * second;
-            }
+            });
             parts.spread(&mut out, i);
         }
         out
@@ -166,14 +209,4 @@ impl Element<3, 8, 8> for Hex8 {
         }
         [volume * L::splat(0.5), stiffest([trace, spread], shear)]
     }
-}
-
-/// The point at the low (0) or high (1) values of coordinate `k`, the next and the last in turn.
-#[inline(always)]
-const fn point(k: usize, own: usize, next: usize, last: usize) -> usize {
-    let mut high = [0; 3];
-    (high[k], high[(k + 1) % 3], high[(k + 2) % 3]) = (own, next, last);
-    // Counter-clockwise: low low, high low, high high, low high.
-    let [xi, eta, zeta] = high;
-    4 * zeta + if eta == 0 { xi } else { 3 - xi }
 }

@@ -28,7 +28,7 @@ use super::hex8::{self, Hex8, Parts};
 use super::hex8_assumed_strain::{self, bend};
 use super::stiffest::{Metric, stiffest};
 use super::{Corners, Element, ElementKind, ElementOptions, Held, Map, PATTERNS, Pulls};
-use crate::tensor::{Dim, Matrix, Space, cross, dot};
+use crate::tensor::{Dim, Matrix, Space, cross, dot, scaled};
 use embate_lanes::{Batch, Lane};
 
 /// Natural coordinates in which derivatives are sums over the nodes without a factor.
@@ -52,18 +52,11 @@ const POTENTIAL: usize = 14;
 /// What dampers keep: Q_α.
 const DAMPERS: usize = 12;
 
-/// r − (s × t)/3.
+/// r × s − t × u.
 #[inline(always)]
-fn less_third<L: Lane>(r: [L; 3], s: [L; 3], t: [L; 3]) -> [L; 3] {
-    let (third, product) = (L::splat(1.0 / 3.0), cross(s, t));
-    [r[0] - product[0] * third, r[1] - product[1] * third, r[2] - product[2] * third]
-}
-
-/// (r × s − t × u)/3.
-#[inline(always)]
-fn third_of_difference<L: Lane>(r: [L; 3], s: [L; 3], t: [L; 3], u: [L; 3]) -> [L; 3] {
-    let (third, one, other) = (L::splat(1.0 / 3.0), cross(r, s), cross(t, u));
-    [(one[0] - other[0]) * third, (one[1] - other[1]) * third, (one[2] - other[2]) * third]
+fn difference<L: Lane>(r: [L; 3], s: [L; 3], t: [L; 3], u: [L; 3]) -> [L; 3] {
+    let (one, other) = (cross(r, s), cross(t, u));
+    [one[0] - other[0], one[1] - other[1], one[2] - other[2]]
 }
 
 /// Columns of a matrix.
@@ -76,8 +69,9 @@ pub(super) fn columns<L: Lane>(m: &Matrix<L, 3>) -> [[L; 3]; 3] {
 #[inline(always)]
 pub(super) fn mean<L: Lane>(jacobian: &Matrix<L, 3>, warp: &Matrix<L, 3>) -> ([Matrix<L, 3>; 2], L) {
     let ([a, b, c], [h_1, h_2, h_3]) = (columns(jacobian), columns(warp));
-    let linear = [less_third(cross(b, c), h_2, h_3), less_third(cross(c, a), h_3, h_1), less_third(cross(a, b), h_1, h_2)];
-    let bilinear = [third_of_difference(c, h_2, b, h_3), third_of_difference(a, h_3, c, h_1), third_of_difference(b, h_1, a, h_2)];
+    let [third_1, third_2, third_3] = columns(&scaled(*warp, L::splat(1.0 / 3.0)));
+    let linear = [difference(b, c, third_2, h_3), difference(c, a, third_3, h_1), difference(a, b, third_1, h_2)];
+    let bilinear = [difference(c, third_2, b, third_3), difference(a, third_3, c, third_1), difference(b, third_1, a, third_2)];
     // Every term of D has either a or h₁, and is of the first degree in it.
     ([linear, bilinear], dot(a, linear[0]) + dot(h_1, bilinear[0]))
 }
@@ -134,8 +128,8 @@ pub(super) fn held<L: Lane>(pulls: &[[L; 3]; 4], shares: &[[L; 3]; 4], work: L, 
 }
 
 #[inline(always)]
-pub(super) fn all_parts<L: Lane>(x: &[[L; 3]; 8]) -> [Parts<L>; 3] {
-    [Parts::of(x, 0), Parts::of(x, 1), Parts::of(x, 2)]
+pub(super) fn all_parts<L: Lane>(natural: &[[L; 3]; 8]) -> [Parts<L>; 3] {
+    [Parts::from(natural, 0), Parts::from(natural, 1), Parts::from(natural, 2)]
 }
 
 /// 1 + Σ c².
@@ -255,6 +249,7 @@ macro_rules! reduced {
             };
             const SWINGS: usize = if matches!(Control::$control, Control::Viscous) { 4 } else { 0 };
             const WARPED: bool = true;
+            const PARTS: usize = hex8::PARTS;
 
             fn new(options: &ElementOptions) -> Self {
                 Self { coefficient: options.hourglass.unwrap_or($coefficient) }
@@ -263,12 +258,18 @@ macro_rules! reduced {
                 hex8::shape(natural.map(|natural| natural / EDGE))
             }
             #[inline(always)]
-            fn gradients<L: Lane>(u: &[[L; 3]; 8]) -> [Matrix<L, 3>; 1] {
-                [[Parts::of(u, 0).linear, Parts::of(u, 1).linear, Parts::of(u, 2).linear]]
+            fn natural<L: Lane>(nodal: &[[L; 3]; 8]) -> [[L; 3]; 8] {
+                hex8::natural(nodal)
             }
             #[inline(always)]
-            fn warp<L: Lane>(u: &[[L; 3]; 8]) -> Matrix<L, 3> {
-                [Parts::of(u, 0).bilinear, Parts::of(u, 1).bilinear, Parts::of(u, 2).bilinear]
+            fn gradients<L: Lane>(natural: &[[L; 3]; 8]) -> [Matrix<L, 3>; 1] {
+                let [x, y, z] = all_parts(natural);
+                [[x.linear, y.linear, z.linear]]
+            }
+            #[inline(always)]
+            fn warp<L: Lane>(natural: &[[L; 3]; 8]) -> Matrix<L, 3> {
+                let [x, y, z] = all_parts(natural);
+                [x.bilinear, y.bilinear, z.bilinear]
             }
             #[inline(always)]
             fn mean<L: Lane>(jacobian: &Matrix<L, 3>, warp: &Matrix<L, 3>) -> ([Matrix<L, 3>; 2], L) {
@@ -358,7 +359,7 @@ reduced!(
 /// ∫ N_a dV at the 2 × 2 × 2 points, which is exact and which one point takes for equal.
 fn corner_volumes(x: &[[f64; 3]; 8]) -> [f64; 8] {
     let mut volumes = [0.0; 8];
-    for (jacobian, at) in Hex8::gradients(x).iter().zip(Hex8::POINTS) {
+    for (jacobian, at) in Hex8::gradients(&hex8::natural(x)).iter().zip(Hex8::POINTS) {
         let determinant = Dim::<3>::determinant(jacobian);
         for (corner, share) in volumes.iter_mut().zip(hex8::shape(at)) {
             *corner += determinant * share;

@@ -69,13 +69,20 @@ where
 
     /// Shape functions at natural coordinates.
     fn shape(natural: [f64; D]) -> [f64; N];
-    /// Gradient of a nodal vector with respect to the natural coordinates, at every point: `out[p][i][k]` = Σ_a u_a,i ∂N_a/∂ξ_k.
-    fn gradients<L: Lane>(nodal: &[[L; D]; N]) -> [Matrix<L, D>; P];
-    /// The transpose of [`Element::gradients`]: `out[a][i]` = Σ_p Σ_k flux_p,ik ∂N_a/∂ξ_k.
-    fn divergence<L: Lane>(flux: &[Matrix<L, D>; P]) -> [[L; D]; N];
-    /// Of an element that is warped: the natural parts of a nodal vector that are not linear in the natural coordinates, as a second matrix.
+    /// Rows of [`Element::natural`] that mean something.
+    const PARTS: usize = N;
+    /// A nodal vector in the linear parts from which gradients are made: the values at the nodes themselves, or sums of them that serve all points. What is constant need not be among them.
     #[inline(always)]
-    fn warp<L: Lane>(_nodal: &[[L; D]; N]) -> Matrix<L, D> {
+    fn natural<L: Lane>(nodal: &[[L; D]; N]) -> [[L; D]; N] {
+        *nodal
+    }
+    /// Gradient of a nodal vector, given in its natural parts, with respect to the natural coordinates, at every point: `out[p][i][k]` = Σ_a u_a,i ∂N_a/∂ξ_k.
+    fn gradients<L: Lane>(natural: &[[L; D]; N]) -> [Matrix<L, D>; P];
+    /// The transpose of [`Element::gradients`] of [`Element::natural`]: `out[a][i]` = Σ_p Σ_k flux_p,ik ∂N_a/∂ξ_k.
+    fn divergence<L: Lane>(flux: &[Matrix<L, D>; P]) -> [[L; D]; N];
+    /// Of an element that is warped: the parts of a nodal vector, given in its natural parts, that are not linear in the natural coordinates, as a second matrix.
+    #[inline(always)]
+    fn warp<L: Lane>(_natural: &[[L; D]; N]) -> Matrix<L, D> {
         [[L::splat(0.0); D]; D]
     }
     /// Of an element that is warped: from both matrices of positions what takes the place of their adjugates, and of the determinant: the mean gradient of a nodal vector
@@ -90,14 +97,14 @@ where
         Self::divergence(flux)
     }
     /// Square of the element's thickness h, m², as numerator and denominator, so that the step costs one division: dt = h / c is stable for waves of speed c² = M/ρ when
-    /// every corner has the mass share 1/N. `map` is that of the element's present form, `volume` the weighted sum of its determinants, and `shear` the part s = 2µ/M of an
+    /// every corner has the mass share 1/N. `natural` are the parts of the positions, `map` is that of the element's present form, `volume` the weighted sum of its determinants, and `shear` the part s = 2µ/M of an
     /// isotropic elastic stiffness in M = K + 4µ/3, or 0 where only M is known.
-    fn thickness_squared<L: Lane>(nodal: &[[L; D]; N], map: &Map<L, D, P>, volume: L, shear: L) -> [L; 2];
+    fn thickness_squared<L: Lane>(natural: &[[L; D]; N], map: &Map<L, D, P>, volume: L, shear: L) -> [L; 2];
     /// Exact ∫ N_a dA of every corner, or ∫ 2πx N_a dA of a body of revolution; `None`: the points' sums are exact enough.
     fn corner_volumes(_nodal: &[[f64; D]; N], _is_axisymmetric: bool) -> Option<[f64; N]> {
         None
     }
-    /// Changes of the amplitudes q of the shapes that the points do not feel, m, in a `step` of the nodes to `x` whose displacement gradient at mid-step is known.
+    /// Changes of the amplitudes q of the shapes that the points do not feel, m, in a `step` of the nodes to `x`, both in natural parts, whose displacement gradient at mid-step is known.
     /// Called only where hourglass control follows them ([`Element::SWINGS`]).
     #[inline(always)]
     fn swing<L: Lane>(_x: &[[L; D]; N], _step: &[[L; D]; N], _gradient: &Matrix<L, D>) -> [[L; D]; PATTERNS] {
@@ -144,22 +151,30 @@ pub struct Map<L, const D: usize, const P: usize> {
 /// The map of an element from its Jacobians, and the second matrix of one that is warped.
 #[inline(always)]
 pub fn map<E: Element<D, N, P>, L: Lane, const D: usize, const N: usize, const P: usize>(
-    jacobians: &[Matrix<L, D>; P],
+    jacobians: [Matrix<L, D>; P],
     warp: &Matrix<L, D>,
 ) -> Map<L, D, P>
 where
     Dim<D>: Space<D>,
 {
-    let mut map = Map { adjugates: *jacobians, warped: *warp, determinants: [L::splat(0.0); P] };
+    // In place: at eight points these are lists of kilobytes.
+    let (mut adjugates, mut warped, mut determinants) = (jacobians, *warp, [L::splat(0.0); P]);
     for p in 0..P {
-        if E::WARPED {
-            let ([own, warped], determinant) = E::mean(&jacobians[p], warp);
-            (map.adjugates[p], map.warped, map.determinants[p]) = (own, warped, determinant);
-        } else {
-            (map.adjugates[p], map.determinants[p]) = (Dim::<D>::adjugate(&jacobians[p]), Dim::<D>::determinant(&jacobians[p]));
-        }
+        ([adjugates[p], warped], determinants[p]) = map_at::<E, L, D, N, P>(&adjugates[p], warp);
     }
-    map
+    Map { adjugates, warped, determinants }
+}
+
+/// [`map`] at one point: both adjugates, and the determinant.
+#[inline(always)]
+pub(crate) fn map_at<E: Element<D, N, P>, L: Lane, const D: usize, const N: usize, const P: usize>(
+    jacobian: &Matrix<L, D>,
+    warp: &Matrix<L, D>,
+) -> ([Matrix<L, D>; 2], L)
+where
+    Dim<D>: Space<D>,
+{
+    if E::WARPED { E::mean(jacobian, warp) } else { ([Dim::<D>::adjugate(jacobian), *warp], Dim::<D>::determinant(jacobian)) }
 }
 
 /// The map of an element from the positions of its nodes.
@@ -168,7 +183,8 @@ pub fn map_of<E: Element<D, N, P>, L: Lane, const D: usize, const N: usize, cons
 where
     Dim<D>: Space<D>,
 {
-    map::<E, L, D, N, P>(&E::gradients(x), &E::warp(x))
+    let natural = E::natural(x);
+    map::<E, L, D, N, P>(E::gradients(&natural), &E::warp(&natural))
 }
 
 /// What a user may choose of an element.
@@ -184,7 +200,7 @@ pub const PATTERNS: usize = 4;
 /// What hourglass control reads.
 #[derive(Clone, Copy, Debug)]
 pub struct Corners<L, const D: usize, const N: usize> {
-    /// Positions, m.
+    /// Positions in natural parts ([`Element::natural`]), m.
     pub x: [[L; D]; N],
     /// Changes of the amplitudes in the step that led there, m, in directions of its end.
     pub swing: [[L; D]; PATTERNS],

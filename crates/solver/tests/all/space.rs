@@ -95,7 +95,7 @@ fn gradients_by_differences<E: Element<3, N, P>, const N: usize, const P: usize>
     for (a, i) in (0..N).flat_map(|a| (0..3).map(move |i| (a, i))) {
         let mut nodal = [[0.0; 3]; N];
         nodal[a][i] = 1.0;
-        for (p, gradient) in E::gradients(&nodal).iter().enumerate() {
+        for (p, gradient) in E::gradients(&E::natural(&nodal)).iter().enumerate() {
             for k in 0..3 {
                 let at = |sign: f64| {
                     let mut natural = E::POINTS[p];
@@ -154,9 +154,9 @@ fn divergence_is_the_adjoint<E: Element<3, N, P>, const N: usize, const P: usize
         let flux: [Matrix<f64, 3>; P] = std::array::from_fn(|_| std::array::from_fn(|_| numbers.in_space(1.0)));
         let warp: Matrix<f64, 3> = std::array::from_fn(|_| numbers.in_space(if E::WARPED { 1.0 } else { 0.0 }));
         let power = |a: &Matrix<f64, 3>, b: &Matrix<f64, 3>| (0..3).map(|i| dot(a[i], b[i])).sum::<f64>();
-        let gradients = E::gradients(&nodal);
+        let gradients = E::gradients(&E::natural(&nodal));
         let straight: f64 = (0..P).map(|p| power(&gradients[p], &flux[p])).sum();
-        let at_points = straight + power(&E::warp(&nodal), &warp);
+        let at_points = straight + power(&E::warp(&E::natural(&nodal)), &warp);
         let at_nodes = |forces: &[Vector; N]| (0..N).map(|a| dot(nodal[a], forces[a])).sum::<f64>();
         let all = E::divergence_warped(&flux, &Pulls { warp, rest: [0.0; 3] });
         assert!((at_points - at_nodes(&all)).abs() < 1e-12, "{}: {at_points}", E::KIND.name);
@@ -173,7 +173,7 @@ fn linear_fields<E: Element<3, N, P>, const N: usize, const P: usize>() {
         let x = element_of::<E, N, P>(&mut numbers);
         let (g, c): (Gradient, Vector) = (std::array::from_fn(|_| numbers.in_space(1.0)), numbers.in_space(1.0));
         let nodal = x.map(|x| plus(apply(&g, x), 1.0, c));
-        let (map, natural, warp) = (map_of::<E, f64, 3, N, P>(&x), E::gradients(&nodal), E::warp(&nodal));
+        let (map, natural, warp) = (map_of::<E, f64, 3, N, P>(&x), E::gradients(&E::natural(&nodal)), E::warp(&E::natural(&nodal)));
         for p in 0..P {
             let (straight, more) = (product(&natural[p], &map.adjugates[p]), product(&warp, &map.warped));
             for k in 0..9 {

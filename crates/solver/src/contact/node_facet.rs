@@ -6,6 +6,8 @@
 //! see the turn of the normal.
 
 mod far;
+pub(super) mod groups;
+pub(super) mod passage;
 pub mod tied;
 pub mod tracker;
 

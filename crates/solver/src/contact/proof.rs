@@ -15,7 +15,7 @@ use super::Sweep;
 use super::edge_edge::{Around, EdgeTouch, EdgeTracker};
 use super::node_facet::groups::{Meeting, bend, halves, mean_edge};
 use super::node_facet::passage::{Fate, Passages};
-use super::node_facet::tracker::{FACING, SAME_SIDE, Touch, Tracker};
+use super::node_facet::tracker::{ALONG, FACING, SAME_SIDE, Touch, Tracker};
 use super::projection::edge_edge::{crossing, distance};
 use super::projection::node_facet::{Placed, Vector};
 use super::projection::swept::crossings;
@@ -238,7 +238,14 @@ impl Proof {
                 let nearness = FLUSH * placed.size(touch.projection.facet);
                 touch.projection.gap <= nearness && dot(side, touch.projection.normal) > SAME_SIDE
             });
-            let is_missed = (enters || is_through) && !is_held;
+            // Who came around the body is before the face again by which it came in.
+            let is_before = || {
+                let of_face = |facet: &u32| dot(side, placed.facet_normal(*facet)) > ALONG;
+                let x = sweep.new[group.node as usize];
+                let nearest = placed.nearest_of(x, candidates.iter().copied().filter(of_face));
+                nearest.is_some_and(|nearest| placed.behind(x, nearest).is_none())
+            };
+            let is_missed = (enters || is_through) && !is_held && !is_before();
             let is_lost = || {
                 let left = was_inside && !group.own && touch.is_none();
                 let nearest = if left { placed.project(sweep.new[group.node as usize], candidates.iter().copied()) } else { None };

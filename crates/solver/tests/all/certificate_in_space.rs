@@ -5,7 +5,7 @@
 use embate_solver::contact::law::penalty::Penalty;
 use embate_solver::contact::node_facet::tracker::{Touch, Tracker};
 use embate_solver::contact::node_facet::{NodeFacet, PassInput, Slave};
-use embate_solver::contact::projection::node_facet::Vector;
+use embate_solver::contact::projection::node_facet::{Placed, Vector};
 use embate_solver::contact::projection::swept::entries;
 use embate_solver::contact::proof::Proof;
 use embate_solver::contact::search::{Pair, Query, Search, registry};
@@ -256,7 +256,8 @@ fn cross(a: Vector, b: Vector) -> Vector {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-/// The side from which each node came in that goes into the other body in a step and does not come out again by that side or beside it, by a look at all pairs: (pass, node, side).
+/// The side from which each node came in that goes into the other body in a step and does not come out again by that side or beside it, nor comes around the body before the face there, by
+/// a look at all pairs: (pass, node, side).
 fn all_that_enter(surfaces: &[SpaceSurface], [old, new]: [&[Vector]; 2]) -> Vec<(u32, u32, Vector)> {
     let mut all = Vec::new();
     for (pass, &(slave, target)) in BOTH.iter().enumerate() {
@@ -282,7 +283,17 @@ fn all_that_enter(surfaces: &[SpaceSurface], [old, new]: [&[Vector]; 2]) -> Vec<
                     same => same,
                 };
             }
-            all.extend(side.map(|side| (pass as u32, node, side)));
+            let placed = Placed { surface: target, positions: new };
+            let is_behind = |side: &Vector| {
+                let of_face = |facet: &u32| dot(*side, placed.facet_normal(*facet)) > 0.5;
+                let far = |facet: u32| placed.nearest_triangle(path[1], facet).map(|(distance, k)| (distance, facet, k));
+                let near = (0..target.facets.len() as u32).filter(of_face).filter_map(far).min_by(|a, b| a.0.total_cmp(&b.0));
+                near.is_none_or(|(_, facet, k)| {
+                    let [a, b, c] = triangle(target, facet as usize, k, new);
+                    dot(minus(path[1], a), cross(minus(b, a), minus(c, a))) < 0.0
+                })
+            };
+            all.extend(side.filter(is_behind).map(|side| (pass as u32, node, side)));
         }
     }
     all

@@ -41,7 +41,7 @@ const FLUSH: f64 = 4e-6;
 /// How far a face holds nodes beyond its rim, as a fraction of the size of its facets (the root of the sum of the squares of both diagonals).
 const BAND: f64 = 0.02;
 /// The same between the side from which a node came in and the normals of facets of the face there.
-const ALONG: f64 = 0.5;
+pub(in crate::contact) const ALONG: f64 = 0.5;
 /// Cosine of the angle between the normal that a node felt and that of the face that holds it.
 const SAME_FACE: f64 = 0.9;
 /// The global search is asked for a little more than is needed: it may round.

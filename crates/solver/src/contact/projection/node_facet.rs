@@ -376,7 +376,7 @@ impl Placed<'_> {
     }
 
     /// What of some facets is nearest, of the first of those that are equally near, and its triangle.
-    fn nearest_of(&self, x: Vector, facets: impl IntoIterator<Item = u32>) -> Option<Found> {
+    pub(in crate::contact) fn nearest_of(&self, x: Vector, facets: impl IntoIterator<Item = u32>) -> Option<Found> {
         let mut best: Option<Found> = None;
         for facet in facets {
             if let Some((found, k)) = self.nearest(x, facet)

@@ -14,8 +14,8 @@
 use super::Sweep;
 use super::edge_edge::{Around, EdgeTouch, EdgeTracker};
 use super::node_facet::groups::{Meeting, bend, halves, mean_edge};
-use super::node_facet::passage::{Fate, Passages};
-use super::node_facet::tracker::{ALONG, FACING, SAME_SIDE, Touch, Tracker};
+use super::node_facet::passage::{ALONG, Fate, Passages};
+use super::node_facet::tracker::{FACING, SAME_SIDE, Touch, Tracker};
 use super::projection::edge_edge::{crossing, distance};
 use super::projection::node_facet::{Placed, Vector};
 use super::projection::swept::crossings;
@@ -233,19 +233,7 @@ impl Proof {
             let candidates = &pass.candidates[group.begin as usize..group.end as usize];
             let own = if group.own { tracker.own_normal(pass.slave, group.slave, sweep.new) } else { [0.0; 3] };
             let (passages, clear) = sweep_through(group, candidates, &placed, own, sweep);
-            let Fate { side, enters, is_through } = passages.fate(was);
-            let is_held = touch.is_some_and(|touch| {
-                let nearness = FLUSH * placed.size(touch.projection.facet);
-                touch.projection.gap <= nearness && dot(side, touch.projection.normal) > SAME_SIDE
-            });
-            // Who came around the body is before the face again by which it came in.
-            let is_before = || {
-                let of_face = |facet: &u32| dot(side, placed.facet_normal(*facet)) > ALONG;
-                let x = sweep.new[group.node as usize];
-                let nearest = placed.nearest_of(x, candidates.iter().copied().filter(of_face));
-                nearest.is_some_and(|nearest| placed.behind(x, nearest).is_none())
-            };
-            let is_missed = (enters || is_through) && !is_held && !is_before();
+            let is_missed = is_missed(passages.fate(was), touch, sweep.new[group.node as usize], candidates, &placed);
             let is_lost = || {
                 let left = was_inside && !group.own && touch.is_none();
                 let nearest = if left { placed.project(sweep.new[group.node as usize], candidates.iter().copied()) } else { None };
@@ -349,6 +337,21 @@ impl Proof {
 fn wake_at(clear: f64, travel: f64) -> f64 {
     let wake = travel + 0.5 * EARLY * clear;
     if wake < f64::INFINITY { wake } else { AWAKE }
+}
+
+/// Whether a node at x that went in, or through the far side, is neither held there nor came around the body, before the face again by which it came in.
+fn is_missed(fate: Fate, touch: Option<&Touch>, x: Vector, candidates: &[u32], placed: &Placed<'_>) -> bool {
+    let Fate { side, enters, is_through } = fate;
+    let is_held = |touch: &Touch| {
+        let nearness = FLUSH * placed.size(touch.projection.facet);
+        touch.projection.gap <= nearness && dot(side, touch.projection.normal) > SAME_SIDE
+    };
+    let is_before = || {
+        let of_face = |facet: &u32| dot(side, placed.facet_normal(*facet)) > ALONG;
+        let nearest = placed.nearest_of(x, candidates.iter().copied().filter(of_face));
+        nearest.is_some_and(|nearest| placed.behind(x, nearest).is_none())
+    };
+    (enters || is_through) && !touch.is_some_and(is_held) && !is_before()
 }
 
 /// What a node did with the facets of a body in the step, and its distance from all of them at the end, m.

@@ -1,15 +1,19 @@
 //! Through which facets of a body a node goes in a step, both ways, and what becomes of it: whether it is inside at the end, and on which side it came in.
 //!
 //! Positions come from the step, candidates from the tracker of the nodes ([`super::tracker`]) or from the proof ([`super::super::proof`]), times from `projection/swept.rs`. A node that comes in is
-//! inside until it goes out by a facet that looks to the side from which it came, or beside: the far side of a thin body is none, and who goes through it in one step is inside.
+//! inside until it goes out by a facet that looks to the side from which it came, or beside: the far side of a thin body is none, and who goes through it in one step is inside. There the face by
+//! which it came in leads it.
 
 use super::super::Sweep;
-use super::super::projection::node_facet::{Placed, Vector};
+use super::super::projection::node_facet::{Placed, Projection, Vector};
 use super::super::projection::swept::{is_beside, passages};
+use super::far::Candidates;
 use super::tracker::SAME_SIDE;
 use crate::mesh::surface::Corners;
 use crate::tensor::dot;
 
+/// Cosine of the angle between the side from which a node came in and the normals of facets of the face there.
+pub(in crate::contact) const ALONG: f64 = 0.5;
 /// Times of one step that differ by less are the same, and who goes in and out at the same time is out.
 const SAME_TIME: f64 = 1e-12;
 
@@ -87,6 +91,25 @@ impl Passages {
         }
         fate
     }
+}
+
+/// The projection of a node on the face by which it came in from a side, and the facet's normal there; unless what was `found` is that face, or holds the node inside and it is not over the face.
+/// `likely` is asked first, of those that `faces` says it can meet.
+pub(super) fn led(
+    candidates: &mut Candidates<'_>,
+    placed: &Placed<'_>,
+    x: Vector,
+    side: Vector,
+    found: Option<&Projection>,
+    (likely, faces): (u32, impl Fn(u32) -> bool),
+) -> Option<(Projection, Vector)> {
+    let inside = found.filter(|found| found.gap < 0.0);
+    if inside.is_some_and(|found| dot(found.normal, side) > ALONG) {
+        return None;
+    }
+    let of_face = |facet: u32| faces(facet) && dot(side, placed.facet_normal(facet)) > ALONG;
+    let (led, along) = placed.behind(x, candidates.nearest(placed, x, likely, of_face)?)?;
+    (inside.is_none() || dot(led.normal, along) > ALONG).then_some((led, along))
 }
 
 #[cfg(test)]

@@ -23,7 +23,7 @@ use super::super::tracker::sleep::{AWAKE, awake, wake_at};
 use super::super::tracker::{SAFE, SKIN, SearchReport};
 use super::far::Candidates;
 use super::groups::{Meeting, bend, halves, mean_edge};
-use super::passage::Passages;
+use super::passage::{Passages, led};
 use crate::archive::{Archive, Kept, keep_all, keep_each};
 use crate::mesh::surface::{NONE, SpaceSurface};
 use crate::tensor::{cross, dot};
@@ -40,8 +40,6 @@ const START: f64 = 0.02;
 const FLUSH: f64 = 4e-6;
 /// How far a face holds nodes beyond its rim, as a fraction of the size of its facets (the root of the sum of the squares of both diagonals).
 const BAND: f64 = 0.02;
-/// The same between the side from which a node came in and the normals of facets of the face there.
-pub(in crate::contact) const ALONG: f64 = 0.5;
 /// Cosine of the angle between the normal that a node felt and that of the face that holds it.
 const SAME_FACE: f64 = 0.9;
 /// The global search is asked for a little more than is needed: it may round.
@@ -451,15 +449,7 @@ impl Tracker {
             let fate = passages(candidates).fate(side);
             may_lead = fate.is_through || (was_led && fate.side != [0.0; 3]);
         }
-        let agrees = || found.is_some_and(|found| is_inside && dot(found.normal, side) > ALONG);
-        let mut led = None;
-        if may_lead && !agrees() {
-            let of_face = |facet: u32| faces(facet) && dot(side, placed.facet_normal(facet)) > ALONG;
-            led = candidates.nearest(&placed, x, likely, of_face).and_then(|nearest| placed.behind(x, nearest));
-            // Beyond the rim of the face what is nearest decides for who is still inside.
-            led = led.filter(|(led, along)| !is_inside || dot(led.normal, *along) > ALONG);
-        }
-        if let Some((led, along)) = led {
+        if may_lead && let Some((led, along)) = led(candidates, &placed, x, side, found.as_ref(), (likely, &faces)) {
             return Place::Touches(led, along, true);
         }
         // Who goes on with its face needs no second look.

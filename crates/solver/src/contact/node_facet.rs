@@ -6,6 +6,8 @@
 //! see the turn of the normal.
 
 mod far;
+pub(super) mod groups;
+pub(super) mod passage;
 pub mod tied;
 pub mod tracker;
 
@@ -456,7 +458,7 @@ fn frame(placed: &Placed<'_>, facet: u32) -> [Vector; 2] {
 }
 
 /// The unit vector at right angles to a unit vector that is nearest to a direction.
-pub(super) fn tangent(normal: Vector, direction: Vector) -> Vector {
+fn tangent(normal: Vector, direction: Vector) -> Vector {
     let along = dot(direction, normal);
     let across = unit([0, 1, 2].map(|d| direction[d] - along * normal[d]));
     // A direction along the normal has none.
@@ -479,7 +481,7 @@ fn slip(frame: [Vector; 2], memory: &Memory) -> Vector {
 }
 
 /// A slip that turns with axes.
-pub(super) fn turned(slip: Vector, from: &[Vector; 3], to: &[Vector; 3]) -> Vector {
+fn turned(slip: Vector, from: &[Vector; 3], to: &[Vector; 3]) -> Vector {
     if slip == [0.0; 3] {
         return slip;
     }

@@ -3,8 +3,8 @@
 //!
 //! Surfaces, positions and touches come from the formulation ([`super::node_facet`]), counts go to the [`Certificate`]. What is proven:
 //!
-//! - a node that goes through a facet of a body from its front (`projection/swept.rs`; of its own body only such as face it) has a touch with that body on the side where it came in: else it is
-//!   `unverified` in that step. A touch on the far side of a thin body is none;
+//! - a node that goes through a facet of a body from its front (`node_facet/passage.rs`; of its own body only such as face it), and does not come out again by that side or beside it, is held on
+//!   the side where it came in: else it is `unverified` in that step. So is one that was inside and goes through the far side of a thin body: that is no way out;
 //! - a node that was inside a body and has no touch with it any more is outside by the nearest feature, else it is `unverified`;
 //! - ridges that go through each other, so that both wedges open there, have a spring, or one of them has in the same line, or a node of theirs touches the other body: else they are.
 //!
@@ -13,10 +13,12 @@
 
 use super::Sweep;
 use super::edge_edge::{Around, EdgeTouch, EdgeTracker};
-use super::node_facet::tracker::{FACING, SAME_SIDE, Touch, Tracker, bend, halves, mean_edge};
+use super::node_facet::groups::{Meeting, bend, halves, mean_edge};
+use super::node_facet::passage::{ALONG, Fate, Passages};
+use super::node_facet::tracker::{FACING, SAME_SIDE, Touch, Tracker};
 use super::projection::edge_edge::{crossing, distance};
 use super::projection::node_facet::{Placed, Vector};
-use super::projection::swept::{crossings, entries};
+use super::projection::swept::crossings;
 use super::search::{Pair, Query, Search};
 use super::tracker::Certificate;
 use super::tracker::sleep::AWAKE;
@@ -31,6 +33,8 @@ const MARGIN: f64 = 1.0;
 const SLACK: f64 = 1.001;
 /// A sleeper wakes a little before it has to.
 const EARLY: f64 = 1.0 - 1e-9;
+/// Who is no farther before a facet than this fraction of its size is on it: what lies on a rim is told to be over it or beside it by rounding.
+const FLUSH: f64 = 1e-6;
 /// How well both ridges open where they go through each other.
 const BETWEEN: f64 = 0.25;
 /// Who is less deep than this fraction of a facet's size is on the surface, as far as rounding lets one tell.
@@ -47,13 +51,13 @@ struct Group {
     end: u32,
     /// Whether it is the node's own body.
     own: bool,
-    /// Whether it was inside after the last step.
-    inside: bool,
+    /// Side on which it was inside after the last step; zero: it was not.
+    side: Vector,
     /// Sleeps up to this travel, m.
     wake: f64,
 }
 
-keep_all!(Group { slave, node, body, begin, end, own, inside, wake });
+keep_all!(Group { slave, node, body, begin, end, own, side, wake });
 
 /// Nodes of one surface against another one, or the same.
 #[derive(Default)]
@@ -158,32 +162,23 @@ impl Proof {
             let farthest = self.margin.max(2.0 * fastest);
             let body = |node: u32| self.bodies.get(node as usize).copied().unwrap_or(u32::MAX);
             let old = std::mem::take(&mut pass.groups);
-            let mut old = old.iter().filter(|group| group.inside).peekable();
+            let mut old = old.iter().filter(|group| group.side != [0.0; 3]).peekable();
             pass.candidates.clear();
-            for of_slave in self.pairs.chunk_by(|a, b| a.slave == b.slave) {
-                let slave = of_slave[0].slave;
-                let node = slaves[slave as usize];
-                // A node of two surfaces joins them: it can't go in.
-                if pass.slave != pass.target && target.nodes.binary_search(&node).is_ok() {
-                    continue;
-                }
-                let x = sweep.new[node as usize];
-                let mut near: Vec<(u32, u32)> =
-                    of_slave.iter().map(|pair| pair.facet / 2).map(|facet| (body(target.facets[facet as usize][0]), facet)).collect();
-                near.sort_unstable();
-                near.dedup();
-                near.retain(|&(_, facet)| {
-                    !target.facets[facet as usize].contains(&node) && placed.distance(x, facet).is_none_or(|found| found <= farthest)
-                });
-                for of_body in near.chunk_by(|a, b| a.0 == b.0) {
-                    let (body_there, begin) = (of_body[0].0, pass.candidates.len() as u32);
-                    pass.candidates.extend(of_body.iter().map(|&(_, facet)| facet));
-                    while old.next_if(|old| (old.slave, old.body) < (slave, body_there)).is_some() {}
-                    let inside = old.next_if(|old| (old.slave, old.body) == (slave, body_there)).is_some();
-                    let (end, own) = (pass.candidates.len() as u32, body(node) == body_there);
-                    pass.groups.push(Group { slave, node, body: body_there, begin, end, own, inside, wake: AWAKE });
-                }
-            }
+            let is_near = |node: u32, facet: u32| placed.distance(sweep.new[node as usize], facet).is_none_or(|found| found <= farthest);
+            let meeting = Meeting { slaves, target, is_one: pass.slave == pass.target };
+            meeting.each(
+                &self.pairs,
+                body,
+                |node, facet| is_near(node, facet).then_some(()),
+                |[slave, node, there], facets| {
+                    let begin = pass.candidates.len() as u32;
+                    pass.candidates.extend(facets.map(|(facet, ())| facet));
+                    while old.next_if(|old| (old.slave, old.body) < (slave, there)).is_some() {}
+                    let side = old.next_if(|old| (old.slave, old.body) == (slave, there)).map_or([0.0; 3], |old| old.side);
+                    let (end, own) = (pass.candidates.len() as u32, body(node) == there);
+                    pass.groups.push(Group { slave, node, body: there, begin, end, own, side, wake: AWAKE });
+                },
+            );
         }
         if let Some(edges) = &mut self.edges {
             let near = [0.0; 2];
@@ -218,8 +213,10 @@ impl Proof {
         for group in &mut pass.groups {
             while touches.next_if(|touch| key(touch) < (group.slave, group.body)).is_some() {}
             let touch = touches.next_if(|touch| key(touch) == (group.slave, group.body));
-            let was_inside = std::mem::replace(&mut group.inside, touch.is_some_and(|touch| touch.projection.gap < 0.0));
-            if group.inside {
+            let side = touch.map_or([0.0; 3], |touch| tracker.kept(touch).side);
+            let was = std::mem::replace(&mut group.side, side);
+            let was_inside = was != [0.0; 3];
+            if side != [0.0; 3] {
                 // What is there at the start did not go in.
                 self.certificate.crossings_found += u64::from(!was_inside && self.has_begun);
                 group.wake = AWAKE;
@@ -235,16 +232,15 @@ impl Proof {
             }
             let candidates = &pass.candidates[group.begin as usize..group.end as usize];
             let own = if group.own { tracker.own_normal(pass.slave, group.slave, sweep.new) } else { [0.0; 3] };
-            let found = sweep_through(group, candidates, &placed, own, sweep);
-            let is_held = |side: Vector| touch.is_some_and(|touch| dot(side, touch.projection.normal) > SAME_SIDE);
-            let is_missed = found.side.is_some_and(|side| !is_held(side));
+            let (passages, clear) = sweep_through(group, candidates, &placed, own, sweep);
+            let is_missed = is_missed(passages.fate(was), touch, sweep.new[group.node as usize], candidates, &placed);
             let is_lost = || {
                 let left = was_inside && !group.own && touch.is_none();
                 let nearest = if left { placed.project(sweep.new[group.node as usize], candidates.iter().copied()) } else { None };
                 nearest.is_some_and(|nearest| nearest.gap < -ROUNDING * placed.size(nearest.facet))
             };
             self.certificate.unverified += u64::from(is_missed || is_lost());
-            group.wake = if touch.is_some() { AWAKE } else { wake_at(found.clear, sweep.travel) };
+            group.wake = if touch.is_some() { AWAKE } else { wake_at(clear, sweep.travel) };
         }
         self.passes[number] = pass;
     }
@@ -326,7 +322,7 @@ impl Proof {
     pub(super) fn inherit(&mut self, old: &Self, surfaces: &[SpaceSurface]) {
         for (pass, before) in self.passes.iter_mut().zip(&old.passes) {
             let slaves = &surfaces[pass.slave].nodes;
-            let known = before.groups.iter().filter(|group| group.inside).filter_map(|group| {
+            let known = before.groups.iter().filter(|group| group.side != [0.0; 3]).filter_map(|group| {
                 let slave = slaves.binary_search(&group.node).ok()? as u32;
                 Some(Group { slave, begin: 0, end: 0, ..*group })
             });
@@ -337,47 +333,43 @@ impl Proof {
     }
 }
 
-/// What a node did in a step.
-struct Passed {
-    /// Normal of the facet through which it went in first.
-    side: Option<Vector>,
-    /// Distance from all candidates at the end of the step, m.
-    clear: f64,
-}
-
 /// The travel up to which what is `clear` (m) apart can't meet.
 fn wake_at(clear: f64, travel: f64) -> f64 {
     let wake = travel + 0.5 * EARLY * clear;
     if wake < f64::INFINITY { wake } else { AWAKE }
 }
 
-/// What a node did with the facets of a body in the step.
-fn sweep_through(group: &Group, candidates: &[u32], placed: &Placed<'_>, own: Vector, sweep: Sweep<'_, 3>) -> Passed {
-    let before = Placed { surface: placed.surface, positions: sweep.old };
+/// Whether a node at x that went in, or through the far side, is neither held there nor came around the body, before the face again by which it came in.
+fn is_missed(fate: Fate, touch: Option<&Touch>, x: Vector, candidates: &[u32], placed: &Placed<'_>) -> bool {
+    let Fate { side, enters, is_through } = fate;
+    let is_held = |touch: &Touch| {
+        let nearness = FLUSH * placed.size(touch.projection.facet);
+        touch.projection.gap <= nearness && dot(side, touch.projection.normal) > SAME_SIDE
+    };
+    let is_before = || {
+        let of_face = |facet: &u32| dot(side, placed.facet_normal(*facet)) > ALONG;
+        let nearest = placed.nearest_of(x, candidates.iter().copied().filter(of_face));
+        nearest.is_some_and(|nearest| placed.behind(x, nearest).is_none())
+    };
+    (enters || is_through) && !touch.is_some_and(is_held) && !is_before()
+}
+
+/// What a node did with the facets of a body in the step, and its distance from all of them at the end, m.
+fn sweep_through(group: &Group, candidates: &[u32], placed: &Placed<'_>, own: Vector, sweep: Sweep<'_, 3>) -> (Passages, f64) {
     let way = |node: u32| length(minus(sweep.new[node as usize], sweep.old[node as usize]));
-    let (from, x) = (sweep.old[group.node as usize], sweep.new[group.node as usize]);
-    let (own_way, mut passed) = (way(group.node), Passed { side: None, clear: f64::INFINITY });
-    let mut first = f64::INFINITY;
+    let (own_way, mut passages, mut clear) = (way(group.node), Passages::default(), f64::INFINITY);
     for &facet in candidates {
+        let apart = placed.distance(sweep.new[group.node as usize], facet).unwrap_or(0.0);
+        clear = clear.min(apart);
+        // What turns towards it later is looked at then.
         if group.own && dot(own, placed.facet_normal(facet)) >= FACING {
-            // What turns towards it later is looked at then.
-            passed.clear = passed.clear.min(placed.distance(x, facet).unwrap_or(0.0));
             continue;
         }
-        let apart = placed.distance(x, facet).unwrap_or(0.0);
-        passed.clear = passed.clear.min(apart);
         let corners = placed.surface.facets[facet as usize];
         let fastest = corners.corners().iter().map(|&node| way(node)).fold(0.0, f64::max);
-        if apart > (own_way + fastest) * SLACK {
-            continue;
-        }
-        for k in 0..if corners.corners().len() == 3 { 1 } else { 4 } {
-            for time in entries([from, x], before.triangle(facet, k), placed.triangle(facet, k)).iter() {
-                if time < first {
-                    (first, passed.side) = (time, Some(placed.facet_normal(facet)));
-                }
-            }
+        if apart <= (own_way + fastest) * SLACK {
+            passages.add(placed, sweep, group.node, facet);
         }
     }
-    passed
+    (passages, clear)
 }

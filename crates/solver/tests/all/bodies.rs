@@ -153,6 +153,32 @@ pub(crate) fn to_end(model: &Model) -> Simulation {
     simulation
 }
 
+/// The hash at the end of a run on one thread without vectors; that on so many threads with each instruction set has to be the same.
+pub(crate) fn hash_of_equal_bits(model: &Model, threads: &[usize], case: &str) -> String {
+    let hash = |threads: usize, simd: &str| {
+        let options = Options { threads, simd: Some(simd.into()) };
+        let mut simulation = Simulation::new(model, &options).unwrap_or_else(|error| panic!("{error}"));
+        simulation.advance(f64::INFINITY, u64::MAX).unwrap();
+        simulation.summary().state_hash
+    };
+    let alone = hash(1, "scalar");
+    for level in embate_lanes::Level::available() {
+        for &threads in threads {
+            assert_eq!(hash(threads, level.name()), alone, "{case} {} {threads}", level.name());
+        }
+    }
+    alone
+}
+
+/// What is kept of a run now has to go on to this hash at the end, on two threads.
+pub(crate) fn goes_on_to(hash: &str, model: &Model, run: &mut Simulation, case: &str) {
+    let state = run.state().unwrap();
+    let options = Options { threads: 2, simd: None };
+    let mut resumed = Simulation::resumed(model, &options, &state.sections).unwrap_or_else(|error| panic!("{error}"));
+    resumed.advance(f64::INFINITY, u64::MAX).unwrap();
+    assert_eq!(resumed.summary().state_hash, hash, "{case}: resumed at {} s", run.time());
+}
+
 /// Rows of a history by column name.
 pub(crate) struct History {
     columns: Vec<String>,

@@ -1,7 +1,6 @@
 //! Contact in space where edges cross between their nodes: beams on edge that hit each other, and the edge of a box. Nodes against facets alone would let them through.
 
 use crate::bodies::*;
-use embate_lanes::Level;
 use embate_solver::model::{Contact, ImportedMesh, InitialPenetration, Interface, Model, Part, Partners, Penalty, Probe, ProbeAt, Shape};
 use embate_solver::output::Frame;
 use embate_solver::simulation::{Options, Simulation};
@@ -201,17 +200,7 @@ fn a_beam_that_hits_the_edge_of_a_box_off_its_middle_spins_and_keeps_the_angular
 fn threads_and_instruction_sets_and_a_stop_between_change_no_bit_of_edges() {
     let mut model = off_centre(false, rough(0.3));
     model.run.end = 1.2e-3;
-    let hash = |threads: usize, simd: &str| {
-        let mut simulation = Simulation::new(&model, &Options { threads, simd: Some(simd.into()) }).unwrap();
-        simulation.advance(f64::INFINITY, u64::MAX).unwrap();
-        simulation.summary().state_hash
-    };
-    let alone = hash(1, "scalar");
-    for level in Level::available() {
-        for threads in [1, 2, 3] {
-            assert_eq!(hash(threads, level.name()), alone, "{} {threads}", level.name());
-        }
-    }
+    let alone = hash_of_equal_bits(&model, &[1, 2, 3], "edges");
     // The edges touch then, and stick.
     let mut first = simulation(&model);
     while value(&first, DEPTH) <= 0.0 {
@@ -220,10 +209,7 @@ fn threads_and_instruction_sets_and_a_stop_between_change_no_bit_of_edges() {
     for more in [0, 1, 5] {
         first.advance(f64::INFINITY, more).unwrap();
         assert!(value(&first, DEPTH) > 0.0);
-        let state = first.state().unwrap();
-        let mut second = Simulation::resumed(&model, &Options { threads: 2, simd: None }, &state.sections).unwrap();
-        second.advance(f64::INFINITY, u64::MAX).unwrap();
-        assert_eq!(second.summary().state_hash, alone, "{more}");
+        goes_on_to(&alone, &model, &mut first, "edges");
     }
 }
 

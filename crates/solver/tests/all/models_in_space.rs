@@ -1,14 +1,13 @@
 //! Whole models in space without contact: conservation, the plane as the limit of a slice, waves, loads against closed forms, rigid bodies, erosion, equal bits, states.
 
-use crate::bodies::{every_step, simulation, to_end, value};
+use crate::bodies::{every_step, goes_on_to, hash_of_equal_bits, simulation, to_end, value};
 use crate::patches::material;
-use embate_lanes::Level;
 use embate_solver::element::ELEMENTS_OF_SPACE;
 use embate_solver::model::{
     Axis, Constraint, Cuboid, Cylinder, Drive, Extrude, ImportedMesh, InitialStress, Load, MeshGroup, Model, Motion, Part, Probe, ProbeAt,
     Rectangle, Rotation, Run, Shape, Sphere, Sweep, Symmetry,
 };
-use embate_solver::simulation::{Options, Simulation};
+use embate_solver::simulation::Simulation;
 use std::sync::Arc;
 
 /// A body of one part called `body`; of tetrahedra and wedges such as the shapes make.
@@ -103,17 +102,7 @@ fn threads_and_instruction_sets_change_no_bit() {
         model.run.max_steps = Some(12);
         (model.parts[0].velocity, model.parts[0].spin) = ([0.0, 0.0, -3.0], 20.0);
         model.symmetries.push(Symmetry { normal: [0.0, 0.0, 1.0], ..Symmetry::default() });
-        let hash = |threads: usize, simd: &str| {
-            let mut simulation = Simulation::new(&model, &Options { threads, simd: Some(simd.into()) }).unwrap();
-            simulation.advance(f64::INFINITY, u64::MAX).unwrap();
-            simulation.summary().state_hash
-        };
-        let alone = hash(1, "scalar");
-        for level in Level::available() {
-            for threads in [1, 2, 3] {
-                assert_eq!(hash(threads, level.name()), alone, "{element} {} {threads}", level.name());
-            }
-        }
+        hash_of_equal_bits(&model, &[1, 2, 3], element);
     });
 }
 
@@ -293,10 +282,7 @@ fn a_kept_state_goes_on_to_the_same_bits() {
         let whole = to_end(&model).summary().state_hash;
         let mut first = simulation(&model);
         first.advance(0.25, u64::MAX).unwrap();
-        let state = first.state().unwrap();
-        let mut second = Simulation::resumed(&model, &Options::default(), &state.sections).unwrap();
-        second.advance(f64::INFINITY, u64::MAX).unwrap();
-        assert_eq!(second.summary().state_hash, whole, "{element}");
+        goes_on_to(&whole, &model, &mut first, element);
     });
 }
 

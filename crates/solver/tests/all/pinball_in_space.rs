@@ -1,14 +1,13 @@
 //! Pinballs between solids: balls in the elements. Conservation with every element, law and friction, closed forms, objectivity, every search, states, erosion, and what is inside at the start.
 
 use crate::bodies::*;
-use embate_lanes::Level;
 use embate_solver::contact::search::registry;
 use embate_solver::element::ELEMENTS_OF_SPACE;
 use embate_solver::model::{
     Contact, ContactLaw, Formulation, Friction, ImportedMesh, InitialPenetration, Interface, Material, Model, Part, Partners, Penalty,
     Shape,
 };
-use embate_solver::simulation::{Options, Simulation};
+use embate_solver::simulation::Simulation;
 use std::sync::Arc;
 
 type Vector = [f64; 3];
@@ -168,8 +167,8 @@ fn bars_of_solids_meet_with_the_force_of_the_closed_form() {
 
 #[test]
 fn a_model_that_is_turned_as_a_whole_gives_turned_results() {
-    // Slip turns with the first edge of an element that deforms, and which is first hangs on the numbering, which a turned model has another of: only without friction nothing does.
-    for (friction, limit) in [(None, 1e-9), (Some(FRICTION), 1e-6)] {
+    // Nodes and elements of a turned model are numbered otherwise, and so which of two balls is the first: nothing hangs on that.
+    for friction in [None, Some(FRICTION)] {
         let interface = Interface { friction, damping: 0.1, ..Interface::default() };
         let [straight, turned] = [0.0, 0.7].map(|angle| {
             let simulation = to_end(&oblique("hex8", true, interface.clone(), angle));
@@ -179,10 +178,13 @@ fn a_model_that_is_turned_as_a_whole_gives_turned_results() {
             positions
         });
         let apart = |x: &Vector, y: &Vector| (0..3).map(|d| (x[d] - y[d]).powi(2)).sum::<f64>().sqrt();
+        let mut largest = 0.0_f64;
         for x in &straight {
             let nearest = turned.iter().map(|y| apart(x, y)).fold(f64::INFINITY, f64::min);
-            assert!(nearest < limit, "{nearest} {limit}");
+            assert!(nearest < 1e-12, "{nearest}");
+            largest = nearest.max(largest);
         }
+        println!("{} apart by {largest:.1e} m", friction.is_some());
     }
 }
 
@@ -203,17 +205,7 @@ fn every_search_gives_the_same_bits() {
 #[test]
 fn threads_and_instruction_sets_and_a_stop_between_change_no_bit() {
     let model = oblique("hex8", true, Interface { friction: Some(FRICTION), ..Interface::default() }, 0.0);
-    let hash = |threads: usize, simd: &str| {
-        let mut simulation = Simulation::new(&model, &Options { threads, simd: Some(simd.into()) }).unwrap();
-        simulation.advance(f64::INFINITY, u64::MAX).unwrap();
-        simulation.summary().state_hash
-    };
-    let alone = hash(1, "scalar");
-    for level in Level::available() {
-        for threads in [1, 3] {
-            assert_eq!(hash(threads, level.name()), alone, "{} {threads}", level.name());
-        }
-    }
+    let alone = hash_of_equal_bits(&model, &[1, 3], "balls");
     let mut first = simulation(&model);
     while value(&first, "contact.force_z[hit]") == 0.0 {
         assert!(!first.is_over(), "they have to meet");
@@ -221,10 +213,7 @@ fn threads_and_instruction_sets_and_a_stop_between_change_no_bit() {
     }
     for more in [0, 1, 5] {
         first.advance(f64::INFINITY, more).unwrap();
-        let state = first.state().unwrap();
-        let mut second = Simulation::resumed(&model, &Options { threads: 2, simd: None }, &state.sections).unwrap();
-        second.advance(f64::INFINITY, u64::MAX).unwrap();
-        assert_eq!(second.summary().state_hash, alone, "{more}");
+        goes_on_to(&alone, &model, &mut first, "balls");
     }
 }
 

@@ -1,12 +1,11 @@
 //! Obstacles of triangles against the obstacles whose surfaces they are, over edges and corners, with friction, moved and free, at the start, kept and resumed.
 
-use crate::bodies::{faults, model, simulation, to_end, value};
-use embate_lanes::Level;
+use crate::bodies::{faults, goes_on_to, hash_of_equal_bits, model, simulation, to_end, value};
 use embate_solver::model::{
     Cuboid, Friction, InitialPenetration, Interface, Model, Motion, Obstacle, ObstacleShape, Part, Placement, Shape, Sphere, Symmetry,
     TriangleSurface,
 };
-use embate_solver::simulation::{Options, Simulation};
+use embate_solver::simulation::Simulation;
 use std::sync::Arc;
 
 type Vector = [f64; 3];
@@ -207,21 +206,12 @@ fn a_moved_die_has_equal_bits_on_threads_and_instruction_sets_and_goes_on_from_a
     let whole = to_end(&model);
     assert!(value(&whole, "obstacle.force_z[die]") < -1.0 || value(&whole, "obstacle.force_z[die]") > 1.0);
     assert!(value(&whole, "obstacle.friction_work[die]") > 0.0);
-    let hash = whole.summary().state_hash;
-    for level in Level::available() {
-        for threads in [1, 3] {
-            let mut other = Simulation::new(&model, &Options { threads, simd: Some(level.name().into()) }).unwrap();
-            other.advance(f64::INFINITY, u64::MAX).unwrap();
-            assert_eq!(other.summary().state_hash, hash, "{} {threads}", level.name());
-        }
-    }
+    let hash = hash_of_equal_bits(&model, &[1, 3], "die");
+    assert_eq!(whole.summary().state_hash, hash);
     for stop in [0.3e-4, 1.1e-4] {
         let mut first = simulation(&model);
         first.advance(stop, u64::MAX).unwrap();
-        let state = first.state().unwrap();
-        let mut second = Simulation::resumed(&model, &Options::default(), &state.sections).unwrap();
-        second.advance(f64::INFINITY, u64::MAX).unwrap();
-        assert_eq!(second.summary().state_hash, hash, "{stop}");
+        goes_on_to(&hash, &model, &mut first, "die");
     }
 }
 

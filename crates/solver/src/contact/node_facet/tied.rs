@@ -4,7 +4,7 @@
 //! by springs with the rows of a node against a facet ([`super::ends`]) at the node's present foot: objective, and exact in both momenta. One surface is slave. Broken ties are gone for good, what
 //! they stored is told to the ledger; nodes that are free, and those whose ties are gone, are in ordinary contact with the same surface.
 
-use super::tracker::{bend, halves};
+use super::groups::{bend, halves};
 use super::{NodeFacet, PassInput, ends, frame, tangent};
 use crate::archive::{Archive, Kept, keep_all, keep_each};
 use crate::contact::projection::node_facet::{Feature, Placed, Projection, Vector};

@@ -4,8 +4,10 @@
 //! Positions come from the step; what is found goes to the formulation, which makes springs of it. A slave node and a body make a group with a memory of its own and at most one touch. The
 //! nearest feature of the body decides (`projection/node_facet.rs`), and
 //!
-//! - a node that is inside, or has just gone through a facet on its way (checked along the way in the step, so that it may be as fast as it likes), sees only facets that look to the side
-//!   from which it came: through a thin plate the far side may be nearer, but is not where it goes out;
+//! - a node that is inside, or has just gone through a facet on its way (checked along the way in the step, so that it may be as fast as it likes, by `passage.rs`), sees only facets that look
+//!   to the side from which it came: through a thin plate the far side may be nearer, but is not where it goes out;
+//! - the face by which it comes in leads it while it is over that face, however near a side wall is, and wherever it is once it went through the far side: until it is before the face, or
+//!   went out by another side, or the face is what is nearest;
 //! - a face holds the nodes that press on it, or come upon it from the front, over its rim and a little beyond: blocks that end flush press on each other with their edges too, whatever
 //!   rounds or spreads. The slave's own surface has to face it and to go back over it; who slides down beside a body has nothing to do with its top;
 //! - in its own body it sees only facets that its own surface looks at, and is inside only if it was seen to come in: its neighbours along the surface are near, and its own far side is
@@ -20,8 +22,10 @@ use super::super::search::{Pair, Query, Search};
 use super::super::tracker::sleep::{AWAKE, awake, wake_at};
 use super::super::tracker::{SAFE, SKIN, SearchReport};
 use super::far::Candidates;
+use super::groups::{Meeting, bend, halves, mean_edge};
+use super::passage::{Passages, led};
 use crate::archive::{Archive, Kept, keep_all, keep_each};
-use crate::mesh::surface::{Corners, NONE, SpaceSurface};
+use crate::mesh::surface::{NONE, SpaceSurface};
 use crate::tensor::{cross, dot};
 use crate::vector::{length, minus};
 
@@ -62,16 +66,29 @@ pub struct Memory {
     pub stored: f64,
     /// Side from which the node came in; zero while it is outside.
     pub side: Vector,
+    /// Whether the face by which it came in leads it, though something else is nearer.
+    pub is_led: bool,
 }
 
 impl Default for Memory {
     fn default() -> Self {
         let none = [0.0; 3];
-        Self { slip: none, facet: NONE, frame: [none; 2], offset: 0.0, half: 0.0, normal: none, carried: 0.0, stored: 0.0, side: none }
+        Self {
+            slip: none,
+            facet: NONE,
+            frame: [none; 2],
+            offset: 0.0,
+            half: 0.0,
+            normal: none,
+            carried: 0.0,
+            stored: 0.0,
+            side: none,
+            is_led: false,
+        }
     }
 }
 
-keep_all!(Memory { slip, facet, frame, offset, half, normal, carried, stored, side });
+keep_all!(Memory { slip, facet, frame, offset, half, normal, carried, stored, side, is_led });
 
 /// A slave node and a body of the target.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -126,8 +143,8 @@ struct Pass {
 
 /// Where a node is with respect to a body.
 enum Place {
-    /// It touches: its projection, and the side from which it came in.
-    Touches(Projection, Vector),
+    /// It touches: its projection, the side from which it came in, and whether the face there leads it.
+    Touches(Projection, Vector, bool),
     /// Not near.
     Away,
     /// So deep inside, without having been seen to come in, that it is not taken for a touch.
@@ -338,8 +355,8 @@ impl Tracker {
         let way = |node: &u32| length(minus(sweep.new[*node as usize], sweep.old[*node as usize]));
         let fastest = self.nodes.iter().map(way).fold(0.0, f64::max);
         let radius = 2.0 * self.skin + extra + LOOK_AHEAD * fastest + self.deepest;
-        let mut near: Vec<(u32, u32, f64)> = Vec::new();
-        let Self { surfaces, passes, search, triangles, bodies, pairs, band, .. } = self;
+        let Self { surfaces, passes, search, triangles, bodies, pairs, band, skin, .. } = self;
+        let skin = *skin;
         for pass in passes {
             let (slaves, target) = (&surfaces[pass.slave].nodes, &surfaces[pass.target]);
             let reach = SLACK * (radius + bend(target, sweep.new));
@@ -352,39 +369,26 @@ impl Tracker {
             let mut old = old.iter().peekable();
             pass.candidates.clear();
             pass.clear.clear();
-            for of_slave in pairs.chunk_by(|a, b| a.slave == b.slave) {
-                let slave = of_slave[0].slave;
-                let node = slaves[slave as usize];
-                // A node of two surfaces joins them: it can't go in.
-                if pass.slave != pass.target && target.nodes.binary_search(&node).is_ok() {
-                    continue;
-                }
-                let x = sweep.new[node as usize];
-                near.clear();
-                near.extend(of_slave.iter().map(|pair| (pass.bodies[pair.facet as usize / 2], pair.facet / 2, AWAKE)));
-                near.sort_unstable_by_key(|&(body, facet, _)| (body, facet));
-                near.dedup();
+            let body = |node: u32| bodies.get(node as usize).copied().unwrap_or(u32::MAX);
+            let counts = |node: u32, facet: u32| {
+                let distance = placed.distance(sweep.new[node as usize], facet);
                 // Those that the node has passed on its way stay, however far it is now.
-                let on_way = way(&node) > self.skin;
-                near.retain_mut(|(_, facet, clear)| {
-                    if target.facets[*facet as usize].contains(&node) {
-                        return false;
-                    }
-                    let distance = placed.distance(x, *facet);
-                    *clear = distance.map_or(AWAKE, |distance| wake_at(distance, sweep.travel));
-                    on_way || distance.is_some_and(|distance| distance <= radius)
-                });
-                let own = bodies.get(node as usize).copied().unwrap_or(u32::MAX);
-                for of_body in near.chunk_by(|a, b| a.0 == b.0) {
-                    let (body, begin) = (of_body[0].0, pass.candidates.len() as u32);
-                    pass.candidates.extend(of_body.iter().map(|&(_, facet, _)| facet));
-                    pass.clear.extend(of_body.iter().map(|&(_, _, clear)| clear));
-                    let group = Group { slave, node, body, begin, end: pass.candidates.len() as u32, own: own == body, ..Group::default() };
-                    while old.next_if(|old| (old.slave, old.body) < (slave, body)).is_some() {}
-                    let known = old.next_if(|old| (old.slave, old.body) == (slave, body));
-                    pass.groups.push(known.map_or(group, |known| Group { touches: known.touches, memory: known.memory, ..group }));
+                let is_near = distance.is_some_and(|distance| distance <= radius) || way(&node) > skin;
+                is_near.then(|| distance.map_or(AWAKE, |distance| wake_at(distance, sweep.travel)))
+            };
+            let meeting = Meeting { slaves, target, is_one: pass.slave == pass.target };
+            meeting.each(pairs, body, counts, |[slave, node, there], facets| {
+                let begin = pass.candidates.len() as u32;
+                for (facet, clear) in facets {
+                    pass.candidates.push(facet);
+                    pass.clear.push(clear);
                 }
-            }
+                let (end, own) = (pass.candidates.len() as u32, body(node) == there);
+                let group = Group { slave, node, body: there, begin, end, own, ..Group::default() };
+                while old.next_if(|old| (old.slave, old.body) < (slave, there)).is_some() {}
+                let known = old.next_if(|old| (old.slave, old.body) == (slave, there));
+                pass.groups.push(known.map_or(group, |known| Group { touches: known.touches, memory: known.memory, ..group }));
+            });
             pass.wakes.clear();
             pass.wakes.resize(pass.groups.len(), AWAKE);
         }
@@ -413,9 +417,9 @@ impl Tracker {
         pass.wakes[index] = wake;
         let group = &mut pass.groups[index];
         group.touches = false;
-        if let Place::Touches(projection, side) = place {
+        if let Place::Touches(projection, side, is_led) = place {
             group.touches = true;
-            group.memory.side = side;
+            (group.memory.side, group.memory.is_led) = (side, is_led);
             self.deepest = self.deepest.max(-projection.gap);
             let Group { slave, node, own, .. } = *group;
             self.touches.push(Touch { pass: number as u32, slave, node, projection, own, group: index as u32 });
@@ -430,17 +434,24 @@ impl Tracker {
         let x = sweep.new[group.node as usize];
         let facing = if group.own { Some(self.own_normal(pass.slave, group.slave, sweep.new)) } else { None };
         let faces = |facet: u32| facing.is_none_or(|own| dot(own, placed.facet_normal(facet)) < FACING);
-        let mut side = group.memory.side;
-        if side == [0.0; 3] {
-            let entered =
-                candidates.in_passage().filter(|&facet| faces(facet)).filter_map(|facet| entry(&placed, sweep, group.node, facet));
-            let first = entered.reduce(|first, other| if other.0 < first.0 { other } else { first });
-            side = first.map_or(side, |(_, normal)| normal);
-        }
+        let passages =
+            |candidates: &Candidates<'_>| Passages::of(&placed, sweep, group.node, candidates.in_passage().filter(|&facet| faces(facet)));
+        let Memory { facet: likely, side: before, is_led: was_led, .. } = group.memory;
+        let was_inside = before != [0.0; 3];
+        let side = if was_inside { before } else { passages(candidates).fate(before).side };
         let came = side != [0.0; 3];
         let sees = |facet: u32| faces(facet) && (!came || dot(side, placed.facet_normal(facet)) > SAME_SIDE);
-        let likely = group.memory.facet;
         let mut found = candidates.nearest(&placed, x, likely, sees).and_then(|found| placed.seen(x, found));
+        let is_inside = found.is_some_and(|found| found.gap < 0.0);
+        // Who comes in now; and who was inside and seems to be out, but went through the far side.
+        let mut may_lead = came && !was_inside;
+        if was_inside && (was_led || !is_inside) {
+            let fate = passages(candidates).fate(side);
+            may_lead = fate.is_through || (was_led && fate.side != [0.0; 3]);
+        }
+        if may_lead && let Some((led, along)) = led(candidates, &placed, x, side, found.as_ref(), (likely, &faces)) {
+            return Place::Touches(led, along, true);
+        }
         // Who goes on with its face needs no second look.
         let goes_on = |found: &Projection| group.touches && dot(group.memory.normal, found.normal) > SAME_FACE;
         if !group.own && !found.as_ref().is_some_and(goes_on) {
@@ -450,7 +461,10 @@ impl Tracker {
                 let over = candidates.nearest(&placed, x, likely, |facet| sees(facet) && faces(facet));
                 let over = over.and_then(|over| placed.seen_over(x, over, faces));
                 let is_flush = found.is_some_and(|found| found.gap.abs() <= FLUSH * self.skin);
-                found = over.filter(|over| self.is_held(pass, group, side, sweep, over, is_flush)).map(|(over, _)| over).or(found);
+                // No face before which it is leads it out of a body into which it has gone.
+                let may_hold = |over: &Projection| !(may_lead && is_inside) || is_flush || over.gap < 0.0;
+                let over = over.filter(|over| may_hold(&over.0) && self.is_held(pass, group, side, sweep, over, is_flush));
+                found = over.map(|(over, _)| over).or(found);
             }
         }
         let Some(found) = found else { return Place::Away };
@@ -460,11 +474,12 @@ impl Tracker {
             return match known {
                 false if group.own => Place::Away,
                 false if -found.gap > self.radius - self.skin => Place::Lost,
-                _ => Place::Touches(found, found.normal),
+                _ => Place::Touches(found, found.normal, false),
             };
         }
         let near = extra + START * self.skin + LOOK_AHEAD * motion(&placed, &found, sweep, group.node);
-        if found.gap <= near.min(self.radius - self.skin).max(extra) { Place::Touches(found, [0.0; 3]) } else { Place::Away }
+        let is_near = found.gap <= near.min(self.radius - self.skin).max(extra);
+        if is_near { Place::Touches(found, [0.0; 3], false) } else { Place::Away }
     }
 
     /// Whether a face holds a node that is over its rim or beyond it, by the projection and the way from the rim: `side` is the one from which it came, `is_flush` tells whether it lies on the
@@ -550,33 +565,6 @@ impl Tracker {
     }
 }
 
-/// Two triangles of a facet; of one with three nodes twice itself.
-pub(in crate::contact) fn halves(&[a, b, c, d]: &[u32; 4]) -> [[u32; 3]; 2] {
-    [[a, b, c], if c == d { [a, b, c] } else { [c, d, a] }]
-}
-
-/// Mean length of the edges of surfaces, m.
-pub(in crate::contact) fn mean_edge(surfaces: &[SpaceSurface], positions: &[Vector]) -> f64 {
-    let (mut sum, mut count) = (0.0, 0usize);
-    for edge in surfaces.iter().flat_map(|surface| &surface.edges) {
-        let [a, b] = edge.nodes.map(|node| positions[node as usize]);
-        (sum, count) = (sum + length(minus(b, a)), count + 1);
-    }
-    sum / count.max(1) as f64
-}
-
-/// How far the middle of a facet is from that of its diagonal at most, m: by so much it may be outside the boxes of its halves.
-pub(in crate::contact) fn bend(surface: &SpaceSurface, positions: &[Vector]) -> f64 {
-    let of = |facet: &[u32; 4]| {
-        if facet.corners().len() == 3 {
-            return 0.0;
-        }
-        let [a, b, c, d] = facet.map(|node| positions[node as usize]);
-        0.25 * length([0, 1, 2].map(|k| a[k] + c[k] - b[k] - d[k]))
-    };
-    surface.facets.iter().map(of).fold(0.0, f64::max)
-}
-
 /// How far a node and where it projects have moved with respect to each other in the step, m.
 fn motion(placed: &Placed<'_>, found: &Projection, sweep: Sweep<'_, 3>, node: u32) -> f64 {
     let moved = |node: u32| minus(sweep.new[node as usize], sweep.old[node as usize]);
@@ -587,34 +575,4 @@ fn motion(placed: &Placed<'_>, found: &Projection, sweep: Sweep<'_, 3>, node: u3
         (0..3).for_each(|d| way[d] -= weight * by[d]);
     }
     length(way)
-}
-
-/// When (0 to 1) a node goes through a facet from outside in the step, and the facet's normal there. The height over a triangle is taken as linear in time, and where it vanishes the node
-/// must be over the triangle; grazing ways along an edge may be seen by both facets or, within round-off, by none, where the nearest feature decides.
-fn entry(placed: &Placed<'_>, sweep: Sweep<'_, 3>, node: u32, facet: u32) -> Option<(f64, Vector)> {
-    let before = Placed { surface: placed.surface, positions: sweep.old };
-    let count = if placed.surface.facets[facet as usize].corners().len() == 3 { 1 } else { 4 };
-    let mut first: Option<(f64, Vector)> = None;
-    for k in 0..count {
-        let (old, new) = (before.triangle(facet, k), placed.triangle(facet, k));
-        let height = |x: Vector, [a, b, c]: [Vector; 3]| dot(minus(x, a), cross(minus(b, a), minus(c, a)));
-        let (from, to) = (sweep.old[node as usize], sweep.new[node as usize]);
-        let (begin, end) = (height(from, old), height(to, new));
-        if !(begin >= 0.0 && end < 0.0) {
-            continue;
-        }
-        let at = begin / (begin - end);
-        let between = |p: Vector, q: Vector| [0, 1, 2].map(|d| p[d] + at * (q[d] - p[d]));
-        let (x, t) = (between(from, to), [0, 1, 2].map(|i| between(old[i], new[i])));
-        let normal = cross(minus(t[1], t[0]), minus(t[2], t[0]));
-        // A symmetry plane keeps a node over a side that lies on it, whatever rounds.
-        let is_over = (0..3).all(|i| match placed.mirror_at(facet, k, i) {
-            Some(mirror) => Placed::is_before(x, t[i], mirror, placed.size(facet)),
-            None => dot(cross(minus(t[(i + 1) % 3], t[i]), minus(x, t[i])), normal) >= 0.0,
-        });
-        if is_over && first.is_none_or(|(first, _)| at < first) {
-            first = Some((at, placed.facet_normal(facet)));
-        }
-    }
-    first
 }

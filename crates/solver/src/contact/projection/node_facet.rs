@@ -376,7 +376,7 @@ impl Placed<'_> {
     }
 
     /// What of some facets is nearest, of the first of those that are equally near, and its triangle.
-    fn nearest_of(&self, x: Vector, facets: impl IntoIterator<Item = u32>) -> Option<Found> {
+    pub(in crate::contact) fn nearest_of(&self, x: Vector, facets: impl IntoIterator<Item = u32>) -> Option<Found> {
         let mut best: Option<Found> = None;
         for facet in facets {
             if let Some((found, k)) = self.nearest(x, facet)
@@ -451,6 +451,20 @@ impl Placed<'_> {
             (0.5 * middle).min(own).min(1.0 - middle - own)
         };
         least >= -END_TOLERANCE
+    }
+
+    /// A point that is behind the plane of the nearest triangle, by its distance from that triangle, over it or beyond its rim: as deep, and pushed back to it. With the triangle's normal;
+    /// `None` where it is before the plane, or on it.
+    pub(in crate::contact) fn behind(&self, x: Vector, (nearest, facet, triangle): Found) -> Option<(Projection, Vector)> {
+        let Nearest { square, weights, foot } = nearest;
+        let (along, away, distance) = (self.normal(facet, triangle), minus(x, foot), square.sqrt());
+        let (feature, weights) = (self.feature(facet, triangle, weights), self.spread(facet, triangle, weights));
+        let height = dot(away, along);
+        if !(height < 0.0 && distance > ROUNDING * self.size(facet)) {
+            return None;
+        }
+        let (gap, normal) = if feature == Feature::Face { (height, along) } else { (-distance, away.map(|c| -c / distance)) };
+        Some((Projection { facet, feature, triangle, weights, foot, gap, normal }, along))
     }
 
     /// Gap and normal of what is nearest. `None` where the surface ends before x comes over it.

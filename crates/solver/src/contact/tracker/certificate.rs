@@ -23,7 +23,7 @@ pub struct Certificate {
     pub pairs_swept: u64,
     /// Nodes that were found to go into a body.
     pub crossings_found: u64,
-    /// Nodes that are inside a body, by the count of entries and exits, but not in contact with it, over all steps; in space nodes that went in, or were let go inside, and edges that went
+    /// Nodes that are inside a body, by the count of entries and exits, but not in contact with it, over all steps; in space nodes that went in or through, or were let go inside, and edges that went
     /// through each other, without contact. Must be zero.
     pub unverified: u64,
 }

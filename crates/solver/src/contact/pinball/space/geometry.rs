@@ -5,22 +5,7 @@
 //! equilateral triangles a ball of the same size comes as near between six of them as between four of a square.
 //! The ball touches the facet from inside, and sticks out of no other facet of the surface at the same nodes: at rims it is smaller.
 
-use super::super::SAME;
-use super::{Corners, Layer, Placed, Vector, cross, dot, length, minus};
-
-/// A ball: its centre as shares of nodes.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Ball {
-    pub(super) nodes: [u32; 8],
-    pub(super) shares: [f64; 8],
-    /// Nodes that count.
-    pub(super) count: usize,
-    pub(super) radius: f64,
-    /// Area of surface that it stands for, m².
-    pub(super) area: f64,
-    /// κ of the element, Pa/m.
-    pub(super) stiffness: f64,
-}
+use super::{Ball, Corners, Layer, Placed, Vector, cross, dot, length, minus};
 
 /// Halvings that find how deep a ball at a rim is.
 const HALVINGS: usize = 20;
@@ -28,40 +13,13 @@ const HALVINGS: usize = 20;
 const MOST: f64 = 64.0;
 
 impl Ball {
-    pub(super) fn centre(&self, positions: &[Vector]) -> Vector {
-        let mut centre = [0.0; 3];
-        for (&node, share) in self.nodes[..self.count].iter().zip(self.shares) {
-            let x = positions[node as usize];
-            (0..3).for_each(|d| centre[d] += share * x[d]);
-        }
-        centre
-    }
-
-    pub(super) fn shares_a_node_with(&self, other: &Self) -> bool {
-        self.nodes[..self.count].iter().any(|node| other.nodes[..other.count].contains(node))
-    }
-
-    /// Whether both are in one element, and nearly in one place.
-    fn is_as(&self, other: &Self, positions: &[Vector]) -> bool {
-        let (mut mine, mut theirs) = (self.nodes, other.nodes);
-        mine.sort_unstable();
-        theirs.sort_unstable();
-        mine == theirs && length(minus(self.centre(positions), other.centre(positions))) < SAME * self.radius.min(other.radius)
-    }
-
     /// With these corners of a facet and the nodes beyond them.
     fn set(&mut self, corners: &[u32], beyond: &[u32], weights: &[f64], down: f64) {
         (self.nodes, self.shares, self.count) = ([0; 8], [0.0; 8], 0);
         let above = corners.iter().zip(weights).map(|(&node, weight)| (node, weight * (1.0 - down)));
         let below = beyond.iter().zip(weights).map(|(&node, weight)| (node, weight * down));
         for (node, share) in above.chain(below) {
-            match self.nodes[..self.count].iter().position(|&other| other == node) {
-                Some(same) => self.shares[same] += share,
-                None => {
-                    (self.nodes[self.count], self.shares[self.count]) = (node, share);
-                    self.count += 1;
-                }
-            }
+            self.add(node, share);
         }
     }
 }

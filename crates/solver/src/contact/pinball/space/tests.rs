@@ -111,8 +111,8 @@ fn slip_is_blind_to_rigid_motions_of_both_and_its_rows_keep_the_angular_momentum
         };
         let (one, other) = (ball(0), ball(8));
         let away = minus(one.centre(&positions), other.centre(&positions));
-        let (distance, normal) = (length(away), unit(away));
-        let tangents = Dim::<3>::tangents(normal, &tangent(normal, one.axes(&positions)[0]));
+        let (distance, normal) = (length(away), away.map(|c| c / length(away)));
+        let tangents = Dim::<3>::tangents(normal, &[0.0; 3]);
         let part = distance / (one.radius + other.radius);
         let arms = tangents.map(|tangent| cross(normal, tangent));
         let mut ends = [End::<3>::default(); 16];
@@ -129,5 +129,35 @@ fn slip_is_blind_to_rigid_motions_of_both_and_its_rows_keep_the_angular_momentum
             let slide: f64 = ends[..mine].iter().map(|end| dot(row(end), tangents[a])).sum();
             assert!((slide - 1.0).abs() < 1e-13);
         }
+    }
+}
+
+#[test]
+fn a_slip_turns_with_both_elements_whichever_is_the_first_and_however_their_nodes_are_numbered() {
+    let (_, cube) = block([1.0, 0.8, 0.6], [1; 3], 8);
+    let ball = |nodes: [u32; 8]| Ball { nodes, shares: [0.125; 8], count: 8, radius: 0.3, ..Ball::default() };
+    let (one, other) = (ball([0, 1, 2, 3, 4, 5, 6, 7]), ball([8, 9, 10, 11, 12, 13, 14, 15]));
+    let old: Vec<Vector> = cube.iter().copied().chain(cube.iter().map(|x| [x[0] + 0.2, x[1] - 0.1, x[2] + 0.6])).collect();
+    // Rigid: about any axis and by up to half a turn, exactly.
+    let (axis, slip) = ([0.48, 0.6, 0.64], [0.3, -0.7, 0.2]);
+    for degrees in [1e-3, 1.0, 40.0, 120.0, 170.0_f64] {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        let rotated = |v: Vector| {
+            let (across, along) = (cross(axis, v), (1.0 - cos) * dot(axis, v));
+            [0, 1, 2].map(|d| cos * v[d] + sin * across[d] + along * axis[d])
+        };
+        let new: Vec<Vector> = old.iter().map(|x| rotated(*x)).map(|x| [x[0] + 3.0, x[1] - 1.0, x[2]]).collect();
+        let found = turned_with([&one, &other], slip, Sweep::between(&old, &new));
+        assert!(length(minus(found, rotated(slip))) < 1e-13 / (0.5 * (1.0 + cos)), "{degrees}: {found:?}");
+    }
+    // Elements that deform: the numbering of their nodes, and which is the first, is no matter.
+    let bent = |k: usize, x: &Vector| [0, 1, 2].map(|d| x[d] + 0.1 * ((5 * k + 3 * d) % 7) as f64);
+    let new: Vec<Vector> = old.iter().enumerate().map(|(k, x)| bent(k, x)).collect();
+    let sweep = Sweep::between(&old, &new);
+    let found = turned_with([&one, &other], slip, sweep);
+    assert!((length(found) - length(slip)).abs() < 1e-15 && length(minus(found, slip)) > 0.01, "{found:?}");
+    let numbered = ball([5, 3, 0, 6, 2, 7, 1, 4]);
+    for pair in [[&other, &one], [&numbered, &other], [&other, &numbered]] {
+        assert!(length(minus(turned_with(pair, slip, sweep), found)) < 1e-15);
     }
 }

@@ -1,0 +1,77 @@
+//! What nodes of one surface and facets of another one make groups of: candidates of a slave node, body by body.
+//!
+//! Pairs come from the global search; groups go to the tracker of the nodes ([`super::tracker`]) and to the proof ([`super::super::proof`]), which keep what they know of each.
+
+use super::super::projection::node_facet::Vector;
+use super::super::search::Pair;
+use crate::mesh::surface::{Corners, SpaceSurface};
+use crate::vector::{length, minus};
+
+/// Those who meet: slave nodes, the target, and whether both are of one surface.
+#[derive(Clone, Copy)]
+pub(in crate::contact) struct Meeting<'a> {
+    pub(in crate::contact) slaves: &'a [u32],
+    pub(in crate::contact) target: &'a SpaceSurface,
+    pub(in crate::contact) is_one: bool,
+}
+
+impl Meeting<'_> {
+    /// The facets near each slave node and each body, for `take`: [index of the slave, node, body], and each facet with what `counts` says of it (slave node, facet; nothing: it does
+    /// not count). Slaves, bodies and facets ascend. `body` is that of a node; facets of pairs are halves ([`halves`]).
+    pub(in crate::contact) fn each<T: Copy>(
+        &self,
+        pairs: &[Pair],
+        body: impl Fn(u32) -> u32,
+        counts: impl Fn(u32, u32) -> Option<T>,
+        mut take: impl FnMut([u32; 3], &mut dyn Iterator<Item = (u32, T)>),
+    ) {
+        let Self { slaves, target, is_one } = *self;
+        let mut near: Vec<(u32, u32)> = Vec::new();
+        let mut kept: Vec<(u32, u32, T)> = Vec::new();
+        for of_slave in pairs.chunk_by(|a, b| a.slave == b.slave) {
+            let slave = of_slave[0].slave;
+            let node = slaves[slave as usize];
+            // A node of two surfaces joins them: it can't go in.
+            if !is_one && target.nodes.binary_search(&node).is_ok() {
+                continue;
+            }
+            near.clear();
+            near.extend(of_slave.iter().map(|pair| pair.facet / 2).map(|facet| (body(target.facets[facet as usize][0]), facet)));
+            near.sort_unstable();
+            near.dedup();
+            kept.clear();
+            let others = near.iter().filter(|&&(_, facet)| !target.facets[facet as usize].contains(&node));
+            kept.extend(others.filter_map(|&(body, facet)| counts(node, facet).map(|known| (body, facet, known))));
+            for of_body in kept.chunk_by(|a, b| a.0 == b.0) {
+                take([slave, node, of_body[0].0], &mut of_body.iter().map(|&(_, facet, known)| (facet, known)));
+            }
+        }
+    }
+}
+
+/// Two triangles of a facet; of one with three nodes twice itself.
+pub(in crate::contact) fn halves(&[a, b, c, d]: &[u32; 4]) -> [[u32; 3]; 2] {
+    [[a, b, c], if c == d { [a, b, c] } else { [c, d, a] }]
+}
+
+/// Mean length of the edges of surfaces, m.
+pub(in crate::contact) fn mean_edge(surfaces: &[SpaceSurface], positions: &[Vector]) -> f64 {
+    let (mut sum, mut count) = (0.0, 0usize);
+    for edge in surfaces.iter().flat_map(|surface| &surface.edges) {
+        let [a, b] = edge.nodes.map(|node| positions[node as usize]);
+        (sum, count) = (sum + length(minus(b, a)), count + 1);
+    }
+    sum / count.max(1) as f64
+}
+
+/// How far the middle of a facet is from that of its diagonal at most, m: by so much it may be outside the boxes of its halves.
+pub(in crate::contact) fn bend(surface: &SpaceSurface, positions: &[Vector]) -> f64 {
+    let of = |facet: &[u32; 4]| {
+        if facet.corners().len() == 3 {
+            return 0.0;
+        }
+        let [a, b, c, d] = facet.map(|node| positions[node as usize]);
+        0.25 * length([0, 1, 2].map(|k| a[k] + c[k] - b[k] - d[k]))
+    };
+    surface.facets.iter().map(of).fold(0.0, f64::max)
+}

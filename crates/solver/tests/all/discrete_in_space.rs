@@ -363,7 +363,8 @@ fn pulse(along: Vector) -> (Vec<[f64; 2]>, Vec<f64>, Simulation) {
     model.constraints.push(Constraint { on: "bars.point0".into(), velocity, ..Constraint::default() });
     let start = simulation(&model).frame().positions::<3>().to_vec();
     let end = to_end(&model);
-    let moved = start.iter().zip(end.frame().positions::<3>()).map(|(a, b)| {
+    let now = end.frame().positions::<3>().to_vec();
+    let moved = start.iter().zip(&now).map(|(a, b)| {
         let way: Vector = [0, 1, 2].map(|d| b[d] - a[d]);
         let share: f64 = (0..3).map(|d| way[d] * direction[d]).sum();
         let rest: f64 = (0..3).map(|d| (way[d] - share * direction[d]).powi(2)).sum();

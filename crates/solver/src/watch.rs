@@ -98,6 +98,20 @@ struct Seen {
 
 keep_all!(Seen { told, most });
 
+/// Hourglass and internal energy of each part, J (in the plane J/m).
+fn hourglass<const D: usize>(system: &System<D>) -> Vec<[f64; 2]>
+where
+    Dim<D>: World<D>,
+{
+    let mut of_parts = vec![[0.0; 2]; system.mesh.parts.len()];
+    for (group, report) in system.mesh.groups.iter().zip(&system.reports) {
+        of_parts[group.part][0] += report.hourglass;
+        of_parts[group.part][1] += report.stored + report.dissipated;
+    }
+    // Less than nothing is as wrong: forces that hold shapes back by the rate have then given more than they took.
+    of_parts.into_iter().map(|[hourglass, internal]| [hourglass.abs(), internal]).collect()
+}
+
 /// Number of a kind among [`MESSAGES`], and of a part (that of none: all).
 type Matter = (usize, usize);
 
@@ -171,11 +185,18 @@ impl Watch {
         new
     }
 
-    /// What was seen, with the most that became of it.
-    pub(crate) fn notices(&self) -> impl Iterator<Item = Notice> {
-        self.seen.iter().map(|(&(number, _), Seen { told, most })| {
+    /// What was seen, with the most that became of it; of hourglass energy also what it is now.
+    pub(crate) fn notices<const D: usize>(&self, system: &System<D>) -> impl Iterator<Item = Notice>
+    where
+        Dim<D>: World<D>,
+    {
+        let now = hourglass(system);
+        self.seen.iter().map(move |(&(number, part), Seen { told, most })| {
             let kind = MESSAGES[number];
-            let most = if [&HOURGLASS, &SPRINGS].contains(&kind) {
+            let share = now.get(part).map(|[hourglass, internal]| hourglass / internal).filter(|share| share.is_finite());
+            let most = if let (Some(share), true) = (share, kind == &HOURGLASS) {
+                format!("{:.1} % at most, {:.1} % in the end", 100.0 * most, 100.0 * share)
+            } else if [&HOURGLASS, &SPRINGS].contains(&kind) {
                 format!("{:.1} % at most", 100.0 * most)
             } else if kind == &SHORT_STEP {
                 format!("it fell to 1/{most:.0}")
@@ -201,14 +222,7 @@ impl Watch {
         Dim<D>: World<D>,
     {
         let largest = system.ledger.largest;
-        let mut of_parts = vec![[0.0; 2]; system.mesh.parts.len()];
-        for (group, report) in system.mesh.groups.iter().zip(&system.reports) {
-            of_parts[group.part][0] += report.hourglass;
-            of_parts[group.part][1] += report.stored + report.dissipated;
-        }
-        for (part, [hourglass, internal]) in of_parts.into_iter().enumerate() {
-            // Less than nothing is as wrong: forces that hold shapes back by the rate have then given more than they took.
-            let hourglass = hourglass.abs();
+        for (part, [hourglass, internal]) in hourglass(system).into_iter().enumerate() {
             let is_much = hourglass > HOURGLASS_MOST * internal && hourglass > NOTHING * largest;
             if self.lasts(&HOURGLASS, part, is_much, system) {
                 let (name, share) = (&system.mesh.parts[part].name, hourglass / internal);

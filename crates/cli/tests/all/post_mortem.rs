@@ -26,6 +26,13 @@ const FAILURES: &[Failure] = &[
         pictures: ALL,
     },
     Failure {
+        name: "inverted-solid",
+        code: "E0601",
+        culprit: "element 1430 of part \"pad\"",
+        keys: [("part[0].box.elements", "[16, 16, 6]"), ("obstacle[0].motion", "\"-150 m/s\"")],
+        pictures: ALL,
+    },
+    Failure {
         name: "collapsed-step",
         code: "E0602",
         culprit: "element 0 of part \"bar\"",
@@ -37,6 +44,13 @@ const FAILURES: &[Failure] = &[
         code: "E0603",
         culprit: "contact \"hit\" at node 76 of part \"ball\"",
         keys: [("contact[0].penalty_scale", "1e6"), ("contact[0].formulation", "\"segment\"")],
+        pictures: ALL,
+    },
+    Failure {
+        name: "stiff-contact-of-solids",
+        code: "E0603",
+        culprit: "contact \"hit\" at node 537 of part \"ball\"",
+        keys: [("contact[0].penalty_scale", "1e6"), ("part[1].sphere.elements", "4")],
         pictures: ALL,
     },
     Failure {
@@ -172,6 +186,21 @@ fn each_failure_has_an_example_whose_page_names_the_culprit_and_the_keys_to_chan
             assert!(near.contains("the step that failed") && near.contains("the last good step"), "{name}");
         }
     }
+}
+
+#[test]
+fn pictures_of_solids_are_cut_open_to_the_culprit_and_number_it() {
+    let folder = fresh("post-mortem-solids");
+    let answer = run(&folder, "inverted-solid", &["--quiet", "--set", "output.pictures=false"]);
+    assert_eq!(answer.code, Some(1), "{}", answer.err);
+    let picture = |name: &str| fs::read_to_string(folder.join("out/post-mortem").join(name)).unwrap();
+    let near = picture("neighbourhood.svg");
+    // Four panels, each with its image and with the culprit's number on one of its sides.
+    assert_eq!((near.matches("<image ").count(), near.matches("data:image/png;base64,iVBORw0KGgo").count()), (4, 4));
+    assert_eq!(near.matches("font-weight=\"bold\">1430</text>").count(), 4);
+    assert!(near.contains("cut open: ") && near.contains("contact force, up to "));
+    let place = picture("place.svg");
+    assert!(place.matches("<image ").count() == 1 && place.contains(">element 1430</text>") && place.contains(" mm</text>"));
 }
 
 #[test]

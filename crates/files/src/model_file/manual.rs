@@ -162,6 +162,8 @@ fn words(key: &Key) -> String {
         Kind::Values => "list of 1 or more: numbers, or quantities of one dimension".to_string(),
         Kind::Outlines(least) => format!("list of lists of {least} or more `[x, y]`: {}", of(Dimension::LENGTH)),
         Kind::Points(least) => format!("list of {least} or more `[x, y]`: {}", of(Dimension::LENGTH)),
+        Kind::SpatialOutlines(least) => format!("list of lists of {least} or more `[x, y, z]`: {}", of(Dimension::LENGTH)),
+        Kind::SpatialPoints(least) => format!("list of {least} or more `[x, y, z]`: {}", of(Dimension::LENGTH)),
         Kind::Drive(Dimension::RATE) => "angular velocity, rad/s, or the name of a curve".to_string(),
         Kind::Drive(dimension) => format!("{}, or the name of a curve", of(dimension)),
         Kind::Components(dimension) => {

@@ -187,6 +187,10 @@ impl Values for Record {
         if let Some(Datum::Outlines(outlines)) = self.datum(key) { outlines.clone() } else { Vec::new() }
     }
 
+    fn spatial_outlines(&self, key: &str) -> Vec<Vec<[f64; 3]>> {
+        if let Some(Datum::SpatialOutlines(outlines)) = self.datum(key) { outlines.clone() } else { Vec::new() }
+    }
+
     fn count(&self, key: &str) -> usize {
         self.integer(key).map_or(usize::MAX, whole)
     }

@@ -228,6 +228,8 @@ fn of_key(key: &Key) -> Json {
         Kind::Values => at_least(quantity(Dimension::VELOCITY, Range::Finite), 1),
         Kind::Points(least) => points(least),
         Kind::Outlines(least) => at_least(points(least), 1),
+        Kind::SpatialPoints(least) => spatial_points(least),
+        Kind::SpatialOutlines(least) => at_least(spatial_points(least), 1),
         Kind::Drive(dimension) => drive(&example_of(dimension), &["ramp"]),
         Kind::Components(dimension) => courses(&["x", "y", "z"], dimension, &["ramp"]),
         Kind::Motion => courses(&["x", "y", "z", "rotation"], Dimension::VELOCITY, &["free", "ramp"]),
@@ -283,6 +285,11 @@ fn between(list: Json, [least, most]: [usize; 2]) -> Json {
 
 fn points(least: usize) -> Json {
     at_least(list(quantity(Dimension::LENGTH, Range::Finite), Some(2)), least)
+}
+
+fn spatial_points(least: usize) -> Json {
+    let items = quantity(Dimension::LENGTH, Range::Finite);
+    at_least(between(object([("type", text("array")), ("items", items)]), [2, 3]), least)
 }
 
 fn at_least(items: Json, count: usize) -> Json {

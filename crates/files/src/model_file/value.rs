@@ -25,6 +25,7 @@ pub(super) enum Datum {
     Values(Vec<f64>, Option<Dimension>),
     Points(Vec<[f64; 2]>),
     Outlines(Vec<Vec<[f64; 2]>>),
+    SpatialOutlines(Vec<Vec<[f64; 3]>>),
     /// A number or the name of a curve.
     Drive(Drive),
     /// Prescribed motion along x, y and z and around.
@@ -223,6 +224,10 @@ impl<'a> At<'a> {
         self.each(self.list(least)?, |at| at.vector(Dimension::LENGTH, Range::Finite))
     }
 
+    fn spatial_points(&self, least: usize) -> Read<Vec<[f64; 3]>> {
+        self.each(self.list(least)?, |at| at.spatial(Dimension::LENGTH, Range::Finite))
+    }
+
     /// A velocity, the name of a curve, or `"free"`. A text that begins like a number is one.
     fn course(&self, dimension: Dimension, free: bool) -> Read<Course> {
         let like_a_number = |text: &str| text.is_empty() || text.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '-' | '+' | '.'));
@@ -296,6 +301,9 @@ pub(super) fn read(key: &Key, node: &Node, path: &str) -> Read<Datum> {
         Kind::Values => at.values(at.list(1)?)?,
         Kind::Points(least) => Datum::Points(at.points(least)?),
         Kind::Outlines(least) => Datum::Outlines(at.each(at.list(1)?, |at| at.points(least))?),
+        // Of one list there is no key yet: it is an item of the next.
+        Kind::SpatialPoints(least) => Datum::SpatialOutlines(vec![at.spatial_points(least)?]),
+        Kind::SpatialOutlines(least) => Datum::SpatialOutlines(at.each(at.list(1)?, |at| at.spatial_points(least))?),
         Kind::Components(dimension) => at.courses(&["x", "y", "z"], dimension, false)?,
         Kind::Motion => at.courses(&["x", "y", "z", "rotation"], Dimension::VELOCITY, true)?,
         Kind::Rigid => match node.value {
@@ -350,6 +358,8 @@ fn item(kind: Kind) -> Kind {
         Kind::Values => Kind::Quantity(Dimension::NONE, Range::Finite),
         Kind::Points(_) => Kind::Vector(Dimension::LENGTH, Range::Finite),
         Kind::Outlines(least) => Kind::Points(least),
+        Kind::SpatialPoints(_) => Kind::Spatial(Dimension::LENGTH, Range::Finite),
+        Kind::SpatialOutlines(least) => Kind::SpatialPoints(least),
         Kind::Integers(_, least) => Kind::Integer(least),
         Kind::References(_) => Kind::Reference,
         Kind::Choices(known) => Kind::Choice(known),
@@ -377,8 +387,8 @@ pub(super) fn words(kind: Kind) -> String {
         }
         Kind::Value => "a number".to_string(),
         Kind::Values => "a list of numbers".to_string(),
-        Kind::Points(least) => format!("a list of at least {least} points"),
-        Kind::Outlines(least) => format!("a list of lists of at least {least} points"),
+        Kind::Points(least) | Kind::SpatialPoints(least) => format!("a list of at least {least} points"),
+        Kind::Outlines(least) | Kind::SpatialOutlines(least) => format!("a list of lists of at least {least} points"),
         Kind::Drive(Dimension::RATE) => "an angular velocity or the name of a curve".to_string(),
         Kind::Drive(dimension) => {
             let quantity = units::quantity(dimension);
@@ -421,6 +431,8 @@ pub(super) fn example(key: &Key) -> String {
             format!("[{}]", square.iter().cycle().take(least.max(2)).copied().collect::<Vec<_>>().join(", "))
         }
         Kind::Outlines(_) => "[[[0, 0], [\"3 mm\", 0], [0, \"3 mm\"]]]".to_string(),
+        Kind::SpatialPoints(_) => "[[0, 0, 0], [0, 0, \"3 mm\"]]".to_string(),
+        Kind::SpatialOutlines(_) => "[[[0, 0, 0], [0, 0, \"3 mm\"]]]".to_string(),
         Kind::Drive(Dimension::RATE) => "\"30 rad/s\"".to_string(),
         Kind::Drive(dimension) => number(dimension),
         Kind::Components(dimension) => format!("{{ x = {} }}", number(dimension)),

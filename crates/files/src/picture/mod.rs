@@ -22,7 +22,7 @@ mod raster;
 pub(crate) mod scale;
 mod scene;
 mod sheet;
-mod space;
+pub(crate) mod space;
 pub(crate) mod svg;
 pub(crate) mod sweep;
 

@@ -6,19 +6,19 @@ use super::colour::{BORDER, DISTINCT, MAP, NO_VALUE, Rgb, SOLID, TEXT, TEXT_FAIN
 use super::scale::{number, unit};
 use super::svg::{FAMILY, escape, hex, write_text};
 use super::text::{self, Weight};
-use embate_solver::post_mortem::{Moment, Neighbourhood};
+use embate_solver::post_mortem::{Moment, NearCell, Neighbourhood};
 use std::fmt::Write;
 
 /// Colour of the culprit.
 pub(crate) const CULPRIT: Rgb = [214, 20, 60];
 /// Width of a panel where there are several, and of one alone, pixels; limits of its height over its width; the air around it, and the room for the culprit's name in it.
-const WIDE: [f64; 2] = [500.0, 760.0];
-const HIGH: [f64; 2] = [0.3, 1.1];
-const AIR: f64 = 16.0;
-const NAME: f64 = 42.0;
+pub(super) const WIDE: [f64; 2] = [500.0, 760.0];
+pub(super) const HIGH: [f64; 2] = [0.3, 1.1];
+pub(super) const AIR: f64 = 16.0;
+pub(super) const NAME: f64 = 42.0;
 /// A culprit that is narrower, pixels, gets a line to it.
-const FOUND: f64 = 22.0;
-const HEAD: f64 = 34.0;
+pub(super) const FOUND: f64 = 22.0;
+pub(super) const HEAD: f64 = 34.0;
 /// Largest number of an element, pixels; a smaller one than the second is not legible.
 const FONT: f64 = 12.0;
 const FONT_LEAST: f64 = 7.0;
@@ -30,21 +30,42 @@ pub(crate) struct Panel<'a> {
     pub(crate) moment: &'a Moment,
 }
 
-/// The picture as the text of an SVG file; `mark` is what the culprit is called in it.
+/// The picture as the text of an SVG file; `mark` is what the culprit is called in it, `depth` the unit of forces.
 pub(crate) fn neighbourhood(title: &str, near: &Neighbourhood, panels: &[Panel<'_>], mark: &str, depth: &str) -> String {
-    let columns = panels.len().clamp(1, 2);
-    let rows = panels.len().div_ceil(columns);
-    let scene = Scene::new(near, panels, WIDE[usize::from(columns == 1)]);
-    let [wide, high] = scene.size;
+    let scene = Scene::new(near, panels, width_of(panels.len()));
+    laid_out(
+        title,
+        panels.len(),
+        scene.size,
+        |out, k, corner| scene.panel(out, &panels[k], corner, k, mark),
+        |out, corner, width| scene.legend.write(out, corner, width, (mark, depth), Vec::new()),
+    )
+}
+
+/// Width of each of so many panels, pixels.
+pub(super) fn width_of(panels: usize) -> f64 {
+    WIDE[usize::from(panels.clamp(1, 2) == 1)]
+}
+
+/// Panels of one size in two columns, with a title above and a legend below; both are told where they begin, and the legend how wide the picture is.
+pub(super) fn laid_out(
+    title: &str,
+    panels: usize,
+    [wide, high]: [f64; 2],
+    mut panel: impl FnMut(&mut String, usize, [f64; 2]),
+    legend: impl FnOnce(&mut String, [f64; 2], f64),
+) -> String {
+    let columns = panels.clamp(1, 2);
+    let rows = panels.div_ceil(columns);
     let width = columns as f64 * (wide + AIR) + AIR;
     let top = 46.0;
     let height = top + rows as f64 * (high + HEAD) + 104.0;
     let mut body = String::new();
-    for (k, panel) in panels.iter().enumerate() {
+    for k in 0..panels {
         let corner = [AIR + (k % columns) as f64 * (wide + AIR), top + HEAD + (k / columns) as f64 * (high + HEAD)];
-        scene.panel(&mut body, panel, corner, k, mark);
+        panel(&mut body, k, corner);
     }
-    scene.legend(&mut body, [AIR, top + rows as f64 * (high + HEAD) + 22.0], width, (mark, depth));
+    legend(&mut body, [AIR, top + rows as f64 * (high + HEAD) + 22.0], width);
     let mut head = String::new();
     let shown = text::fitted(title, 16.0, Weight::Bold, (width - 2.0 * AIR) as f32);
     write_text(&mut head, &shown, [AIR, 27.0], "start", TEXT, " font-size=\"16\" font-weight=\"bold\"");
@@ -69,16 +90,20 @@ struct Scene<'a> {
     /// Middle of what is shown, from the culprit, m, and pixels for a metre.
     middle: [f64; 2],
     scale: f64,
+    legend: Legend<'a>,
+}
+
+/// What colours and signs mean.
+pub(super) struct Legend<'a> {
+    pub(super) near: &'a Neighbourhood,
     /// Range of the field, and the largest force, N/m.
     range: [f64; 2],
-    force: f64,
+    pub(super) force: f64,
 }
 
 impl<'a> Scene<'a> {
     fn new(near: &'a Neighbourhood, panels: &[Panel<'_>], wide: f64) -> Self {
         let moments = || panels.iter().map(|panel| panel.moment);
-        let values = || moments().flat_map(|moment| &moment.values).copied().filter(|value| value.is_finite());
-        let (low, high) = values().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
         let reach = |moment: &Moment| {
             let centre = centre(near, moment);
             let rings = near.cells.iter().filter(|cell| cell.ring.is_some());
@@ -87,27 +112,9 @@ impl<'a> Scene<'a> {
                 [[0, 1].map(|k| low[k].min(x[k] - centre[k])), [0, 1].map(|k| high[k].max(x[k] - centre[k]))]
             })
         };
-        // Of what flies apart in the last steps the scale is that of the first ones.
-        let first = panels.first().map_or([[0.0; 2]; 2], |panel| reach(panel.moment));
-        let most = 1.5 * (0..2).map(|k| first[1][k] - first[0][k]).fold(0.0, f64::max);
-        let grown = |[low, high]: [[f64; 2]; 2], own: [[f64; 2]; 2]| {
-            [[0, 1].map(|k| low[k].min(own[0][k].max(-most))), [0, 1].map(|k| high[k].max(own[1][k].min(most)))]
-        };
-        let view = moments().map(reach).fold(first, grown);
-        // What is opposite of the culprit is shown as well.
-        let own = |cell: &&embate_solver::post_mortem::NearCell| near.cells.first().is_some_and(|first| first.part == cell.part);
-        let air = if near.cells.iter().all(|cell| own(&cell)) { 1.08 } else { 1.3 };
-        let span = [0, 1].map(|k| air * (view[1][k] - view[0][k])).map(|span| if span > 0.0 { span } else { 1.0 });
-        let size = [wide, (wide * span[1] / span[0] + NAME).clamp(HIGH[0] * wide, HIGH[1] * wide)];
-        let norms = moments().flat_map(|moment| &moment.forces).map(|f| f[0].hypot(f[1])).filter(|norm| norm.is_finite());
-        Self {
-            near,
-            size,
-            middle: [0, 1].map(|k| 0.5 * (view[0][k] + view[1][k])),
-            scale: (size[0] / span[0]).min((size[1] - NAME) / span[1]),
-            range: if low < high { [low, high] } else { [low.min(0.0), high.max(low.min(0.0) + 1.0)] },
-            force: norms.fold(0.0, f64::max),
-        }
+        let view = common(&moments().map(reach).collect::<Vec<_>>());
+        let (size, middle, scale) = fitted(view, air(near), wide);
+        Self { near, size, middle, scale, legend: Legend::new(near, panels, |f| f[0].hypot(f[1])) }
     }
 
     fn panel(&self, out: &mut String, panel: &Panel<'_>, corner: [f64; 2], number: usize, mark: &str) {
@@ -139,7 +146,7 @@ impl<'a> Scene<'a> {
             }
             let points: Vec<[f64; 2]> = corners.into_iter().map(place).collect();
             let is_culprit = self.near.element == Some(k);
-            let fill = self.fill(moment.values.get(k).copied().unwrap_or(f64::NAN), cell.ring.is_some());
+            let fill = self.legend.fill(moment.values.get(k).copied().unwrap_or(f64::NAN), cell.ring.is_some());
             let own = DISTINCT[cell.part % DISTINCT.len()];
             let (stroke, wide) = if is_culprit { (CULPRIT, 3.5) } else { (own, 1.1) };
             let _ = writeln!(
@@ -159,36 +166,18 @@ impl<'a> Scene<'a> {
             writeln!(out, "<rect x=\"{left}\" y=\"{top}\" width=\"{wide}\" height=\"{high}\" fill=\"none\" stroke=\"{}\"/>", hex(BORDER));
     }
 
-    /// Colour of a value; paler where the element does not hang together with the culprit.
-    fn fill(&self, value: f64, is_ring: bool) -> Rgb {
-        if !value.is_finite() {
-            return NO_VALUE;
-        }
-        let level = ((value - self.range[0]) / (self.range[1] - self.range[0])).clamp(0.0, 1.0);
-        let colour = MAP[(level * (MAP.len() - 1) as f64).round() as usize];
-        mix(WHITE, colour, if is_ring { 0.8 } else { 0.35 })
-    }
-
     /// Contact forces as arrows that end at their nodes.
     fn forces(&self, out: &mut String, moment: &Moment, place: &impl Fn([f64; 2]) -> [f64; 2]) {
         let colour = hex(DISTINCT[3]);
         for (&x, &force) in moment.positions.iter().zip(&moment.forces) {
             let (x, force) = (seen(x), seen(force));
             let size = force[0].hypot(force[1]);
-            if self.force <= 0.0 || !size.is_finite() || size < 0.02 * self.force || !is_finite(x) {
+            if self.legend.force <= 0.0 || !size.is_finite() || size < 0.02 * self.legend.force || !is_finite(x) {
                 continue;
             }
             let tip = place(x);
-            let (length, along) = (12.0 + 50.0 * size / self.force, [force[0] / size, -force[1] / size]);
-            let tail = [0, 1].map(|k| tip[k] - length * along[k]);
-            let side = [-along[1], along[0]];
-            let barb = |sign: f64| [0, 1].map(|k| tip[k] - 8.0 * along[k] + sign * 4.0 * side[k]);
-            let (a, b) = (barb(1.0), barb(-1.0));
-            let _ = writeln!(
-                out,
-                "<path d=\"M{:.1} {:.1}L{:.1} {:.1}M{:.1} {:.1}L{:.1} {:.1}L{:.1} {:.1}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"2\"/>",
-                tail[0], tail[1], tip[0], tip[1], a[0], a[1], tip[0], tip[1], b[0], b[1]
-            );
+            let (length, along) = (12.0 + 50.0 * size / self.legend.force, [force[0] / size, -force[1] / size]);
+            arrow(out, tip, along, length, &colour);
         }
     }
 
@@ -200,18 +189,14 @@ impl<'a> Scene<'a> {
             let [x, y] = place(x);
             let _ = writeln!(out, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"7\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"3.5\"/>");
         }
-        let wide = f64::from(text::width(mark, 13.0, Weight::Bold)) + 12.0;
         let [x, y] = [left + 10.0, top + 10.0];
+        let wide = name_width(mark);
         // What is large is seen without a line to it.
         if self.near.node.is_none() && self.least(moment) * self.scale < FOUND {
             let line = path(&[[x + 0.5 * wide, y + 22.0], at], false);
             let _ = writeln!(out, "<path d=\"{line}\" stroke=\"{colour}\" stroke-width=\"1.5\"/>");
         }
-        let _ = writeln!(
-            out,
-            "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{wide:.1}\" height=\"22\" rx=\"3\" fill=\"#ffffff\" stroke=\"{colour}\" stroke-width=\"1.5\"/>"
-        );
-        write_text(out, mark, [x + 6.0, y + 15.5], "start", CULPRIT, " font-weight=\"bold\"");
+        name(out, mark, [x, y]);
     }
 
     /// The smaller side of the box around the culprit, m.
@@ -223,8 +208,65 @@ impl<'a> Scene<'a> {
         };
         side(0).min(side(1))
     }
+}
 
-    fn legend(&self, out: &mut String, [left, top]: [f64; 2], width: f64, (mark, depth): (&str, &str)) {
+/// Lower and upper corner, from the culprit, of what all panels show, of those of each.
+pub(super) fn common(reaches: &[[[f64; 2]; 2]]) -> [[f64; 2]; 2] {
+    // Of what flies apart in the last steps the scale is that of the first ones.
+    let first = reaches.first().copied().unwrap_or_default();
+    let most = 1.5 * (0..2).map(|k| first[1][k] - first[0][k]).fold(0.0, f64::max);
+    let grown = |[low, high]: [[f64; 2]; 2], own: &[[f64; 2]; 2]| {
+        [[0, 1].map(|k| low[k].min(own[0][k].max(-most))), [0, 1].map(|k| high[k].max(own[1][k].min(most)))]
+    };
+    reaches.iter().fold(first, grown)
+}
+
+/// Room around the elements: what is opposite of the culprit is shown as well.
+pub(super) fn air(near: &Neighbourhood) -> f64 {
+    let is_own = |cell: &NearCell| near.cells.first().is_some_and(|first| first.part == cell.part);
+    if near.cells.iter().all(is_own) { 1.08 } else { 1.3 }
+}
+
+/// Width and height of a panel, pixels, the middle of what it shows, and pixels for a metre.
+pub(super) fn fitted(view: [[f64; 2]; 2], air: f64, wide: f64) -> ([f64; 2], [f64; 2], f64) {
+    let span = [0, 1].map(|k| air * (view[1][k] - view[0][k])).map(|span| if span > 0.0 { span } else { 1.0 });
+    let size = [wide, (wide * span[1] / span[0] + NAME).clamp(HIGH[0] * wide, HIGH[1] * wide)];
+    (size, [0, 1].map(|k| 0.5 * (view[0][k] + view[1][k])), (size[0] / span[0]).min((size[1] - NAME) / span[1]))
+}
+
+impl<'a> Legend<'a> {
+    /// Ranges of the values of all panels, and of the sizes of forces.
+    pub(super) fn new(near: &'a Neighbourhood, panels: &[Panel<'_>], size: impl Fn(&[f64; 3]) -> f64) -> Self {
+        let moments = || panels.iter().map(|panel| panel.moment);
+        let values = || moments().flat_map(|moment| &moment.values).copied().filter(|value| value.is_finite());
+        let (low, high) = values().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
+        let norms = moments().flat_map(|moment| &moment.forces).map(size).filter(|norm| norm.is_finite());
+        Self {
+            near,
+            range: if low < high { [low, high] } else { [low.min(0.0), high.max(low.min(0.0) + 1.0)] },
+            force: norms.fold(0.0, f64::max),
+        }
+    }
+
+    /// Colour of a value; paler where the element does not hang together with the culprit.
+    pub(super) fn fill(&self, value: f64, is_ring: bool) -> Rgb {
+        if !value.is_finite() {
+            return NO_VALUE;
+        }
+        let level = ((value - self.range[0]) / (self.range[1] - self.range[0])).clamp(0.0, 1.0);
+        let colour = MAP[(level * (MAP.len() - 1) as f64).round() as usize];
+        mix(WHITE, colour, if is_ring { 0.8 } else { 0.35 })
+    }
+
+    /// Writes it; `more`: further signs and what they mean.
+    pub(super) fn write(
+        &self,
+        out: &mut String,
+        [left, top]: [f64; 2],
+        width: f64,
+        (mark, depth): (&str, &str),
+        more: Vec<(String, String)>,
+    ) {
         let (name, si) = self.near.field;
         let [low, high] = self.range;
         let unit = unit(si, low.abs().max(high.abs()));
@@ -263,6 +305,7 @@ impl<'a> Scene<'a> {
             let arrow = format!("<path d=\"M0 7H22M15 3L22 7L15 11\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"/>", hex(DISTINCT[3]));
             items.push((arrow, format!("contact force, up to {:.3} {}", self.force * most.factor, most.name)));
         }
+        items.extend(more);
         let (mut x, mut y) = (left + wide + 40.0, top);
         for (sign, name) in items {
             let name = text::fitted(&name, 13.0, Weight::Regular, 420.0);
@@ -277,8 +320,36 @@ impl<'a> Scene<'a> {
     }
 }
 
+/// Width of the culprit's name in its box, pixels.
+pub(super) fn name_width(mark: &str) -> f64 {
+    f64::from(text::width(mark, 13.0, Weight::Bold)) + 12.0
+}
+
+/// The culprit's name in a box with this upper left corner.
+pub(super) fn name(out: &mut String, mark: &str, [x, y]: [f64; 2]) {
+    let (wide, colour) = (name_width(mark), hex(CULPRIT));
+    let _ = writeln!(
+        out,
+        "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{wide:.1}\" height=\"22\" rx=\"3\" fill=\"#ffffff\" stroke=\"{colour}\" stroke-width=\"1.5\"/>"
+    );
+    write_text(out, mark, [x + 6.0, y + 15.5], "start", CULPRIT, " font-weight=\"bold\"");
+}
+
+/// An arrow of a contact force that ends at `tip`; `along` has length one.
+pub(super) fn arrow(out: &mut String, tip: [f64; 2], along: [f64; 2], length: f64, colour: &str) {
+    let tail = [0, 1].map(|k| tip[k] - length * along[k]);
+    let side = [-along[1], along[0]];
+    let barb = |sign: f64| [0, 1].map(|k| tip[k] - 8.0 * along[k] + sign * 4.0 * side[k]);
+    let (a, b) = (barb(1.0), barb(-1.0));
+    let _ = writeln!(
+        out,
+        "<path d=\"M{:.1} {:.1}L{:.1} {:.1}M{:.1} {:.1}L{:.1} {:.1}L{:.1} {:.1}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"2\"/>",
+        tail[0], tail[1], tip[0], tip[1], a[0], a[1], tip[0], tip[1], b[0], b[1]
+    );
+}
+
 /// The number of an element, as large as it fits.
-struct Label {
+pub(super) struct Label {
     text: String,
     at: [f64; 2],
     font: f64,
@@ -289,7 +360,7 @@ struct Label {
 
 impl Label {
     /// `None` where it would be too small to be read.
-    fn of(points: &[[f64; 2]], text: String, fill: Rgb, is_bold: bool) -> Option<Self> {
+    pub(super) fn of(points: &[[f64; 2]], text: String, fill: Rgb, is_bold: bool) -> Option<Self> {
         let next = |k: usize| points[(k + 1) % points.len()];
         let cross = |k: usize| points[k][0] * next(k)[1] - next(k)[0] * points[k][1];
         let area = 0.5 * (0..points.len()).map(cross).sum::<f64>().abs();
@@ -310,7 +381,7 @@ impl Label {
 }
 
 /// Those that come first stay where bodies overlap: two numbers on each other are none.
-fn write_labels(out: &mut String, labels: impl Iterator<Item = Label>) {
+pub(super) fn write_labels(out: &mut String, labels: impl Iterator<Item = Label>) {
     let mut written: Vec<Label> = Vec::new();
     for label in labels {
         if written.iter().any(|other| label.hides(other)) {
@@ -323,7 +394,7 @@ fn write_labels(out: &mut String, labels: impl Iterator<Item = Label>) {
     }
 }
 
-fn swatch(stroke: Rgb, fill: Rgb, wide: f64) -> String {
+pub(super) fn swatch(stroke: Rgb, fill: Rgb, wide: f64) -> String {
     format!("<rect x=\"1\" y=\"1\" width=\"20\" height=\"12\" fill=\"{}\" stroke=\"{}\" stroke-width=\"{wide}\"/>", hex(fill), hex(stroke))
 }
 

@@ -2,8 +2,8 @@
 //!
 //! Cells and positions come from the simulation of a failed run; the text goes to a file of its post-mortem.
 
-use super::colour::{BORDER, DISTINCT, TEXT, TEXT_FAINT, WHITE, mix};
-use super::neighbourhood::{CULPRIT, document, path};
+use super::colour::{BORDER, DISTINCT, Rgb, TEXT, TEXT_FAINT, WHITE, mix};
+use super::neighbourhood::{CULPRIT, document, name, name_width, path};
 use super::scale::{ticks, unit};
 use super::svg::{hex, write_text};
 use super::text::{self, Weight};
@@ -27,23 +27,9 @@ pub(crate) fn place(title: &str, cells: &Cells, positions: &[[f64; 2]], outlines
     if !(size(view) < 4.0 * size(bodies)) {
         view = bodies;
     }
-    let wide = size(view).max(f64::MIN_POSITIVE);
-    let middle = [0, 1].map(|k| 0.5 * (view[0][k] + view[1][k]));
-    let half = [0, 1].map(|k| (0.5 * (view[1][k] - view[0][k])).max(0.12 * wide) + 0.06 * wide);
-    let scale = ((WIDTH - 2.0 * AIR) / (2.0 * half[0])).min((HEIGHT_MOST - 110.0) / (2.0 * half[1]));
-    let (top, high) = (46.0, 2.0 * half[1] * scale);
-    let spot = |x: [f64; 2]| {
-        let on = |k: usize, origin: f64, sign: f64| (origin + sign * scale * (x[k] - middle[k])).clamp(-9e4, 9e4);
-        [on(0, 0.5 * WIDTH, 1.0), on(1, top + 0.5 * high, -1.0)]
-    };
+    let mut sheet = Sheet::new(title, view);
+    let spot = |x: [f64; 2]| sheet.spot(x);
     let mut body = String::new();
-    let shown = text::fitted(title, 16.0, Weight::Bold, (WIDTH - 2.0 * AIR) as f32);
-    write_text(&mut body, &shown, [AIR, 27.0], "start", TEXT, " font-size=\"16\" font-weight=\"bold\"");
-    let (left, frame) = (AIR, WIDTH - 2.0 * AIR);
-    let _ = writeln!(
-        body,
-        "<clipPath id=\"view\"><rect x=\"{left}\" y=\"{top}\" width=\"{frame}\" height=\"{high:.1}\"/></clipPath>\n<g clip-path=\"url(#view)\">"
-    );
     for outline in outlines {
         let points: Vec<[f64; 2]> = outline.points.iter().map(|&[x, y, _]| spot([x, y])).collect();
         let _ = writeln!(body, "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"4\"/>", path(&points, false), hex(BORDER));
@@ -63,33 +49,98 @@ pub(crate) fn place(title: &str, cells: &Cells, positions: &[[f64; 2]], outlines
             hex(colour)
         );
     }
-    let [x, y] = spot(at);
-    let red = hex(CULPRIT);
-    let _ = writeln!(
-        body,
-        "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"13\" fill=\"none\" stroke=\"{red}\" stroke-width=\"3\"/>\n<path d=\"M{:.1} {y:.1}H{:.1}M{x:.1} {:.1}V{:.1}\" stroke=\"{red}\" stroke-width=\"1.5\"/>",
-        x - 22.0,
-        x + 22.0,
-        y - 22.0,
-        y + 22.0
-    );
-    body.push_str("</g>\n");
-    let room = f64::from(text::width(mark, 13.0, Weight::Bold)) + 12.0;
-    let (tx, ty) = (
-        (x + 18.0).clamp(left + 4.0, (left + frame - room - 4.0).max(left + 4.0)),
-        (y - 38.0).clamp(top + 4.0, (top + high - 26.0).max(top + 4.0)),
-    );
-    let _ = writeln!(
-        body,
-        "<rect x=\"{tx:.1}\" y=\"{ty:.1}\" width=\"{room:.1}\" height=\"22\" rx=\"3\" fill=\"#ffffff\" stroke=\"{red}\" stroke-width=\"1.5\"/>"
-    );
-    write_text(&mut body, mark, [tx + 6.0, ty + 15.5], "start", CULPRIT, " font-weight=\"bold\"");
-    let _ =
-        writeln!(body, "<rect x=\"{left}\" y=\"{top}\" width=\"{frame}\" height=\"{high:.1}\" fill=\"none\" stroke=\"{}\"/>", hex(BORDER));
-    let below = top + high + 28.0;
-    scale_bar(&mut body, [left, below], scale, wide);
-    parts(&mut body, cells, [left + 260.0, below]);
-    document([WIDTH, below + 24.0], title, &body)
+    let at = spot(at);
+    sheet.body += &body;
+    sheet.finish(title, cells, at, mark, "", |part| mix(WHITE, DISTINCT[part % DISTINCT.len()], 0.35))
+}
+
+/// A picture of a place: a plot with a title, a mark, a scale and the names of parts.
+pub(super) struct Sheet {
+    pub(super) body: String,
+    /// Pixels for a metre.
+    pub(super) scale: f64,
+    /// Middle of what is shown, m, and its longer side.
+    middle: [f64; 2],
+    wide: f64,
+    /// Height of the plot, pixels.
+    high: f64,
+}
+
+/// Width of the plot, and where it begins, pixels.
+const FRAME: f64 = WIDTH - 2.0 * AIR;
+const TOP: f64 = 46.0;
+
+impl Sheet {
+    /// With a title and room for what lies between these corners, m.
+    pub(super) fn new(title: &str, view: [[f64; 2]; 2]) -> Self {
+        let wide = size(view).max(f64::MIN_POSITIVE);
+        let middle = [0, 1].map(|k| 0.5 * (view[0][k] + view[1][k]));
+        let half = [0, 1].map(|k| (0.5 * (view[1][k] - view[0][k])).max(0.12 * wide) + 0.06 * wide);
+        let scale = (FRAME / (2.0 * half[0])).min((HEIGHT_MOST - 110.0) / (2.0 * half[1]));
+        let (top, high) = (TOP, 2.0 * half[1] * scale);
+        let mut body = String::new();
+        let shown = text::fitted(title, 16.0, Weight::Bold, FRAME as f32);
+        write_text(&mut body, &shown, [AIR, 27.0], "start", TEXT, " font-size=\"16\" font-weight=\"bold\"");
+        let _ = writeln!(
+            body,
+            "<clipPath id=\"view\"><rect x=\"{AIR}\" y=\"{top}\" width=\"{FRAME}\" height=\"{high:.1}\"/></clipPath>\n<g clip-path=\"url(#view)\">"
+        );
+        Self { body, scale, middle, wide, high }
+    }
+
+    /// Upper left corner and size of the plot, pixels.
+    pub(super) fn plot(&self) -> ([f64; 2], [f64; 2]) {
+        ([AIR, TOP], [FRAME, self.high])
+    }
+
+    /// Where a place (m) is in the picture; what is far away is held back.
+    pub(super) fn spot(&self, x: [f64; 2]) -> [f64; 2] {
+        let on = |k: usize, origin: f64, sign: f64| (origin + sign * self.scale * (x[k] - self.middle[k])).clamp(-9e4, 9e4);
+        [on(0, 0.5 * WIDTH, 1.0), on(1, TOP + 0.5 * self.high, -1.0)]
+    }
+
+    /// Adds the mark at a point of the picture and what stands below the plot; `note`: what else is to be known; `colour`: that of a part.
+    pub(super) fn finish(
+        mut self,
+        title: &str,
+        cells: &Cells,
+        [x, y]: [f64; 2],
+        mark: &str,
+        note: &str,
+        colour: impl Fn(usize) -> Rgb,
+    ) -> String {
+        let (body, (left, frame), (top, high)) = (&mut self.body, (AIR, FRAME), (TOP, self.high));
+        let red = hex(CULPRIT);
+        let _ = writeln!(
+            body,
+            "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"13\" fill=\"none\" stroke=\"{red}\" stroke-width=\"3\"/>\n<path d=\"M{:.1} {y:.1}H{:.1}M{x:.1} {:.1}V{:.1}\" stroke=\"{red}\" stroke-width=\"1.5\"/>",
+            x - 22.0,
+            x + 22.0,
+            y - 22.0,
+            y + 22.0
+        );
+        body.push_str("</g>\n");
+        let room = name_width(mark);
+        let (tx, ty) = (
+            (x + 18.0).clamp(left + 4.0, (left + frame - room - 4.0).max(left + 4.0)),
+            (y - 38.0).clamp(top + 4.0, (top + high - 26.0).max(top + 4.0)),
+        );
+        name(body, mark, [tx, ty]);
+        let _ = writeln!(
+            body,
+            "<rect x=\"{left}\" y=\"{top}\" width=\"{frame}\" height=\"{high:.1}\" fill=\"none\" stroke=\"{}\"/>",
+            hex(BORDER)
+        );
+        let below = top + high + 28.0;
+        scale_bar(body, [left, below], self.scale, self.wide);
+        parts(body, cells, [left + 260.0, below], colour);
+        let mut foot = below + 24.0;
+        if !note.is_empty() {
+            write_text(body, note, [left, foot + 16.0], "start", TEXT_FAINT, "");
+            foot += 26.0;
+        }
+        document([WIDTH, foot], title, body)
+    }
 }
 
 /// A bar of a round length.
@@ -116,7 +167,7 @@ fn scale_bar(out: &mut String, [x, y]: [f64; 2], scale: f64, wide: f64) {
     );
 }
 
-fn parts(out: &mut String, cells: &Cells, [mut x, y]: [f64; 2]) {
+fn parts(out: &mut String, cells: &Cells, [mut x, y]: [f64; 2], fill: impl Fn(usize) -> Rgb) {
     for (part, name) in cells.part_names.iter().enumerate() {
         let name = text::fitted(name, 13.0, Weight::Regular, 160.0);
         let need = 46.0 + f64::from(text::width(&name, 13.0, Weight::Regular));
@@ -128,7 +179,7 @@ fn parts(out: &mut String, cells: &Cells, [mut x, y]: [f64; 2]) {
             out,
             "<rect x=\"{x:.1}\" y=\"{:.1}\" width=\"20\" height=\"12\" fill=\"{}\" stroke=\"{}\"/>",
             y - 8.0,
-            hex(mix(WHITE, colour, 0.35)),
+            hex(fill(part)),
             hex(colour)
         );
         write_text(out, &name, [x + 26.0, y + 3.0], "start", TEXT, "");

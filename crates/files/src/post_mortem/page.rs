@@ -8,9 +8,12 @@ use crate::model_file::Loaded;
 use crate::picture::neighbourhood::{Panel, neighbourhood};
 use crate::picture::place::place;
 use crate::picture::scale::unit;
+use crate::picture::space::{self, Spot};
 use embate_solver::error::Error;
 use embate_solver::message::Message;
-use embate_solver::post_mortem::{Culprit, Moment, RINGS, Vitals};
+use embate_solver::model::Model;
+use embate_solver::post_mortem::{Culprit, Moment, Neighbourhood, RINGS, Trace, Vitals};
+use embate_solver::simulation::Simulation;
 use std::fmt::Write;
 
 /// Panels of the neighbourhood.
@@ -84,16 +87,11 @@ pub(super) fn of_run(failed: &Failed<'_>, findings: &Findings) -> Files {
     let depth = if round { "N" } else { "N/m" };
     let mark = mark(&case.culprit);
     let mut files: Files = Vec::new();
-    // Pictures of the place are those of the plane.
-    let is_plane = simulation.dimension() == 2;
-    if let Some(at) = case.culprit.at().filter(|at| is_plane && at.iter().all(|v| v.is_finite())) {
-        let frame = simulation.frame();
-        let title = format!("{name} – where: {}", point(at, 2));
-        files.push(("place.svg", place(&title, &simulation.cells(), frame.positions::<2>(), &frame.outlines, [at[0], at[1]], &mark)));
-    }
-    if is_plane && !trace.near.cells.is_empty() {
+    files.extend(place_of_culprit(failed, &case, &findings.trace, &mark));
+    if !trace.near.cells.is_empty() {
         let title = format!("{name} – {} and the elements around it", case.culprit);
-        files.push(("neighbourhood.svg", neighbourhood(&title, &trace.near, &panels(failed, trace), &mark, depth)));
+        let panels = panels(failed, trace);
+        files.push(("neighbourhood.svg", neighbourhood_of(failed.model, simulation, &title, &trace.near, &panels, [&mark, depth])));
     }
     let culprit = culprit_plot(&format!("{name} – {} over the last steps", case.culprit), trace, step, round);
     files.extend(culprit.map(|text| ("culprit.svg", text)));
@@ -101,6 +99,44 @@ pub(super) fn of_run(failed: &Failed<'_>, findings: &Findings) -> Files {
     let page = text(&case, findings, &files);
     files.push(("README.md", page));
     files
+}
+
+/// Where the culprit is in the model.
+fn place_of_culprit(failed: &Failed<'_>, case: &Case<'_>, trace: &Trace, mark: &str) -> Option<(&'static str, String)> {
+    let (simulation, model) = (failed.simulation, failed.model);
+    let at = case.culprit.at().filter(|at| at.iter().all(|v| v.is_finite()))?;
+    let title = format!("{} – where: {}", model.name, point(at, simulation.dimension()));
+    // Where the run failed its element is, if it is one.
+    let own = trace.near.element.filter(|_| trace.near.node.is_none());
+    let nodes = own
+        .zip(trace.moments.last())
+        .map_or(Vec::new(), |(element, moment)| trace.near.cells[element].nodes.iter().map(|&node| moment.positions[node]).collect());
+    Some(("place.svg", place_in(model, simulation, &title, &Spot { at, nodes: &nodes, mark })))
+}
+
+/// The picture of a place, in the plane or in space.
+pub(super) fn place_in(model: &Model, simulation: &Simulation, title: &str, spot: &Spot<'_>) -> String {
+    let (frame, cells) = (simulation.frame(), simulation.cells());
+    if simulation.dimension() == 2 {
+        return place(title, &cells, frame.positions::<2>(), &frame.outlines, [spot.at[0], spot.at[1]], spot.mark);
+    }
+    space::place(title, &cells, &frame, spot, &model.output.camera.unwrap_or_default())
+}
+
+/// The picture of a neighbourhood, in the plane or in space.
+pub(super) fn neighbourhood_of(
+    model: &Model,
+    simulation: &Simulation,
+    title: &str,
+    near: &Neighbourhood,
+    panels: &[Panel<'_>],
+    [mark, depth]: [&str; 2],
+) -> String {
+    if simulation.dimension() == 2 {
+        return neighbourhood(title, near, panels, mark, depth);
+    }
+    let camera = model.output.camera.unwrap_or_default();
+    space::neighbourhood(title, near, panels, (mark, depth), &camera, &simulation.frame())
 }
 
 /// What the culprit is called in pictures.
@@ -114,7 +150,7 @@ fn mark(culprit: &Culprit) -> String {
 }
 
 /// The times that are shown: the last two, and earlier ones ever farther back.
-fn panels<'a>(failed: &Failed<'_>, trace: &'a embate_solver::post_mortem::Trace) -> Vec<Panel<'a>> {
+fn panels<'a>(failed: &Failed<'_>, trace: &'a Trace) -> Vec<Panel<'a>> {
     let step = failed.simulation.steps();
     let all = &trace.moments;
     let Some(last) = all.len().checked_sub(1) else { return Vec::new() };

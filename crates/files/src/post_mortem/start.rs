@@ -3,12 +3,12 @@
 //! The page has what the model needs: which elements ask for the mass, which parts for the memory.
 
 use super::advice::Advice;
-use super::page::{causes, point, shown, table};
+use super::page::{causes, neighbourhood_of, place_in, point, shown, table};
 use super::plots::mass as mass_plot;
 use super::{Files, write};
 use crate::model_file::Loaded;
-use crate::picture::neighbourhood::{Panel, neighbourhood};
-use crate::picture::place::place;
+use crate::picture::neighbourhood::Panel;
+use crate::picture::space::Spot;
 use crate::results::ResultsError;
 use embate_solver::error::{Fault, MASS_SCALING, MEMORY};
 use embate_solver::model::Model;
@@ -39,16 +39,16 @@ fn of_mass(loaded: &Loaded, fault: &Fault, needed: &MassNeeded) -> Files {
     trace.moments.iter_mut().for_each(|moment| moment.values.clone_from(&shares));
     let mark = needed.heaviest.first().map_or(String::new(), |it| format!("element {}", it.element));
     let depth = if model.is_of_whole_bodies() { "N" } else { "N/m" };
-    if let (Some(worst), Some(moment), 2) = (needed.heaviest.first(), trace.moments.first(), model.dimension()) {
-        let frame = simulation.frame();
-        let title = format!("{} – where most mass is needed: {}", model.name, point(worst.at, 2));
-        files.push((
-            "place.svg",
-            place(&title, &simulation.cells(), frame.positions::<2>(), &frame.outlines, [worst.at[0], worst.at[1]], &mark),
-        ));
+    if let (Some(worst), Some(moment)) = (needed.heaviest.first(), trace.moments.first()) {
+        let title = format!("{} – where most mass is needed: {}", model.name, point(worst.at, model.dimension()));
+        let nodes: Vec<[f64; 3]> = trace
+            .near
+            .element
+            .map_or(Vec::new(), |element| trace.near.cells[element].nodes.iter().map(|&node| moment.positions[node]).collect());
+        files.push(("place.svg", place_in(model, simulation, &title, &Spot { at: worst.at, nodes: &nodes, mark: &mark })));
         let title = format!("{} – element {} of part \"{}\" and the elements around it", model.name, worst.element, worst.part);
         let panel = Panel { title: "at the start".into(), remark: format!("its step is {}", shown(worst.time_step, "s")), moment };
-        files.push(("neighbourhood.svg", neighbourhood(&title, &trace.near, &[panel], &mark, depth)));
+        files.push(("neighbourhood.svg", neighbourhood_of(model, simulation, &title, &trace.near, &[panel], [&mark, depth])));
     }
     files.push(("mass.svg", mass_plot(&format!("{} – mass for a longer step", model.name), needed)));
     files.push(("README.md", mass_text(loaded, fault, needed)));
@@ -83,9 +83,7 @@ fn mass_text(loaded: &Loaded, fault: &Fault, needed: &MassNeeded) -> String {
                 vec!["step that is asked for".into(), shown(needed.scaling.time_step, "s")],
             ],
         );
-        if model.dimension() == 2 {
-            text.push_str("\n![Where it is](place.svg)\n\n![The neighbourhood](neighbourhood.svg)\n\n");
-        }
+        text.push_str("\n![Where it is](place.svg)\n\n![The neighbourhood](neighbourhood.svg)\n\n");
         let parts = &needed.parts;
         let most = parts.iter().max_by(|a, b| a.added.total_cmp(&b.added));
         if let Some((index, part)) = most.and_then(|most| Some((model.parts.iter().position(|part| part.name == most.part)?, most))) {

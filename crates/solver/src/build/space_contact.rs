@@ -1,6 +1,7 @@
 //! Contacts between surfaces in space: nodes against facets, made from the surfaces that a contact names and from the stiffness of the elements behind them.
 
 use super::outline::{self, Outline};
+use super::space_start::Meeting;
 use super::{Builder, law_of, search_by_name, source_of, stiffness_of, terms_of, terms_of_ties};
 use crate::contact::formulation::{self, Passes};
 use crate::contact::initial;
@@ -93,28 +94,37 @@ impl Builder<'_, 3> {
 
     /// The body of an obstacle, and what makes springs at it. Faults have paths relative to the obstacle.
     fn obstacle_in_space(&mut self, obstacle: &Obstacle) -> Result<(usize, Box<dyn Formulation<3>>), Fault> {
-        if obstacle.interface.initial_penetration == InitialPenetration::PushOut {
-            let help = "move the bodies apart, or take \"ignore\"";
-            return Err(Fault::new(&NOT_IN_SPACE, "initial_penetration", "in space nothing is pushed out", help));
-        }
-        let outside = self.mesh.outside_without(&obstacle.parts, |facet| self.constraints.is_mirror(facet));
-        let outside = outside.map_err(|fault| Fault { path: "parts".into(), ..fault })?;
+        let outside = self.outside_met(obstacle)?;
         match &obstacle.shape {
             ObstacleShape::Triangles(surface) => self.triangles(obstacle, surface, outside),
             _ => self.node_solid(obstacle, &outside),
         }
     }
 
+    /// The outside of the parts that an obstacle meets.
+    pub(super) fn outside_met(&self, obstacle: &Obstacle) -> Result<SpaceSurface, Fault> {
+        let outside = self.mesh.outside_without(&obstacle.parts, |facet| self.constraints.is_mirror(facet));
+        outside.map_err(|fault| Fault { path: "parts".into(), ..fault })
+    }
+
+    /// Nodes of the outside (ascending) that an obstacle may press: what a symmetry plane keeps at its distance from a plane needs no spring.
+    pub(super) fn nodes_pressed(&self, obstacle: &Obstacle, outside: &SpaceSurface) -> Vec<u32> {
+        let along = if let ObstacleShape::Plane { normal, .. } = obstacle.shape { unit(normal) } else { None };
+        let is_held = |node: u32| along.is_some_and(|n| self.constraints.mirror_normals(node).any(|m| dot(m, n).abs() > 1.0 - 1e-12));
+        outside.nodes.iter().copied().filter(|&node| !is_held(node)).collect()
+    }
+
     fn node_solid(&mut self, obstacle: &Obstacle, outside: &SpaceSurface) -> Result<(usize, Box<dyn Formulation<3>>), Fault> {
         let (reference, solid, (points, facets)) = self.solid(obstacle)?;
         let Sided { nodes: own, .. } = self.sided(outside, &obstacle.interface);
         let spacing = own.iter().map(|own| own.area.sqrt()).sum::<f64>() / own.len().max(1) as f64;
-        // What a symmetry plane keeps at its distance from a plane needs no spring.
-        let along = if let ObstacleShape::Plane { normal, .. } = obstacle.shape { unit(normal) } else { None };
-        let is_held = |node: u32| along.is_some_and(|n| self.constraints.mirror_normals(node).any(|m| dot(m, n).abs() > 1.0 - 1e-12));
+        let pressed = self.nodes_pressed(obstacle, outside);
         let slave = |(&node, &own): (&u32, &Tributary)| {
             let here = Node { own, other: own.stiffness, share: self.constraints.share(node) };
-            (!is_held(node)).then(|| (node, Slave { stiffness: stiffness_of(&obstacle.interface, here, 1), area: own.area }))
+            pressed
+                .binary_search(&node)
+                .is_ok()
+                .then(|| (node, Slave { stiffness: stiffness_of(&obstacle.interface, here, 1), area: own.area }))
         };
         let nodes = outside.nodes.iter().zip(&own).filter_map(slave).collect();
         let body = match self.made.get(&obstacle.name) {
@@ -130,7 +140,7 @@ impl Builder<'_, 3> {
     }
 
     /// The shape of an obstacle as its body sees it from a reference point (m), grown by the distance that it keeps; points and facets of its outline.
-    fn solid(&self, obstacle: &Obstacle) -> Result<(Vector, Solid, Outline), Fault> {
+    pub(super) fn solid(&self, obstacle: &Obstacle) -> Result<(Vector, Solid, Outline), Fault> {
         let thickness = obstacle.interface.thickness;
         let far = 20.0 * initial::size(&self.mesh.positions);
         let grown = |radius: f64, hollow: bool| if hollow { radius - thickness } else { radius + thickness };
@@ -188,10 +198,13 @@ impl Builder<'_, 3> {
                 InitialPenetration::Error => self.faults.extend(initial::faults(&format!("contact[{i}]"), &contact.name, &found)),
                 InitialPenetration::PushOut => {
                     lines.extend(initial::lines(&contact.name, &found, super::start::PUSHED));
-                    pushed.push(i);
+                    pushed.push(Meeting::Contact(i));
                 }
             }
         }
+        let (told, met) = self.obstacles_at_start(tolerance);
+        lines.extend(told);
+        pushed.extend(met);
         self.push_out_in_space(&pushed, tolerance);
         lines.extend(self.inside_triangles(tolerance));
         lines

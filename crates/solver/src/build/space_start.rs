@@ -2,15 +2,18 @@
 
 use super::Builder;
 use super::space_contact::meets_edges;
-use super::start::ROUNDS;
+use super::start::{IGNORED, PUSHED, ROUNDS};
 use crate::contact::formulation;
-use crate::contact::initial;
 use crate::contact::initial::space::{Look, Movable};
+use crate::contact::initial::{self, Inside, Penetration};
+use crate::contact::obstacle::space::{Solid, Vector};
 use crate::contact::search::Search;
 use crate::error::Fault;
-use crate::model;
+use crate::mesh::surface::SpaceSurface;
+use crate::model::{self, InitialPenetration, ObstacleShape, TriangleSurface};
+use crate::vector::minus;
 
-impl Builder<'_, 3> {
+impl<'m> Builder<'m, 3> {
     /// Does something with the first look of a contact at its surfaces. Wrong surfaces see nothing: they are told when contacts are made.
     pub(super) fn look<T>(&self, contact: &model::Contact, act: impl FnOnce(&Look<'_>) -> T) -> T {
         let tracker = || self.tracker_in_space(contact).ok().map(|(tracker, _)| tracker);
@@ -19,32 +22,75 @@ impl Builder<'_, 3> {
         act(&Look { tracker: &tracker, edges: if with_edges { Some(&search) } else { None }, thickness: contact.interface.thickness })
     }
 
-    /// Pushes nodes out of the bodies of these contacts, in the mesh.
-    pub(super) fn push_out_in_space(&mut self, contacts: &[usize], tolerance: f64) {
-        if contacts.is_empty() {
+    /// What obstacles do to nodes that are inside of them at the start: lines for the overview, and those out of which nodes are pushed. Faults are told when all springs are known.
+    pub(super) fn obstacles_at_start(&self, tolerance: f64) -> (Vec<String>, Vec<Meeting<'m>>) {
+        let (model, mut lines, mut pushed) = (self.model, Vec::new(), Vec::new());
+        for obstacle in model.obstacles.iter().filter(|it| it.interface.active[0] <= 0.0) {
+            let what = match obstacle.interface.initial_penetration {
+                InitialPenetration::Error => continue,
+                InitialPenetration::Ignore => IGNORED,
+                InitialPenetration::PushOut => PUSHED,
+            };
+            // Wrong parts and shapes are told when obstacles are made.
+            let Ok(outside) = self.outside_met(obstacle) else { continue };
+            if let ObstacleShape::Triangles(surface) = &obstacle.shape {
+                let thickness = obstacle.interface.thickness;
+                if what == PUSHED {
+                    let found = self.penetrations_of_triangles(surface, outside.clone(), thickness, tolerance);
+                    lines.extend(initial::lines(&obstacle.name, &found, what));
+                    pushed.push(Meeting::Triangles { surface, outside, thickness });
+                }
+                continue;
+            }
+            let Ok((reference, solid, _)) = self.solid(obstacle) else { continue };
+            let nodes = self.nodes_pressed(obstacle, &outside);
+            let inside = |&node: &u32| {
+                let place = self.mesh.positions[node as usize];
+                let depth = -solid.distance(minus(place, reference)).0;
+                (depth > tolerance).then_some(Penetration { what: Inside::Node, place, depth })
+            };
+            lines.extend(initial::lines(&obstacle.name, &nodes.iter().filter_map(inside).collect::<Vec<_>>(), what));
+            if what == PUSHED {
+                pushed.push(Meeting::Solid { nodes, solid, reference });
+            }
+        }
+        (lines, pushed)
+    }
+
+    /// Pushes nodes out of each other's bodies and out of obstacles, in the mesh. What is left behind obstacles is told when all springs are known.
+    pub(super) fn push_out_in_space(&mut self, meetings: &[Meeting<'_>], tolerance: f64) {
+        if meetings.is_empty() {
             return;
         }
         let (model, mut positions, mut is_moved) = (self.model, self.mesh.positions.clone(), false);
+        let count = positions.len();
         for _ in 0..ROUNDS {
-            let mut movable = Movable { positions: &mut positions, constraints: &self.constraints, tolerance };
             let mut moves = false;
-            for &i in contacts {
-                moves |= self.look(&model.contacts[i], |look| movable.push_out(look));
+            for meeting in meetings {
+                if let Meeting::Triangles { surface, .. } = meeting {
+                    positions.extend(&surface.positions);
+                }
+                let mut movable = Movable { positions: &mut positions, count, constraints: &self.constraints, tolerance };
+                moves |= match meeting {
+                    Meeting::Contact(i) => self.look(&model.contacts[*i], |look| movable.push_out(look)),
+                    Meeting::Solid { nodes, solid, reference } => movable.push_off(nodes, |x| solid.distance(minus(x, *reference))),
+                    Meeting::Triangles { surface, outside, thickness } => {
+                        self.look_at_triangles(surface, outside, *thickness, |look| movable.push_out(look))
+                    }
+                };
+                positions.truncate(count);
             }
             is_moved |= moves;
             if !moves {
                 break;
             }
         }
-        for &i in contacts {
-            let contact = &model.contacts[i];
+        for meeting in meetings {
+            let Meeting::Contact(i) = meeting else { continue };
+            let contact = &model.contacts[*i];
             let left = self.look(contact, |look| look.penetrations(&positions, tolerance));
             let faults = initial::faults(&format!("contact[{i}]"), &contact.name, &left);
-            self.faults.extend(faults.into_iter().map(|fault| Fault {
-                message: format!("{} and can't be pushed out", fault.message),
-                help: "move the bodies apart".into(),
-                ..fault
-            }));
+            self.faults.extend(faults.into_iter().map(stuck));
         }
         if is_moved {
             self.positions.clone_from(&positions);
@@ -54,4 +100,19 @@ impl Builder<'_, 3> {
             }
         }
     }
+}
+
+/// What nodes are pushed out of.
+pub(super) enum Meeting<'a> {
+    /// Bodies of the contact with this number.
+    Contact(usize),
+    /// A plane, a ball or a cylinder, seen from its reference point, m.
+    Solid { nodes: Vec<u32>, solid: Solid, reference: Vector },
+    /// Triangles, with the outside of what meets them, and the distance that they keep, m.
+    Triangles { surface: &'a TriangleSurface, outside: SpaceSurface, thickness: f64 },
+}
+
+/// The fault of what stays inside.
+pub(super) fn stuck(fault: Fault) -> Fault {
+    Fault { message: format!("{} and can't be pushed out", fault.message), help: "move the bodies apart".into(), ..fault }
 }

@@ -5,8 +5,10 @@
 //! fine as the parts meet them half in each pass.
 
 use super::space_contact::Sided;
+use super::space_start::stuck;
 use super::{Builder, law_of, search_by_name};
 use crate::contact::edge_edge::EdgeTouch;
+use crate::contact::initial::space::Look;
 use crate::contact::initial::{self, Inside, Penetration};
 use crate::contact::node_facet::tracker::{Touch, Tracker};
 use crate::contact::node_facet::{NodeFacet, edges_at_start};
@@ -116,15 +118,34 @@ impl Builder<'_, 3> {
             let found = self.penetrations_of_triangles(surface, outside, obstacle.interface.thickness, tolerance);
             match obstacle.interface.initial_penetration {
                 InitialPenetration::Ignore => lines.extend(initial::lines(&obstacle.name, &found, super::start::IGNORED)),
-                InitialPenetration::Error | InitialPenetration::PushOut => {
-                    self.faults.extend(initial::faults(&format!("obstacle[{i}]"), &obstacle.name, &found));
+                InitialPenetration::Error => self.faults.extend(initial::faults(&format!("obstacle[{i}]"), &obstacle.name, &found)),
+                // What is left: the rest was pushed out.
+                InitialPenetration::PushOut => {
+                    self.faults.extend(initial::faults(&format!("obstacle[{i}]"), &obstacle.name, &found).into_iter().map(stuck));
                 }
             }
         }
         lines
     }
 
-    fn penetrations_of_triangles(
+    /// Does something with the first look of an obstacle of triangles at the outside of the parts; points of the obstacle follow the nodes of the model.
+    pub(super) fn look_at_triangles<T>(
+        &self,
+        surface: &TriangleSurface,
+        outside: &SpaceSurface,
+        thickness: f64,
+        act: impl FnOnce(&Look<'_>) -> T,
+    ) -> T {
+        let positions: Vec<[f64; 3]> = self.mesh.positions.iter().chain(&surface.positions).copied().collect();
+        let own = SpaceSurface::of_triangles(surface, self.mesh.positions.len() as u32);
+        let tracker = || {
+            let surfaces = vec![outside.clone(), own.clone()];
+            Some(Tracker::new(surfaces, PASSES, &self.body_of_node, search(), &positions).measured_by(0, &positions))
+        };
+        act(&Look { tracker: &tracker, edges: Some(&|| Some(search())), thickness })
+    }
+
+    pub(super) fn penetrations_of_triangles(
         &self,
         surface: &TriangleSurface,
         outside: SpaceSurface,

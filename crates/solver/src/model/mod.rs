@@ -27,8 +27,8 @@ use crate::element::{BARS, ELEMENTS, ElementKind, elements_of};
 pub use crate::mesh::placement::{Copies, Mirror, Placement};
 use crate::mesh::shapes::Count;
 pub use crate::mesh::shapes::{
-    Cuboid, Cylinder, Disk, Edge, Extrude, Path, Polygon, Quadrilateral, Rectangle, Revolve, Ring, Shape, Sphere, Sweep, Trapezoid, Truss,
-    Tube,
+    Cuboid, Cylinder, Disk, Edge, Extrude, Path, Polygon, Quadrilateral, Rectangle, Revolve, Ring, Shape, SpaceTruss, Sphere, Sweep,
+    Trapezoid, Truss, Tube,
 };
 use std::collections::BTreeMap;
 use std::sync::Arc;

@@ -20,7 +20,7 @@ where
 {
     fn warnings(&self) -> Vec<Notice> {
         let mut warnings: Vec<Notice> = self.model_warnings.iter().map(Notice::from).chain(self.warnings.iter().cloned()).collect();
-        warnings.extend(self.watch.notices());
+        warnings.extend(self.watch.notices(&self.system));
         let mut tell = |kind, text: String| warnings.push(Notice::new(kind, text));
         for contact in &self.system.contacts {
             let Some(ties) = contact.ties() else { continue };

@@ -7,8 +7,9 @@ use embate_lanes::{Level, Team};
 use embate_solver::block::{BlockInput, Motion as Step, make};
 use embate_solver::model::{
     Constraint, ContactLaw, Cuboid, Curve, CurveShape, Drive, ImportedMesh, Interface, Load, MeshGroup, Model, Motion, NonReflecting,
-    Obstacle, Part, Penalty, Placement, Probe, ProbeAt, Shape, Spring, Symmetry,
+    Obstacle, Part, Penalty, Placement, Probe, ProbeAt, Shape, SpaceTruss, Spring, Symmetry,
 };
+use embate_solver::simulation::Simulation;
 use std::sync::Arc;
 
 /// A direction that is along no axis, of length 7.
@@ -312,4 +313,87 @@ fn pressure_and_shear_waves_leave_a_rod_through_a_boundary_that_reflects_nothing
     let (given, left) = rod("hex8", 0.7, 0.3, false);
     let (straight, _) = rod("hex8", 0.0, 0.3, false);
     assert!((given / straight - 1.0).abs() < 1e-9 && left.abs() < 1e-4 * given, "{given} {straight} {left}");
+}
+
+/// Bars from point to point, as a model file has them.
+fn truss(model: &mut Model, points: Vec<Vec<Vector>>, elements: usize, area: f64) {
+    let shape = Shape::SpaceTruss(SpaceTruss { lines: points, elements });
+    model.parts.push(Part { element: "bar2".into(), area: Some(area), ..part("bars", shape) });
+}
+
+#[test]
+fn a_tripod_of_a_model_file_is_that_of_a_mesh_file() {
+    let top = [0.1, -0.2, 0.4];
+    let feet = [[1.0, 0.0, 0.0], [-0.5, 0.8, 0.1], [-0.4, -0.9, -0.2]];
+    let run = |of_file: bool| {
+        let mut model = model(2e-3);
+        if of_file {
+            bars(&mut model, lines(&[feet[0], top, feet[1], feet[2]], &[[0, 1], [2, 1], [3, 1]]), 0.01);
+        } else {
+            truss(&mut model, feet.map(|foot| vec![foot, top]).to_vec(), 1, 0.01);
+        }
+        let name = |k: usize| if of_file { format!("point{k}") } else { format!("bars.point{k}") };
+        [0, 2, 3].into_iter().for_each(|k| hold(&mut model, &name(k)));
+        model.loads.push(Load::Force { on: name(1), force: [2e3, 1e3, -4e3], curve: None });
+        to_end(&model).frame().positions::<3>().to_vec()
+    };
+    let (ours, theirs) = (run(false), run(true));
+    assert!(distance(ours[1], top) > 1e-6, "{ours:?}");
+    assert_eq!(ours, theirs);
+}
+
+/// A rod of 100 bars whose first point gets a pulse of velocity along it: displacements along and across it, m, and energies at each step.
+fn pulse(along: Vector) -> (Vec<[f64; 2]>, Vec<f64>, Simulation) {
+    let (young, density, from) = (1e9, 1e3, [0.3, -0.1, 0.2]);
+    let speed = f64::sqrt(young / density);
+    let mut model = model(0.6 / speed);
+    model.materials.insert("soft".into(), elastic(young, density));
+    let direction = unit(along);
+    truss(&mut model, vec![vec![from, plus(from, 1.0, direction)]], 100, 1e-4);
+    let velocity = 1e-3;
+    for axis in 0..3 {
+        let own = CurveShape::Table {
+            times: vec![0.0, 0.05 / speed, 0.1 / speed],
+            values: vec![0.0, velocity * direction[axis], 0.0],
+            smooth: true,
+        };
+        model.curves.insert(["px", "py", "pz"][axis].into(), Curve { shape: own, dimension: None });
+    }
+    let velocity = ["px", "py", "pz"].map(|name| Some(Drive::Curve(name.into())));
+    model.constraints.push(Constraint { on: "bars.point0".into(), velocity, ..Constraint::default() });
+    let start = simulation(&model).frame().positions::<3>().to_vec();
+    let end = to_end(&model);
+    let now = end.frame().positions::<3>().to_vec();
+    let moved = start.iter().zip(&now).map(|(a, b)| {
+        let way: Vector = [0, 1, 2].map(|d| b[d] - a[d]);
+        let share: f64 = (0..3).map(|d| way[d] * direction[d]).sum();
+        let rest: f64 = (0..3).map(|d| (way[d] - share * direction[d]).powi(2)).sum();
+        [share, rest.sqrt()]
+    });
+    let energies = ["energy.internal", "energy.kinetic"].map(|name| value(&end, name)).to_vec();
+    (moved.collect(), energies, end)
+}
+
+#[test]
+fn a_wave_runs_along_a_rod_of_bars_at_its_speed_whatever_its_direction() {
+    let (straight, energies, simulation) = pulse([1.0, 0.0, 0.0]);
+    let summary = simulation.summary();
+    assert!(summary.ledger_residual < 1e-12 && summary.energy_drift < 1e-3, "{summary:?}");
+    // A smooth pulse of a tenth of the length leaves a way of half of 1e-3 m/s · 0.1 m / (1000 m/s) behind; half of it is made where its middle is, 0.05 m behind its front.
+    let whole = 0.5 * 1e-3 * 0.1 / 1e3;
+    // Points follow their order, then those between them.
+    let at = |k: usize| if k == 0 { 0 } else { k + 1 };
+    assert!((straight[at(10)][0] / whole - 1.0).abs() < 0.01, "{straight:?}");
+    let half = (1..100).find(|&k| straight[at(k)][0] < 0.5 * whole).unwrap();
+    assert!((54..=56).contains(&half), "the middle of the pulse is at {half} %");
+    assert!(straight[at(70)][0].abs() < 0.01 * whole);
+    // A wave that runs one way has as much of either energy.
+    assert!((energies[0] / energies[1] - 1.0).abs() < 0.01, "{energies:?}");
+    for direction in [[0.0, 1.0, 0.0], [0.0, 0.0, -1.0], SKEW, [1.0, 1.0, 0.0], [-0.3, 0.2, 0.9]] {
+        let (turned, others, _) = pulse(direction);
+        for (a, b) in straight.iter().zip(&turned) {
+            assert!((a[0] - b[0]).abs() < 1e-6 * whole && b[1] < 1e-6 * whole, "{direction:?}: {a:?} {b:?}");
+        }
+        assert!(energies.iter().zip(&others).all(|(a, b)| (a / b - 1.0).abs() < 1e-6), "{direction:?}: {energies:?} {others:?}");
+    }
 }

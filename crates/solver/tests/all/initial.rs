@@ -349,3 +349,108 @@ fn what_is_held_on_both_sides_can_not_be_pushed_out_of_each_other() {
     };
     assert!(moved(0.0899, 0.0901) > 0 && moved(-1.0, 0.0899) == 0, "the lower cube stays");
 }
+
+/// A cube of 10 cm with 4 elements along each edge, and an obstacle that it is partly in.
+fn cube_in(shape: ObstacleShape, thickness: f64, what: InitialPenetration) -> Model {
+    let mut model = model(1e-4);
+    let cuboid = Cuboid { corner: [0.0; 3], size: [0.1; 3], elements: [4; 3], ..Cuboid::default() };
+    model.parts = vec![Part {
+        name: "cube".into(),
+        material: "soft".into(),
+        element: "hex8".into(),
+        shape: Shape::Cuboid(cuboid),
+        ..Part::default()
+    }];
+    let mut obstacle = Obstacle::fixed("obstacle", shape);
+    (obstacle.interface.initial_penetration, obstacle.interface.thickness) = (what, thickness);
+    model.obstacles.push(obstacle);
+    model
+}
+
+#[test]
+fn nodes_of_solids_are_pushed_onto_planes_balls_and_cylinders_along_their_normals() {
+    let minus = |a: [f64; 3], b: [f64; 3]| [0, 1, 2].map(|d| a[d] - b[d]);
+    let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|d| a[d] * b[d]).sum::<f64>();
+    // The point of a surface nearest to a place, in closed form: along a normal from a foot.
+    let from = move |foot: [f64; 3], x: [f64; 3], radius: f64| {
+        let arm = minus(x, foot);
+        let size = dot(arm, arm).sqrt();
+        ([0, 1, 2].map(|d| foot[d] + radius / size * arm[d]), size - radius)
+    };
+    let slant = [0.48, 0.36, 0.8];
+    let plane = move |x: [f64; 3], thickness: f64| {
+        let gap = dot(slant, x) - 0.004 - thickness;
+        ([0, 1, 2].map(|d| x[d] - gap * slant[d]), gap)
+    };
+    let (centre, axis) = ([0.03, 0.12, 0.05], [0.0, 0.6, 0.8]);
+    let foot = move |x: [f64; 3]| {
+        let along = dot(minus(x, [-0.02, 0.0, 0.01]), axis);
+        [0, 1, 2].map(|d| [-0.02, 0.0, 0.01][d] + along * axis[d])
+    };
+    let turned = |(onto, gap): ([f64; 3], f64)| (onto, -gap);
+    type Nearest<'a> = Box<dyn Fn([f64; 3], f64) -> ([f64; 3], f64) + 'a>;
+    let cases: [(ObstacleShape, Nearest<'_>); 5] = [
+        (ObstacleShape::Plane { point: [0.0, 0.0, 0.005], normal: slant.map(|c| 2.0 * c), length: None }, Box::new(plane)),
+        (ObstacleShape::Sphere { centre, radius: 0.03, hollow: false }, Box::new(move |x, t| from(centre, x, 0.03 + t))),
+        (
+            ObstacleShape::Sphere { centre: [0.05; 3], radius: 0.085, hollow: true },
+            Box::new(move |x, t| turned(from([0.05; 3], x, 0.085 - t))),
+        ),
+        (
+            ObstacleShape::Cylinder { point: [-0.02, 0.0, 0.01], axis, radius: 0.024, hollow: false },
+            Box::new(move |x, t| from(foot(x), x, 0.024 + t)),
+        ),
+        (
+            ObstacleShape::Cylinder { point: [-0.02, 0.0, 0.01], axis, radius: 0.134, hollow: true },
+            Box::new(move |x, t| turned(from(foot(x), x, 0.134 - t))),
+        ),
+    ];
+    for (shape, nearest) in cases {
+        for thickness in [0.0, 0.001] {
+            let told = model_faults(&cube_in(shape.clone(), thickness, InitialPenetration::Error));
+            assert!(!told.is_empty() && told.iter().all(|fault| fault.path == "obstacle[0]"), "{shape:?}: {told:?}");
+            let before = simulation(&cube_in(shape.clone(), thickness, InitialPenetration::Ignore)).frame().positions::<3>().to_vec();
+            let model = cube_in(shape.clone(), thickness, InitialPenetration::PushOut);
+            let begin = simulation(&model);
+            let mut moved = 0;
+            for (&x, &now) in before.iter().zip(begin.frame().positions::<3>()) {
+                // Nodes within the body meet nothing.
+                let is_outside = x.iter().any(|c| *c < 1e-9 || *c > 0.1 - 1e-9);
+                let (onto, gap) = nearest(x, thickness);
+                let is_inside = is_outside && gap < -1e-9;
+                let wanted = if is_inside { onto } else { x };
+                assert!((0..3).all(|d| (now[d] - wanted[d]).abs() < 2e-10), "{shape:?}: {x:?} to {now:?}, not {wanted:?}");
+                moved += usize::from(is_inside);
+            }
+            assert!((1..60).contains(&moved), "{shape:?}: {moved}");
+            let lines = begin.overview().initial_penetrations;
+            assert_eq!(lines.iter().filter(|line| line.contains("it was pushed out")).count(), moved.min(20) + usize::from(moved > 20));
+            // Nothing is strained, and nothing is pressed.
+            let end = to_end(&model);
+            let summary = end.summary();
+            assert!(summary.penetration_max < 1e-9 && summary.ledger_residual < 1e-12, "{shape:?}: {summary:?}");
+            for column in ["energy.kinetic", "energy.internal", "energy.contact"] {
+                assert!(value(&end, column).abs() < 1e-12, "{shape:?}: {column} {}", value(&end, column));
+            }
+        }
+    }
+}
+
+#[test]
+fn what_is_held_in_an_obstacle_of_space_stays_there_and_is_told() {
+    let plane = || ObstacleShape::Plane { point: [0.0, 0.0, 0.003], normal: [0.0, 0.0, 1.0], length: None };
+    let mut model = cube_in(plane(), 0.0, InitialPenetration::PushOut);
+    model.constraints.push(Constraint { on: "cube".into(), velocity: [None, None, Some(0.0.into())], ..Constraint::default() });
+    let told = model_faults(&model);
+    assert!(
+        !told.is_empty() && told.iter().all(|fault| fault.path == "obstacle[0]" && fault.message.contains("3.000e-3 m inside")),
+        "{told:?}"
+    );
+    // Held across, nodes of a slanted plane go the longer way that they may.
+    let slant = ObstacleShape::Plane { point: [0.0, 0.0, 0.003], normal: [0.6, 0.0, 0.8], length: None };
+    let mut model = cube_in(slant, 0.0, InitialPenetration::PushOut);
+    model.constraints.push(Constraint { on: "cube".into(), velocity: [Some(0.0.into()), None, None], ..Constraint::default() });
+    let positions = simulation(&model).frame().positions::<3>().to_vec();
+    let corner = positions.iter().filter(|x| x[0] < 1e-12 && (x[2] - 0.003).abs() < 1e-9).count();
+    assert_eq!(corner, 5, "{positions:?}");
+}

@@ -243,8 +243,43 @@ fn what_is_inside_of_triangles_at_the_start_is_told() {
     let simulation = to_end(&at(-0.001, ignored));
     assert_eq!(simulation.overview().initial_penetrations.len(), 20);
     assert!(value(&simulation, "obstacle.force_z[ground]").abs() < 1e-9);
-    let pushed = Obstacle { interface: Interface { initial_penetration: InitialPenetration::PushOut, ..Interface::default() }, ..ground() };
-    assert!(faults(&at(0.0, pushed))[0].contains("nothing is pushed out"));
+}
+
+#[test]
+fn what_is_inside_of_triangles_is_pushed_out_of_them_without_stress() {
+    let pushed = |mut obstacle: Obstacle, thickness: f64| {
+        obstacle.interface = Interface { initial_penetration: InitialPenetration::PushOut, thickness, ..Interface::default() };
+        obstacle
+    };
+    let at = |z: f64, obstacle: Obstacle| {
+        let mut model = model(1e-4);
+        model.parts.push(body("block", brick([-0.05, -0.04, z], [0.1, 0.08, 0.04], [4, 3, 2]), [0.0; 3]));
+        model.obstacles.push(obstacle);
+        model
+    };
+    let ground = || obstacle("ground", cube([-1.0; 3], [1.0, 1.0, 0.0]));
+    for thickness in [0.0, 0.0005] {
+        let model = at(-0.001, pushed(ground(), thickness));
+        let begin = simulation(&model);
+        assert!(begin.overview().initial_penetrations.iter().any(|line| line.contains("it was pushed out")));
+        // The 20 nodes of the lower side are on the surface, all others where they were.
+        let positions = begin.frame().positions::<3>().to_vec();
+        let lower = positions.iter().filter(|x| (x[2] - thickness).abs() < 1e-9).count();
+        let others = positions.iter().filter(|x| (x[2] - 0.019).abs() < 1e-15 || (x[2] - 0.039).abs() < 1e-15).count();
+        assert_eq!((lower, others), (20, 40), "{positions:?}");
+        let end = to_end(&model);
+        assert!(end.summary().penetration_max < 1e-9 && value(&end, "energy.kinetic") < 1e-12 && value(&end, "energy.contact") < 1e-12);
+        assert!(end.summary().ledger_residual < 1e-12);
+    }
+    // A point that comes in between nodes moves the four corners of the facet that it is behind.
+    let model = at(-0.001, pushed(obstacle("tip", upward(0.3, 3)), 0.0));
+    let begin = simulation(&model);
+    let moved = begin.frame().positions::<3>().iter().filter(|x| x[2] < 0.01 && (x[2] + 0.001).abs() > 1e-9).count();
+    assert!((1..=4).contains(&moved), "{moved}");
+    assert!(value(&to_end(&model), "energy.kinetic") < 1e-12);
+    // What is altogether inside stays there, and is told.
+    let told = faults(&at(-0.5, pushed(ground(), 0.0)));
+    assert!(!told.is_empty() && told.iter().all(|fault| fault.contains("can't be pushed out")), "{told:?}");
 }
 
 #[test]

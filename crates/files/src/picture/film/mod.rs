@@ -21,7 +21,8 @@ use embate_solver::output::{Cells, Frame};
 use show::Show;
 use std::path::Path;
 use std::sync::Arc;
-use stored::{Space, Stored, gone, on_skin};
+pub(super) use stored::gone;
+use stored::{Space, Stored, on_skin};
 
 /// Stored frames may use this much memory.
 const BYTES_MAX: usize = 256 << 20;

@@ -58,7 +58,7 @@ impl Keep for Stored {
 }
 
 /// Cells that were eroded, ascending.
-pub(super) fn gone(frame: &Frame) -> Vec<u32> {
+pub(in crate::picture) fn gone(frame: &Frame) -> Vec<u32> {
     let Some(alive) = frame.fields.iter().find(|field| field.kind.name == "alive") else { return Vec::new() };
     (0..).zip(&alive.values).filter(|(_, alive)| **alive == 0.0).map(|(cell, _)| cell).collect()
 }

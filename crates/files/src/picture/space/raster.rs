@@ -209,6 +209,12 @@ impl Samples {
         }
     }
 
+    /// Whether what is at a place is not hidden by anything that is nearer by more than `lift`, samples; beyond the picture nothing is seen.
+    pub(super) fn is_seen(&self, [x, y, depth]: [f32; 3], lift: f32) -> bool {
+        let is_inside = x >= 0.0 && y >= 0.0 && x < self.width as f32 && y < self.height as f32;
+        is_inside && depth + lift >= self.samples[y as usize * self.width + x as usize].depth
+    }
+
     #[inline]
     fn touch(&mut self, row: usize, from: usize, to: usize) {
         let touched = &mut self.touched[row];

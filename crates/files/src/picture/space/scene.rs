@@ -246,7 +246,7 @@ impl Scene {
 }
 
 /// Colours of x, y and z.
-const AXES: [Rgb; 3] = [DISTINCT[1], DISTINCT[2], DISTINCT[0]];
+pub(super) const AXES: [Rgb; 3] = [DISTINCT[1], DISTINCT[2], DISTINCT[0]];
 
 /// Colour of a facet before it is lit.
 fn facet_colour(index: usize, facet: &Facet, values: Values<'_>, map: &[[f32; 3]]) -> Colour {

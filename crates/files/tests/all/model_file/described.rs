@@ -146,6 +146,20 @@ fn values(kind: Kind) -> Vec<Bad> {
             all.extend(["5", "[]", "\"1 m\"", "{}"].map(|value| bad(value, "", "must be a list of")));
             all
         }
+        Kind::SpatialPoints(least) => {
+            let inside =
+                |it: Bad| Bad { value: format!("[{}]", vec![format!("[0, 1, {}]", it.value); least].join(", ")), at: "[0][2]", ..it };
+            let mut all: Vec<Bad> = scalar(Range::Finite).into_iter().map(inside).collect();
+            all.extend(["5", "[]", "\"1 m\"", "{}"].map(|value| bad(value, "", "must be a list of at least")));
+            all.extend((least > 1).then(|| bad("[[0, 0, 0]]", "", "must be a list of at least")));
+            all
+        }
+        Kind::SpatialOutlines(least) => {
+            let inside = |it: Bad| Bad { value: format!("[{}]", it.value), at: if it.at.is_empty() { "[0]" } else { "[0][0][2]" }, ..it };
+            let mut all: Vec<Bad> = values(Kind::SpatialPoints(least)).into_iter().map(inside).collect();
+            all.extend(["5", "[]", "\"1 m\"", "{}"].map(|value| bad(value, "", "must be a list of")));
+            all
+        }
         Kind::Components(Dimension::VELOCITY) => driven(&[".x", ".y"], "must be a velocity or the name of a curve"),
         Kind::Components(Dimension::ACCELERATION) => driven(&[".x", ".y"], "must be an acceleration or the name of a curve"),
         Kind::Components(_) => driven(&[".x", ".y"], "or the name of a curve"),

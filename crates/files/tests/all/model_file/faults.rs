@@ -124,7 +124,7 @@ const CASES: &[Case] = &[
         "disk = { centre = [0, 0.1], radius = \"9 mm\", elements = 4 }\n",
         "",
         &[
-            "18:1 [[part]] needs one of `rectangle`, `ring`, `disk`, `trapezoid`, `quadrilateral`, `polygon`, `path`, `truss`, `box`, `cylinder`, `tube`, `sphere` and `mesh` | add one of them",
+            "18:1 [[part]] needs one of `rectangle`, `ring`, `disk`, `trapezoid`, `quadrilateral`, `polygon`, `path`, `truss`, `box`, `cylinder`, `tube`, `sphere`, `space_truss` and `mesh` | add one of them",
         ],
     ),
     (

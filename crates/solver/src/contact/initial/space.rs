@@ -74,8 +74,10 @@ impl Look<'_> {
 
 /// What may be moved at the start, and what must not.
 pub struct Movable<'a> {
-    /// m.
+    /// m; nodes beyond `count` are those of obstacles and stay where they are.
     pub positions: &'a mut [Vector],
+    /// Nodes of the model.
+    pub count: usize,
     /// Directions in which nodes are held.
     pub constraints: &'a Constraints<3>,
     /// Depth that is round-off, m.
@@ -104,6 +106,21 @@ impl Movable<'_> {
         true
     }
 
+    /// Moves `nodes` out of an obstacle of which `distance` tells how far they are from its surface (m, negative inside) and the normal. Whether something was moved.
+    pub fn push_off(&mut self, nodes: &[u32], distance: impl Fn(Vector) -> (f64, Vector)) -> bool {
+        let mut is_moved = false;
+        for &node in nodes {
+            for _ in 0..ROUNDS {
+                let (gap, normal) = distance(self.positions[node as usize]);
+                if !(gap < -self.tolerance && self.open(&[(node, 1.0)], normal, 0.5 * self.tolerance - gap)) {
+                    break;
+                }
+                is_moved = true;
+            }
+        }
+        is_moved
+    }
+
     /// Moves a node and the facet that it touches to a distance.
     fn part_node(&mut self, tracker: &Tracker, touch: &Touch, distance: f64) {
         let placed = Placed { surface: tracker.target(touch.pass), positions: self.positions };
@@ -130,17 +147,21 @@ impl Movable<'_> {
         }
     }
 
-    /// Opens a gap with these shares of nodes by so much (m), as far as they can.
-    fn open(&mut self, ends: &[(u32, f64)], normal: Vector, by: f64) {
-        let free = |node: u32| self.constraints.of(node as usize).map_or(normal, |held| held.free_part(normal));
+    /// Opens a gap with these shares of nodes by so much (m), as far as they can: whether they can at all.
+    fn open(&mut self, ends: &[(u32, f64)], normal: Vector, by: f64) -> bool {
+        let free = |node: u32| match node as usize {
+            at if at >= self.count => [0.0; 3],
+            at => self.constraints.of(at).map_or(normal, |held| held.free_part(normal)),
+        };
         let gain: f64 = ends.iter().map(|&(node, share)| share * share * dot(free(node), normal)).sum();
         if !(gain > GAIN) {
-            return;
+            return false;
         }
         for &(node, share) in ends {
             let way = free(node);
             let x = &mut self.positions[node as usize];
             (0..3).for_each(|d| x[d] += by / gain * share * way[d]);
         }
+        true
     }
 }

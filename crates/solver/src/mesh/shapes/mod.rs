@@ -128,6 +128,8 @@ pub trait Values {
     fn points(&self, key: &str) -> Vec<[f64; 2]>;
     /// Lists of points, m.
     fn outlines(&self, key: &str) -> Vec<Vec<[f64; 2]>>;
+    /// Lists of points of space, m.
+    fn spatial_outlines(&self, key: &str) -> Vec<Vec<[f64; 3]>>;
     /// A whole number.
     fn count(&self, key: &str) -> usize;
     /// Two whole numbers.
@@ -283,7 +285,8 @@ shapes!(
         cuboid: Cuboid,
         cylinder: Cylinder,
         tube: Tube,
-        sphere: Sphere;
+        sphere: Sphere,
+        space_truss: SpaceTruss;
 );
 
 impl Shape {

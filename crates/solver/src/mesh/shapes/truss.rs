@@ -1,10 +1,12 @@
 //! Bars along lines: trusses, cables, nets.
 
-use super::numbers::{distance, on_line};
 use super::{Body, BuiltIn, CheckOf, Count, ELEMENTS, Values, Wrong, node, shape_key};
+use crate::mesh::Meshed;
 use crate::model::describe::Kind::{Integer, Outlines};
 use crate::model::describe::Need::{Default as Written, Required};
 use crate::model::describe::{Key, Section, key};
+use crate::tensor::Dim;
+use crate::vector::{dot, minus};
 
 /// Points nearer to each other than this fraction of the size are one.
 const SAME: f64 = 1e-9;
@@ -37,14 +39,34 @@ static SECTION: Section = Section {
     ..Section::EMPTY
 };
 
-impl Truss {
-    /// Points, each once, and the pieces between them.
-    fn net(&self) -> (Vec<[f64; 2]>, Vec<[usize; 2]>) {
-        let all = || self.lines.iter().flatten();
-        let size = all().flatten().fold(0.0f64, |size, x| size.max(x.abs()));
-        let mut points: Vec<[f64; 2]> = Vec::new();
+/// Lines between points, of the plane or of space.
+pub(super) struct Net<const D: usize> {
+    /// Each once.
+    points: Vec<[f64; D]>,
+    /// The pieces between them.
+    pieces: Vec<[usize; 2]>,
+}
+
+fn distance<const D: usize>(a: [f64; D], b: [f64; D]) -> f64 {
+    let arm = minus(b, a);
+    dot(arm, arm).sqrt()
+}
+
+/// A point in a message.
+fn shown<const D: usize>(x: [f64; D]) -> String {
+    format!("({})", x.map(|x| format!("{x:.6e}")).join(", "))
+}
+
+impl<const D: usize> Net<D>
+where
+    Dim<D>: Meshed<D>,
+{
+    /// Points in one place are one.
+    pub(super) fn of(lines: &[Vec<[f64; D]>]) -> Self {
+        let size = lines.iter().flatten().flatten().fold(0.0f64, |size, x| size.max(x.abs()));
+        let mut points: Vec<[f64; D]> = Vec::new();
         let mut sorted: Vec<(f64, usize)> = Vec::new();
-        let mut number = |x: [f64; 2]| {
+        let mut number = |x: [f64; D]| {
             // Neighbours along x, so that large nets take no longer than they must.
             let from = sorted.partition_point(|(at, _)| *at < x[0] - SAME * size);
             let near = sorted[from..].iter().take_while(|(at, _)| *at <= x[0] + SAME * size);
@@ -56,11 +78,55 @@ impl Truss {
             points.len() - 1
         };
         let mut pieces = Vec::new();
-        for line in &self.lines {
+        for line in lines {
             let numbers: Vec<usize> = line.iter().map(|&x| number(x)).collect();
             pieces.extend(numbers.windows(2).map(|pair| [pair[0], pair[1]]));
         }
-        (points, pieces)
+        Self { points, pieces }
+    }
+
+    /// A piece that ends where it begins, or is there twice: what is wrong, and what to do.
+    pub(super) fn wrong(&self) -> Option<(String, &'static str)> {
+        let mut seen = Vec::with_capacity(self.pieces.len());
+        for &[a, b] in &self.pieces {
+            if a == b {
+                return Some((format!("a line names the point {} m twice running", shown(self.points[a])), "leave one of them out"));
+            }
+            seen.push(([a.min(b), a.max(b)], [a, b]));
+        }
+        seen.sort_by_key(|(ends, _)| *ends);
+        let twice = seen.windows(2).find(|two| two[0].0 == two[1].0)?;
+        let [from, to] = twice[0].1.map(|end| shown(self.points[end]));
+        let message = format!("the piece from {from} to {to} m is there twice");
+        Some((message, "leave one of them out, or give it another cross-section in a part of its own"))
+    }
+
+    /// Names of the points.
+    pub(super) fn names(&self) -> Vec<String> {
+        (0..self.points.len()).map(|k| format!("point{k}")).collect()
+    }
+
+    /// With so many bars along each piece.
+    pub(super) fn count(&self, elements: usize) -> Count {
+        let within = self.pieces.len().saturating_mul(elements.saturating_sub(1));
+        Count { nodes: self.points.len().saturating_add(within), elements: self.pieces.len().saturating_mul(elements), exact: true }
+    }
+
+    /// With so many bars along each piece.
+    pub(super) fn body(&self, elements: usize) -> Body<D> {
+        let mut body = Body { positions: self.points.clone(), ..Body::default() };
+        for &[a, b] in &self.pieces {
+            let mut from = node(a);
+            for k in 1..elements {
+                let (to, place) = (node(body.positions.len()), k as f64 / elements as f64);
+                body.positions.push(std::array::from_fn(|d| self.points[a][d] + (self.points[b][d] - self.points[a][d]) * place));
+                body.bars.push([from, to]);
+                from = to;
+            }
+            body.bars.push([from, node(b)]);
+        }
+        body.points = self.names().into_iter().zip(0..).map(|(name, k)| (name, vec![node(k)])).collect();
+        body
     }
 }
 
@@ -75,24 +141,8 @@ impl BuiltIn for Truss {
         for (k, line) in self.lines.iter().enumerate() {
             sound &= check.points(&format!("lines[{k}]"), line) && line.len() > 1;
         }
-        if !sound {
-            return;
-        }
-        let (points, pieces) = self.net();
-        let mut seen = Vec::with_capacity(pieces.len());
-        for [a, b] in pieces {
-            let [[x, y], [u, v]] = [points[a], points[b]];
-            if a == b {
-                check.fault("lines", format!("a line names the point ({x:.6e}, {y:.6e}) m twice running"), "leave one of them out");
-                return;
-            }
-            seen.push(([a.min(b), a.max(b)], [x, y, u, v]));
-        }
-        seen.sort_by_key(|(ends, _)| *ends);
-        if let Some(twice) = seen.windows(2).find(|two| two[0].0 == two[1].0) {
-            let [x, y, u, v] = twice[0].1;
-            let message = format!("the piece from ({x:.6e}, {y:.6e}) to ({u:.6e}, {v:.6e}) m is there twice");
-            check.fault("lines", message, "leave one of them out, or give it another cross-section in a part of its own");
+        if let Some((message, help)) = Some(sound).filter(|sound| *sound).and_then(|_| Net::of(&self.lines).wrong()) {
+            check.fault("lines", message, help);
         }
     }
 
@@ -101,13 +151,11 @@ impl BuiltIn for Truss {
     }
 
     fn points(&self) -> Vec<String> {
-        (0..self.net().0.len()).map(|k| format!("point{k}")).collect()
+        Net::of(&self.lines).names()
     }
 
     fn count(&self) -> Count {
-        let (points, pieces) = self.net();
-        let within = pieces.len().saturating_mul(self.elements.saturating_sub(1));
-        Count { nodes: points.len().saturating_add(within), elements: pieces.len().saturating_mul(self.elements), exact: true }
+        Net::of(&self.lines).count(self.elements)
     }
 
     fn nodes_per_element(&self) -> usize {
@@ -115,20 +163,7 @@ impl BuiltIn for Truss {
     }
 
     fn body(&self) -> Result<Body, Wrong> {
-        let (points, pieces) = self.net();
-        let mut body = Body { positions: points.clone(), ..Body::default() };
-        for [a, b] in pieces {
-            let mut from = node(a);
-            for k in 1..self.elements {
-                let to = node(body.positions.len());
-                body.positions.push(on_line(points[a], points[b], k as f64 / self.elements as f64));
-                body.bars.push([from, to]);
-                from = to;
-            }
-            body.bars.push([from, node(b)]);
-        }
-        body.points = (0..points.len()).map(|k| (format!("point{k}"), vec![node(k)])).collect();
-        Ok(body)
+        Ok(Net::of(&self.lines).body(self.elements))
     }
 
     /// None: what the contract tests ask for are areas and outsides.

@@ -168,7 +168,8 @@ impl Check<'_> {
         if let Some((shape, key)) = part.shape.solid() {
             let key = format!("{path}.{key}");
             shape.check(&mut CheckOf { check: self, path: &key });
-            self.takes(path, part, shape.nodes_per_element(), &key, "it is made of hexahedra");
+            let what = if shape.nodes_per_element() == 2 { "it is made of bars" } else { "it is made of hexahedra" };
+            self.takes(path, part, shape.nodes_per_element(), &key, what);
             self.placement(path, &part.placement);
             return;
         }
@@ -354,7 +355,7 @@ impl Check<'_> {
         }
         let known = element::registry();
         let known: Vec<&str> =
-            known.iter().filter(|kind| kind.nodes == nodes && kind.dimension == dimension).map(|kind| kind.name).collect();
+            known.iter().filter(|kind| kind.nodes == nodes && (kind.dimension == dimension || nodes == 2)).map(|kind| kind.name).collect();
         if known.is_empty() {
             let help =
                 if path.ends_with(".group") { "let the mesh generator make quadrilaterals only (Gmsh: Recombine Surface)" } else { "" };

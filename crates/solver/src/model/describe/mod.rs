@@ -114,6 +114,10 @@ pub enum Kind {
     Points(usize),
     /// A list of such lists.
     Outlines(usize),
+    /// A list of at least so many points of space (z is zero where it is left out).
+    SpatialPoints(usize),
+    /// A list of such lists.
+    SpatialOutlines(usize),
     /// A quantity (angular velocity where it is a rate) or the name of a curve; also part of the next three.
     Drive(Dimension),
     /// A table with `x`, `y`, `z` or some of them: such quantities by component.
@@ -238,7 +242,9 @@ impl Key {
             | Kind::Spatial(dimension, range)
             | Kind::Quantities(dimension, range, _) => Some((dimension, range)),
             Kind::Drive(dimension) | Kind::Components(dimension) => Some((dimension, Range::Finite)),
-            Kind::Points(_) | Kind::Outlines(_) => Some((Dimension::LENGTH, Range::Finite)),
+            Kind::Points(_) | Kind::Outlines(_) | Kind::SpatialPoints(_) | Kind::SpatialOutlines(_) => {
+                Some((Dimension::LENGTH, Range::Finite))
+            }
             Kind::Stiffness(dimension, range) => Some((dimension, range)),
             Kind::Cadence => Some((Dimension::TIME, Range::Positive)),
             Kind::Value

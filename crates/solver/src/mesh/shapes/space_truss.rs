@@ -1,0 +1,104 @@
+//! Bars along lines in space: trusses, cables, nets between solids or alone.
+
+use super::truss::Net;
+use super::{Body, BuiltIn, CheckOf, Count, ELEMENTS, Values, Wrong, shape_key};
+use crate::model::describe::Kind::{Integer, SpatialOutlines};
+use crate::model::describe::Need::{Default as Written, Required};
+use crate::model::describe::{Key, Section, key};
+
+/// Bars along straight pieces from point to point of space, as [`super::Truss`] has them in the plane.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpaceTruss {
+    /// Lines, each a list of points, m.
+    pub lines: Vec<Vec<[f64; 3]>>,
+    /// Bars along each straight piece.
+    pub elements: usize,
+}
+
+pub(super) const KEY: Key =
+    shape_key("space_truss", &SECTION, "Bars along lines in space: trusses, cables, nets; with `element = \"bar2\"`.");
+
+static SECTION: Section = Section {
+    name: "space_truss",
+    doc: "Bars along straight pieces from point to point in space, for `element = \"bar2\"`. Points in one place are one node; lines that cross elsewhere do not meet. \
+          Its points can be named as `point0`, `point1`, ... in the order in which they are first given. `join` ties them to other parts.",
+    keys: &[
+        key(
+            "lines",
+            SpatialOutlines(2),
+            Required,
+            "Lines, each a list of points: `[[[0, 0, 0], [1, 0, 0], [0, 0, 1]], [[0, 1, 0], [0, 0, 1]]]` are three bars.",
+        ),
+        key(
+            ELEMENTS,
+            Integer(1),
+            Written("1"),
+            "Bars along each piece between two points: 1 for a truss, more for a cable, which has no stiffness in bending.",
+        ),
+    ],
+    ..Section::EMPTY
+};
+
+impl BuiltIn<3> for SpaceTruss {
+    fn read(values: &dyn Values) -> Self {
+        Self { lines: values.spatial_outlines("lines"), elements: values.count(ELEMENTS) }
+    }
+
+    fn check(&self, check: &mut CheckOf<'_, '_>) {
+        check.counts(ELEMENTS, &[self.elements]);
+        let mut sound = !self.lines.is_empty();
+        for (k, line) in self.lines.iter().enumerate() {
+            line.iter().enumerate().for_each(|(l, &point)| check.vector(&format!("lines[{k}][{l}]"), point));
+            sound &= line.len() > 1 && line.iter().flatten().all(|x| x.is_finite());
+        }
+        if let Some((message, help)) = Some(sound).filter(|sound| *sound).and_then(|_| Net::of(&self.lines).wrong()) {
+            check.fault("lines", message, help);
+        }
+    }
+
+    fn sides(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    fn points(&self) -> Vec<String> {
+        Net::of(&self.lines).names()
+    }
+
+    fn count(&self) -> Count {
+        Net::of(&self.lines).count(self.elements)
+    }
+
+    fn nodes_per_element(&self) -> usize {
+        2
+    }
+
+    fn body(&self) -> Result<Body<3>, Wrong> {
+        Ok(Net::of(&self.lines).body(self.elements))
+    }
+
+    /// None: what the contract tests ask for are volumes and outsides.
+    #[cfg(test)]
+    fn examples(_n: usize) -> Vec<(Self, f64)> {
+        Vec::new()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_tripod_has_one_node_at_its_top() {
+        let top = [0.0, 0.0, 1.0];
+        let foot = |k: usize| [[1.0, 0.0, 0.0], [-0.5, 0.8, 0.0], [-0.5, -0.8, 0.1]][k];
+        let truss = SpaceTruss { lines: (0..3).map(|k| vec![foot(k), top]).collect(), elements: 2 };
+        let body = truss.body().unwrap();
+        assert_eq!((body.positions.len(), body.bars.len()), (7, 6));
+        assert_eq!((truss.count().nodes, truss.count().elements), (7, 6));
+        assert_eq!(truss.points(), ["point0", "point1", "point2", "point3"]);
+        assert_eq!((body.positions[1], body.positions[0]), (top, foot(0)));
+        assert_eq!(body.positions[4], [0.5, 0.0, 0.5]);
+        let twice = SpaceTruss { lines: vec![vec![foot(0), top], vec![top, foot(0)]], elements: 1 };
+        assert!(Net::of(&twice.lines).wrong().is_some_and(|(message, _)| message.contains("is there twice")));
+    }
+}

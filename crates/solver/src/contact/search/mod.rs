@@ -40,7 +40,7 @@ pub struct Query<'a, const D: usize> {
 }
 
 /// A global search. Implementations may keep storage between calls, never results.
-pub trait Search<const D: usize>: Send {
+pub trait Search<const D: usize>: Send + Sync {
     /// Writes into `pairs` (cleared first, sorted by slave, then facet, each pair once) every pair that comes nearer
     /// than `reach` during the step, and perhaps others. A node is never paired with a facet that it belongs to.
     fn pairs(&mut self, query: &Query<'_, D>, pairs: &mut Vec<Pair>);

@@ -232,17 +232,26 @@ pub(crate) fn cells<const D: usize>(system: &System<D>) -> Cells
 where
     Dim<D>: World<D>,
 {
-    let mut cells = Cells { offsets: vec![0], ..Cells::default() };
+    let elements: usize = system.mesh.groups.iter().map(ElementGroup::elements).sum();
+    // A large model has no room to grow into.
+    let mut cells = Cells {
+        nodes: Vec::with_capacity(system.mesh.groups.iter().map(|group| group.connectivity.len()).sum()),
+        offsets: Vec::with_capacity(elements + 1),
+        kinds: Vec::with_capacity(elements),
+        parts: Vec::with_capacity(elements),
+        part_names: Vec::new(),
+    };
+    cells.offsets.push(0);
     for (index, part) in system.mesh.parts.iter().enumerate() {
         cells.part_names.push(part.name.clone());
         let groups: Vec<&ElementGroup> = system.mesh.groups_of(index).collect();
         // Where each element is stored, by the user's number.
         let mut places = vec![(0, 0); system.mesh.elements_of(index)];
-        for (of_part, group) in groups.iter().enumerate() {
-            group.user_elements.iter().enumerate().for_each(|(element, &user)| places[user as usize] = (of_part, element as u32));
+        for (of_part, group) in (0u8..).zip(&groups) {
+            (0..).zip(&group.user_elements).for_each(|(element, &user)| places[user as usize] = (of_part, element));
         }
         for (of_part, element) in places {
-            let cell = groups[of_part].cell(element as usize);
+            let cell = groups[usize::from(of_part)].cell(element as usize);
             cells.nodes.extend(cell.iter().map(|&node| system.mesh.user_nodes[node as usize]));
             cells.offsets.push(cells.nodes.len() as u32);
             cells.kinds.push(<Dim<D>>::cell_kind(cell.len()));

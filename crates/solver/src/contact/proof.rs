@@ -13,7 +13,7 @@
 
 use super::Sweep;
 use super::edge_edge::{Around, EdgeTouch, EdgeTracker};
-use super::node_facet::tracker::{FACING, SAME_SIDE, Touch, Tracker, bend, halves, mean_edge};
+use super::node_facet::tracker::{FACING, SAME_SIDE, Touch, Tracker, bend, bodies_of, halves, mean_edge};
 use super::projection::edge_edge::{crossing, distance};
 use super::projection::node_facet::{Placed, Vector};
 use super::projection::swept::{crossings, entries};
@@ -100,7 +100,7 @@ impl Proof {
         };
         Self {
             passes: passes.iter().map(pass).collect(),
-            bodies: bodies.to_vec(),
+            bodies: bodies_of(surfaces, bodies),
             search: makes(),
             pairs: Vec::new(),
             edges: with_edges.then(|| EdgeTracker::new(surfaces, bodies, makes())),
@@ -152,7 +152,6 @@ impl Proof {
             let fastest = slaves.iter().chain(&target.nodes).map(|&node| way(node)).fold(0.0, f64::max);
             let reach = SLACK * (self.margin + bend(target, sweep.new));
             let query = Query { positions_old: sweep.old, positions_new: sweep.new, slaves, facets: &pass.triangles, reach };
-            self.search.pairs(&query, &mut self.pairs);
             let placed = Placed { surface: target, positions: sweep.new };
             // Who ends beyond the margin may have gone through.
             let farthest = self.margin.max(2.0 * fastest);
@@ -160,16 +159,17 @@ impl Proof {
             let old = std::mem::take(&mut pass.groups);
             let mut old = old.iter().filter(|group| group.inside).peekable();
             pass.candidates.clear();
-            for of_slave in self.pairs.chunk_by(|a, b| a.slave == b.slave) {
+            let mut near: Vec<(u32, u32)> = Vec::new();
+            let mut look_around = |of_slave: &[Pair]| {
                 let slave = of_slave[0].slave;
                 let node = slaves[slave as usize];
                 // A node of two surfaces joins them: it can't go in.
                 if pass.slave != pass.target && target.nodes.binary_search(&node).is_ok() {
-                    continue;
+                    return;
                 }
                 let x = sweep.new[node as usize];
-                let mut near: Vec<(u32, u32)> =
-                    of_slave.iter().map(|pair| pair.facet / 2).map(|facet| (body(target.facets[facet as usize][0]), facet)).collect();
+                near.clear();
+                near.extend(of_slave.iter().map(|pair| pair.facet / 2).map(|facet| (body(target.facets[facet as usize][0]), facet)));
                 near.sort_unstable();
                 near.dedup();
                 near.retain(|&(_, facet)| {
@@ -183,7 +183,9 @@ impl Proof {
                     let (end, own) = (pass.candidates.len() as u32, body(node) == body_there);
                     pass.groups.push(Group { slave, node, body: body_there, begin, end, own, inside, wake: AWAKE });
                 }
-            }
+            };
+            self.search
+                .by_and_by(&query, &mut self.pairs, &mut |pairs| pairs.chunk_by(|a, b| a.slave == b.slave).for_each(&mut look_around));
         }
         if let Some(edges) = &mut self.edges {
             let near = [0.0; 2];

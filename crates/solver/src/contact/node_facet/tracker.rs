@@ -134,6 +134,12 @@ enum Place {
     Lost,
 }
 
+/// Bodies of nodes of the model as far as surfaces go: their nodes come before all others.
+pub(in crate::contact) fn bodies_of(surfaces: &[SpaceSurface], bodies: &[u32]) -> Vec<u32> {
+    let count = surfaces.iter().filter_map(|surface| surface.nodes.last()).map(|&last| last as usize + 1).max().unwrap_or(0);
+    bodies[..count.min(bodies.len())].to_vec()
+}
+
 /// Follows the nodes of surfaces in space along the bodies of other surfaces, or of their own.
 pub struct Tracker {
     surfaces: Vec<SpaceSurface>,
@@ -143,7 +149,7 @@ pub struct Tracker {
     triangles: Vec<Vec<[u32; 3]>>,
     /// A facet and a corner at each node of each surface.
     corners: Vec<Vec<(u32, u32)>>,
-    /// Body of each node of the model.
+    /// Body of each node as far as the surfaces go.
     bodies: Vec<u32>,
     /// All nodes of the surfaces, and where they were at the last search; empty before the first.
     nodes: Vec<u32>,
@@ -195,11 +201,12 @@ impl Tracker {
         let mut nodes: Vec<u32> = surfaces.iter().flat_map(|surface| surface.nodes.iter().copied()).collect();
         nodes.sort_unstable();
         nodes.dedup();
+        let bodies = bodies_of(&surfaces, bodies);
         let skin = SKIN * mean_edge(&surfaces, positions);
         let report = SearchReport { skin, ..SearchReport::default() };
         #[rustfmt::skip]
         let tracker = Self {
-            surfaces, passes, search, triangles, corners, bodies: bodies.to_vec(), nodes, searched: Vec::new(), is_new: true, skin, band: f64::INFINITY, radius: 0.0, deepest: 0.0, travel: 0.0, searched_at: 0.0, touches: Vec::new(), pairs: Vec::new(), report,
+            surfaces, passes, search, triangles, corners, bodies, nodes, searched: Vec::new(), is_new: true, skin, band: f64::INFINITY, radius: 0.0, deepest: 0.0, travel: 0.0, searched_at: 0.0, touches: Vec::new(), pairs: Vec::new(), report,
         };
         tracker
     }
@@ -261,7 +268,7 @@ impl Tracker {
         closed.sort_unstable();
     }
 
-    /// Body of each node of the model.
+    /// Body of each node as far as the surfaces go.
     #[must_use]
     pub fn bodies(&self) -> &[u32] {
         &self.bodies
@@ -344,7 +351,6 @@ impl Tracker {
             let (slaves, target) = (&surfaces[pass.slave].nodes, &surfaces[pass.target]);
             let reach = SLACK * (radius + bend(target, sweep.new));
             let query = Query { positions_old: sweep.old, positions_new: sweep.new, slaves, facets: &triangles[pass.target], reach };
-            search.pairs(&query, pairs);
             let placed = Placed { surface: target, positions: sweep.new };
             let largest = (0..target.facets.len() as u32).map(|facet| placed.size(facet)).fold(0.0, f64::max);
             pass.band = (BAND * largest).min(*band);
@@ -352,12 +358,12 @@ impl Tracker {
             let mut old = old.iter().peekable();
             pass.candidates.clear();
             pass.clear.clear();
-            for of_slave in pairs.chunk_by(|a, b| a.slave == b.slave) {
+            let mut find = |of_slave: &[Pair]| {
                 let slave = of_slave[0].slave;
                 let node = slaves[slave as usize];
                 // A node of two surfaces joins them: it can't go in.
                 if pass.slave != pass.target && target.nodes.binary_search(&node).is_ok() {
-                    continue;
+                    return;
                 }
                 let x = sweep.new[node as usize];
                 near.clear();
@@ -384,7 +390,8 @@ impl Tracker {
                     let known = old.next_if(|old| (old.slave, old.body) == (slave, body));
                     pass.groups.push(known.map_or(group, |known| Group { touches: known.touches, memory: known.memory, ..group }));
                 }
-            }
+            };
+            search.by_and_by(&query, pairs, &mut |pairs| pairs.chunk_by(|a, b| a.slave == b.slave).for_each(&mut find));
             pass.wakes.clear();
             pass.wakes.resize(pass.groups.len(), AWAKE);
         }

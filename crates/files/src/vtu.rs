@@ -1,6 +1,6 @@
 //! VTK XML files of unstructured grids (`.vtu`) and the collection that puts them on a time axis (`.pvd`).
 //!
-//! A [`Frame`] and its [`Cells`] become the bytes of one file: a short XML head, then all arrays as appended raw binary,
+//! What is shown ([`Shown`]) of its [`Cells`] becomes the bytes of one file: a short XML head, then all arrays as appended raw binary,
 //! little-endian, each in zlib blocks with 64-bit headers. What never changes during a run (connectivity, cell types,
 //! parts) is encoded once by [`VtuWriter::new`]. Blocks have a fixed size and are packed by several threads at once. Equal input gives equal bytes
 //! on every machine, for any number of threads. The bytes go to
@@ -11,14 +11,16 @@ mod pack;
 
 use crate::outline::Surface;
 use crate::threads::{Rooms, Threads};
-use embate_solver::output::{CellKind, Cells, Field, FieldKind, Frame, Location};
-use pack::{Array, Data, Packer, Plain, plain, zlib_blocks};
+use embate_solver::output::{CellKind, Cells, FieldKind, Frame, Location, Shown};
+use pack::{Array, Column, Data, Packer, Plain, plain, write_in_pieces, zlib_blocks};
 use std::fmt::Write as _;
 use std::io::{self, Seek, SeekFrom, Write};
 use thiserror::Error;
 
-/// Arrays are packed together up to so many bytes, and larger ones alone.
-const AT_ONCE: usize = 1 << 23;
+/// For each thread: arrays are packed together up to so many bytes, and of larger ones so many at a time.
+const AT_ONCE: usize = 1 << 20;
+/// At most so many for all threads.
+const AT_ONCE_MAX: usize = 1 << 23;
 /// Characters of the place of an array in the head, quotes and the room behind them included.
 const PLACE: usize = 18;
 
@@ -86,33 +88,52 @@ impl VtuWriter {
     ///
     /// # Errors
     /// [`VtuError`] when a field or a cell does not fit.
-    pub fn file<'a>(&'a self, frame: &'a Frame, include: &[String]) -> Result<VtuFile<'a>, VtuError> {
-        let nodes = frame.nodes();
+    pub fn file<'a>(&'a self, shown: &'a dyn Shown, include: &[String]) -> Result<VtuFile<'a>, VtuError> {
+        let nodes = shown.nodes();
         if let Some(node) = self.node_last.filter(|&node| node as usize >= nodes) {
             return Err(VtuError::NodeMissing { node, nodes });
         }
-        let included = || frame.fields.iter().filter(|f| include.is_empty() || include.iter().any(|name| name == f.kind.name));
         let (mut of_nodes, mut of_cells) = (Vec::new(), vec![Content::Packed(&self.parts)]);
-        for field in included() {
-            let (arrays, count) =
-                if field.kind.location == Location::Node { (&mut of_nodes, nodes) } else { (&mut of_cells, self.cell_count) };
-            arrays.push(Content::Plain(field_array(field, count)?));
+        let mut ghosts = None;
+        for (field, kind) in shown.kinds().into_iter().enumerate() {
+            let is_included = include.is_empty() || include.iter().any(|name| name == kind.name);
+            let (arrays, places) = match kind.location {
+                Location::Node => (&mut of_nodes, nodes),
+                Location::Cell => (&mut of_cells, self.cell_count),
+            };
+            let written = kind.width() + usize::from(is_plane_vector(kind));
+            let column = Column { shown, field: Some(field), places, width: kind.width(), written };
+            if is_included || kind.name == "alive" {
+                let (found, expected) = (shown.numbers(field), kind.width() * places);
+                if found != expected {
+                    return Err(VtuError::FieldLength { name: kind.name, found, expected });
+                }
+            }
+            if is_included {
+                arrays.push(Content::Plain(Plain { attributes: field_attributes(kind), data: Data::Column(column) }));
+            }
+            // ParaView does not show cells of this type.
+            if kind.name == "alive" {
+                let mut alive = Vec::new();
+                column.take(0..places, &mut alive);
+                let types: Vec<u8> = alive.iter().map(|&alive| if alive == 0.0 { HIDDEN_CELL } else { 0 }).collect();
+                ghosts = Some(Content::Plain(plain("type=\"UInt8\" Name=\"vtkGhostType\"", Data::Bytes(types))));
+            }
         }
-        // ParaView does not show cells of this type.
-        if let Some(alive) = frame.fields.iter().find(|field| field.kind.name == "alive") {
-            let types: Vec<u8> = alive.values.iter().map(|&alive| if alive == 0.0 { HIDDEN_CELL } else { 0 }).collect();
-            of_cells.push(Content::Plain(plain("type=\"UInt8\" Name=\"vtkGhostType\"", Data::Bytes(types))));
-        }
-        let points =
-            plain(POINTS, if frame.dimension == 3 { Data::Numbers(&frame.coordinates) } else { Data::PlaneVectors(&frame.coordinates) });
+        of_cells.extend(ghosts);
         let sections = vec![
             ("PointData", of_nodes),
             ("CellData", of_cells),
-            ("Points", vec![Content::Plain(points)]),
+            ("Points", vec![Content::Plain(points(shown))]),
             ("Cells", [&self.connectivity, &self.offsets, &self.types].map(Content::Packed).into()),
         ];
-        Ok(VtuFile { time: frame.time, counts: [nodes, self.cell_count], sections, packers: &self.packers })
+        Ok(VtuFile { time: shown.time(), counts: [nodes, self.cell_count], sections, packers: &self.packers })
     }
+}
+
+/// The positions of all nodes: in the plane with z = 0.
+fn points(shown: &dyn Shown) -> Plain<'_> {
+    plain(POINTS, Data::Column(Column { shown, field: None, places: shown.nodes(), width: shown.dimension(), written: 3 }))
 }
 
 /// A file that is ready to be packed and written.
@@ -152,7 +173,9 @@ impl VtuFile<'_> {
         let arrays: Vec<&Content<'_>> = self.sections.iter().rev().flat_map(|(_, arrays)| arrays.iter().rev()).collect();
         let mut places = vec![0; arrays.len()];
         // Where data lie is known when they are there; the head has as much room for any of them.
-        out.write_all(self.head(&places).as_bytes())?;
+        let head = self.head(&places);
+        out.write_all(head.as_bytes())?;
+        let at_once = (AT_ONCE * threads.count()).min(AT_ONCE_MAX);
         let (mut next, mut at) = (0, 0);
         while let Some(&content) = arrays.get(next) {
             let first = match content {
@@ -164,9 +187,15 @@ impl VtuFile<'_> {
                     continue;
                 }
             };
+            if first.data.len() > at_once {
+                places[next] = at;
+                at += write_in_pieces(&first.data, at_once, (self.packers, threads), head.len() + at, out)?;
+                next += 1;
+                continue;
+            }
             let (mut group, mut length) = (vec![first], first.data.len());
             while let Some(Content::Plain(other)) = arrays.get(next + group.len())
-                && length + other.data.len() <= AT_ONCE
+                && length + other.data.len() <= at_once
             {
                 length += other.data.len();
                 group.push(other);
@@ -214,7 +243,7 @@ impl VtuFile<'_> {
 /// # Errors
 /// Those of `out`.
 pub(crate) fn write_obstacles(lines: &[Vec<[f64; 2]>], time: f64, out: &mut (impl Write + Seek)) -> io::Result<()> {
-    let positions: Vec<f64> = lines.iter().flatten().flatten().copied().collect();
+    let positions: Vec<[f64; 2]> = lines.iter().flatten().copied().collect();
     let (mut connectivity, mut indices) = (Vec::new(), Vec::new());
     let mut first = 0;
     for (index, line) in (0_i32..).zip(lines) {
@@ -230,7 +259,7 @@ pub(crate) fn write_obstacles(lines: &[Vec<[f64; 2]>], time: f64, out: &mut (imp
         connectivity,
         indices,
     };
-    cells.write(Data::PlaneVectors(&positions), first as usize, time, out)
+    cells.write(&Frame { time, ..Frame::of(&positions) }, out)
 }
 
 /// Writes a `.vtu` file of the obstacles of a model of space: each facet as a triangle or a quadrilateral, with the index of its obstacle as the cell array
@@ -239,7 +268,7 @@ pub(crate) fn write_obstacles(lines: &[Vec<[f64; 2]>], time: f64, out: &mut (imp
 /// # Errors
 /// Those of `out`.
 pub(crate) fn write_surfaces(surfaces: &[Surface], time: f64, out: &mut (impl Write + Seek)) -> io::Result<()> {
-    let positions: Vec<f64> = surfaces.iter().flat_map(|surface| surface.points.as_flattened()).copied().collect();
+    let positions: Vec<[f64; 3]> = surfaces.iter().flat_map(|surface| &surface.points).copied().collect();
     let mut cells = Pieces::default();
     let mut first = 0;
     for (index, surface) in (0_i32..).zip(surfaces) {
@@ -252,7 +281,7 @@ pub(crate) fn write_surfaces(surfaces: &[Surface], time: f64, out: &mut (impl Wr
         }
         first += surface.points.len() as u32;
     }
-    cells.write(Data::Numbers(&positions), first as usize, time, out)
+    cells.write(&Frame { time, ..Frame::of(&positions) }, out)
 }
 
 /// Cells of obstacles.
@@ -266,7 +295,7 @@ struct Pieces {
 }
 
 impl Pieces {
-    fn write(self, positions: Data<'_>, points: usize, time: f64, out: &mut (impl Write + Seek)) -> io::Result<()> {
+    fn write(self, shown: &Frame, out: &mut (impl Write + Seek)) -> io::Result<()> {
         let count = self.indices.len();
         let indices = Data::Bytes(self.indices.iter().flat_map(|index| index.to_le_bytes()).collect());
         let array = |attributes: &str, data| vec![Content::Plain(plain(attributes, data))];
@@ -276,11 +305,11 @@ impl Pieces {
         let sections = vec![
             ("PointData", vec![]),
             ("CellData", array("type=\"Int32\" Name=\"obstacle\"", indices)),
-            ("Points", array(POINTS, positions)),
+            ("Points", vec![Content::Plain(points(shown))]),
             ("Cells", cells),
         ];
         let packers = Rooms::default();
-        VtuFile { time, counts: [points, count], sections, packers: &packers }.write(&Threads::one(), out)
+        VtuFile { time: shown.time, counts: [shown.nodes(), count], sections, packers: &packers }.write(&Threads::one(), out)
     }
 }
 
@@ -315,16 +344,6 @@ fn vtk_cell_type(kind: CellKind) -> u8 {
     }
 }
 
-fn field_array(field: &Field, count: usize) -> Result<Plain<'_>, VtuError> {
-    let kind = field.kind;
-    let expected = kind.width() * count;
-    if field.values.len() != expected {
-        return Err(VtuError::FieldLength { name: kind.name, found: field.values.len(), expected });
-    }
-    let data = if is_plane_vector(kind) { Data::PlaneVectors(&field.values) } else { Data::Numbers(&field.values) };
-    Ok(Plain { attributes: field_attributes(kind), data })
-}
-
 /// Readers draw arrows only for three components, so plane vectors get a third one.
 fn is_plane_vector(kind: &FieldKind) -> bool {
     kind.components == ["x", "y"]
@@ -348,7 +367,7 @@ fn field_attributes(kind: &FieldKind) -> String {
 mod tests {
     use super::pack::BLOCK;
     use super::*;
-    use embate_solver::output::{field_kind, fields_of};
+    use embate_solver::output::{Field, field_kind, fields_of};
     use std::io::Cursor;
     use std::io::Read;
 

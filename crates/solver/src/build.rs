@@ -50,6 +50,7 @@ use crate::load::force::Forces;
 use crate::load::join::Joins;
 use crate::load::non_reflecting::{Behind, NonReflecting};
 use crate::load::tributary::Depth;
+use crate::mesh::surface::Surface;
 use crate::mesh::{ElementGroup, Mesh};
 use crate::model::{self, ContactLaw, Interface, Model, Penalty, PenaltySource};
 use crate::rigid::Bodies;
@@ -103,6 +104,9 @@ where
         mesh,
     };
     warnings.extend(idle::warnings(model, &builder.mesh, &builder.body_of_node));
+    // Found before there are blocks, because the facets of all elements are large; told of at its place.
+    let touches = !(model.contacts.is_empty() && model.obstacles.is_empty());
+    let outside = builder.outside(touches);
     let initial_penetrations = <Dim<D>>::part_at_start(&mut builder);
     if !builder.faults.is_empty() {
         return Err(builder.faults);
@@ -130,7 +134,7 @@ where
     if model.run.relaxation.is_some() {
         damping.relax(0.0);
     }
-    let mut velocities = builder.velocities(part_mass);
+    let velocities = builder.velocities(part_mass);
     builder.rigid_parts(part_mass);
     let shares = builder.shares(&blocks, part_mass);
     // From here on masses are those of nodes, and of parts as a whole: each list of them is as large as all positions.
@@ -150,6 +154,7 @@ where
         return Err(builder.faults);
     }
     blocks.iter_mut().zip(&criteria).filter(|(_, criteria)| !criteria.is_empty()).for_each(|(block, _)| block.keep_forces());
+    let outside = if touches == contacts.is_empty() { builder.outside(!touches) } else { outside }.map_err(|fault| vec![fault]);
     let Builder { mesh, constraints, joins, curves, positions, mass, body_parts, bodies, terms, outlines, moduli, time_step, .. } = builder;
     let origin = || Origin { model: model.clone(), fans: Fans::of(&mesh), moduli, time_step, positions: positions.clone() };
     let erosion = criteria.iter().any(|criteria| !criteria.is_empty()).then(|| Box::new(Erosion::new(criteria, origin())));
@@ -158,10 +163,9 @@ where
     blocks.extend(springs);
     let nodes = positions.len();
     let assembly = Assembly::new(nodes, &blocks.iter().map(|block| block.slots()).collect::<Vec<_>>());
+    let mut velocities = velocities;
     velocities.resize(nodes, [0.0; D]);
-    // Made only to be told of elements that overlap where nothing touches. A symmetry line is no surface: pressures count the length on the model's side.
-    let outside =
-        mesh.outside_without(&[], |segment| contacts.is_empty() || constraints.is_mirror(segment)).map_err(|fault| vec![fault])?;
+    let outside = outside?;
     let limits = limits::of(model, &mesh, &blocks, &outside);
     // Without contacts there is nothing to remember of any node.
     let touched = if contacts.is_empty() { 0 } else { nodes };
@@ -259,6 +263,11 @@ impl<const D: usize> Builder<'_, D>
 where
     Dim<D>: World<D>,
 {
+    /// The outside of all bodies. Made only to be told of elements that overlap where nothing `touches`. A symmetry line is no surface: pressures count the length on the model's side.
+    fn outside(&self, touches: bool) -> Result<Surface<D>, Fault> {
+        self.mesh.outside_without(&[], |segment| !touches || self.constraints.is_mirror(segment))
+    }
+
     /// A block for each group of elements.
     fn blocks(&mut self) -> Vec<Box<dyn Block<D>>> {
         let mut blocks = Vec::new();

@@ -27,6 +27,7 @@ pub mod step;
 pub mod build;
 mod culprit;
 mod record;
+mod showing;
 mod watch;
 pub mod hashes;
 pub mod parting;

@@ -4,6 +4,8 @@
 use crate::contact::tracker::Certificate;
 use crate::error::Notice;
 use crate::material::Variable;
+use std::borrow::Cow;
+use std::ops::Range;
 
 /// Shape of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -175,6 +177,79 @@ impl Frame {
         let own = &self.coordinates[node * self.dimension..][..self.dimension];
         std::array::from_fn(|d| own.get(d).copied().unwrap_or(0.0))
     }
+}
+
+/// A state at an output time, to be taken piece by piece: nodes and cells in the user's order, fields in that of [`FIELDS`]. A [`Frame`] has all of it in memory, a
+/// running simulation makes each piece when it is asked for.
+pub trait Shown: Sync {
+    /// Time, s.
+    fn time(&self) -> f64;
+    /// Step number.
+    fn step(&self) -> u64;
+    /// Components of a position: 2 in the plane, 3 in space.
+    fn dimension(&self) -> usize;
+    /// How many nodes there are.
+    fn nodes(&self) -> usize;
+    /// The fields.
+    fn kinds(&self) -> Vec<&'static FieldKind>;
+    /// How many numbers a field has, by its place among [`Shown::kinds`].
+    fn numbers(&self, field: usize) -> usize;
+    /// Puts the current positions of nodes into `values`, m, one after the other; what was there goes.
+    fn coordinates(&self, nodes: Range<usize>, values: &mut Vec<f64>);
+    /// The same of the values of a field at nodes or cells.
+    fn values(&self, field: usize, places: Range<usize>, values: &mut Vec<f64>);
+    /// The obstacles, and the positions of the nodes where there are any; no fields are needed.
+    fn outlined(&self) -> Cow<'_, Frame>;
+    /// Puts all of it into a frame; what the frame held goes, its buffers serve again.
+    fn fill(&self, frame: &mut Frame);
+}
+
+impl Shown for Frame {
+    fn time(&self) -> f64 {
+        self.time
+    }
+
+    fn step(&self) -> u64 {
+        self.step
+    }
+
+    fn dimension(&self) -> usize {
+        self.dimension
+    }
+
+    fn nodes(&self) -> usize {
+        Self::nodes(self)
+    }
+
+    fn kinds(&self) -> Vec<&'static FieldKind> {
+        self.fields.iter().map(|field| field.kind).collect()
+    }
+
+    fn numbers(&self, field: usize) -> usize {
+        self.fields[field].values.len()
+    }
+
+    fn coordinates(&self, nodes: Range<usize>, values: &mut Vec<f64>) {
+        put(&self.coordinates, self.dimension, nodes, values);
+    }
+
+    fn values(&self, field: usize, places: Range<usize>, values: &mut Vec<f64>) {
+        put(&self.fields[field].values, self.fields[field].kind.width(), places, values);
+    }
+
+    fn outlined(&self) -> Cow<'_, Frame> {
+        Cow::Borrowed(self)
+    }
+
+    fn fill(&self, frame: &mut Frame) {
+        frame.clone_from(self);
+    }
+}
+
+/// Puts the numbers of some places into `values`, `width` for each.
+fn put(all: &[f64], width: usize, places: Range<usize>, values: &mut Vec<f64>) {
+    values.clear();
+    values.extend_from_slice(&all[width * places.start..width * places.end]);
 }
 
 /// What a dimension means for fields: the components of a vector and of a stress (in the plane with the normal stress out of it), and what contact forces are in.

@@ -1,23 +1,20 @@
-//! What is recorded of a system: frames, history rows, momentum, the state hash. Values only; formats are elsewhere.
+//! What is recorded of a system: which fields (`showing` has their values), history rows, momentum, the state hash. Values only; formats are elsewhere.
 
 use crate::archive::{Archive, Keep, Kept};
-use crate::block::ElementState;
 use crate::contact::ContactKind;
 use crate::contact::springs::Tangential;
-use crate::contact::traces::{State, Traces};
 use crate::error::Fault;
 use crate::hash::Fnv;
-use crate::material::Variable;
 use crate::mesh::ElementGroup;
 use crate::model::messages::UNKNOWN_NAME;
 use crate::model::{Model, ProbeAt};
-use crate::output::{Cells, Field, FieldKind, Frame, Location, Needs, fields_of};
+use crate::output::{Cells, FieldKind, Needs, fields_of};
 use crate::rigid::Body;
+use crate::showing::Showing;
 use crate::step::System;
 use crate::tensor::Dim;
 use crate::vector::{dot, first, minus, plus, times};
 use crate::world::{self, World, unit_matrix};
-use std::cell::OnceCell;
 
 /// Columns of energies, after `energy.`.
 const ENERGIES: [&str; 12] = [
@@ -173,141 +170,22 @@ impl Recorded {
         row
     }
 
-    /// Puts the state of a system into a frame; what the frame held goes, its buffers serve again.
-    pub(crate) fn fill<const D: usize>(&self, system: &System<D>, frame: &mut Frame)
+    /// A system as it is shown now.
+    pub(crate) fn showing<'a, const D: usize>(&'a self, system: &'a System<D>) -> Showing<'a, D>
     where
         Dim<D>: World<D>,
     {
-        (frame.time, frame.step) = (system.time, system.step);
-        frame.dimension = D;
-        frame.coordinates.resize(D * system.mesh.user_nodes.len(), 0.0);
-        let (coordinates, _) = frame.coordinates.as_chunks_mut();
-        for (x, &user) in system.positions.iter().zip(&system.mesh.user_nodes) {
-            coordinates[user as usize] = *x;
-        }
-        let mut spare = std::mem::take(&mut frame.fields).into_iter().map(|field| field.values);
-        frame.fields = self.fields.iter().map(|&kind| Field { kind, values: spare.next().unwrap_or_default() }).collect();
-        let surface = OnSurface::default();
-        for field in frame.fields.iter_mut().filter(|field| field.kind.location == Location::Node) {
-            fill_nodes(field.kind.name, system, &surface, &mut field.values);
-        }
-        fill_cells(system, &mut frame.fields);
-        frame.outlines.clear();
-        frame.outlines.extend(system.outlines.iter().map(|outline| outline.now(&system.bodies)));
+        Showing::new(system, &self.fields)
     }
 }
 
 /// Velocity at the whole step, m/s: v^{n-1/2} and v^{n+1/2} lie ½ dt^{n-1} before and ½ dt^n after it (v⁰ itself at time zero).
-fn velocity<const D: usize>(system: &System<D>, node: usize) -> [f64; D]
+pub(crate) fn velocity<const D: usize>(system: &System<D>, node: usize) -> [f64; D]
 where
     Dim<D>: World<D>,
 {
     let ([a, b], before) = (system.velocities_around(node), system.before());
     plus(a, times(before, minus(b, a)))
-}
-
-/// What several fields of a frame are taken from, found when the first of them asks.
-#[derive(Default)]
-struct OnSurface {
-    /// Pressure and shear stress of every node, Pa.
-    tractions: OnceCell<Vec<[f64; 2]>>,
-    states: OnceCell<Vec<State>>,
-}
-
-/// Values of one of [`FIELDS`] at the nodes, in the user's order.
-fn fill_nodes<const D: usize>(name: &str, system: &System<D>, surface: &OnSurface, values: &mut Vec<f64>)
-where
-    Dim<D>: World<D>,
-{
-    let traces = &system.traces;
-    let tractions = || surface.tractions.get_or_init(|| <Dim<D>>::tractions(traces, &system.contact_forces, &system.positions));
-    let states = || surface.states.get_or_init(|| Traces::states(&system.springs, system.positions.len()));
-    let moved = |node: usize| minus(system.positions[node], system.mesh.positions[node]);
-    match name {
-        "displacement" => by_node(system, values, moved),
-        "velocity" => by_node(system, values, |node| velocity(system, node)),
-        "contact_force" => by_node(system, values, |node| system.contact_forces.of(node)),
-        "contact_pressure" => {
-            let tractions = tractions();
-            by_node(system, values, |node| [tractions[node][0]]);
-        }
-        "contact_shear" => {
-            let tractions = tractions();
-            by_node(system, values, |node| [tractions[node][1]]);
-        }
-        "contact_gap" => {
-            let states = states();
-            by_node(system, values, |node| [states[node].gap]);
-        }
-        "contact_status" => {
-            let states = states();
-            by_node(system, values, |node| [states[node].status]);
-        }
-        "contact_slip" => by_node(system, values, |node| [traces.slip(node)]),
-        "friction_heat" => by_node(system, values, |node| [traces.heat(node)]),
-        _ => values.clear(),
-    }
-}
-
-/// Values of every node, in the user's order.
-fn by_node<const D: usize, const N: usize>(system: &System<D>, values: &mut Vec<f64>, value: impl Fn(usize) -> [f64; N])
-where
-    Dim<D>: World<D>,
-{
-    values.resize(N * system.mesh.user_nodes.len(), 0.0);
-    for (node, &user) in system.mesh.user_nodes.iter().enumerate() {
-        values[N * user as usize..][..N].copy_from_slice(&value(node));
-    }
-}
-
-/// Takes the values of a field from the state of an element that is there (1) or eroded (0).
-type OfElement = fn(&ElementState, f64, &mut [f64]);
-
-/// How the values of one of [`FIELDS`] at the cells are made.
-fn of_element(name: &str) -> Option<OfElement> {
-    Some(match name {
-        "stress" => |state, _, values| values.copy_from_slice(&state.stress[..values.len()]),
-        "von_mises" => |state, _, values| values[0] = von_mises(&state.stress),
-        "pressure" => |state, _, values| values[0] = -(state.stress[0] + state.stress[1] + state.stress[2]) / 3.0,
-        "plastic_strain" => |state, _, values| values[0] = state.variables[Variable::PlasticStrain as usize],
-        "density" => |state, _, values| values[0] = state.variables[Variable::Density as usize],
-        "temperature" => |state, _, values| values[0] = state.variables[Variable::Temperature as usize],
-        "damage" => |state, _, values| values[0] = state.variables[Variable::Damage as usize],
-        "energy_density" => |state, _, values| values[0] = state.energy_density,
-        "alive" => |_, alive, values| values[0] = alive,
-        _ => return None,
-    })
-}
-
-/// Values of all fields at the cells, part by part in the user's order: each element is asked for its state once.
-fn fill_cells<const D: usize>(system: &System<D>, fields: &mut [Field])
-where
-    Dim<D>: World<D>,
-{
-    let mut made: Vec<(usize, OfElement, &mut Vec<f64>)> = Vec::new();
-    let elements: usize = system.mesh.groups.iter().map(ElementGroup::elements).sum();
-    for field in fields.iter_mut().filter(|field| field.kind.location == Location::Cell) {
-        let Some(of_element) = of_element(field.kind.name) else { continue };
-        field.values.resize(field.kind.width() * elements, 0.0);
-        made.push((field.kind.width(), of_element, &mut field.values));
-    }
-    if made.is_empty() {
-        return;
-    }
-    // Groups of a part follow each other and share its numbering.
-    let (mut first, mut next, mut last) = (0, 0, None);
-    for (group, block) in system.mesh.groups.iter().zip(&system.blocks) {
-        if last != Some(group.part) {
-            (first, last) = (next, Some(group.part));
-            next += system.mesh.elements_of(group.part);
-        }
-        for (element, &user) in group.user_elements.iter().enumerate() {
-            let (state, alive) = (block.state(element), f64::from(u8::from(group.is_alive(element))));
-            for (width, of_element, values) in &mut made {
-                of_element(&state, alive, &mut values[*width * (first + user as usize)..][..*width]);
-            }
-        }
-    }
 }
 
 /// Equivalent stress, Pa.
@@ -354,17 +232,26 @@ pub(crate) fn cells<const D: usize>(system: &System<D>) -> Cells
 where
     Dim<D>: World<D>,
 {
-    let mut cells = Cells { offsets: vec![0], ..Cells::default() };
+    let elements: usize = system.mesh.groups.iter().map(ElementGroup::elements).sum();
+    // A large model has no room to grow into.
+    let mut cells = Cells {
+        nodes: Vec::with_capacity(system.mesh.groups.iter().map(|group| group.connectivity.len()).sum()),
+        offsets: Vec::with_capacity(elements + 1),
+        kinds: Vec::with_capacity(elements),
+        parts: Vec::with_capacity(elements),
+        part_names: Vec::new(),
+    };
+    cells.offsets.push(0);
     for (index, part) in system.mesh.parts.iter().enumerate() {
         cells.part_names.push(part.name.clone());
         let groups: Vec<&ElementGroup> = system.mesh.groups_of(index).collect();
         // Where each element is stored, by the user's number.
         let mut places = vec![(0, 0); system.mesh.elements_of(index)];
-        for (of_part, group) in groups.iter().enumerate() {
-            group.user_elements.iter().enumerate().for_each(|(element, &user)| places[user as usize] = (of_part, element as u32));
+        for (of_part, group) in (0u8..).zip(&groups) {
+            (0..).zip(&group.user_elements).for_each(|(element, &user)| places[user as usize] = (of_part, element));
         }
         for (of_part, element) in places {
-            let cell = groups[of_part].cell(element as usize);
+            let cell = groups[usize::from(of_part)].cell(element as usize);
             cells.nodes.extend(cell.iter().map(|&node| system.mesh.user_nodes[node as usize]));
             cells.offsets.push(cells.nodes.len() as u32);
             cells.kinds.push(<Dim<D>>::cell_kind(cell.len()));

@@ -15,7 +15,7 @@ use crate::contact::tracker::SearchReport;
 use crate::error::{Error, Notice, Warning};
 use crate::hashes::Hashes;
 use crate::model::Model;
-use crate::output::{Cells, Frame, Summary};
+use crate::output::{Cells, Frame, Shown, Summary};
 use crate::post_mortem::{Acting, Culprit, Neighbourhood, Suspect, Trace};
 use embate_lanes::Level;
 use run::Run;
@@ -93,6 +93,15 @@ pub trait Observer {
     /// # Errors
     /// Whatever keeps the observer from taking it; it ends the run.
     fn frame(&mut self, frame: Frame) -> Result<(), ObserverError>;
+    /// The state at an output time, to be taken piece by piece; who does not do so gets it as a frame.
+    ///
+    /// # Errors
+    /// As [`Observer::frame`].
+    fn show(&mut self, shown: &dyn Shown) -> Result<(), ObserverError> {
+        let mut frame = self.spare();
+        shown.fill(&mut frame);
+        self.frame(frame)
+    }
     /// A row of the history, one value per column of [`Simulation::history_columns`].
     ///
     /// # Errors

@@ -6,7 +6,7 @@
 use super::ResultsError;
 use super::queue::Queue;
 use super::writer::{Closed, Job, Writer, bytes};
-use embate_solver::output::Frame;
+use embate_solver::output::{Frame, Shown};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
@@ -23,9 +23,9 @@ struct Desk {
 type Faults = Arc<Mutex<Option<ResultsError>>>;
 
 impl Desk {
-    fn write(&mut self, job: &Job) {
+    fn write(&mut self, job: &Job, shown: Option<&dyn Shown>) {
         let begin = Instant::now();
-        if let Err(fault) = guarded(|| self.writer.write(job)) {
+        if let Err(fault) = guarded(|| self.writer.write(job, shown)) {
             let mut first = self.faults.lock().unwrap_or_else(PoisonError::into_inner);
             first.get_or_insert(fault);
         }
@@ -90,7 +90,7 @@ impl Handover {
             let work = move || {
                 let mut desk = take(&taken).expect("the run takes the desk only where there is no thread");
                 jobs.serve(|job| {
-                    desk.write(job);
+                    desk.write(job, None);
                     job.frame.is_some()
                 });
                 desk
@@ -130,12 +130,25 @@ impl Handover {
             }
             Place::InTurn(desk) => {
                 let begin = Instant::now();
-                desk.write(&job);
+                desk.write(&job, None);
                 self.spare = job.frame.unwrap_or_default();
                 self.waited += begin.elapsed();
             }
             Place::Nowhere => {}
         }
+    }
+
+    /// Hands over a job with what is shown, of which each piece is made when it is written; `false`: the writer works beside the run or needs all of it, and nothing
+    /// was done.
+    pub(super) fn show(&mut self, job: impl FnOnce() -> Job, shown: &dyn Shown) -> bool {
+        let Place::InTurn(desk) = &mut self.place else { return false };
+        if !desk.writer.takes_pieces() {
+            return false;
+        }
+        let begin = Instant::now();
+        desk.write(&job(), Some(shown));
+        self.waited += begin.elapsed();
+        true
     }
 
     /// What went wrong and was not told yet.

@@ -16,7 +16,7 @@ use crate::threads::Threads;
 use embate_solver::error::Notice;
 use embate_solver::hashes::Hashes;
 use embate_solver::model::Model;
-use embate_solver::output::{Cells, Frame, Summary};
+use embate_solver::output::{Cells, Frame, Shown, Summary};
 use embate_solver::simulation::{Control, Observer, ObserverError, Progress, State};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -208,6 +208,17 @@ impl Observer for Recorder<'_> {
         let job = Job { frame: Some(frame), ..self.job() };
         self.handover.give(job);
         Ok(self.handover.fault()?)
+    }
+
+    fn show(&mut self, shown: &dyn Shown) -> Result<(), ObserverError> {
+        let Self { rows, hashes, handover, .. } = self;
+        let job = || Job { rows: std::mem::take(rows), hashes: std::mem::take(hashes), ..Job::default() };
+        if handover.show(job, shown) {
+            return Ok(self.handover.fault()?);
+        }
+        let mut frame = self.spare();
+        shown.fill(&mut frame);
+        self.frame(frame)
     }
 
     fn row(&mut self, row: &[f64]) -> Result<(), ObserverError> {

@@ -16,7 +16,7 @@ use crate::vtu::{self, VtuWriter};
 use embate_solver::archive::Section;
 use embate_solver::hashes::Hashes;
 use embate_solver::model::Model;
-use embate_solver::output::{Cells, Frame};
+use embate_solver::output::{Cells, Frame, Shown};
 use embate_solver::simulation::State;
 use std::cell::OnceCell;
 use std::path::Path;
@@ -190,9 +190,14 @@ impl Writer {
         Ok(checkpoint.write(self.folder.path(), &self.threads)?)
     }
 
-    /// Does a job. A frame is written even when rows can't be.
-    pub(super) fn write(&mut self, job: &Job) -> Result<(), ResultsError> {
-        let told = self.tell(job);
+    /// Whether it can take what is shown piece by piece: a film needs whole frames.
+    pub(super) fn takes_pieces(&self) -> bool {
+        self.film.is_none()
+    }
+
+    /// Does a job; `shown` stands for a frame that the job has not. A frame is written even when rows can't be.
+    pub(super) fn write(&mut self, job: &Job, shown: Option<&dyn Shown>) -> Result<(), ResultsError> {
+        let told = self.tell(job, shown);
         if job.is_failing {
             self.before_failure = Some(self.told_so_far()?);
         }
@@ -203,7 +208,7 @@ impl Writer {
         }
     }
 
-    fn tell(&mut self, job: &Job) -> Result<(), ResultsError> {
+    fn tell(&mut self, job: &Job, shown: Option<&dyn Shown>) -> Result<(), ResultsError> {
         let mut rows = Ok(());
         for row in job.rows.chunks_exact(self.columns.len().max(1)) {
             rows = rows.and(self.history.row(row));
@@ -214,9 +219,9 @@ impl Writer {
         if let Some(log) = &mut self.hashes {
             rows = rows.and(job.hashes.iter().try_for_each(|hashes| log.line(|text| hashes::append_line(text, hashes))));
         }
-        let Some(frame) = &job.frame else { return rows };
-        if self.frames.write(frame, &self.include, &self.folder, &self.threads)? {
-            if let Some(film) = &mut self.film {
+        let Some(shown) = job.frame.as_ref().map(|frame| frame as &dyn Shown).or(shown) else { return rows };
+        if self.frames.write(shown, &self.include, &self.folder, &self.threads)? {
+            if let (Some(film), Some(frame)) = (&mut self.film, &job.frame) {
                 film.add(frame);
             }
             rows = rows.and(self.history.flush()).and(self.hashes.as_mut().map_or(Ok(()), Lines::flush));
@@ -279,16 +284,17 @@ impl Frames {
     }
 
     /// Writes a frame; `false` when this step is there already, as when a run fails right at an output time.
-    fn write(&mut self, frame: &Frame, include: &[String], folder: &ResultFolder, threads: &Threads) -> Result<bool, ResultsError> {
-        if self.step_last == Some(frame.step) {
+    fn write(&mut self, shown: &dyn Shown, include: &[String], folder: &ResultFolder, threads: &Threads) -> Result<bool, ResultsError> {
+        if self.step_last == Some(shown.step()) {
             return Ok(false);
         }
         let name = ResultFolder::frame_name(self.written.len());
-        let file = self.writer.file(frame, include)?;
+        let file = self.writer.file(shown, include)?;
         write_whole_in_pieces(&folder.path().join(&name), |out| file.write(threads, out))?;
-        self.obstacles.write(frame, self.written.len(), folder)?;
-        self.written.push((frame.time, name));
-        self.step_last = Some(frame.step);
+        drop(file);
+        self.obstacles.write(&shown.outlined(), self.written.len(), folder)?;
+        self.written.push((shown.time(), name));
+        self.step_last = Some(shown.step());
         if self.written.len() == 1 || self.collected.elapsed() > COLLECTION_PAUSE {
             self.write_collection(folder)?;
             self.collected = Instant::now();

@@ -1,10 +1,12 @@
 //! Arrays of a VTK XML file, packed: numbers become little-endian bytes block by block, and blocks zlib streams.
 //!
 //! Arrays come from `vtu`; blocks have a fixed size and are packed by several threads at once, each from its numbers alone, so that equal arrays give equal bytes.
+//! Numbers of nodes and cells are made block by block ([`Shown`]): neither they nor the streams of a large array are ever there as a whole.
 
 use crate::threads::{Rooms, Threads};
+use embate_solver::output::Shown;
 use flate2::{Compress, Compression, FlushCompress, Status};
-use std::io::{self, Write};
+use std::io::{self, Seek, SeekFrom, Write};
 use std::ops::Range;
 
 /// Bytes of one block before compression.
@@ -43,9 +45,52 @@ pub(super) enum Data<'a> {
     Bytes(Vec<u8>),
     /// Whole numbers, written with 64 bits.
     Indices(&'a [u32]),
-    Numbers(&'a [f64]),
-    /// `x y x y ...`, written as `x y 0 x y 0 ...`.
-    PlaneVectors(&'a [f64]),
+    Column(Column<'a>),
+}
+
+/// Numbers of nodes or cells, taken from what is shown.
+#[derive(Clone, Copy)]
+pub(super) struct Column<'a> {
+    pub(super) shown: &'a dyn Shown,
+    /// Its place among the fields; `None`: the positions.
+    pub(super) field: Option<usize>,
+    /// Nodes or cells.
+    pub(super) places: usize,
+    /// Numbers of each.
+    pub(super) width: usize,
+    /// Numbers of each in the file: plane vectors `x y x y ...` are written as `x y 0 x y 0 ...`.
+    pub(super) written: usize,
+}
+
+impl Column<'_> {
+    /// Puts the numbers of some places into `numbers`.
+    pub(super) fn take(&self, places: Range<usize>, numbers: &mut Vec<f64>) {
+        match self.field {
+            Some(field) => self.shown.values(field, places, numbers),
+            None => self.shown.coordinates(places, numbers),
+        }
+    }
+
+    /// The bytes of a range of the numbers as they are written; `numbers` is room.
+    fn fill(&self, values: Range<usize>, numbers: &mut Vec<f64>, bytes: &mut [[u8; 8]]) {
+        let Self { width, written, .. } = *self;
+        let first = values.start / written;
+        self.take(first..values.end.div_ceil(written), numbers);
+        // A block may begin within a vector.
+        let at = values.start - first * written;
+        if width == written {
+            bytes.iter_mut().zip(&numbers[at..]).for_each(|(place, value)| *place = value.to_le_bytes());
+            return;
+        }
+        let (mut from, mut at) = (0, at);
+        for place in bytes {
+            *place = if at < width { numbers[from + at] } else { 0.0 }.to_le_bytes();
+            at += 1;
+            if at == written {
+                (from, at) = (from + width, 0);
+            }
+        }
+    }
 }
 
 impl Data<'_> {
@@ -54,13 +99,12 @@ impl Data<'_> {
         match self {
             Self::Bytes(bytes) => bytes.len(),
             Self::Indices(indices) => 8 * indices.len(),
-            Self::Numbers(values) => 8 * values.len(),
-            Self::PlaneVectors(values) => 24 * (values.len() / 2),
+            Self::Column(column) => 8 * column.written * column.places,
         }
     }
 
-    /// The bytes in a range of whole numbers, little-endian.
-    pub(super) fn fill(&self, range: Range<usize>, bytes: &mut Vec<u8>) {
+    /// The bytes in a range of whole numbers, little-endian; `numbers` is room.
+    pub(super) fn fill(&self, range: Range<usize>, numbers: &mut Vec<f64>, bytes: &mut Vec<u8>) {
         let values = range.start / 8..range.end / 8;
         bytes.resize(range.len(), 0);
         match self {
@@ -69,19 +113,7 @@ impl Data<'_> {
                 let (places, _) = bytes.as_chunks_mut();
                 places.iter_mut().zip(&all[values]).for_each(|(place, &index)| *place = i64::from(index).to_le_bytes());
             }
-            Self::Numbers(all) => {
-                let (places, _) = bytes.as_chunks_mut();
-                places.iter_mut().zip(&all[values]).for_each(|(place, value)| *place = value.to_le_bytes());
-            }
-            Self::PlaneVectors(all) => {
-                let (places, _) = bytes.as_chunks_mut();
-                // A block may begin within a vector.
-                let (mut from, mut at) = (2 * (values.start / 3), values.start % 3);
-                for place in places {
-                    *place = if at == 2 { 0.0 } else { all[from + at] }.to_le_bytes();
-                    (from, at) = if at == 2 { (from + 2, 0) } else { (from, at + 1) };
-                }
-            }
+            Self::Column(column) => column.fill(values, numbers, bytes.as_chunks_mut().0),
         }
     }
 }
@@ -89,18 +121,19 @@ impl Data<'_> {
 /// What a thread packs blocks with.
 pub(super) struct Packer {
     zlib: Compress,
+    numbers: Vec<f64>,
     bytes: Vec<u8>,
     stream: Vec<u8>,
 }
 
 impl Packer {
     fn new() -> Self {
-        Self { zlib: Compress::new(Compression::fast(), true), bytes: Vec::new(), stream: Vec::new() }
+        Self { zlib: Compress::new(Compression::fast(), true), numbers: Vec::new(), bytes: Vec::new(), stream: Vec::new() }
     }
 
     /// A range of an array as a zlib stream.
     fn packed(&mut self, data: &Data<'_>, range: Range<usize>) -> Vec<u8> {
-        data.fill(range, &mut self.bytes);
+        data.fill(range, &mut self.numbers, &mut self.bytes);
         self.zlib.reset();
         self.stream.clear();
         loop {
@@ -115,6 +148,18 @@ impl Packer {
     }
 }
 
+/// The blocks of an array, by their bytes before compression.
+fn blocks_of(data: &Data<'_>) -> impl Iterator<Item = Range<usize>> + use<> {
+    let length = data.len();
+    (0..length.div_ceil(BLOCK)).map(move |k| k * BLOCK..((k + 1) * BLOCK).min(length))
+}
+
+/// What stands before the blocks of an array, given the sizes of their streams.
+fn head(data: &Data<'_>, sizes: &[usize]) -> Vec<u8> {
+    let numbers = [sizes.len(), BLOCK, data.len() % BLOCK].into_iter().chain(sizes.iter().copied());
+    numbers.flat_map(|number| (number as u64).to_le_bytes()).collect()
+}
+
 /// Arrays as VTK's compressed arrays: number of blocks, block size, size of the last block when it is shorter (else 0),
 /// the compressed size of each block (all 64 bits), then the zlib streams. Fast compression: what slower ones save is little, because digits are noise.
 pub(super) fn zlib_blocks<'a>(
@@ -122,18 +167,41 @@ pub(super) fn zlib_blocks<'a>(
     packers: &Rooms<Packer>,
     threads: &Threads,
 ) -> impl Iterator<Item = Array> + use<'a> {
-    let blocks_of = |data: &Data<'_>| data.len().div_ceil(BLOCK);
-    let mut pieces: Vec<(&Data<'_>, Range<usize>)> = Vec::new();
-    for data in arrays.iter().map(|array| &array.data) {
-        pieces.extend((0..blocks_of(data)).map(|k| (data, k * BLOCK..((k + 1) * BLOCK).min(data.len()))));
-    }
+    let pieces: Vec<(&Data<'_>, Range<usize>)> =
+        arrays.iter().flat_map(|array| blocks_of(&array.data).map(|range| (&array.data, range))).collect();
     let is_small = arrays.iter().map(|array| array.data.len()).sum::<usize>() < SERIAL;
     let alone = Threads::one();
     let threads = if is_small { &alone } else { threads };
     let mut streams = threads.map(&pieces, packers, Packer::new, |packer, (data, range)| packer.packed(data, range.clone())).into_iter();
     arrays.iter().map(move |Plain { attributes, data }| {
-        let blocks: Vec<Vec<u8>> = streams.by_ref().take(blocks_of(data)).collect();
-        let head = [blocks.len(), BLOCK, data.len() % BLOCK].into_iter().chain(blocks.iter().map(Vec::len));
-        Array { attributes: attributes.clone(), head: head.flat_map(|number| (number as u64).to_le_bytes()).collect(), blocks }
+        let blocks: Vec<Vec<u8>> = streams.by_ref().take(blocks_of(data).count()).collect();
+        let sizes: Vec<usize> = blocks.iter().map(Vec::len).collect();
+        Array { attributes: attributes.clone(), head: head(data, &sizes), blocks }
     })
+}
+
+/// Packs one array so many bytes at a time and writes it at once to `out`, which is at `start`: the same bytes as by [`zlib_blocks`], and how many they are.
+pub(super) fn write_in_pieces(
+    data: &Data<'_>,
+    at_once: usize,
+    (packers, threads): (&Rooms<Packer>, &Threads),
+    start: usize,
+    out: &mut (impl Write + Seek),
+) -> io::Result<usize> {
+    let ranges: Vec<Range<usize>> = blocks_of(data).collect();
+    let mut sizes = Vec::with_capacity(ranges.len());
+    // How long streams are is known when they are there.
+    let room = head(data, &vec![0; ranges.len()]).len();
+    out.write_all(&vec![0; room])?;
+    for ranges in ranges.chunks((at_once / BLOCK).max(1)) {
+        for stream in threads.map(ranges, packers, Packer::new, |packer, range| packer.packed(data, range.clone())) {
+            out.write_all(&stream)?;
+            sizes.push(stream.len());
+        }
+    }
+    let length = room + sizes.iter().sum::<usize>();
+    out.seek(SeekFrom::Start(start as u64))?;
+    out.write_all(&head(data, &sizes))?;
+    out.seek(SeekFrom::Start((start + length) as u64))?;
+    Ok(length)
 }

@@ -14,6 +14,7 @@
 //! search, of the ends of edges against edges; order is fixed: edges ascending.
 
 use super::Sweep;
+use super::node_facet::groups::bodies_of;
 use super::node_facet::tracker::Memory;
 use super::projection::edge_edge::{Crossing, Ridge, crossing, distance, point};
 use super::projection::node_facet::{Placed, Vector, unit};
@@ -105,7 +106,7 @@ pub struct Around<'a> {
 pub struct EdgeTracker {
     /// Number of the surface of the first and of the second edges.
     sides: [usize; 2],
-    /// Body of each node of the model.
+    /// Body of each node as far as the surfaces go.
     bodies: Vec<u32>,
     /// Edges at each node of each surface.
     at_nodes: Vec<Rows<u32>>,
@@ -129,7 +130,7 @@ impl EdgeTracker {
         };
         Self {
             sides: [0, surfaces.len() - 1],
-            bodies: bodies.to_vec(),
+            bodies: bodies_of(surfaces, bodies),
             at_nodes: surfaces.iter().map(at_nodes).collect(),
             search,
             pairs: Vec::new(),
@@ -202,14 +203,16 @@ impl EdgeTracker {
                 }
                 let reach = SLACK * (radius + 0.5 * longest);
                 let query = Query { positions_old: sweep.old, positions_new: sweep.new, slaves: &slaves, facets: &facets, reach };
-                self.search.pairs(&query, &mut self.found);
-                for pair in &self.found {
-                    let Ok(rank) = slave.nodes.binary_search(&slaves[pair.slave as usize]) else { continue };
-                    let other = targets[pair.facet as usize];
-                    let at = self.at_nodes[self.sides[of]].of(rank).iter();
-                    let listed = |edge: &u32| own.binary_search_by_key(edge, |listed| listed.number).is_ok_and(|at| own[at].class == class);
-                    near.extend(at.copied().filter(listed).map(|edge| if of == 0 { [edge, other] } else { [other, edge] }));
-                }
+                let at_nodes = &self.at_nodes[self.sides[of]];
+                let listed = |edge: &u32| own.binary_search_by_key(edge, |listed| listed.number).is_ok_and(|at| own[at].class == class);
+                self.search.by_and_by(&query, &mut self.found, &mut |found| {
+                    for pair in found {
+                        let Ok(rank) = slave.nodes.binary_search(&slaves[pair.slave as usize]) else { continue };
+                        let other = targets[pair.facet as usize];
+                        let edges = at_nodes.of(rank).iter().copied().filter(listed);
+                        near.extend(edges.map(|edge| if of == 0 { [edge, other] } else { [other, edge] }));
+                    }
+                });
             }
         }
         if is_one {

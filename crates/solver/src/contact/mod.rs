@@ -42,7 +42,7 @@ use tracker::{Certificate, SearchReport};
 pub type Vector = [f64; 2];
 
 /// What makes springs of surfaces: nodes against segments, segments against segments, pinballs, nodes against obstacles.
-pub trait Formulation<const D: usize = 2>: Any + Send
+pub trait Formulation<const D: usize = 2>: Any + Send + Sync
 where
     Dim<D>: Motion<D>,
 {

@@ -13,7 +13,7 @@
 
 use super::Sweep;
 use super::edge_edge::{Around, EdgeTouch, EdgeTracker};
-use super::node_facet::groups::{Meeting, bend, halves, mean_edge};
+use super::node_facet::groups::{Meeting, bend, bodies_of, halves, mean_edge};
 use super::node_facet::passage::{ALONG, Fate, Passages};
 use super::node_facet::tracker::{FACING, SAME_SIDE, Touch, Tracker};
 use super::projection::edge_edge::{crossing, distance};
@@ -104,7 +104,7 @@ impl Proof {
         };
         Self {
             passes: passes.iter().map(pass).collect(),
-            bodies: bodies.to_vec(),
+            bodies: bodies_of(surfaces, bodies),
             search: makes(),
             pairs: Vec::new(),
             edges: with_edges.then(|| EdgeTracker::new(surfaces, bodies, makes())),
@@ -156,7 +156,6 @@ impl Proof {
             let fastest = slaves.iter().chain(&target.nodes).map(|&node| way(node)).fold(0.0, f64::max);
             let reach = SLACK * (self.margin + bend(target, sweep.new));
             let query = Query { positions_old: sweep.old, positions_new: sweep.new, slaves, facets: &pass.triangles, reach };
-            self.search.pairs(&query, &mut self.pairs);
             let placed = Placed { surface: target, positions: sweep.new };
             // Who ends beyond the margin may have gone through.
             let farthest = self.margin.max(2.0 * fastest);
@@ -167,7 +166,9 @@ impl Proof {
             let is_near = |node: u32, facet: u32| placed.distance(sweep.new[node as usize], facet).is_none_or(|found| found <= farthest);
             let meeting = Meeting { slaves, target, is_one: pass.slave == pass.target };
             meeting.each(
-                &self.pairs,
+                &mut *self.search,
+                &query,
+                &mut self.pairs,
                 body,
                 |node, facet| is_near(node, facet).then_some(()),
                 |[slave, node, there], facets| {

@@ -26,6 +26,11 @@ where
     heat: Vec<f64>,
 }
 
+impl State {
+    /// Of a node where nothing is near.
+    pub const OPEN: Self = Self { gap: f64::NAN, status: 0.0 };
+}
+
 /// State of the surface at a node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State {
@@ -57,11 +62,12 @@ where
 
 impl Traces<3> {
     /// Contact pressure and shear stress (Pa) of every node, from the contact forces on the nodes (N) at their current positions: −f·n and |f + p n A| by current area A, n the normal of
-    /// the surface at the node. In pairs; zero inside.
+    /// the surface at the node. In pairs, as far as the nodes of the surface go; zero inside.
     #[must_use]
     pub fn tractions(&self, forces: &ContactForces<3>, positions: &[[f64; 3]]) -> Vec<[f64; 2]> {
-        let mut normals = vec![[0.0; 3]; positions.len()];
-        let mut area = vec![0.0; positions.len()];
+        let nodes = self.nodes();
+        let mut normals = vec![[0.0; 3]; nodes];
+        let mut area = vec![0.0; nodes];
         for &facet in self.outside.facets() {
             let vectors = vector_shares(facet.map(|node| positions[node as usize]), facet.corners().len() == 3);
             for ((node, share), vector) in shares::<3>(self.depth, facet, positions).zip(vectors) {
@@ -85,11 +91,12 @@ impl Traces<3> {
 
 impl Traces<2> {
     /// Contact pressure and shear stress (Pa) of every node, from the contact forces on the nodes (N/m) at their current positions: −f·n and f·t
-    /// by current area, t along the surface with the body on its right. In pairs; zero inside.
+    /// by current area, t along the surface with the body on its right. In pairs, as far as the nodes of the surface go; zero inside.
     #[must_use]
     pub fn tractions(&self, forces: &ContactForces, positions: &[[f64; 2]]) -> Vec<[f64; 2]> {
-        let mut along = vec![[0.0; 2]; positions.len()];
-        let mut area = vec![0.0; positions.len()];
+        let nodes = self.nodes();
+        let mut along = vec![[0.0; 2]; nodes];
+        let mut area = vec![0.0; nodes];
         for &segment in &self.outside.segments {
             let ends @ [a, b] = segment.map(|node| positions[node as usize]);
             let length = super::length(segment, positions);
@@ -162,10 +169,16 @@ where
         self.area.get(node).filter(|&&area| area > 0.0).map_or(0.0, |area| self.heat[node] / area)
     }
 
-    /// State of so many nodes from the solved springs of the step.
+    /// Number behind the last node of the surface: nodes on outlines come first.
+    fn nodes(&self) -> usize {
+        self.outside.nodes().last().map_or(0, |&node| node as usize + 1)
+    }
+
+    /// State of nodes from the solved springs of the step, as far as any of the first `nodes` has one: those beyond are open.
     #[must_use]
     pub fn states(springs: &Springs<D>, nodes: usize) -> Vec<State> {
-        let mut sums = vec![(0.0, 0.0, 0.0f64); nodes];
+        let ends = || springs.list.iter().flat_map(|spring| springs.ends(spring)).map(|end| end.at as usize);
+        let mut sums = vec![(0.0, 0.0, 0.0f64); ends().filter(|&at| at < nodes).max().map_or(0, |last| last + 1)];
         for Answer { spring, solved, .. } in springs.answers(0..springs.list.len()) {
             let status = if solved.force == 0.0 { 0.0 } else { 1.0 + f64::from(u8::from(solved.slides)) };
             for end in springs.ends(spring) {

@@ -12,7 +12,7 @@ use crate::error::{Error, Fault, INSTRUCTIONS, MASS_ADDED, Notice, Warning};
 use crate::hashes::{self, Hashes, Hashing};
 use crate::mesh::PartMesh;
 use crate::model::{self, Cadence, Model};
-use crate::output::{Cells, Frame};
+use crate::output::{Cells, Frame, Shown};
 use crate::post_mortem::Tracer;
 use crate::record::{Momentum, Recorded};
 use crate::step::System;
@@ -345,9 +345,7 @@ where
 
     /// Gives the state now to an observer.
     fn show(&self, observer: &mut dyn Observer) -> Result<(), Error> {
-        let mut frame = observer.spare();
-        self.recorded.fill(&self.system, &mut frame);
-        observer.frame(frame).map_err(output)
+        observer.show(&self.recorded.showing(&self.system)).map_err(output)
     }
 
     fn tell_hashes(&mut self, observer: &mut dyn Observer) -> Result<(), Error> {
@@ -368,7 +366,7 @@ where
     /// The state now.
     pub(crate) fn frame(&self) -> Frame {
         let mut frame = Frame::default();
-        self.recorded.fill(&self.system, &mut frame);
+        self.recorded.showing(&self.system).fill(&mut frame);
         frame
     }
 

@@ -17,7 +17,7 @@ use embate_solver::failure::CRITERIA;
 use embate_solver::material::eos::EQUATIONS;
 use embate_solver::material::{LAWS, equation_of_state};
 use embate_solver::model::*;
-use embate_solver::output::{Frame, Summary};
+use embate_solver::output::{Frame, Shown, Summary};
 use embate_solver::quantity::Parameter;
 use embate_solver::simulation::{Control, Observer, ObserverError, Options, Progress, Simulation, State};
 
@@ -43,7 +43,36 @@ fn seen(frame: &Frame) -> Vec<u64> {
     all
 }
 
+/// The frame of what is shown, whose pieces are the same.
+fn framed(shown: &dyn Shown) -> Frame {
+    let mut frame = Frame::default();
+    shown.fill(&mut frame);
+    assert_eq!((shown.time(), shown.step(), shown.dimension(), shown.nodes()), (frame.time, frame.step, frame.dimension, frame.nodes()));
+    let (mut piece, mut all) = (vec![1.0], Vec::new());
+    let mut in_pieces = |count: usize, take: &dyn Fn(std::ops::Range<usize>, &mut Vec<f64>)| {
+        all.clear();
+        for first in (0..count).step_by(7) {
+            take(first..(first + 7).min(count), &mut piece);
+            all.extend_from_slice(&piece);
+        }
+        bits(&all)
+    };
+    assert_eq!(in_pieces(frame.nodes(), &|nodes, piece| shown.coordinates(nodes, piece)), bits(&frame.coordinates));
+    assert_eq!(shown.kinds().len(), frame.fields.len());
+    for (number, (kind, field)) in shown.kinds().into_iter().zip(&frame.fields).enumerate() {
+        assert_eq!((kind, shown.numbers(number)), (field.kind, field.values.len()));
+        let places = field.values.len() / kind.width();
+        assert_eq!(in_pieces(places, &|places, piece| shown.values(number, places, piece)), bits(&field.values), "{}", kind.name);
+    }
+    assert_eq!(shown.outlined().outlines, frame.outlines);
+    assert!(frame.outlines.is_empty() || shown.outlined().coordinates == frame.coordinates);
+    frame
+}
+
 impl Observer for Told {
+    fn show(&mut self, shown: &dyn Shown) -> Result<(), ObserverError> {
+        self.frame(framed(shown))
+    }
     fn frame(&mut self, frame: Frame) -> Result<(), ObserverError> {
         self.frames.push(seen(&frame));
         Ok(())

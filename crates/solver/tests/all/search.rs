@@ -147,6 +147,15 @@ fn check<const D: usize>(scene: &Scene<D>) {
         let mut again = found.clone();
         search.pairs(&scene.query(), &mut again);
         assert_eq!(found, again, "{name}: a used object finds the same");
+        let mut parts: Vec<Vec<Pair>> = vec![];
+        search.by_and_by(&scene.query(), &mut again, &mut |pairs| parts.push(pairs.to_vec()));
+        assert!(
+            parts.windows(2).all(|w| w[0].last().is_none_or(|last| w[1].iter().all(|pair| pair.slave > last.slave))),
+            "{name}: all of a slave at once"
+        );
+        assert_eq!(found, parts.concat(), "{name}: by and by the same");
+        search.pairs(&scene.query(), &mut again);
+        assert_eq!(found, again, "{name}: and once more");
     }
     assert_eq!(scene.pairs("grid"), scene.pairs("boxes"), "the grid finds exactly the pairs of the boxes");
 }

@@ -3,7 +3,7 @@
 //! Pairs come from the global search; groups go to the tracker of the nodes ([`super::tracker`]) and to the proof ([`super::super::proof`]), which keep what they know of each.
 
 use super::super::projection::node_facet::Vector;
-use super::super::search::Pair;
+use super::super::search::{Pair, Query, Search};
 use crate::mesh::surface::{Corners, SpaceSurface};
 use crate::vector::{length, minus};
 
@@ -16,11 +16,14 @@ pub(in crate::contact) struct Meeting<'a> {
 }
 
 impl Meeting<'_> {
-    /// The facets near each slave node and each body, for `take`: [index of the slave, node, body], and each facet with what `counts` says of it (slave node, facet; nothing: it does
-    /// not count). Slaves, bodies and facets ascend. `body` is that of a node; facets of pairs are halves ([`halves`]).
+    /// The facets that a `search` finds near each slave node and each body, for `take`: [index of the slave, node, body], and each facet with what `counts` says of it (slave node, facet; nothing: it does
+    /// not count). Slaves, bodies and facets ascend. `body` is that of a node; facets of the `query` are halves ([`halves`]); `pairs` is
+    /// room.
     pub(in crate::contact) fn each<T: Copy>(
         &self,
-        pairs: &[Pair],
+        search: &mut dyn Search<3>,
+        query: &Query<'_, 3>,
+        pairs: &mut Vec<Pair>,
         body: impl Fn(u32) -> u32,
         counts: impl Fn(u32, u32) -> Option<T>,
         mut take: impl FnMut([u32; 3], &mut dyn Iterator<Item = (u32, T)>),
@@ -28,12 +31,12 @@ impl Meeting<'_> {
         let Self { slaves, target, is_one } = *self;
         let mut near: Vec<(u32, u32)> = Vec::new();
         let mut kept: Vec<(u32, u32, T)> = Vec::new();
-        for of_slave in pairs.chunk_by(|a, b| a.slave == b.slave) {
+        let mut look_around = |of_slave: &[Pair]| {
             let slave = of_slave[0].slave;
             let node = slaves[slave as usize];
             // A node of two surfaces joins them: it can't go in.
             if !is_one && target.nodes.binary_search(&node).is_ok() {
-                continue;
+                return;
             }
             near.clear();
             near.extend(of_slave.iter().map(|pair| pair.facet / 2).map(|facet| (body(target.facets[facet as usize][0]), facet)));
@@ -45,8 +48,15 @@ impl Meeting<'_> {
             for of_body in kept.chunk_by(|a, b| a.0 == b.0) {
                 take([slave, node, of_body[0].0], &mut of_body.iter().map(|&(_, facet, known)| (facet, known)));
             }
-        }
+        };
+        search.by_and_by(query, pairs, &mut |pairs| pairs.chunk_by(|a, b| a.slave == b.slave).for_each(&mut look_around));
     }
+}
+
+/// Bodies of nodes of the model as far as surfaces go: their nodes come before all others.
+pub(in crate::contact) fn bodies_of(surfaces: &[SpaceSurface], bodies: &[u32]) -> Vec<u32> {
+    let count = surfaces.iter().filter_map(|surface| surface.nodes.last()).map(|&last| last as usize + 1).max().unwrap_or(0);
+    bodies[..count.min(bodies.len())].to_vec()
 }
 
 /// Two triangles of a facet; of one with three nodes twice itself.

@@ -22,7 +22,7 @@ use super::super::search::{Pair, Query, Search};
 use super::super::tracker::sleep::{AWAKE, awake, wake_at};
 use super::super::tracker::{SAFE, SKIN, SearchReport};
 use super::far::Candidates;
-use super::groups::{Meeting, bend, halves, mean_edge};
+use super::groups::{Meeting, bend, bodies_of, halves, mean_edge};
 use super::passage::{Passages, led};
 use crate::archive::{Archive, Kept, keep_all, keep_each};
 use crate::mesh::surface::{NONE, SpaceSurface};
@@ -160,7 +160,7 @@ pub struct Tracker {
     triangles: Vec<Vec<[u32; 3]>>,
     /// A facet and a corner at each node of each surface.
     corners: Vec<Vec<(u32, u32)>>,
-    /// Body of each node of the model.
+    /// Body of each node as far as the surfaces go.
     bodies: Vec<u32>,
     /// All nodes of the surfaces, and where they were at the last search; empty before the first.
     nodes: Vec<u32>,
@@ -212,11 +212,12 @@ impl Tracker {
         let mut nodes: Vec<u32> = surfaces.iter().flat_map(|surface| surface.nodes.iter().copied()).collect();
         nodes.sort_unstable();
         nodes.dedup();
+        let bodies = bodies_of(&surfaces, bodies);
         let skin = SKIN * mean_edge(&surfaces, positions);
         let report = SearchReport { skin, ..SearchReport::default() };
         #[rustfmt::skip]
         let tracker = Self {
-            surfaces, passes, search, triangles, corners, bodies: bodies.to_vec(), nodes, searched: Vec::new(), is_new: true, skin, band: f64::INFINITY, radius: 0.0, deepest: 0.0, travel: 0.0, searched_at: 0.0, touches: Vec::new(), pairs: Vec::new(), report,
+            surfaces, passes, search, triangles, corners, bodies, nodes, searched: Vec::new(), is_new: true, skin, band: f64::INFINITY, radius: 0.0, deepest: 0.0, travel: 0.0, searched_at: 0.0, touches: Vec::new(), pairs: Vec::new(), report,
         };
         tracker
     }
@@ -278,7 +279,7 @@ impl Tracker {
         closed.sort_unstable();
     }
 
-    /// Body of each node of the model.
+    /// Body of each node as far as the surfaces go.
     #[must_use]
     pub fn bodies(&self) -> &[u32] {
         &self.bodies
@@ -361,7 +362,6 @@ impl Tracker {
             let (slaves, target) = (&surfaces[pass.slave].nodes, &surfaces[pass.target]);
             let reach = SLACK * (radius + bend(target, sweep.new));
             let query = Query { positions_old: sweep.old, positions_new: sweep.new, slaves, facets: &triangles[pass.target], reach };
-            search.pairs(&query, pairs);
             let placed = Placed { surface: target, positions: sweep.new };
             let largest = (0..target.facets.len() as u32).map(|facet| placed.size(facet)).fold(0.0, f64::max);
             pass.band = (BAND * largest).min(*band);
@@ -377,7 +377,7 @@ impl Tracker {
                 is_near.then(|| distance.map_or(AWAKE, |distance| wake_at(distance, sweep.travel)))
             };
             let meeting = Meeting { slaves, target, is_one: pass.slave == pass.target };
-            meeting.each(pairs, body, counts, |[slave, node, there], facets| {
+            meeting.each(&mut **search, &query, pairs, body, counts, |[slave, node, there], facets| {
                 let begin = pass.candidates.len() as u32;
                 for (facet, clear) in facets {
                     pass.candidates.push(facet);

@@ -22,7 +22,7 @@ use crate::vector::plus;
 use std::any::Any;
 
 /// Shape of an obstacle in the frame of its body.
-pub trait Shape: Send {
+pub trait Shape: Send + Sync {
     /// Gap (m, negative inside) and unit normal along which a node is pushed out; `None` where it does not meet the obstacle.
     fn meet(&self, way: Way, memory: &mut Memory) -> Option<(f64, Vector)>;
 }

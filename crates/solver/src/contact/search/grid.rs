@@ -178,14 +178,22 @@ impl<const D: usize> Default for Cells<D> {
     }
 }
 
-impl<const D: usize> Search<D> for Grid<D> {
-    fn pairs(&mut self, query: &Query<'_, D>, pairs: &mut Vec<Pair>) {
-        let Self { cells, workers } = self;
-        cells.sort(query);
+impl<const D: usize> Grid<D> {
+    /// Sorts the facets and has workers for the slave nodes: how many.
+    fn prepare(&mut self, query: &Query<'_, D>) -> usize {
+        self.cells.sort(query);
         // Shares are for threads of the pool that this runs in, if any; they change no pair.
         let threads = rayon::current_thread_index().map_or(1, |_| rayon::current_num_threads());
         let count = (query.slaves.len() / SHARE).clamp(1, if threads > 1 { SHARES * threads } else { 1 });
-        workers.resize_with(count.max(workers.len()), Worker::default);
+        self.workers.resize_with(count.max(self.workers.len()), Worker::default);
+        count
+    }
+}
+
+impl<const D: usize> Search<D> for Grid<D> {
+    fn pairs(&mut self, query: &Query<'_, D>, pairs: &mut Vec<Pair>) {
+        let count = self.prepare(query);
+        let Self { cells, workers } = self;
         let share = query.slaves.len().div_ceil(count);
         let shares = |number: usize| (number * share).min(query.slaves.len())..((number + 1) * share).min(query.slaves.len());
         pairs.clear();
@@ -201,6 +209,32 @@ impl<const D: usize> Search<D> for Grid<D> {
         workers[..count].par_iter_mut().enumerate().for_each(work);
         for worker in &workers[..count] {
             pairs.extend_from_slice(&worker.pairs);
+        }
+    }
+
+    fn by_and_by(&mut self, query: &Query<'_, D>, pairs: &mut Vec<Pair>, take: &mut dyn FnMut(&[Pair])) {
+        let count = self.prepare(query);
+        let Self { cells, workers } = std::mem::take(self);
+        let mut workers = workers;
+        let share = |number: usize| (number * SHARE).min(query.slaves.len())..((number + 1) * SHARE).min(query.slaves.len());
+        let shares = query.slaves.len().div_ceil(SHARE);
+        if count == 1 {
+            for number in 0..shares {
+                pairs.clear();
+                workers[0].search(&cells, query, share(number), pairs);
+                take(pairs);
+            }
+            return;
+        }
+        for first in (0..shares).step_by(count) {
+            let work = |(number, worker): (usize, &mut Worker<D>)| {
+                let mut pairs = std::mem::take(&mut worker.pairs);
+                pairs.clear();
+                worker.search(&cells, query, share(first + number), &mut pairs);
+                worker.pairs = pairs;
+            };
+            workers[..count].par_iter_mut().enumerate().for_each(work);
+            workers[..count].iter().for_each(|worker| take(&worker.pairs));
         }
     }
 }

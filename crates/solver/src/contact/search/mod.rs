@@ -40,10 +40,16 @@ pub struct Query<'a, const D: usize> {
 }
 
 /// A global search. Implementations may keep storage between calls, never results.
-pub trait Search<const D: usize>: Send {
+pub trait Search<const D: usize>: Send + Sync {
     /// Writes into `pairs` (cleared first, sorted by slave, then facet, each pair once) every pair that comes nearer
     /// than `reach` during the step, and perhaps others. A node is never paired with a facet that it belongs to.
     fn pairs(&mut self, query: &Query<'_, D>, pairs: &mut Vec<Pair>);
+    /// The same by and by: `take` gets those of some slave nodes after the other, of each all at once; `pairs` is room. What a search keeps between calls is freed at the end: it is
+    /// for those that are rare.
+    fn by_and_by(&mut self, query: &Query<'_, D>, pairs: &mut Vec<Pair>, take: &mut dyn FnMut(&[Pair])) {
+        self.pairs(query, pairs);
+        take(pairs);
+    }
 }
 
 /// A search as the registry describes it.

@@ -112,7 +112,7 @@ where
                 totals.resultant.iter_mut().zip(force).for_each(|(sum, force)| *sum += spring.side * force);
             }
             if !forces.push(end.at, force) {
-                bodies.push_at(end.at as usize - forces.values().len(), force, end.point);
+                bodies.push_at(end.at as usize - forces.nodes(), force, end.point);
             }
         }
     }

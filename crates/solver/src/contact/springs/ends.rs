@@ -1,4 +1,5 @@
-//! Ends of springs as they are kept: most have a share and a turn, and what few have lies apart. Springs are more than caches hold, so their size is their cost.
+//! Ends of springs as they are kept: all have a share, and what not all have lies apart: turns (only with friction), and what few have. Springs are more than caches hold, so their size is
+//! their cost.
 
 use super::End;
 use crate::motion::Motion;
@@ -13,21 +14,19 @@ pub(super) struct Ends<const D: usize>
 where
     Dim<D>: Motion<D>,
 {
-    list: Vec<Kept<D>>,
+    list: Vec<Kept>,
+    /// As far as any end has one.
+    turns: Vec<<Dim<D> as Motion<D>>::Tangents>,
     more: Vec<More<D>>,
 }
 
 /// What every end has.
 #[derive(Clone, Copy)]
-struct Kept<const D: usize>
-where
-    Dim<D>: Motion<D>,
-{
+struct Kept {
     at: u32,
     /// Number of what it has beyond, or [`NONE`].
     more: u32,
     share: f64,
-    turn: <Dim<D> as Motion<D>>::Tangents,
 }
 
 /// What few ends have.
@@ -56,6 +55,7 @@ where
 {
     pub(super) fn clear(&mut self) {
         self.list.clear();
+        self.turns.clear();
         self.more.clear();
     }
 
@@ -71,18 +71,21 @@ where
         if number != NONE {
             self.more.push(more);
         }
-        self.list.push(Kept { at, more: number, share, turn });
+        self.turns.resize(self.list.len(), Default::default());
+        self.turns.push(turn);
+        self.list.push(Kept { at, more: number, share });
     }
 
     /// Nodes with shares in the gap, and nothing else.
     #[inline]
     pub(super) fn extend(&mut self, shares: impl Iterator<Item = (u32, f64)>) {
-        self.list.extend(shares.map(|(at, share)| Kept { at, more: NONE, share, turn: Default::default() }));
+        self.list.extend(shares.map(|(at, share)| Kept { at, more: NONE, share }));
     }
 
     #[inline]
     pub(super) fn get(&self, k: usize) -> End<D> {
-        let Kept { at, more, share, turn } = self.list[k];
+        let Kept { at, more, share } = self.list[k];
+        let turn = self.turns.get(k).copied().unwrap_or_default();
         let More { lean, point, image } = self.more.get(more as usize).copied().unwrap_or_default();
         End { at, share, lean, turn, point, image }
     }

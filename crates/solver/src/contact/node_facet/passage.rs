@@ -139,7 +139,7 @@ mod tests {
             assert_eq!(inside, Fate { side: up, enters: true, is_through: false });
             assert_eq!(fate_of(above, [0.4, 0.4, -2.0], height), Fate { is_through: true, ..inside });
             // Out by the far side and then beyond the rim it has gone through all the same; by a side wall it is out.
-            assert_eq!(fate_of(above, [1.5, 0.4, -2.0], height).is_through, height < 0.5);
+            assert_eq!(fate_of(above, [3.0, 0.4, -2.0], height).is_through, height < 0.5);
             assert_eq!(fate_of([0.9, 0.4, height + 0.1], [1.1, 0.4, 0.9 * height], height), Fate::default());
             // Past a corner, along an edge, and over it.
             assert_eq!(fate_of([1.0, 0.4, height + 0.5], [1.5, 0.4, height], height), Fate::default());

@@ -442,10 +442,8 @@ fn what_is_held_in_an_obstacle_of_space_stays_there_and_is_told() {
     let mut model = cube_in(plane(), 0.0, InitialPenetration::PushOut);
     model.constraints.push(Constraint { on: "cube".into(), velocity: [None, None, Some(0.0.into())], ..Constraint::default() });
     let told = model_faults(&model);
-    assert!(
-        !told.is_empty() && told.iter().all(|fault| fault.path == "obstacle[0]" && fault.message.contains("3.000e-3 m inside")),
-        "{told:?}"
-    );
+    assert!(told.iter().all(|fault| fault.path == "obstacle[0]"), "{told:?}");
+    assert!(told.iter().filter(|fault| fault.message.contains("3.000e-3 m inside")).count() == 20, "{told:?}");
     // Held across, nodes of a slanted plane go the longer way that they may.
     let slant = ObstacleShape::Plane { point: [0.0, 0.0, 0.003], normal: [0.6, 0.0, 0.8], length: None };
     let mut model = cube_in(slant, 0.0, InitialPenetration::PushOut);

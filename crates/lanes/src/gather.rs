@@ -63,6 +63,22 @@ pub struct Moving<const D: usize> {
     count: usize,
 }
 
+/// The values of batches, four by four.
+#[inline(always)]
+fn rooms_mut(batches: &mut [Batch]) -> &mut [[f64; ROOM]] {
+    const { assert!(size_of::<Batch>() == BATCH * size_of::<f64>() && BATCH == 2 * ROOM, "a batch is two rooms and nothing else") };
+    // SAFETY: each batch is two rooms without a gap, of a smaller alignment, and the list is borrowed as a whole.
+    unsafe { std::slice::from_raw_parts_mut(batches.as_mut_ptr().cast(), 2 * batches.len()) }
+}
+
+/// The same to read.
+#[inline(always)]
+fn rooms(batches: &[Batch]) -> &[[f64; ROOM]] {
+    const { assert!(size_of::<Batch>() == BATCH * size_of::<f64>() && BATCH == 2 * ROOM, "a batch is two rooms and nothing else") };
+    // SAFETY: as above.
+    unsafe { std::slice::from_raw_parts(batches.as_ptr().cast(), 2 * batches.len()) }
+}
+
 /// The room of a vector in a list of batches: which batch, and where in it.
 #[inline(always)]
 fn room(index: usize, width: usize) -> (usize, usize) {
@@ -91,17 +107,20 @@ impl<const D: usize> Moving<D> {
         self.count == 0
     }
 
-    /// Sets both vectors of a point.
-    #[inline(always)]
-    pub fn set(&mut self, index: usize, first: &[f64; D], second: &[f64; D]) {
-        let (batch, at) = room(index, ROOM);
+    /// Sets both vectors of the points that `nodes` name, in their order, from the lists that hold those of all nodes.
+    #[inline]
+    pub fn fill(&mut self, nodes: &[u32], first: &[[f64; D]], second: &[[f64; D]]) {
+        let rooms = rooms_mut(&mut self.first).iter_mut();
         if D == 2 {
-            let both = &mut self.first[batch].0[at..at + ROOM];
-            both[..D].copy_from_slice(first);
-            both[D..].copy_from_slice(second);
-        } else {
-            self.first[batch].0[at..at + D].copy_from_slice(first);
-            self.second[batch].0[at..at + D].copy_from_slice(second);
+            for (room, &node) in rooms.zip(nodes) {
+                room[..D].copy_from_slice(&first[node as usize]);
+                room[D..].copy_from_slice(&second[node as usize]);
+            }
+            return;
+        }
+        for ((room, other), &node) in rooms.zip(rooms_mut(&mut self.second)).zip(nodes) {
+            room[..D].copy_from_slice(&first[node as usize]);
+            other[..D].copy_from_slice(&second[node as usize]);
         }
     }
 
@@ -158,10 +177,9 @@ impl<const D: usize> VectorSums<D> {
     /// Writes all sums to `out`, as many as there are.
     #[inline]
     pub fn copy_to(&self, out: &mut [[f64; D]]) {
-        for (out, batch) in out[..self.count].chunks_mut(BATCH / Self::WIDTH).zip(&self.values) {
-            for (out, vector) in out.iter_mut().zip(batch.0.chunks_exact(Self::WIDTH)) {
-                out.copy_from_slice(&vector[..D]);
-            }
+        let vectors = rooms(&self.values).as_flattened().chunks_exact(Self::WIDTH);
+        for (out, vector) in out[..self.count].iter_mut().zip(vectors) {
+            out.copy_from_slice(&vector[..D]);
         }
     }
 

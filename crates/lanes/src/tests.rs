@@ -148,7 +148,10 @@ fn walks<const D: usize, const N: usize>() {
     let indices = Indices::new(rows);
     let mut moving = Moving::default();
     moving.resize(points.len());
-    points.iter().enumerate().for_each(|(i, [first, second])| moving.set(i, first, second));
+    // From lists that hold them the other way round.
+    let [first, second] = [0, 1].map(|k| points.iter().rev().map(|point| point[k]).collect::<Vec<_>>());
+    let nodes: Vec<u32> = (0..points.len() as u32).rev().collect();
+    moving.fill(&nodes, &first, &second);
     for level in Level::available() {
         let walk = Walk::<D, N> { points: &points, moving: &moving, indices: &indices, rows: 5 * N };
         assert_eq!([gathered.clone(), sums.as_flattened().to_vec(), moved.clone()], level.run(walk), "{}", level.name());

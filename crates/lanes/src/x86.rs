@@ -42,6 +42,7 @@ unsafe fn two_fours<const D: usize, const SECOND: bool>(points: &Moving<D>, low:
 #[inline(always)]
 fn vector<L: Copy, const D: usize>(components: [L; 4], from: usize) -> [L; D] {
     let mut out = [components[0]; D];
+    #[allow(clippy::manual_memcpy)] // they lie in registers
     for d in 0..D {
         out[d] = components[from + d];
     }
@@ -56,7 +57,7 @@ fn vector<L: Copy, const D: usize>(components: [L; 4], from: usize) -> [L; D] {
 unsafe fn add_row<const D: usize>(sums: &mut VectorSums<D>, place: u16, row: *const f64) {
     // SAFETY: by the contract above all components lie inside the sums, whose rows are aligned to their width.
     unsafe {
-        let sum = sums.as_mut_ptr().add(usize::from(place) / (ROOM / VectorSums::<D>::WIDTH));
+        let sum = sums.as_mut_ptr().byte_add(usize::from(place) * (size_of::<f64>() * VectorSums::<D>::WIDTH / ROOM));
         if D == 2 {
             _mm_store_pd(sum, _mm_add_pd(_mm_load_pd(sum), _mm_load_pd(row)));
         } else {

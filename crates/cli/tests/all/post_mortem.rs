@@ -114,7 +114,9 @@ fn fault_of_svg(text: &str) -> Option<String> {
         if after.contains('&') && !["&amp;", "&lt;", "&gt;", "&quot;", "&#39;"].iter().any(|entity| after.contains(entity)) {
             return Some(format!("a bare & in {after:.60}"));
         }
-        if tag.matches('"').count() % 2 == 1 || tag.contains("NaN") || tag.contains("inf") {
+        // An image's bytes are letters of any kind.
+        let written = tag.split(";base64,").next().unwrap_or_default();
+        if tag.matches('"').count() % 2 == 1 || written.contains("NaN") || written.contains("inf") {
             return Some(format!("<{tag}>"));
         }
         let name = tag.trim_start_matches('/').split([' ', '/']).next().unwrap_or_default();

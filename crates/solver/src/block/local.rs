@@ -1,7 +1,7 @@
 //! Nodes as the chunks of a block see them: each chunk copies the motion of its own nodes side by side, reads it from there corner by corner, and sums the forces of
 //! its elements on them before anyone else does.
 //!
-//! The copy and the sums of a chunk stay in the first-level cache, and a corner needs one load for position and velocity. A node has a slot in every chunk that
+//! The copy and the sums of a chunk stay in a near cache, and a corner of the plane needs one load for position and velocity, one of space two. A node has a slot in every chunk that
 //! has it; [`crate::assembly`] adds the slots of a node.
 
 use super::batch::element_of;
@@ -76,8 +76,6 @@ impl LocalNodes {
     #[inline]
     pub(super) fn copy<const D: usize>(&self, chunk: usize, motion: &Motion<'_, D>, moving: &mut Moving<D>) {
         moving.resize(self.width());
-        for (place, &node) in self.of_chunk(chunk).iter().enumerate() {
-            moving.set(place, &motion.positions[node as usize], &motion.velocities[node as usize]);
-        }
+        moving.fill(self.of_chunk(chunk), motion.positions, motion.velocities);
     }
 }

@@ -210,7 +210,8 @@ mod tests {
             let free = [x, y, z].map(|at| if at > 0 { 1.0 } else { -1.0 });
             assert!((0..3).any(|k| free[k] * outlook.directions.towards[k] > 0.0));
         }
-        assert_eq!(looked_at([5; 3], 4, &[]).directions, Directions::of(&Camera::default()), "the camera of the model where it will do");
+        // To the right, in front and on top: that is where the usual camera is.
+        assert_eq!(looked_at([5; 3], 104, &[]).directions, Directions::of(&Camera::default()), "the camera of the model where it will do");
     }
 
     #[test]

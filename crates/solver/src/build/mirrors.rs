@@ -1,39 +1,65 @@
-//! Symmetry lines as what bodies meet that are in contact with themselves: which nodes, and how stiff.
+//! Symmetry lines, in space planes, as what bodies meet that are in contact with themselves: which nodes, and how stiff.
 
-use super::plane::height;
 use super::{Builder, law_of, stiffness_of};
-use crate::contact::formulation::Side;
 use crate::contact::law::{self, Law};
-use crate::contact::mirror::{MirrorLine, MirroredNode};
+use crate::contact::mirror::{Mirror, MirroredNode};
 use crate::contact::springs::{Tangential, Terms};
 use crate::contact::tracker::SKIN;
-use crate::contact::{Tributary, Vector, initial};
+use crate::contact::{Tributary, initial};
+use crate::load::constraint::unit;
 use crate::model::{ContactLaw, Interface, Partners};
+use crate::tensor::Dim;
+use crate::vector::{dot, first, minus};
+use crate::world::World;
 use crate::{contact, model};
 
-impl Builder<'_, 2> {
-    /// The lines in which the bodies of a contact see their images, with the nodes of `side` that are not on them.
-    pub(super) fn mirrors_of(&self, contact: &model::Contact, side: &Side<'_>) -> Vec<MirrorLine> {
+impl<const D: usize> Builder<'_, D>
+where
+    Dim<D>: World<D>,
+{
+    /// Symmetry lines or planes behind which there is nothing of the parts that they hold: number, a point, and the unit normal that points to the parts.
+    pub(crate) fn mirrors(&self) -> impl Iterator<Item = (usize, [f64; D], [f64; D])> {
+        let tolerance = initial::TOLERANCE * initial::size(&self.mesh.positions);
+        self.model.symmetries.iter().enumerate().filter_map(move |(number, symmetry)| {
+            let (normal, point) = (unit(first(symmetry.normal))?, first(symmetry.point));
+            let parts = self.mesh.parts.iter().filter(|part| symmetry.parts.is_empty() || symmetry.parts.contains(&part.name));
+            let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+            for &node in parts.flat_map(|part| &part.nodes) {
+                let distance = dot(minus(self.mesh.positions[node as usize], point), normal);
+                (low, high) = (low.min(distance), high.max(distance));
+            }
+            if low >= -tolerance {
+                Some((number, point, normal))
+            } else {
+                (high <= tolerance).then_some((number, point, normal.map(|n| -n)))
+            }
+        })
+    }
+
+    /// Where the bodies of a contact see their images, with those of the `nodes` of their surface that are not there, and what each stands for.
+    pub(super) fn mirrors_of(&self, contact: &model::Contact, nodes: &[u32], own: &[Tributary]) -> Vec<Mirror<D>> {
         if !matches!(contact.partners, Partners::Bodies(_)) {
             return Vec::new();
         }
         let tolerance = initial::TOLERANCE * initial::size(&self.mesh.positions);
-        let line = |(number, point, normal): (usize, Vector, Vector)| {
+        let mirror = |(number, point, normal): (usize, [f64; D], [f64; D])| {
             let held = &self.model.symmetries[number].parts;
             let mut is_held = vec![held.is_empty(); self.mesh.positions.len()];
             for part in self.mesh.parts.iter().filter(|part| held.contains(&part.name)) {
                 part.nodes.iter().for_each(|&node| is_held[node as usize] = true);
             }
-            let surface = side.target.surface.nodes.iter().zip(&side.nodes);
-            let nodes: Vec<MirroredNode> = surface
-                .map(|(&node, &own)| (node, height(self.mesh.positions[node as usize], point, normal), own))
+            let free: Vec<MirroredNode> = nodes
+                .iter()
+                .zip(own)
+                .map(|(&node, &own)| (node, dot(minus(self.mesh.positions[node as usize], point), normal), own))
                 .filter(|&(node, height, _)| is_held[node as usize] && height > tolerance)
                 .map(|(node, height, own)| self.mirrored(&contact.interface, node, height, own))
                 .collect();
-            let mean = side.nodes.iter().map(|own| own.length).sum::<f64>() / side.nodes.len().max(1) as f64;
-            MirrorLine { point, normal, nodes, reach: SKIN * mean + half_law(&contact.interface).reach() }
+            let spacing = |own: &Tributary| if D == 2 { own.length } else { own.area.sqrt() };
+            let mean = own.iter().map(spacing).sum::<f64>() / own.len().max(1) as f64;
+            Mirror { point, normal, nodes: free, reach: SKIN * mean + half_law(&contact.interface).reach() }
         };
-        self.mirror_lines().map(line).collect()
+        self.mirrors().map(mirror).collect()
     }
 
     fn mirrored(&self, interface: &Interface, node: u32, height: f64, own: Tributary) -> MirroredNode {

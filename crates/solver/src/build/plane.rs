@@ -9,14 +9,13 @@ use crate::contact::mirror::Mirrored;
 use crate::contact::projection::node_segment::Target;
 use crate::contact::{self, Contact, ContactKind, Formulation};
 use crate::error::Fault;
-use crate::load::constraint::unit;
 use crate::load::tributary::Depth;
 use crate::mesh::Mesh;
 use crate::mesh::messages::NEGATIVE_RADIUS;
 use crate::mesh::surface::{NONE, Surface};
 use crate::model::messages::UNKNOWN_NAME;
 use crate::model::{self, Interface, Model, Partners, PenaltySource, Symmetry};
-use crate::vector::first;
+use crate::vector::{dot, minus};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
@@ -100,7 +99,7 @@ impl Builder<'_, 2> {
         let tie_terms = if contact.tied.is_some() { self.add_terms(terms_of_ties(&contact.interface)) } else { terms };
         let mirror_terms = self.add_terms(mirrors::terms_of_mirrors(&contact.interface));
         let sides: Vec<Side<'_>> = self.outlines_of(contact)?.into_iter().map(|outline| self.side(outline, &contact.interface)).collect();
-        let mirrors = self.mirrors_of(contact, &sides[0]);
+        let mirrors = self.mirrors_of(contact, &sides[0].target.surface.nodes, &sides[0].nodes);
         let Some(search) = search_by_name(&contact.search) else {
             let message = format!("there is no search \"{}\"", contact.search);
             return Err(vec![Fault::new(&UNKNOWN_NAME, "search", message, "see `embate list searches`")]);
@@ -184,37 +183,13 @@ impl Builder<'_, 2> {
 }
 
 impl Builder<'_, 2> {
-    /// Symmetry lines behind which there is nothing of the parts that they hold: number, a point, and the unit normal that points to the parts.
-    pub(crate) fn mirror_lines(&self) -> impl Iterator<Item = (usize, [f64; 2], [f64; 2])> {
-        let tolerance = contact::initial::TOLERANCE * contact::initial::size(&self.mesh.positions);
-        self.model.symmetries.iter().enumerate().filter_map(move |(number, symmetry)| {
-            let (normal, point) = (unit(first(symmetry.normal))?, first(symmetry.point));
-            let parts = self.mesh.parts.iter().filter(|part| symmetry.parts.is_empty() || symmetry.parts.contains(&part.name));
-            let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-            for &node in parts.flat_map(|part| &part.nodes) {
-                let distance = height(self.mesh.positions[node as usize], point, normal);
-                (low, high) = (low.min(distance), high.max(distance));
-            }
-            if low >= -tolerance {
-                Some((number, point, normal))
-            } else {
-                (high <= tolerance).then_some((number, point, normal.map(|n| -n)))
-            }
-        })
-    }
-
     /// Whether a point lies on a symmetry line of one of these parts (none: all) or beyond it, where the mirror images of the parts are.
     pub(crate) fn is_beyond_mirrors(&self, x: [f64; 2], parts: &[String]) -> bool {
         let tolerance = contact::initial::TOLERANCE * contact::initial::size(&self.mesh.positions);
         let concerns = |held: &[String]| held.is_empty() || parts.is_empty() || held.iter().any(|part| parts.contains(part));
-        self.mirror_lines()
-            .any(|(number, point, normal)| concerns(&self.model.symmetries[number].parts) && height(x, point, normal) <= tolerance)
+        self.mirrors()
+            .any(|(number, point, normal)| concerns(&self.model.symmetries[number].parts) && dot(minus(x, point), normal) <= tolerance)
     }
-}
-
-/// How far `x` is from the line through `point`, along its normal, m.
-pub(super) fn height(x: [f64; 2], point: [f64; 2], normal: [f64; 2]) -> f64 {
-    (x[0] - point[0]) * normal[0] + (x[1] - point[1]) * normal[1]
 }
 
 /// A surface of a contact.

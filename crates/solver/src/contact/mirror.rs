@@ -1,35 +1,38 @@
-//! Bodies against their own mirror image in a symmetry line: a fold that reaches the line meets its image there.
+//! Bodies against their own mirror image in a symmetry line, in space a plane: a fold that reaches it meets its image there.
 //!
-//! Lines and nodes come from the builder; springs go to the same solution as those of the contact itself. By symmetry a node meets the image where it meets the line, at half of the
+//! Lines or planes, and nodes, come from the builder; springs go to the same solution as those of the contact itself. By symmetry a node meets the image where it meets the line or plane, at half of the
 //! gap. Of the two passes of the pair, node against image and image against node, half belongs to the model: with the stiffness k of a pass its energy is 2 · ½ k (2g)² / 2 = ½ (4k) g².
 
 use super::springs::{Answers, End, Spring, Springs};
 use super::tied::Ties;
 use super::tracker::{Certificate, SearchReport};
-use super::{Formulation, Scene, Vector};
+use super::{Formulation, Scene};
 use crate::archive::{Archive, Kept};
+use crate::motion::Motion;
+use crate::tensor::Dim;
+use crate::vector::{dot, minus};
 use std::any::Any;
 
-/// A node that may reach the line.
+/// A node that may reach the line or plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MirroredNode {
     /// The node.
     pub node: u32,
-    /// Constant of its spring on the distance from the line, N/m per metre of depth.
+    /// Constant of its spring on the distance from there, N/m, in the plane per metre of depth.
     pub stiffness: f64,
-    /// Length of surface that it stands for, m.
+    /// Surface that it stands for, m (in space m²).
     pub area: f64,
-    /// Distance that it keeps from the line, m: half of that from its image.
+    /// Distance that it keeps from there, m: half of that from its image.
     pub distance: f64,
 }
 
-/// A symmetry line with the nodes on its free side.
+/// A symmetry line or plane with the nodes on its free side.
 #[derive(Clone, Debug, PartialEq)]
-pub struct MirrorLine {
+pub struct Mirror<const D: usize = 2> {
     /// A point of it, m.
-    pub point: Vector,
+    pub point: [f64; D],
     /// Unit normal that points to the model.
-    pub normal: Vector,
+    pub normal: [f64; D],
     /// What may reach it.
     pub nodes: Vec<MirroredNode>,
     /// Nodes within this distance get a spring, m.
@@ -37,32 +40,42 @@ pub struct MirrorLine {
 }
 
 /// A contact of bodies with each other and themselves, and with their images.
-pub struct Mirrored {
-    contact: Box<dyn Formulation>,
-    lines: Vec<MirrorLine>,
+pub struct Mirrored<const D: usize = 2>
+where
+    Dim<D>: Motion<D>,
+{
+    contact: Box<dyn Formulation<D>>,
+    mirrors: Vec<Mirror<D>>,
     /// Number of the terms of the springs to the images.
     terms: usize,
     /// How many of these there are in this step.
     found: usize,
 }
 
-impl Mirrored {
+impl<const D: usize> Mirrored<D>
+where
+    Dim<D>: Motion<D>,
+{
     /// From a contact; springs to the images follow the terms number `terms`, which act on half of the gap.
     #[must_use]
-    pub fn new(contact: Box<dyn Formulation>, lines: Vec<MirrorLine>, terms: usize) -> Self {
-        Self { contact, lines, terms, found: 0 }
+    pub fn new(contact: Box<dyn Formulation<D>>, mirrors: Vec<Mirror<D>>, terms: usize) -> Self {
+        Self { contact, mirrors, terms, found: 0 }
     }
 }
 
-impl Formulation for Mirrored {
-    fn detect(&mut self, scene: &Scene<'_>, springs: &mut Springs) {
+impl<const D: usize> Formulation<D> for Mirrored<D>
+where
+    Dim<D>: Motion<D>,
+{
+    fn detect(&mut self, scene: &Scene<'_, D>, springs: &mut Springs<D>) {
         let begin = springs.list.len();
-        for &MirrorLine { point, normal, ref nodes, reach } in &self.lines {
+        for &Mirror { point, normal, ref nodes, reach } in &self.mirrors {
             for &MirroredNode { node, stiffness, area, distance } in nodes {
                 let [from, to] = [scene.sweep.old, scene.sweep.new].map(|positions| positions[node as usize]);
-                let gap = (to[0] - point[0]) * normal[0] + (to[1] - point[1]) * normal[1] - distance;
+                let gap = dot(minus(to, point), normal) - distance;
+                let way: f64 = minus(to, from).iter().map(|along| along.abs()).sum();
                 // Well before it touches: a spring that closes unseen would give back what it never took.
-                if gap <= reach + 4.0 * ((to[0] - from[0]).abs() + (to[1] - from[1]).abs()) {
+                if gap <= reach + 4.0 * way {
                     springs.push(Spring { normal, gap, stiffness, area, ..Spring::default() }, &[End::node(node, 1.0)]);
                 }
             }
@@ -72,14 +85,14 @@ impl Formulation for Mirrored {
         self.contact.detect(scene, springs);
     }
 
-    fn remember(&mut self, solved: Answers<'_>) {
+    fn remember(&mut self, solved: Answers<'_, D>) {
         // Nothing is found, and nothing solved, while the contact does not act.
         self.contact.remember(solved.part(self.found, usize::MAX));
     }
 
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
         // How many springs to images there are counts within a step.
-        let Self { contact, lines: _, terms: _, found: _ } = self;
+        let Self { contact, mirrors: _, terms: _, found: _ } = self;
         contact.keep(archive)
     }
 

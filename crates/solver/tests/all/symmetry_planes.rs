@@ -2,10 +2,11 @@
 
 use crate::bodies::{every_step, rough, to_end, value};
 use crate::patches::material;
+use crate::self_contact::crushed_ring;
 use embate_solver::model::{
-    Contact, Extrude, Interface, Model, Part, Penalty, Probe, ProbeAt, Rectangle, Ring, Run, Shape, Sweep, Symmetry,
+    Contact, Extrude, InitialPenetration, Interface, Model, Part, Penalty, Probe, ProbeAt, Rectangle, Ring, Run, Shape, Sweep, Symmetry,
 };
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 const DEPTH: f64 = 0.3;
 
@@ -37,12 +38,16 @@ fn ring_on_strip(interface: Interface) -> Model {
 }
 
 /// The same as a slice whose faces are symmetry planes.
-fn extruded(mut model: Model, elements: usize) -> Model {
+fn extruded(model: Model, elements: usize) -> Model {
+    extruded_by(DEPTH, model, elements)
+}
+
+fn extruded_by(depth: f64, mut model: Model, elements: usize) -> Model {
     for part in &mut model.parts {
         part.element = "hex8".into();
-        part.sweep = Some(Sweep::Extrude(Extrude { from: 0.0, length: DEPTH, elements, ..Extrude::default() }));
+        part.sweep = Some(Sweep::Extrude(Extrude { from: 0.0, length: depth, elements, ..Extrude::default() }));
     }
-    for z in [0.0, DEPTH] {
+    for z in [0.0, depth] {
         model.symmetries.push(Symmetry { point: [0.0, 0.0, z], normal: [0.0, 0.0, 1.0], ..Symmetry::default() });
     }
     model
@@ -87,5 +92,31 @@ fn a_stiffness_for_each_node_belongs_to_the_model_as_far_as_the_node_does() {
     for column in ["energy.kinetic", "energy.internal"] {
         let (flat, solid) = (value(&plane, column), value(&space, column) / DEPTH);
         assert!((solid / flat - 1.0).abs() < 1e-9, "{column}: {solid} of {flat}");
+    }
+}
+
+#[test]
+fn a_slice_of_half_a_crushed_ring_meets_its_image_as_half_the_ring_of_the_plane_does() {
+    let depth = 0.004;
+    let mut half = crushed_ring();
+    half.parts.truncate(2);
+    half.parts[0].shape =
+        Shape::Ring(Ring { centre: [0.0, 0.0], inner: 0.046, outer: 0.05, from: 0.0, to: PI, elements: [2, 36], ..Ring::default() });
+    half.probes.retain(|probe| probe.name == "top" || probe.name == "above");
+    half.symmetries.push(Symmetry { normal: [0.0, 1.0, 0.0], ..Symmetry::default() });
+    // The stable step of a solid is another one.
+    half.run.time_step = Some(1e-6);
+    for thickness in [0.0, 1e-3] {
+        let mut plane = half.clone();
+        // How flat an element is, is not the same in the plane and in space: the same stiffness for both. The plate begins nearer than the thickness.
+        let law = Interface { thickness, initial_penetration: InitialPenetration::Ignore, ..Penalty::Pressure(5e12).into() };
+        plane.contacts[0].interface = law;
+        let space = extruded_by(depth, plane.clone(), 1);
+        let [in_plane, in_space] =
+            [&plane, &space].map(|model| every_step(model).column("top.y").into_iter().fold(f64::INFINITY, f64::min));
+        // The inside meets its image, and goes no deeper than the springs give. What the ring does before, bent by the plate, differs from the first touch on by 1e-8 and grows.
+        assert!((in_plane - 0.5 * thickness).abs() < 2e-4 && (in_space - in_plane).abs() < 1e-5, "{in_space} of {in_plane}");
+        let summary = to_end(&space).summary();
+        assert!(summary.energy_drift < 0.01 && summary.ledger_residual < 1e-12 && summary.contact.unverified == 0, "{summary:?}");
     }
 }

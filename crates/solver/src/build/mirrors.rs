@@ -2,10 +2,10 @@
 
 use super::{Builder, law_of, stiffness_of};
 use crate::contact::law::{self, Law};
-use crate::contact::mirror::{Mirror, MirroredNode};
+use crate::contact::mirror::{Mirror, Mirrored, MirroredNode};
 use crate::contact::springs::{Tangential, Terms};
 use crate::contact::tracker::SKIN;
-use crate::contact::{Tributary, initial};
+use crate::contact::{Formulation, Tributary, initial};
 use crate::load::constraint::unit;
 use crate::model::{ContactLaw, Interface, Partners};
 use crate::tensor::Dim;
@@ -62,6 +62,20 @@ where
         self.mirrors().map(mirror).collect()
     }
 
+    /// A contact together with what its bodies do to their images.
+    pub(super) fn with_images(
+        &mut self,
+        made: Box<dyn Formulation<D>>,
+        mirrors: Vec<Mirror<D>>,
+        contact: &model::Contact,
+    ) -> Box<dyn Formulation<D>> {
+        if mirrors.is_empty() {
+            return made;
+        }
+        let terms = self.add_terms(terms_of_mirrors(&contact.interface));
+        Box::new(Mirrored::new(made, mirrors, terms))
+    }
+
     fn mirrored(&self, interface: &Interface, node: u32, height: f64, own: Tributary) -> MirroredNode {
         let here = law::Node { own, other: own.stiffness, share: self.constraints.share(node) };
         // As a surface keeps from itself: no more than half of what lay between.
@@ -72,7 +86,7 @@ where
 }
 
 /// What acts between a node and its image, on half of the gap between them: they don't slide on each other.
-pub(super) fn terms_of_mirrors(interface: &Interface) -> Terms {
+fn terms_of_mirrors(interface: &Interface) -> Terms {
     Terms { law: half_law(interface), tangential: Tangential::Free, damping: interface.damping }
 }
 

@@ -1,11 +1,10 @@
 //! What is built in the plane in a way of its own: the axis of a body of revolution, surfaces as chains of segments, and the contacts between them.
 
 use super::fans::Under;
-use super::{Builder, law_of, mirrors, search_by_name, source_of, terms_of, terms_of_ties};
+use super::{Builder, law_of, search_by_name, source_of, terms_of, terms_of_ties};
 use crate::contact::formulation::{self, Setup, Side};
 use crate::contact::law;
 use crate::contact::messages::ON_SYMMETRY;
-use crate::contact::mirror::Mirrored;
 use crate::contact::projection::node_segment::Target;
 use crate::contact::{self, Contact, ContactKind, Formulation};
 use crate::error::Fault;
@@ -97,7 +96,6 @@ impl Builder<'_, 2> {
     pub(crate) fn formulation(&mut self, contact: &model::Contact) -> Result<(Box<dyn Formulation>, usize), Vec<Fault>> {
         let terms = self.add_terms(terms_of(&contact.interface));
         let tie_terms = if contact.tied.is_some() { self.add_terms(terms_of_ties(&contact.interface)) } else { terms };
-        let mirror_terms = self.add_terms(mirrors::terms_of_mirrors(&contact.interface));
         let sides: Vec<Side<'_>> = self.outlines_of(contact)?.into_iter().map(|outline| self.side(outline, &contact.interface)).collect();
         let mirrors = self.mirrors_of(contact, &sides[0].target.surface.nodes, &sides[0].nodes);
         let Some(search) = search_by_name(&contact.search) else {
@@ -120,11 +118,8 @@ impl Builder<'_, 2> {
             search: &|| (search.make)(),
             again: self.again,
         };
-        let mut made = (kind.make)(setup).map_err(|fault| vec![fault])?;
-        if !mirrors.is_empty() {
-            made = Box::new(Mirrored::new(made, mirrors, mirror_terms));
-        }
-        Ok((made, terms))
+        let made = (kind.make)(setup).map_err(|fault| vec![fault])?;
+        Ok((self.with_images(made, mirrors, contact), terms))
     }
 
     /// The surfaces of a contact: two, or one that meets itself. Faults have paths relative to the contact.

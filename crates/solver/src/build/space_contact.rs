@@ -2,12 +2,11 @@
 
 use super::outline::{self, Outline};
 use super::space_start::Meeting;
-use super::{Builder, law_of, mirrors, search_by_name, source_of, stiffness_of, terms_of, terms_of_ties};
+use super::{Builder, law_of, search_by_name, source_of, stiffness_of, terms_of, terms_of_ties};
 use crate::contact::formulation::{self, Passes};
 use crate::contact::initial;
 use crate::contact::law::{self, Node};
 use crate::contact::messages::{ON_SYMMETRY, TIE};
-use crate::contact::mirror::{Mirror, Mirrored};
 use crate::contact::node_facet::tied::{TiedFacet, Unborn};
 use crate::contact::node_facet::tracker::Tracker;
 use crate::contact::node_facet::{NodeFacet, PassInput, Slave};
@@ -220,11 +219,7 @@ impl Builder<'_, 3> {
             return self.pinball_in_space(contact);
         }
         let terms = self.add_terms(terms_of(&contact.interface));
-        let mirror_terms = self.add_terms(mirrors::terms_of_mirrors(&contact.interface));
         let (tracker, passes) = self.tracker_in_space(contact)?;
-        let mirrored = |made: Box<dyn Formulation<3>>, mirrors: Vec<Mirror<3>>| {
-            if mirrors.is_empty() { made } else { Box::new(Mirrored::new(made, mirrors, mirror_terms)) }
-        };
         let sides: Vec<Sided> = tracker.surfaces().iter().map(|surface| self.sided(surface, &contact.interface)).collect();
         let own = if meets_edges(contact, passes) { 2 } else { 1 };
         let inputs: Vec<PassInput> =
@@ -241,7 +236,7 @@ impl Builder<'_, 3> {
         let made = NodeFacet::new(tracker, inputs, &contact.interface, reach, &self.mesh.positions).with_proof(proof);
         let Some((strength, input)) = tied else {
             let made = if meets_edges(contact, passes) { made.with_edges(Self::search_in_space(contact)?) } else { made };
-            return Ok((mirrored(Box::new(made), mirrors), terms));
+            return Ok((self.with_images(Box::new(made), mirrors, contact), terms));
         };
         let unborn = Unborn { search: Self::search_in_space(contact)?, input, thickness: contact.interface.thickness };
         let tie_terms = self.add_terms(terms_of_ties(&contact.interface));

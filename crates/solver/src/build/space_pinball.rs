@@ -12,6 +12,8 @@ impl Builder<'_, 3> {
     pub(super) fn pinball_in_space(&mut self, contact: &model::Contact) -> Result<(Box<dyn Formulation<3>>, usize), Vec<Fault>> {
         let terms = self.add_terms(terms_of(&contact.interface));
         let (search, surfaces) = (Self::search_in_space(contact)?, self.surfaces_in_space(contact)?);
+        let Sided { nodes, .. } = self.sided(&surfaces[0], &contact.interface);
+        let mirrors = self.mirrors_of(contact, &surfaces[0].nodes, &nodes);
         let layers = surfaces.iter().map(|surface| {
             let Sided { facets: stiffness, .. } = self.sided(surface, &contact.interface);
             let cell = |&facet: &[u32; 4]| self.under(facet).map_or(&[][..], |under| self.mesh.groups[under.group].cell(under.element));
@@ -21,6 +23,6 @@ impl Builder<'_, 3> {
         let penalty = if let ContactLaw::Penalty(penalty) = contact.interface.law { penalty } else { Penalty::default() };
         let reach = law_of(&contact.interface).reach();
         let made = Pinball::new(&layers, contact, penalty, reach, search, (&self.body_of_node, &self.mesh.positions));
-        Ok((Box::new(made), terms))
+        Ok((self.with_images(Box::new(made), mirrors, contact), terms))
     }
 }

@@ -4,7 +4,8 @@ use crate::bodies::{every_step, rough, to_end, value};
 use crate::patches::material;
 use crate::self_contact::crushed_ring;
 use embate_solver::model::{
-    Contact, Extrude, InitialPenetration, Interface, Model, Part, Penalty, Probe, ProbeAt, Rectangle, Ring, Run, Shape, Sweep, Symmetry,
+    Contact, Extrude, Formulation, InitialPenetration, Interface, Model, Part, Penalty, Probe, ProbeAt, Rectangle, Ring, Run, Shape, Sweep,
+    Symmetry,
 };
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -95,17 +96,22 @@ fn a_stiffness_for_each_node_belongs_to_the_model_as_far_as_the_node_does() {
     }
 }
 
-#[test]
-fn a_slice_of_half_a_crushed_ring_meets_its_image_as_half_the_ring_of_the_plane_does() {
-    let depth = 0.004;
+/// The upper half of a ring that a plate crushes, on a symmetry line; its steps are short enough for solids, too.
+fn half_of_crushed_ring() -> Model {
     let mut half = crushed_ring();
     half.parts.truncate(2);
     half.parts[0].shape =
         Shape::Ring(Ring { centre: [0.0, 0.0], inner: 0.046, outer: 0.05, from: 0.0, to: PI, elements: [2, 36], ..Ring::default() });
     half.probes.retain(|probe| probe.name == "top" || probe.name == "above");
     half.symmetries.push(Symmetry { normal: [0.0, 1.0, 0.0], ..Symmetry::default() });
-    // The stable step of a solid is another one.
     half.run.time_step = Some(1e-6);
+    half
+}
+
+#[test]
+fn a_slice_of_half_a_crushed_ring_meets_its_image_as_half_the_ring_of_the_plane_does() {
+    let depth = 0.004;
+    let half = half_of_crushed_ring();
     for thickness in [0.0, 1e-3] {
         let mut plane = half.clone();
         // How flat an element is, is not the same in the plane and in space: the same stiffness for both. The plate begins nearer than the thickness.
@@ -119,4 +125,14 @@ fn a_slice_of_half_a_crushed_ring_meets_its_image_as_half_the_ring_of_the_plane_
         let summary = to_end(&space).summary();
         assert!(summary.energy_drift < 0.01 && summary.ledger_residual < 1e-12 && summary.contact.unverified == 0, "{summary:?}");
     }
+}
+
+#[test]
+fn balls_meet_their_images_in_a_symmetry_plane_too() {
+    let mut model = extruded_by(0.004, half_of_crushed_ring(), 1);
+    model.contacts[0].formulation = Formulation::Pinball;
+    model.contacts[0].interface.initial_penetration = InitialPenetration::Ignore;
+    let least = every_step(&model).column("top.y").into_iter().fold(f64::INFINITY, f64::min);
+    // The ring is 4 mm thick and stops where its inside meets the plane; without images it goes through.
+    assert!((-5e-4..1e-3).contains(&least), "{least}");
 }

@@ -1,4 +1,4 @@
-//! Cost of contact in a step: `cargo bench -p embate-solver --bench contact [plane|space] [ELEMENTS [THREADS]]`.
+//! Cost of contact in a step: `cargo bench -p embate-solver --bench contact [plane|space] [MOTION…] [ELEMENTS [THREADS]]`; a MOTION is a part of a name that is told, such as `shifted`.
 //!
 //! A stack of long strips, each so near to the next that every node of their long sides is in reach of the next strip; all in one contact of bodies with each other and
 //! with themselves. At rest nothing presses; in motion every second strip moves against its neighbours. Told are the shares of the step that contact, its
@@ -24,8 +24,16 @@ fn main() {
     let options = Options { threads: numbers.get(1).copied().unwrap_or(1), simd: None };
     let is_wanted =
         |dimension: &str| words.iter().any(|word| word == dimension) || !words.iter().any(|word| word == "plane" || word == "space");
+    let others: Vec<&String> = words
+        .iter()
+        .filter(|word| word.parse::<usize>().is_err() && !word.starts_with("--") && *word != "plane" && *word != "space")
+        .collect();
+    let is_named = |name: &str| others.is_empty() || others.iter().any(|word| name.contains(word.as_str()));
     if is_wanted("plane") {
-        for (name, speed, friction) in [("at rest", 0.0, 0.0), ("in motion", 2.0, 0.0), ("in motion with friction", 2.0, 0.3)] {
+        for (name, speed, friction) in [("at rest", 0.0, 0.0), ("in motion", 2.0, 0.0), ("in motion with friction", 2.0, 0.3)]
+            .into_iter()
+            .filter(|(name, ..)| is_named(name))
+        {
             let plain = strips(elements, speed);
             // 44 steps: so long the strips press on each other, once they have met.
             let with = compare(name, &plain, Partners::Bodies(Vec::new()), friction, &options);
@@ -43,7 +51,10 @@ fn main() {
             ("slabs shifted", 2.0, 0.3, 0.0, between()),
             ("slabs shifted, bodies", 2.0, 0.3, 0.0, Partners::Bodies(Vec::new())),
             ("slabs shifted, with friction", 2.0, 0.3, 0.3, between()),
-        ] {
+        ]
+        .into_iter()
+        .filter(|(name, ..)| is_named(name))
+        {
             let mut plain = slabs(n, speed, shift);
             if speed == 0.0 {
                 lift(&mut plain, SIZE);

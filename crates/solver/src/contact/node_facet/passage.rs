@@ -17,6 +17,9 @@ pub(in crate::contact) const ALONG: f64 = 0.5;
 /// Times of one step that differ by less are the same, and who goes in and out at the same time is out.
 const SAME_TIME: f64 = 1e-12;
 
+/// How far beyond the box of a facet a node passes it by for sure, as a fraction of the size of the box.
+const BESIDE: f64 = 1e-3;
+
 /// A node goes through a facet.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Passage {
@@ -53,6 +56,9 @@ impl Passages {
 
     /// Adds those through one facet.
     pub(in crate::contact) fn add(&mut self, placed: &Placed<'_>, sweep: Sweep<'_, 3>, node: u32, facet: u32) {
+        if are_apart(placed, sweep, node, facet) {
+            return;
+        }
         let before = Placed { surface: placed.surface, positions: sweep.old };
         let path = [sweep.old[node as usize], sweep.new[node as usize]];
         for k in 0..if placed.surface.facets[facet as usize].corners().len() == 3 { 1 } else { 4 } {
@@ -91,6 +97,22 @@ impl Passages {
         }
         fate
     }
+}
+
+/// Whether a node and a facet stay apart in the step along an axis, by more than a place may be beyond the rim of a facet and count as on it: it goes through none of its triangles, then. Of the
+/// facets around that which a node goes through, most lie in the same plane and beside the way.
+fn are_apart(placed: &Placed<'_>, sweep: Sweep<'_, 3>, node: u32, facet: u32) -> bool {
+    let corners = placed.surface.facets[facet as usize];
+    let (mut low, mut high) = (sweep.old[corners[0] as usize], sweep.old[corners[0] as usize]);
+    for corner in corners {
+        let [old, new] = [sweep.old[corner as usize], sweep.new[corner as usize]];
+        for d in 0..3 {
+            (low[d], high[d]) = (low[d].min(old[d].min(new[d])), high[d].max(old[d].max(new[d])));
+        }
+    }
+    let margin = BESIDE * (high[0] - low[0]).max(high[1] - low[1]).max(high[2] - low[2]);
+    let [from, to] = [sweep.old[node as usize], sweep.new[node as usize]];
+    (0..3).any(|d| from[d].max(to[d]) < low[d] - margin || from[d].min(to[d]) > high[d] + margin)
 }
 
 /// The projection of a node on the face by which it came in from a side, and the facet's normal there; unless what was `found` is that face, or holds the node inside and it is not over the face.

@@ -15,8 +15,11 @@ type Vector = [f64; 3];
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// How far beyond the rim of a triangle, or the end of an edge, a place is on it: a fraction of its size.
 const RIM: f64 = 1e-9;
-/// Halvings of a step after which a root is known well enough.
+/// Halvings of a step after which a root is known well enough, and the part of the step that is left then.
 const HALVINGS: u32 = 50;
+const ENOUGH: f64 = 1.0 / (1_u64 << HALVINGS) as f64;
+/// Steps of the false position before halving; three lines of a cubic that is nearly straight would do.
+const CHORDS: u32 = 12;
 
 /// Times between 0 and 1 at which something may change its side; no cubic has more than two falls.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -76,6 +79,10 @@ fn split([a, b, c, d]: [f64; 4], [begin, end]: [f64; 2], halvings: u32, times: &
     if changes == 0 || (changes == 1 && !above[0]) {
         return;
     }
+    if changes == 1 {
+        times.add(begin + only_fall([a, b, c, d], ENOUGH / (end - begin)) * (end - begin));
+        return;
+    }
     let middle = 0.5 * (begin + end);
     if halvings == 0 || !(middle > begin && middle < end) {
         if above[0] && !above[3] {
@@ -89,6 +96,49 @@ fn split([a, b, c, d]: [f64; 4], [begin, end]: [f64; 2], halvings: u32, times: &
     let all = half(abc, bcd);
     split([a, ab, abc, all], [begin, middle], halvings - 1, times);
     split([all, bcd, cd, d], [middle, end], halvings - 1, times);
+}
+
+/// The last place between 0 and 1, but for `width`, at which a cubic that falls once has not fallen: the false position (Illinois: Dowell and Jarratt, BIT 11 (1971) 168-174), then halves of what
+/// is left.
+fn only_fall(coefficients: [f64; 4], width: f64) -> f64 {
+    let at = |t: f64| {
+        let [a, b, c, d] = coefficients;
+        let (s, part) = (1.0 - t, |a: f64, b: f64| (1.0 - t) * a + t * b);
+        let (ab, bc, cd) = (part(a, b), part(b, c), part(c, d));
+        s * (s * ab + t * bc) + t * (s * bc + t * cd)
+    };
+    let (mut above, mut below) = (0.0, 1.0);
+    let (mut high, mut low) = (coefficients[0], coefficients[3]);
+    let mut last = f64::NAN;
+    for _ in 0..CHORDS {
+        let place = above + (below - above) * (high / (high - low));
+        if !(place > above && place < below) || (place - last).abs() <= 0.25 * width {
+            break;
+        }
+        let (value, was_above) = (at(place), last == above);
+        if value >= 0.0 {
+            // The end that stays twice counts half: it comes nearer then.
+            low *= if was_above { 0.5 } else { 1.0 };
+            (above, high) = (place, value);
+        } else {
+            high *= if last == below { 0.5 } else { 1.0 };
+            (below, low) = (place, value);
+        }
+        last = place;
+    }
+    for place in [last - 0.5 * width, last + 0.5 * width] {
+        if place > above && place < below {
+            if at(place) >= 0.0 { above = place } else { below = place }
+        }
+    }
+    while below - above > width {
+        let middle = 0.5 * (above + below);
+        if !(middle > above && middle < below) {
+            break;
+        }
+        if at(middle) >= 0.0 { above = middle } else { below = middle }
+    }
+    above
 }
 
 /// Whether a volume keeps its sign in the step, by far: it differs from the straight line between its ends by no more than ¼ |Q| + 0.39 |C| of the terms Q t² + C t³.

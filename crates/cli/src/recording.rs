@@ -15,9 +15,8 @@ use embate_files::results::{Checkpoints, OnProgress, Recorder, Report, ResultsEr
 use embate_solver::error::Error;
 use embate_solver::model::Model;
 use embate_solver::simulation::{ContactSearch, Control, Observer, Options, Progress, Simulation};
-use std::cell::RefCell;
 use std::path::Path;
-use std::rc::Rc;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 /// How a model is run, and what is told of it; changes no result.
@@ -96,16 +95,16 @@ pub(crate) fn record<'a>(
 ) -> Result<(), Failure> {
     let Recording { path, manner, .. } = *recording;
     let interrupt = Interrupt::watch();
-    let display = Rc::new(RefCell::new(Display::new(manner.quiet)));
-    let told = Rc::new(RefCell::new(Vec::new()));
+    let display = Arc::new(Mutex::new(Display::new(manner.quiet)));
+    let told = Arc::new(Mutex::new(Vec::new()));
     let (seen, shown, notices) = (interrupt.clone(), display.clone(), told.clone());
     let mut is_told = false;
     let on_progress = move |progress: &Progress<'_>| {
-        let mut display = shown.borrow_mut();
+        let mut display = of(&shown);
         display.update(progress);
         for notice in progress.notices {
             display.say(&Complaint::from(notice).to_string());
-            notices.borrow_mut().push(notice.text.clone());
+            of(&notices).push(notice.text.clone());
         }
         if !seen.is_pressed() {
             return Control::Continue;
@@ -123,12 +122,12 @@ pub(crate) fn record<'a>(
         && !matches!(error, Error::Output(_) | Error::State(_))
         && !interrupt.is_pressed()
     {
-        display.borrow().say("the run failed; going once more to its last steps, to see how it came (Ctrl-C: not)");
+        of(&display).say("the run failed; going once more to its last steps, to see how it came (Ctrl-C: not)");
         told_late = look_into(recording, simulation, error, &interrupt, &mut recorder);
     }
     let outcome = recorder.finish(ran.as_ref().err().map(Error::with_code), &simulation.summary(), cpu::user_seconds);
-    if let Ok(display) = Rc::try_unwrap(display) {
-        display.into_inner().close();
+    if let Some(display) = Arc::into_inner(display) {
+        display.into_inner().unwrap_or_else(PoisonError::into_inner).close();
     }
     // What went wrong first is what matters.
     let unwritten = outcome.unwritten.map_or(Ok(()), |error| Err(Complaint::new(error.kind(), error)));
@@ -137,7 +136,7 @@ pub(crate) fn record<'a>(
     told_late.iter().for_each(|complaint| terminal::complain(&complaint.to_string()));
     if !manner.quiet {
         // Those of the model come first, and have been told, as has what was seen on the way: the summary says how it went on.
-        let told = told.borrow();
+        let told = of(&told);
         let of_run = report.warnings.iter().skip(simulation.model_warnings().len());
         let of_run = of_run.filter(|notice| !told.iter().any(|text: &String| notice.text.starts_with(text)));
         of_run.for_each(|notice| terminal::complain(&Complaint::from(notice).to_string()));
@@ -150,6 +149,11 @@ pub(crate) fn record<'a>(
         terminal::print(&search_text(&simulation.searches()))?;
     }
     if interrupt.is_pressed() && report.status == RunStatus::Stopped { Err(Failure::Interrupted) } else { Ok(()) }
+}
+
+/// What only one thread ever asks for.
+fn of<T>(shared: &Mutex<T>) -> MutexGuard<'_, T> {
+    shared.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Finds out how a failure came, writes its page, and keeps the state of the step before, where that is wanted. What goes wrong with that hides nothing.

@@ -15,7 +15,7 @@ use crate::contact::tracker::SearchReport;
 use crate::error::{Error, Notice, Warning};
 use crate::hashes::Hashes;
 use crate::model::Model;
-use crate::output::{Cells, Frame, Shown, Summary};
+use crate::output::{Cells, Field, Frame, Shown, Summary};
 use crate::post_mortem::{Acting, Culprit, Neighbourhood, Suspect, Trace};
 use embate_lanes::Level;
 use run::Run;
@@ -323,7 +323,16 @@ impl Simulation {
     /// # Errors
     /// Any [`Error`]; the last state has been given to the observer before.
     pub fn run(&mut self, observer: &mut dyn Observer) -> Result<(), Error> {
-        either!(mut self, run => run.run(observer))
+        self.run_until(f64::INFINITY, u64::MAX, observer)
+    }
+
+    /// The same until `time` is reached (s), and at most `steps` steps. A run in pieces, with whatever was asked in between, tells `observer` the same as one that was never stopped, and its
+    /// bits are the same.
+    ///
+    /// # Errors
+    /// As [`Simulation::run`].
+    pub fn run_until(&mut self, time: f64, steps: u64, observer: &mut dyn Observer) -> Result<(), Error> {
+        either!(mut self, run => run.run(time, steps, observer))
     }
 
     /// Hashes of the state now.
@@ -351,6 +360,18 @@ impl Simulation {
     #[must_use]
     pub fn frame(&self) -> Frame {
         either!(self, run => run.frame())
+    }
+
+    /// A field now by its name in [`crate::output::FIELDS`], whether the model asks for it or not; `None`: there is none of this name.
+    #[must_use]
+    pub fn field(&self, name: &str) -> Option<Field> {
+        either!(self, run => run.field(name))
+    }
+
+    /// Positions of all nodes now, m, one after the other, in the order of a [`Frame`].
+    #[must_use]
+    pub fn coordinates(&self) -> Vec<f64> {
+        either!(self, run => run.coordinates())
     }
 
     /// Names of the history's columns; the first is `time`.

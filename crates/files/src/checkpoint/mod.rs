@@ -147,19 +147,25 @@ impl Checkpoint {
         let folder = results.join(FOLDER);
         fs::create_dir_all(&folder).map_err(CheckpointError::file("create", &folder))?;
         let path = folder.join(format!("{:012}.{ENDING}", self.state.step));
-        let part = part_path(&path);
-        let written = self.write_to(&part, threads).and_then(|()| fs::rename(&part, &path)).map_err(CheckpointError::file("write", &path));
-        if written.is_err() {
-            // Room for what is more urgent; the first error is the one that matters.
-            let _ = fs::remove_file(&part);
-            return written;
-        }
+        self.write_file(&path, threads)?;
         // The name, too, must outlive a power failure; where folders can't be synchronised there is nothing to do.
         let _ = File::open(&folder).and_then(|folder| folder.sync_all());
         for old in generations(results).into_iter().filter(|generation| generation.step < self.state.step).skip(GENERATIONS - 1) {
             fs::remove_file(&old.path).map_err(CheckpointError::file("remove", &old.path))?;
         }
         Ok(())
+    }
+
+    /// Writes it as one file, which stands there as a whole or not at all.
+    ///
+    /// # Errors
+    /// [`CheckpointError::File`].
+    pub fn write_file(&self, path: &Path, threads: &Threads) -> Result<(), CheckpointError> {
+        let part = part_path(path);
+        self.write_to(&part, threads).and_then(|()| fs::rename(&part, path)).map_err(CheckpointError::file("write", path)).inspect_err(|_| {
+            // Room for what is more urgent; the first error is the one that matters.
+            let _ = fs::remove_file(&part);
+        })
     }
 
     fn write_to(&self, path: &Path, threads: &Threads) -> io::Result<()> {

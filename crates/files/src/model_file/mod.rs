@@ -35,6 +35,7 @@ use embate_solver::error::Warning;
 use embate_solver::message::Message;
 use embate_solver::model::Model;
 use embate_solver::quantity::Dimension;
+use std::collections::BTreeMap;
 use std::io::Read;
 use std::path::Path;
 
@@ -183,6 +184,24 @@ pub fn load_text(name: &str, text: &str, folder: &Path, set: &[String]) -> Resul
 /// All faults at once.
 pub fn load_text_with_places(name: &str, text: &str, folder: &Path, set: &[String]) -> Result<Loaded, Diagnostics> {
     Template::of(name, Source { name: name.to_string(), text: text.to_string() }, (folder, Reach::Folder), set)?.loaded(&[])
+}
+
+/// Meshes in memory, each the bytes of a .msh file, by the names by which a model's text calls them as files.
+pub type GivenMeshes = BTreeMap<String, Vec<u8>>;
+
+/// [`load_text_with_places`] of a text that calls some meshes by names of what is in memory; other files are looked for in `folder`, as far as `reach` lets.
+///
+/// # Errors
+/// All faults at once.
+pub fn load_text_with_meshes(
+    name: &str,
+    text: &str,
+    (folder, reach): (&Path, Reach),
+    set: &[String],
+    given: GivenMeshes,
+) -> Result<Loaded, Diagnostics> {
+    let source = Source { name: name.to_string(), text: text.to_string() };
+    Template::of(name, source, (folder, reach), set)?.with_meshes(given).loaded(&[])
 }
 
 /// The SI value and the dimension of a quantity such as `3 mm`; `None` if it is none.

@@ -5,7 +5,7 @@
 
 use super::diagnostics::{Diagnostics, Faults, Source};
 use super::tree::{self, Node, Place, Value};
-use super::{FILE_NAME, Loaded, build, name_of, parsed, reader, set, source};
+use super::{FILE_NAME, GivenMeshes, Loaded, build, name_of, parsed, reader, set, source};
 use crate::Reach;
 use crate::model_file::messages::OVERRIDE;
 use embate_solver::error::Fault;
@@ -13,6 +13,7 @@ use embate_solver::message::Message;
 use embate_solver::model::Model;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// A model file ready to be varied.
 #[derive(Clone, Debug)]
@@ -20,6 +21,7 @@ pub(crate) struct Template {
     name: String,
     folder: PathBuf,
     reach: Reach,
+    given: Arc<GivenMeshes>,
     sources: Vec<Source>,
     root: Node,
     /// What is wrong with the overrides.
@@ -56,7 +58,12 @@ impl Template {
         let (source, mut root) = parsed(source)?;
         let (mut sources, mut faults) = (vec![source], Faults::default());
         set::apply(&mut root, set, &mut sources, &mut faults);
-        Ok(Self { name: name.to_string(), folder: folder.to_path_buf(), reach, sources, root, faults })
+        Ok(Self { name: name.to_string(), folder: folder.to_path_buf(), reach, given: Arc::default(), sources, root, faults })
+    }
+
+    /// The same with meshes that are in memory.
+    pub(super) fn with_meshes(self, given: GivenMeshes) -> Self {
+        Self { given: Arc::new(given), ..self }
     }
 
     /// Adds a text that changes come from; its number is that of [`Change::source`].
@@ -107,7 +114,7 @@ impl Template {
         let (root, mut faults) = self.changed(changes);
         let before = faults.clone();
         let document = reader::read(&root, &reader::MODEL, false, &mut faults);
-        let mut meshes = build::Meshes::new(&self.folder, self.reach);
+        let mut meshes = build::Meshes::new(&self.folder, self.reach, &self.given);
         let mut model = build::model(&document, &self.name, &mut meshes, &mut faults);
         // Parts may be solids by their meshes alone: then all was read with the units of the plane.
         if !document.is_of_solids && model.parts.iter().any(|part| model.dimension_of(part) == 3) {

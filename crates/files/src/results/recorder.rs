@@ -26,7 +26,7 @@ use std::time::{Duration, Instant};
 const ROWS: usize = 1 << 13;
 
 /// What the caller does with the progress of a run.
-pub type OnProgress<'a> = Box<dyn FnMut(&Progress<'_>) -> Control + 'a>;
+pub type OnProgress<'a> = Box<dyn FnMut(&Progress<'_>) -> Control + Send + 'a>;
 
 /// Writes the results of one run; made just before the run begins, because it measures the run's time.
 pub struct Recorder<'a> {

@@ -146,7 +146,8 @@ fn erosion(erosion: &embate_solver::output::Erosion, dimension: usize) -> Erosio
 
 impl Report {
     /// A report of the solver's figures; the rest is filled in by the recorder.
-    pub(crate) fn of(summary: &Summary, model: &str, parts: &[String]) -> Self {
+    #[must_use]
+    pub fn of(summary: &Summary, model: &str, parts: &[String]) -> Self {
         let momentum = MomentumDrift { linear: summary.momentum_drift_linear, angular: summary.momentum_drift_angular };
         Self {
             status: RunStatus::Done,

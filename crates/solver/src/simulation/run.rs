@@ -12,9 +12,10 @@ use crate::error::{Error, Fault, INSTRUCTIONS, MASS_ADDED, Notice, Warning};
 use crate::hashes::{self, Hashes, Hashing};
 use crate::mesh::PartMesh;
 use crate::model::{self, Cadence, Model};
-use crate::output::{Cells, Frame, Shown};
+use crate::output::{Cells, Field, Frame, Shown, fields_of};
 use crate::post_mortem::Tracer;
 use crate::record::{Momentum, Recorded};
+use crate::showing::Showing;
 use crate::step::System;
 use crate::tensor::Dim;
 use crate::watch::Watch;
@@ -216,11 +217,13 @@ where
         self.system.time >= self.system.limits.end || self.system.step >= self.max_steps
     }
 
-    /// Runs to the end, telling `observer` of rows, frames and progress. A simulation of a kept state ([`Simulation::resumed`]) goes on as if it had never been stopped.
+    /// Runs until the time `pause` is reached (s), at most `steps` steps or to the end, telling `observer` of rows, frames and progress. What was begun so, or was stopped, or is of a kept state
+    /// ([`Simulation::resumed`]) goes on as if it had never been stopped: it tells nothing twice.
     ///
     /// # Errors
     /// Any [`Error`]; the last state has been given to the observer before.
-    pub(crate) fn run(&mut self, observer: &mut dyn Observer) -> Result<(), Error> {
+    pub(crate) fn run(&mut self, pause: f64, steps: u64, observer: &mut dyn Observer) -> Result<(), Error> {
+        let last = self.system.step.saturating_add(steps);
         let end = self.system.limits.end;
         let (mut rows, mut frames) = (Clock::new(self.history, end), Clock::new(self.fields, end));
         let state_steps = self.state_steps.filter(|_| observer.keeps_states());
@@ -274,10 +277,16 @@ where
                 if course.last_frame != Some(self.system.step) {
                     self.show(observer)?;
                 }
+                self.pause(course);
+                return Ok(());
+            }
+            if self.system.time >= pause || self.system.step >= last {
+                self.pause(course);
                 return Ok(());
             }
             let until = rows.next().min(frames.next());
-            let result = self.go_on(until, course.steps(self.system.step, state_steps));
+            let stage = course.steps(self.system.step, state_steps).min(last - self.system.step);
+            let result = self.go_on(until.min(pause), stage);
             // A stop for the state alone leaves no trace.
             if result.is_err() || self.system.time >= until || self.is_over() || course.is_stage(self.system.step) {
                 self.note_momentum();
@@ -295,6 +304,11 @@ where
                 return Err(error);
             }
         }
+    }
+
+    /// Lets the run go on later where it is.
+    fn pause(&mut self, course: Course) {
+        self.course = Some(Course { is_resumed: true, ..course });
     }
 
     /// Hashes of the state now.
@@ -368,6 +382,24 @@ where
         let mut frame = Frame::default();
         self.recorded.showing(&self.system).fill(&mut frame);
         frame
+    }
+
+    /// A field now, whether the model asks for it or not; `None`: there is none of this name.
+    pub(crate) fn field(&self, name: &str) -> Option<Field> {
+        let kind = fields_of(D).iter().find(|kind| kind.name == name)?;
+        let kinds = [kind];
+        let showing = Showing::new(&self.system, &kinds);
+        let mut values = Vec::new();
+        showing.values(0, 0..showing.numbers(0) / kind.width(), &mut values);
+        Some(Field { kind, values })
+    }
+
+    /// Positions of all nodes now, m, one after the other, in the user's order.
+    pub(crate) fn coordinates(&self) -> Vec<f64> {
+        let showing = Showing::new(&self.system, &[]);
+        let mut values = Vec::new();
+        showing.coordinates(0..showing.nodes(), &mut values);
+        values
     }
 
     /// Names of the history's columns; the first is `time`.

@@ -13,6 +13,7 @@ use super::reader::{Document, Record};
 use super::tree::Place;
 use super::units::shorten;
 use super::value::Datum;
+use super::GivenMeshes;
 use crate::gmsh::messages::MESH_FILE;
 use crate::reach::{Bounds, Reach};
 use crate::{abaqus, gmsh, stl};
@@ -149,14 +150,15 @@ fn turn(record: &Record, placement: &mut Placement) {
 pub(super) struct Meshes<'a> {
     folder: &'a Path,
     bounds: Bounds,
+    given: &'a GivenMeshes,
     read: Vec<(PathBuf, u64, Option<usize>)>,
     loaded: Vec<Arc<ImportedMesh>>,
 }
 
 impl<'a> Meshes<'a> {
-    /// Those of a file in `folder`, none of them read yet.
-    pub(super) fn new(folder: &'a Path, reach: Reach) -> Self {
-        Self { folder, bounds: Bounds::of(folder, "model's", reach), read: Vec::new(), loaded: Vec::new() }
+    /// Those of a file in `folder`, none of them read yet; some may be given instead of a file.
+    pub(super) fn new(folder: &'a Path, reach: Reach, given: &'a GivenMeshes) -> Self {
+        Self { folder, bounds: Bounds::of(folder, "model's", reach), given, read: Vec::new(), loaded: Vec::new() }
     }
 
     /// Files that could not be read are tried again, so that their faults are told again.
@@ -172,9 +174,15 @@ impl<'a> Meshes<'a> {
         if let Some((.., index)) = self.read.iter().find(|(known, bits, _)| *known == path && *bits == scale.to_bits()) {
             return *index;
         }
-        let index = if self.is_there(&path, &file, (record, place), faults) {
+        let given = self.given.get(&file);
+        let index = if given.is_some() || self.is_there(&path, &file, (record, place), faults) {
             let is_deck = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("inp"));
-            match if is_deck { abaqus::read_within(&path, scale, &self.bounds) } else { gmsh::read(&path, scale) } {
+            let mesh = match given {
+                Some(bytes) => gmsh::parse(bytes, &file, scale),
+                None if is_deck => abaqus::read_within(&path, scale, &self.bounds),
+                None => gmsh::read(&path, scale),
+            };
+            match mesh {
                 Ok(mesh) => {
                     self.loaded.push(Arc::new(mesh));
                     Some(self.loaded.len() - 1)

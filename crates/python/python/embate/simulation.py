@@ -1,0 +1,436 @@
+"""Simulations: stepped, looked at, saved, and changed between steps."""
+
+from __future__ import annotations
+
+import json
+import math
+import tempfile
+import time as clock
+import warnings
+import zipfile
+from collections.abc import Callable, Iterator, Mapping
+from os import PathLike, fspath
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from . import _embate
+from .errors import FileError, StateError
+from .errors import Warning as EmbateWarning
+from .model import Model
+
+#: Seconds between two looks at Ctrl-C and the progress bar.
+_PAUSE = 0.1
+_ALL = 2**63 - 1
+_FORMAT = 1
+
+
+class State:
+    """The state of a simulation now: arrays by name.
+
+    Every array is a read-only copy of the state when it was asked for: the solver has its nodes in an order of its own and goes on writing. Nodes and cells are in the user's order, part by part.
+    Fields are those of ``docs/output.md``, whether the model writes them or not.
+    """
+
+    def __init__(self, simulation: Simulation) -> None:
+        self._simulation = simulation
+
+    @property
+    def position(self) -> np.ndarray[Any, Any]:
+        """Current positions of the nodes, m, shape (nodes, dimension)."""
+        native = self._simulation._native
+        return np.frombuffer(native.positions(), np.float64).reshape(-1, native.dimension)
+
+    def field(self, name: str) -> np.ndarray[Any, Any]:
+        """A field by its name: shape (nodes or cells,) or (nodes or cells, components)."""
+        if name not in self.fields:
+            raise AttributeError(f"there is no field {name!r}; there are {', '.join(self.fields)}")
+        data, width = self._simulation._native.field(name)
+        values = np.frombuffer(data, np.float64)
+        return values if width == 1 else values.reshape(-1, width)
+
+    @property
+    def fields(self) -> dict[str, dict[str, Any]]:
+        """What fields there are: components, unit, ``nodes`` or ``cells``, what it is."""
+        return _fields(self._simulation._native.dimension)
+
+    def __getattr__(self, name: str) -> np.ndarray[Any, Any]:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        return self.field(name)
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self.fields]
+
+    def __repr__(self) -> str:
+        return f"<embate state at {self._simulation.time:.6g} s: position, {', '.join(self.fields)}>"
+
+
+class History(Mapping[str, np.ndarray[Any, Any]]):
+    """The history so far: columns as of ``history.csv``, each a read-only array of the values at the output times."""
+
+    def __init__(self, columns: list[str], values: np.ndarray[Any, Any]) -> None:
+        self._columns = {name: k for k, name in enumerate(columns)}
+        self._values = values
+
+    def __getitem__(self, name: str) -> np.ndarray[Any, Any]:
+        if name not in self._columns:
+            raise KeyError(f"{name!r}; there are {', '.join(self._columns)}")
+        return self._values[:, self._columns[name]]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._columns)
+
+    def __len__(self) -> int:
+        return len(self._columns)
+
+    def to_pandas(self) -> Any:
+        """A table with the time as its index (pandas)."""
+        import pandas
+
+        return pandas.DataFrame(self._values, columns=list(self._columns)).set_index("time")
+
+    def __repr__(self) -> str:
+        return f"<embate history: {len(self._values)} rows of {', '.join(self._columns)}>"
+
+    def _repr_html_(self) -> str:
+        from .display import history_html
+
+        return history_html(self)
+
+
+class Simulation:
+    """A model that is stepped; made by :meth:`embate.Model.simulation`.
+
+    The interpreter's lock is free while it steps: simulations in different threads go at full speed. One simulation does one thing at a time. As a context manager it is closed in the end.
+    """
+
+    def __init__(self, model: Model, threads: int = 0, instruction_set: str | None = None, *, _native: Any = None) -> None:
+        self.model = model
+        self._threads = _count(threads, "threads")
+        self._instruction_set = instruction_set
+        self._native = _native if _native is not None else _embate.Simulation(model._native(), self._threads, instruction_set)
+        self._callbacks: list[tuple[int, Callable[[Simulation], Any]]] = []
+
+    def run(
+        self,
+        until: float | str | None = None,
+        *,
+        progress: bool | Callable[[float], Any] = False,
+        out: str | PathLike[str] | None = None,
+        force: bool = False,
+    ) -> Simulation:
+        """Steps to the end, or to the first step at or after a time.
+
+        Parameters
+        ----------
+        until : float, optional
+            Time, s.
+        progress : bool or callable
+            True: a bar (tqdm, in notebooks as well); a callable gets the fraction that is done, ten times a second at most.
+        out : path, optional
+            Folder for the results of this run, as those of ``embate run``: fields, history, pictures, summary.
+        force : bool
+            Whether results that are there go.
+
+        Ctrl-C stops between two steps with KeyboardInterrupt; the state is kept, and ``run`` goes on from it.
+
+        Raises
+        ------
+        embate.RunError
+            The run failed; the state of the failure can be looked at.
+        """
+        end = math.inf if until is None else _time(until, "until")
+        if out is not None:
+            self._native.record(Path(fspath(out)), bool(force))
+        try:
+            with _shown(progress, self) as show:
+                while not self.is_over and self.time < end:
+                    self._advance(end, _ALL)
+                    show()
+        finally:
+            if out is not None and not self.is_closed:
+                self._native.finish()
+        return self
+
+    def step(self, n: int = 1) -> Simulation:
+        """So many steps, fewer where the end is reached before."""
+        target = self.steps + _count(n, "n")
+        while not self.is_over and self.steps < target:
+            self._advance(math.inf, target - self.steps)
+        return self
+
+    def _advance(self, until: float, steps: int) -> None:
+        now = self.steps
+        due = min((every - now % every for every, _ in self._callbacks), default=steps)
+        self._native.advance(until, min(steps, due), _PAUSE)
+        for notice in self._native.notices():
+            warnings.warn(f"{notice['code']}: {notice['message']}", EmbateWarning, stacklevel=3)
+        if self.steps != now:
+            for every, function in list(self._callbacks):
+                if self.steps % every == 0:
+                    function(self)
+
+    def every(self, n: int, function: Callable[[Simulation], Any]) -> Callable[[Simulation], Any]:
+        """Calls a function with the simulation after every step whose number n divides. It may look at everything, and change velocities and loads.
+
+        Returns the function. :meth:`forget` ends it.
+        """
+        n = _count(n, "n")
+        if n == 0:
+            raise ValueError("n is 0: a callback is called every so many steps")
+        if not callable(function):
+            raise TypeError(f"function is a {type(function).__name__}, which can't be called")
+        self._callbacks.append((n, function))
+        return function
+
+    def forget(self, function: Callable[[Simulation], Any]) -> None:
+        """Calls a function no more."""
+        self._callbacks = [(n, known) for n, known in self._callbacks if known is not function]
+
+    @property
+    def time(self) -> float:
+        """Time reached, s."""
+        return self._native.clock()[0]
+
+    @property
+    def steps(self) -> int:
+        """Steps done."""
+        return self._native.clock()[1]
+
+    @property
+    def dt(self) -> float:
+        """Step that leads to the next state, s."""
+        return self._native.clock()[2]
+
+    @property
+    def end(self) -> float:
+        """End time, s."""
+        return self._native.clock()[3]
+
+    @property
+    def is_over(self) -> bool:
+        """Whether the end is reached."""
+        return self._native.clock()[5]
+
+    @property
+    def is_closed(self) -> bool:
+        """Whether :meth:`close` was called."""
+        return self._native.is_closed
+
+    @property
+    def dimension(self) -> int:
+        """2 in the plane, 3 in space."""
+        return self._native.dimension
+
+    @property
+    def state(self) -> State:
+        """The state now, array by array."""
+        return State(self)
+
+    @property
+    def energy(self) -> dict[str, float]:
+        """Energies (J, in the plane J per metre of depth), the work from outside, and the drift as a fraction of the largest total energy."""
+        return self._native.energy()
+
+    @property
+    def history(self) -> History:
+        """The history so far."""
+        columns = self._native.columns()
+        return History(columns, np.frombuffer(self._native.rows(), np.float64).reshape(-1, len(columns)))
+
+    @property
+    def summary(self) -> dict[str, Any]:
+        """What ``summary.json`` would say now."""
+        return json.loads(self._native.summary())
+
+    def hash(self) -> str:
+        """Hash of the state: the same as ``state_hash`` in ``summary.json`` of the command's run."""
+        return self._native.hash()
+
+    @property
+    def cells(self) -> dict[str, np.ndarray[Any, Any]]:
+        """Nodes of the cells by kind (``quad``, ``hexahedron`` …), in the order of :attr:`cell_index`."""
+        return _cells(self._native)[0]
+
+    @property
+    def cell_index(self) -> dict[str, np.ndarray[Any, Any]]:
+        """Where the cells of each kind are in fields of cells."""
+        return _cells(self._native)[1]
+
+    @property
+    def cell_part(self) -> np.ndarray[Any, Any]:
+        """Name of the part of each cell."""
+        return _cells(self._native)[2]
+
+    def save(self, path: str | PathLike[str]) -> Path:
+        """Writes model, state and history into one file, from which :func:`embate.load` goes on with the same bits."""
+        path = Path(fspath(path))
+        model = self.model
+        text, meshes = (model.to_toml(), {}) if model._path is not None else model._text()
+        head = {
+            "format": _FORMAT,
+            "version": _embate.__version__,
+            "path": str(model._path.absolute()) if model._path is not None else None,
+            "name": model._name,
+            "folder": str((model._folder or Path(".")).absolute()),
+            "set": model._overrides(),
+            "allow_outside": model._allow_outside,
+        }
+        with tempfile.TemporaryDirectory() as folder:
+            state = Path(folder) / "state.embate"
+            self._native.write_state(state)
+            part = path.with_name(path.name + ".part")
+            with zipfile.ZipFile(part, "w", zipfile.ZIP_STORED) as archive:
+                archive.writestr("head.json", json.dumps(head, indent=1))
+                archive.writestr("model.toml", text)
+                for name, data in meshes.items():
+                    archive.writestr(f"mesh/{name}", data)
+                archive.writestr("history.f64", self._native.rows())
+                archive.write(state, "state.embate")
+            part.replace(path)
+        return path
+
+    def checkpoint(self, folder: str | PathLike[str]) -> Path:
+        """Saves the state as ``STEP.embate`` in a folder, which is made."""
+        folder = Path(fspath(folder))
+        folder.mkdir(parents=True, exist_ok=True)
+        return self.save(folder / f"{self.steps:012}.embate")
+
+    def close(self) -> None:
+        """Lets go of the memory. What is asked afterwards raises :class:`embate.StateError`."""
+        self._native.close()
+
+    def plot(self, field: str | None = None, ax: Any = None, **options: Any) -> Any:
+        """Draws the bodies, coloured by a field (matplotlib); returns the axes. See :func:`embate.plotting.plot`."""
+        from .plotting import plot
+
+        return plot(self, field, ax, **options)
+
+    def to_pyvista(self) -> Any:
+        """The bodies with all fields as an ``UnstructuredGrid`` (pyvista)."""
+        from .plotting import to_pyvista
+
+        return to_pyvista(self)
+
+    def __enter__(self) -> Simulation:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        if self.is_closed:
+            return "<embate.Simulation, closed>"
+        return f"<embate.Simulation of {self.model.name!r}: step {self.steps}, {self.time:.6g} of {self.end:.6g} s>"
+
+    def _repr_html_(self) -> str:
+        from .display import simulation_html
+
+        return simulation_html(self)
+
+
+def load(path: str | PathLike[str], *, threads: int = 0, instruction_set: str | None = None) -> Simulation:
+    """A simulation that goes on from what :meth:`Simulation.save` wrote, with the same bits as if it had never been stopped."""
+    path = Path(fspath(path))
+    try:
+        with zipfile.ZipFile(path) as archive, tempfile.TemporaryDirectory() as folder:
+            head = json.loads(archive.read("head.json"))
+            if head.get("format") != _FORMAT or head.get("version") != _embate.__version__:
+                raise FileError(f"{path} was written by embate {head.get('version')}, this is {_embate.__version__}: run the model again, or use that version")
+            model = Model(name=head["name"], folder=head["folder"], allow_outside=head["allow_outside"])
+            text = archive.read("model.toml").decode()
+            meshes = {name[5:]: archive.read(name) for name in archive.namelist() if name.startswith("mesh/")}
+            if head["path"] is not None:
+                model = Model(head["path"], allow_outside=head["allow_outside"])
+                model._read = _embate.Model.from_file(head["path"], head["set"], head["allow_outside"])
+            else:
+                from ._saved import SavedModel
+
+                model = SavedModel(head, text, meshes)
+            rows = np.frombuffer(archive.read("history.f64"), np.float64).tolist()
+            state = Path(archive.extract("state.embate", folder))
+            native = _embate.Simulation.resumed(model._native(), state, rows, _count(threads, "threads"), instruction_set)
+    except (zipfile.BadZipFile, KeyError, json.JSONDecodeError, UnicodeDecodeError) as error:
+        raise FileError(f"{path} is no file of a saved simulation, or it is damaged: {error}") from error
+    return Simulation(model, threads, instruction_set, _native=native)
+
+
+def _count(number: Any, name: str) -> int:
+    try:
+        count = number.__index__()
+    except AttributeError:
+        raise TypeError(f"{name} is {number!r}; a whole number is wanted") from None
+    if count < 0:
+        raise ValueError(f"{name} is {count}; it is not negative")
+    return int(min(count, _ALL))
+
+
+def _time(value: Any, name: str) -> float:
+    try:
+        seconds = float(value)
+    except (TypeError, ValueError):
+        raise TypeError(f"{name} is {value!r}; a time in s is wanted") from None
+    if math.isnan(seconds) or seconds < 0:
+        raise ValueError(f"{name} is {seconds}; a time from the start on is wanted")
+    return seconds
+
+
+def _fields(dimension: int) -> dict[str, dict[str, Any]]:
+    return {
+        name: {"components": components, "unit": unit, "location": "nodes" if is_node else "cells", "doc": doc}
+        for name, components, unit, is_node, doc in _embate.fields(dimension)
+    }
+
+
+def _cells(native: Any) -> tuple[dict[str, np.ndarray[Any, Any]], dict[str, np.ndarray[Any, Any]], np.ndarray[Any, Any]]:
+    nodes, offsets, kinds, parts, names = native.cells()
+    nodes, offsets = np.frombuffer(nodes, np.uint32), np.frombuffer(offsets, np.uint32).astype(np.int64)
+    kinds = np.asarray(kinds)
+    cells, index = {}, {}
+    for kind in dict.fromkeys(kinds.tolist()):
+        which = np.flatnonzero(kinds == kind)
+        size = int(offsets[which[0] + 1] - offsets[which[0]])
+        cells[kind] = nodes[offsets[which][:, None] + np.arange(size)].astype(np.int64)
+        index[kind] = which
+    return cells, index, np.asarray(names)[np.frombuffer(parts, np.uint32)]
+
+
+class _shown:
+    """A progress bar, a function that is told, or nothing."""
+
+    def __init__(self, progress: bool | Callable[[float], Any], simulation: Simulation) -> None:
+        self._simulation, self._bar, self._function, self._last = simulation, None, None, 0.0
+        if progress is True:
+            from tqdm.auto import tqdm
+
+            self._bar = tqdm(total=100.0, unit="%", bar_format="{l_bar}{bar}| {elapsed}<{remaining}{postfix}")
+        elif callable(progress):
+            self._function = progress
+
+    def __enter__(self) -> Callable[[], None]:
+        return self._show
+
+    def _show(self) -> None:
+        simulation = self._simulation
+        if self._bar is None and self._function is None:
+            return
+        now = clock.monotonic()
+        if now - self._last < _PAUSE and not simulation.is_over:
+            return
+        self._last = now
+        time, steps, dt, end, drift, _ = simulation._native.clock()
+        done = min(1.0, time / end) if end > 0 else 1.0
+        if self._function is not None:
+            self._function(done)
+        if self._bar is not None:
+            self._bar.n = round(100 * done, 1)
+            self._bar.set_postfix_str(f"step {steps}, dt {dt:.2e} s, drift {100 * drift:.2g} %")
+
+    def __exit__(self, *_: object) -> None:
+        if self._bar is not None:
+            self._bar.close()
+
+
+__all__ = ["History", "Simulation", "State", "StateError", "load"]

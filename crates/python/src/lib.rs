@@ -1,0 +1,66 @@
+//! The native half of the Python package: module `embate._embate`.
+//!
+//! It hands models and simulations through, and nothing else: names, arrays and what is convenient are made in Python (`python/embate`), from the texts, numbers and buffers that come from here. Buffers are
+//! native `f64` and `u32`, one value after the other. Whatever goes wrong becomes one of the package's exceptions (`fault.rs`), with the code and the text of the command; a panic, too.
+
+mod fault;
+mod model;
+mod simulation;
+
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict};
+
+/// The native half of embate.
+#[pymodule]
+mod _embate {
+    #[pymodule_export]
+    use super::model::Model;
+    #[pymodule_export]
+    use super::simulation::Simulation;
+    #[pymodule_export]
+    use super::{fields, sections};
+    #[pymodule_export]
+    #[expect(non_upper_case_globals, reason = "a name of Python")]
+    const __version__: &str = env!("CARGO_PKG_VERSION");
+}
+
+/// The sections of a model file: name, whether it is a list, a table of names, or one table, and what it describes; then the keys of each with their explanation.
+#[pyfunction]
+fn sections(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
+    use embate_solver::model::describe::{Form, SECTIONS};
+    let of = |section: &embate_solver::model::describe::Section| {
+        let form = match section.form {
+            Form::Repeated => "list",
+            Form::Named { .. } => "named",
+            _ => "table",
+        };
+        let dict = PyDict::new(py);
+        dict.set_item("name", section.name)?;
+        dict.set_item("form", form)?;
+        dict.set_item("doc", section.doc)?;
+        let keys: Vec<(&str, &str)> = section.all_keys().map(|key| (key.name, key.doc)).collect();
+        dict.set_item("keys", keys)?;
+        Ok(dict)
+    };
+    SECTIONS.iter().copied().map(of).collect()
+}
+
+/// The fields of a dimension: name, components, unit, whether it is at nodes, what it is.
+#[pyfunction]
+fn fields(dimension: usize) -> Vec<(&'static str, Vec<&'static str>, &'static str, bool, &'static str)> {
+    use embate_solver::output::{Location, fields_of};
+    let of = |kind: &'static embate_solver::output::FieldKind| {
+        (kind.name, kind.components.to_vec(), kind.unit, kind.location == Location::Node, kind.doc)
+    };
+    fields_of(dimension).iter().map(of).collect()
+}
+
+/// Numbers as the bytes of this machine.
+fn bytes<'py, const N: usize, T: Copy>(py: Python<'py>, values: &[T], of: impl Fn(T) -> [u8; N]) -> PyResult<Bound<'py, PyBytes>> {
+    PyBytes::new_with(py, N * values.len(), |room| {
+        for (place, &value) in room.as_chunks_mut::<N>().0.iter_mut().zip(values) {
+            *place = of(value);
+        }
+        Ok(())
+    })
+}

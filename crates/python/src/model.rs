@@ -1,0 +1,84 @@
+//! Models: read from a file or a text, as a simulation needs them.
+
+use crate::fault::{entries, guarded, of_diagnostics};
+use embate_files::Reach;
+use embate_files::model_file::{GivenMeshes, Loaded, load_text_with_meshes, load_with_places};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// A model without faults.
+#[pyclass(frozen, module = "embate._embate")]
+pub(crate) struct Model {
+    pub(crate) loaded: Arc<Loaded>,
+}
+
+fn reach(is_anywhere: bool) -> Reach {
+    if is_anywhere { Reach::Anywhere } else { Reach::Folder }
+}
+
+#[pymethods]
+impl Model {
+    /// Reads a model file, or the `model.toml` of a folder.
+    #[staticmethod]
+    fn from_file(py: Python<'_>, path: PathBuf, set: Vec<String>, allow_outside: bool) -> PyResult<Self> {
+        let read = || load_with_places(&path, &set, reach(allow_outside)).map_err(|faults| of_diagnostics(&faults));
+        let loaded = py.detach(|| guarded(read))?;
+        Ok(Self { loaded: Arc::new(loaded) })
+    }
+
+    /// Reads a text; files that it names are looked for in `folder`, meshes first among the bytes of .msh files in `meshes`.
+    #[staticmethod]
+    fn from_text(
+        py: Python<'_>,
+        name: String,
+        text: String,
+        folder: PathBuf,
+        set: Vec<String>,
+        allow_outside: bool,
+        meshes: GivenMeshes,
+    ) -> PyResult<Self> {
+        let read = || {
+            load_text_with_meshes(&name, &text, (&folder, reach(allow_outside)), &set, meshes).map_err(|faults| of_diagnostics(&faults))
+        };
+        let loaded = py.detach(|| guarded(read))?;
+        Ok(Self { loaded: Arc::new(loaded) })
+    }
+
+    /// Name.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.loaded.model.name
+    }
+
+    /// Title.
+    #[getter]
+    fn title(&self) -> &str {
+        &self.loaded.model.title
+    }
+
+    /// 2 in the plane, 3 in space.
+    #[getter]
+    fn dimension(&self) -> usize {
+        self.loaded.model.dimension()
+    }
+
+    /// End time, s.
+    #[getter]
+    fn end(&self) -> f64 {
+        self.loaded.model.run.end
+    }
+
+    /// Names of the parts.
+    #[getter]
+    fn parts(&self) -> Vec<&str> {
+        self.loaded.model.parts.iter().map(|part| part.name.as_str()).collect()
+    }
+
+    /// What the user should know of the model before it runs: code, place, message and cure of each.
+    fn warnings<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
+        let told = self.loaded.told(&self.loaded.model.warnings());
+        entries(&told).iter().map(|entry| entry.dict(py)).collect()
+    }
+}

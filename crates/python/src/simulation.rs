@@ -1,0 +1,385 @@
+//! Simulations: stepped without the interpreter's lock, asked for arrays between steps.
+//!
+//! Rows of the history are kept as they are told, so a run in pieces has the history of the whole one. What Python asks for is copied: the solver has its nodes in an order of its own, and goes on
+//! writing.
+
+use crate::bytes;
+use crate::fault::{self, Class, Entry, guarded, raise};
+use crate::model::Model;
+use embate_files::checkpoint::{Checkpoint, Identity};
+use embate_files::model_file::Loaded;
+use embate_files::results::{Checkpoints, Recorder, Report, ResultFolder};
+use embate_files::threads::Threads;
+use embate_solver::error::Error;
+use embate_solver::output::{CellKind, Frame, Shown};
+use embate_solver::simulation::{self, Control, Observer, ObserverError, Options, Progress, State};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict};
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
+use std::time::Instant;
+
+/// Part of the time asked for after which a stretch of steps ends.
+const SLICES: f64 = 4.0;
+
+/// A simulation.
+#[pyclass(frozen, module = "embate._embate")]
+pub(crate) struct Simulation {
+    inner: Mutex<Option<Inner>>,
+    loaded: Arc<Loaded>,
+    options: Options,
+    /// A child of a fork has the memory of its parent but not its threads.
+    process: u32,
+}
+
+struct Inner {
+    simulation: simulation::Simulation,
+    history: History,
+    recorder: Option<Recorder<'static>>,
+    /// Text of the failure that ended the run.
+    failure: Option<String>,
+    /// Steps that took about a stretch of the time asked for.
+    stretch: u64,
+}
+
+/// Rows as they are told.
+#[derive(Default)]
+struct History {
+    rows: Vec<f64>,
+    /// Rows of the run, not those of pieces that were read from a file.
+    notices: Vec<Entry>,
+}
+
+/// Who listens: the history, and the recorder where there is one.
+struct Ears<'e> {
+    history: &'e mut History,
+    recorder: Option<&'e mut Recorder<'static>>,
+}
+
+impl Observer for Ears<'_> {
+    fn frame(&mut self, frame: Frame) -> Result<(), ObserverError> {
+        self.recorder.as_mut().map_or(Ok(()), |recorder| recorder.frame(frame))
+    }
+
+    fn show(&mut self, shown: &dyn Shown) -> Result<(), ObserverError> {
+        self.recorder.as_mut().map_or(Ok(()), |recorder| recorder.show(shown))
+    }
+
+    fn row(&mut self, row: &[f64]) -> Result<(), ObserverError> {
+        self.history.rows.extend_from_slice(row);
+        self.recorder.as_mut().map_or(Ok(()), |recorder| recorder.row(row))
+    }
+
+    fn keeps_states(&self) -> bool {
+        self.recorder.as_ref().is_some_and(|recorder| recorder.keeps_states())
+    }
+
+    fn state(&mut self, state: State) -> Result<(), ObserverError> {
+        self.recorder.as_mut().map_or(Ok(()), |recorder| recorder.state(state))
+    }
+
+    fn keeps_hashes(&self) -> bool {
+        self.recorder.as_ref().is_some_and(|recorder| recorder.keeps_hashes())
+    }
+
+    fn hashes(&mut self, hashes: embate_solver::hashes::Hashes) -> Result<(), ObserverError> {
+        self.recorder.as_mut().map_or(Ok(()), |recorder| recorder.hashes(hashes))
+    }
+
+    fn failing(&mut self) {
+        if let Some(recorder) = &mut self.recorder {
+            recorder.failing();
+        }
+    }
+
+    fn progress(&mut self, progress: &Progress<'_>) -> Control {
+        let of = |notice: &embate_solver::error::Notice| Entry {
+            code: notice.kind.code.into(),
+            path: String::new(),
+            line: 0,
+            message: notice.text.clone(),
+            help: notice.kind.cure.into(),
+        };
+        self.history.notices.extend(progress.notices.iter().map(of));
+        self.recorder.as_mut().map_or(Control::Continue, |recorder| recorder.progress(progress))
+    }
+}
+
+impl Inner {
+    fn of(simulation: simulation::Simulation) -> Self {
+        Self { simulation, history: History::default(), recorder: None, failure: None, stretch: 1 }
+    }
+
+    /// Stretches of steps until one of the limits, the wall time among them, or the end.
+    fn advance(&mut self, until: f64, steps: u64, seconds: f64) -> Result<(), Error> {
+        let begin = Instant::now();
+        let last = self.simulation.steps().saturating_add(steps);
+        loop {
+            let (from, start) = (self.simulation.steps(), Instant::now());
+            let wanted = self.stretch.min(last - from);
+            let mut ears = Ears { history: &mut self.history, recorder: self.recorder.as_mut() };
+            if let Err(error) = self.simulation.run_until(until, wanted, &mut ears) {
+                self.failure = Some(error.with_code());
+                return Err(error);
+            }
+            let (now, took) = (self.simulation.steps(), start.elapsed().as_secs_f64());
+            if now - from == self.stretch {
+                let factor = (seconds / SLICES / took.max(1e-9)).clamp(0.25, 4.0);
+                self.stretch = ((self.stretch as f64 * factor) as u64).clamp(1, 1 << 20);
+            }
+            let is_there = now >= last || self.simulation.time() >= until || self.simulation.is_over() || now == from;
+            if is_there || begin.elapsed().as_secs_f64() >= seconds {
+                return Ok(());
+            }
+        }
+    }
+
+    /// Completes the results, if any are written.
+    fn finish(&mut self) -> PyResult<Option<String>> {
+        let Some(recorder) = self.recorder.take() else { return Ok(None) };
+        let outcome = recorder.finish(self.failure.clone(), &self.simulation.summary(), || None);
+        outcome.unwritten.map_or(Ok(()), |error| Err(fault::of_results(&error)))?;
+        Ok(Some(outcome.report.json()))
+    }
+}
+
+impl Simulation {
+    fn of(inner: Inner, loaded: Arc<Loaded>, options: Options) -> Self {
+        Self { inner: Mutex::new(Some(inner)), loaded, options, process: std::process::id() }
+    }
+
+    fn lock(&self) -> PyResult<MutexGuard<'_, Option<Inner>>> {
+        if std::process::id() != self.process {
+            let text = "this simulation belongs to the process that made it, and this one was forked from it: make the simulation here, or start workers by \"spawn\"";
+            return Err(raise(Class::State, text, &[]));
+        }
+        match self.inner.try_lock() {
+            Ok(inner) if inner.is_none() => Err(raise(Class::State, "this simulation is closed", &[])),
+            Ok(inner) => Ok(inner),
+            Err(TryLockError::WouldBlock) => {
+                let text = "this simulation is at work in another thread, or calls a function that steps it: a simulation does one thing at a time";
+                Err(raise(Class::State, text, &[]))
+            }
+            Err(TryLockError::Poisoned(_)) => Err(raise(Class::State, "this simulation was ended by a failure of embate itself", &[])),
+        }
+    }
+
+    fn with<T>(&self, work: impl FnOnce(&mut Inner) -> PyResult<T>) -> PyResult<T> {
+        let mut guard = self.lock()?;
+        guarded(|| guard.as_mut().map_or_else(|| Err(raise(Class::State, "this simulation is closed", &[])), work))
+    }
+
+    /// The same without the interpreter's lock.
+    fn without_lock<T: Send>(&self, py: Python<'_>, work: impl FnOnce(&mut Inner) -> PyResult<T> + Send) -> PyResult<T> {
+        py.detach(|| self.with(work))
+    }
+}
+
+#[pymethods]
+impl Simulation {
+    #[new]
+    fn new(py: Python<'_>, model: &Model, threads: usize, instruction_set: Option<String>) -> PyResult<Self> {
+        let options = Options { threads, simd: instruction_set };
+        let loaded = model.loaded.clone();
+        let make = || simulation::Simulation::new(&loaded.model, &options).map_err(|error| fault::of_error(&error));
+        let simulation = py.detach(|| guarded(make))?;
+        Ok(Self::of(Inner::of(simulation), loaded, options))
+    }
+
+    /// One that stands where a file says that another one of the same model stood; with the rows of its history.
+    #[staticmethod]
+    fn resumed(
+        py: Python<'_>,
+        model: &Model,
+        path: PathBuf,
+        rows: Vec<f64>,
+        threads: usize,
+        instruction_set: Option<String>,
+    ) -> PyResult<Self> {
+        let options = Options { threads, simd: instruction_set };
+        let loaded = model.loaded.clone();
+        let make = || {
+            let threads = Threads::new(options.thread_count());
+            let past = Checkpoint::read(&path, &threads).map_err(|error| fault::of_checkpoint(&error))?;
+            let changes = Identity::of(&loaded.model).differences(&past.identity);
+            if !changes.is_empty() {
+                let text = format!("the model is not the one that was saved\n  {}", changes.join("\n  "));
+                return Err(raise(Class::Model, &text, &[]));
+            }
+            let resumed = simulation::Simulation::resumed(&loaded.model, &options, &past.state.sections);
+            resumed.map_err(|error| fault::of_error(&error))
+        };
+        let simulation = py.detach(|| guarded(make))?;
+        let inner = Inner { history: History { rows, ..History::default() }, ..Inner::of(simulation) };
+        Ok(Self::of(inner, loaded, options))
+    }
+
+    /// Steps until a time (s), so many steps, the end, or so many seconds of wall time have passed, whichever is first.
+    fn advance(&self, py: Python<'_>, until: f64, steps: u64, seconds: f64) -> PyResult<()> {
+        self.without_lock(py, |inner| {
+            if let Some(failure) = &inner.failure {
+                return Err(raise(Class::State, &format!("the run has failed and can't go on: {failure}"), &[]));
+            }
+            inner.advance(until, steps, seconds).map_err(|error| fault::of_error(&error))
+        })
+    }
+
+    /// Begins to write results into a folder, which is made; `force`: what is there goes.
+    fn record(&self, py: Python<'_>, folder: PathBuf, force: bool) -> PyResult<()> {
+        let (loaded, options) = (&self.loaded, &self.options);
+        self.without_lock(py, |inner| {
+            let model = &loaded.model;
+            let folder = ResultFolder::create(&folder, force).map_err(|error| fault::of_results(&error))?;
+            let shown = (inner.simulation.history_columns(), inner.simulation.cells());
+            // Nobody can resume a model that is in memory alone.
+            let checkpoints: Option<Checkpoints> = None;
+            let go_on = Box::new(|_: &Progress<'_>| Control::Continue);
+            let recorder = Recorder::keeping(folder, model, shown, options.thread_count(), checkpoints, go_on);
+            inner.recorder = Some(recorder.map_err(|error| fault::of_results(&error))?);
+            Ok(())
+        })
+    }
+
+    /// Completes the results that are being written; their summary.
+    fn finish(&self, py: Python<'_>) -> PyResult<Option<String>> {
+        self.without_lock(py, Inner::finish)
+    }
+
+    /// Lets go of everything; results are completed.
+    fn close(&self, py: Python<'_>) -> PyResult<()> {
+        if self.process != std::process::id() {
+            return Ok(());
+        }
+        let finished = py.detach(|| match self.inner.try_lock() {
+            Ok(mut inner) => Some(inner.take()),
+            Err(_) => None,
+        });
+        match finished {
+            None => self.lock().map(|_| ()),
+            Some(None) => Ok(()),
+            Some(Some(mut inner)) => py.detach(|| guarded(|| inner.finish().map(|_| ()))),
+        }
+    }
+
+    #[getter]
+    fn is_closed(&self) -> bool {
+        self.inner.try_lock().is_ok_and(|inner| inner.is_none())
+    }
+
+    /// Time, step, time step, end, drift of the energy, whether the run is over.
+    fn clock(&self) -> PyResult<(f64, u64, f64, f64, f64, bool)> {
+        self.with(|inner| {
+            let it = &inner.simulation;
+            Ok((it.time(), it.steps(), it.time_step(), self.loaded.model.run.end, it.ledger().drift(), it.is_over()))
+        })
+    }
+
+    #[getter]
+    fn dimension(&self) -> usize {
+        self.loaded.model.dimension()
+    }
+
+    /// Positions of the nodes, f64.
+    fn positions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let values = self.without_lock(py, |inner| Ok(inner.simulation.coordinates()))?;
+        bytes(py, &values, f64::to_ne_bytes)
+    }
+
+    /// A field by its name: values as f64, how many for each node or cell.
+    fn field<'py>(&self, py: Python<'py>, name: &str) -> PyResult<(Bound<'py, PyBytes>, usize)> {
+        let field = self.without_lock(py, |inner| Ok(inner.simulation.field(name)))?;
+        let Some(field) = field else { return Err(PyValueError::new_err(format!("there is no field {name}"))) };
+        Ok((bytes(py, &field.values, f64::to_ne_bytes)?, field.kind.width()))
+    }
+
+    /// The cells: nodes of all (u32), where those of each begin (u32, one more than cells), kinds (texts), part of each (u32), names of the parts.
+    #[expect(clippy::type_complexity, reason = "five arrays for Python")]
+    fn cells<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(Bound<'py, PyBytes>, Bound<'py, PyBytes>, Vec<&'static str>, Bound<'py, PyBytes>, Vec<String>)> {
+        let cells = self.without_lock(py, |inner| Ok(inner.simulation.cells()))?;
+        let kind = |kind: &CellKind| match kind {
+            CellKind::Line => "line",
+            CellKind::Triangle => "triangle",
+            CellKind::Quadrilateral => "quad",
+            CellKind::Tetrahedron => "tetra",
+            CellKind::Wedge => "wedge",
+            CellKind::Hexahedron => "hexahedron",
+        };
+        let of = |values: &[u32]| bytes(py, values, u32::to_ne_bytes);
+        Ok((of(&cells.nodes)?, of(&cells.offsets)?, cells.kinds.iter().map(kind).collect(), of(&cells.parts)?, cells.part_names.clone()))
+    }
+
+    /// Names of the history's columns.
+    fn columns(&self) -> PyResult<Vec<String>> {
+        self.with(|inner| Ok(inner.simulation.history_columns()))
+    }
+
+    /// Rows of the history so far, f64.
+    fn rows<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        self.with(|inner| bytes(py, &inner.history.rows, f64::to_ne_bytes))
+    }
+
+    /// Values of the history's columns now.
+    fn row(&self) -> PyResult<Vec<f64>> {
+        self.with(|inner| Ok(inner.simulation.history_row()))
+    }
+
+    /// Energies and works so far, by name.
+    fn energy<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        self.with(|inner| {
+            let ledger = inner.simulation.ledger();
+            let (stores, works) = (&ledger.stores, &ledger.works);
+            let dict = PyDict::new(py);
+            let energies = [
+                ("kinetic", stores.kinetic),
+                ("elastic", stores.elastic),
+                ("plastic", stores.plastic),
+                ("hourglass", stores.hourglass),
+                ("bulk_viscosity", stores.bulk_viscosity),
+                ("contact", stores.contact),
+                ("friction", stores.friction),
+                ("contact_damping", stores.contact_damping),
+                ("damping", stores.damping),
+                ("eroded", stores.eroded),
+                ("total", stores.total()),
+                ("external_work", works.external()),
+                ("drift", ledger.drift()),
+            ];
+            energies.into_iter().try_for_each(|(name, value)| dict.set_item(name, value))?;
+            Ok(dict)
+        })
+    }
+
+    /// What `summary.json` would say now, without times of the wall.
+    fn summary(&self, py: Python<'_>) -> PyResult<String> {
+        let model = &self.loaded.model;
+        self.without_lock(py, |inner| {
+            let names = inner.simulation.cells().part_names;
+            Ok(Report::of(&inner.simulation.summary(), &model.name, &names).json())
+        })
+    }
+
+    /// Hash of the state, as in `summary.json`.
+    fn hash(&self, py: Python<'_>) -> PyResult<String> {
+        self.without_lock(py, |inner| Ok(inner.simulation.summary().state_hash))
+    }
+
+    /// Things the user should know, seen since they were asked for last.
+    fn notices<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
+        let notices = self.with(|inner| Ok(std::mem::take(&mut inner.history.notices)))?;
+        notices.iter().map(|notice| notice.dict(py)).collect()
+    }
+
+    /// Writes the state into a file.
+    fn write_state(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+        let (loaded, options) = (&self.loaded, &self.options);
+        self.without_lock(py, |inner| {
+            let state = inner.simulation.state().map_err(|error| fault::of_error(&error))?;
+            let checkpoint = Checkpoint::of(state, &loaded.model);
+            checkpoint.write_file(&path, &Threads::new(options.thread_count())).map_err(|error| fault::of_checkpoint(&error))
+        })
+    }
+}

@@ -4,8 +4,8 @@ use super::{SOUND, changed, read};
 use embate_files::model_file::{load, load_text, reference_markdown, schema, starter};
 use embate_solver::model::describe::SECTIONS;
 use embate_solver::model::{
-    Cadence, Camera, ContactLaw, Drive, Formulation, InitialStress, Interface, Load, Model, Obstacle, Output, Partners, Penalty,
-    PenaltySource, PictureView, ProbeAt, Rectangle, Ring, Run, Shape, Symmetry,
+    Cadence, ContactLaw, Drive, Formulation, InitialStress, Interface, Load, Model, Obstacle, Output, Partners, Penalty, PenaltySource,
+    PictureView, ProbeAt, Rectangle, Ring, Run, Shape, Symmetry,
 };
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::path::{Path, PathBuf};

@@ -31,7 +31,7 @@ def test_a_model_that_has_run_and_has_a_mesh_of_arrays_can_be_swept_beside() -> 
     model.part(name="block", mesh=(points, quads), material="steel", velocity=(3, 0))
     model.simulation().run()
     rows = embate.sweep(model, {"run.safety": [0.4, 0.8]}, workers=2)
-    assert rows.column("error") == [None, None] and rows[0]["steps"] == 2 * rows[1]["steps"]
+    assert rows.column("error") == [None, None] and rows[0]["steps"] > rows[1]["steps"]
 
 
 def test_a_run_that_fails_leaves_the_others(model: embate.Model) -> None:

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import run, sections
+from conftest import STEEL, run, sections
 
 import embate
 
@@ -185,6 +185,24 @@ def test_pictures_are_drawn(tmp_path: Path, model: embate.Model) -> None:
         axes.figure.savefig(tmp_path / "picture.png", dpi=60)
         plt.close(axes.figure)
     assert (tmp_path / "picture.png").stat().st_size > 5000
+
+
+def test_solids_are_drawn_from_outside(tmp_path: Path) -> None:
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    from embate.plotting import _faces
+
+    cube = {"box": {"corner": [0, 0, 0], "size": [0.01, 0.01, 0.01], "elements": [4, 4, 4]}, "name": "cube", "material": "steel", "velocity": [1, 0, 0]}
+    simulation = embate.Model(name="cube", run={"end": "1 us"}, material={"steel": STEEL}, part=[cube]).simulation()
+    polygons, owners = _faces(simulation.cells, simulation.cell_index, np.ones(64, bool))
+    assert [len(each) for each in polygons] == [6 * 16] and len(set(owners[0].tolist())) == 64 - 8
+    for field in (None, "velocity"):
+        axes = simulation.plot(field)
+        axes.figure.savefig(tmp_path / "solid.png", dpi=60)
+        plt.close(axes.figure)
+    assert (tmp_path / "solid.png").stat().st_size > 5000
 
 
 def test_tables_of_pandas(model: embate.Model) -> None:

@@ -4,6 +4,8 @@ from collections.abc import Mapping, Sequence
 from os import PathLike
 from typing import Any, final
 
+__all__ = ["Model", "Simulation", "__version__", "fields", "sections"]
+
 __version__: str
 
 @final

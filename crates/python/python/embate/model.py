@@ -125,7 +125,8 @@ class Model:
             file.mkdir(parents=True, exist_ok=True)
             file = file / "model.toml"
         if self._path is not None:
-            text, meshes = self.to_toml(), {}
+            text = self.to_toml()
+            meshes: dict[str, bytes] = {}
         else:
             text, meshes = self._text()
         if self._set:

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from .simulation import Simulation
 
 #: Faces of solids, outward.
-FACES = {
+FACES: dict[str, list[tuple[int, ...]]] = {
     "hexahedron": [(0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)],
     "wedge": [(0, 2, 1), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5)],
     "tetra": [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)],
@@ -72,35 +72,33 @@ def plot(
     values = np.concatenate(shown) if shown else np.zeros(0)
     count = len(values)
     edges = count <= 4000 if edges is None else edges
-    places = [points[corner] for corners in polygons for corner in corners]
-    style: dict[str, Any] = {"linewidth": 0.3 if edges else 0.0, "edgecolor": (0.1, 0.1, 0.1, 0.6) if edges else "face"}
+    places: list[Any] = [place for corners in polygons for place in points[corners]]
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colors import Normalize
+
+    finite = values[np.isfinite(values)]
+    low, high = clim if clim is not None else (finite.min(), finite.max()) if len(finite) else (0.0, 1.0)
+    colours = ScalarMappable(Normalize(low, high), cmap)
+    faces = plt.get_cmap("tab10")(values.astype(int) % 10) if field is None else colours.to_rgba(values)
+    line = (0.1, 0.1, 0.1, 0.6)
     if is_solid:
         from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
-        collection: Any = Poly3DCollection(places, **style)
+        # Without lines neighbours leave hairs of the background between them: each has its own colour's.
+        solid = Poly3DCollection(places, facecolors=faces, edgecolors=line if edges else faces, linewidths=0.3, shade=True)
+        ax.add_collection3d(solid)
     else:
-        collection = PolyCollection(places, **style)
-    if field is None:
-        collection.set_facecolor(plt.get_cmap("tab10")(values.astype(int) % 10))
-    else:
-        collection.set_array(values)
-        collection.set_cmap(cmap)
-        finite = values[np.isfinite(values)]
-        collection.set_clim(*(clim if clim is not None else (finite.min(), finite.max()) if len(finite) else (0.0, 1.0)))
-    if is_solid:
-        ax.add_collection3d(collection)
-    else:
-        ax.add_collection(collection)
+        ax.add_collection(PolyCollection(places, facecolors=faces, edgecolors=line if edges else "face", linewidths=0.3 if edges else 0.0))
     if "line" in cells and not is_solid:
         ax.add_collection(LineCollection(list(points[cells["line"]]), colors="0.2"))
     _frame(ax, points, is_solid)
     if field is not None and colorbar:
-        ax.figure.colorbar(collection, ax=ax, label=label, shrink=0.8)
+        ax.figure.colorbar(colours, ax=ax, label=label, shrink=0.8, pad=0.14 if is_solid else 0.05)
     elif field is None and len(names) > 1:
         from matplotlib.patches import Patch
 
-        colours = plt.get_cmap("tab10")
-        ax.legend(handles=[Patch(color=colours(k % 10), label=name) for k, name in enumerate(names)], loc="best", fontsize="small")
+        tab = plt.get_cmap("tab10")
+        ax.legend(handles=[Patch(color=tab(k % 10), label=name) for k, name in enumerate(names)], loc="best", fontsize="small")
     ax.set_title(f"{simulation.model.name}, t = {_seconds(simulation.time)}", fontsize="medium")
     return ax
 
@@ -123,7 +121,7 @@ def _faces(
             polygons.append(nodes)
             owners.append(own)
         for face in FACES.get(kind, []):
-            outside.setdefault(len(face), []).append((nodes[:, face], own))
+            outside.setdefault(len(face), []).append((nodes[:, list(face)], own))
     for found in outside.values():
         corners, own = np.concatenate([c for c, _ in found]), np.concatenate([o for _, o in found])
         _, first, count = np.unique(np.sort(corners, axis=1), axis=0, return_index=True, return_counts=True)
@@ -204,9 +202,9 @@ def to_pyvista(simulation: Simulation) -> Any:
         kinds[simulation.cell_index[kind]] = VTK[kind]
     flat = np.concatenate([np.concatenate([[len(row)], row]) for row in rows]) if rows else np.zeros(0, np.int64)
     grid = pyvista.UnstructuredGrid(flat.astype(np.int64), kinds, np.ascontiguousarray(points))
-    for name, kind in state.fields.items():
+    for name, about in state.fields.items():
         values = np.array(state.field(name))
-        if kind["location"] == "nodes" and len(values) == len(points):
+        if about["location"] == "nodes" and len(values) == len(points):
             grid.point_data[name] = np.column_stack([values, np.zeros(len(values))]) if values.ndim == 2 and values.shape[1] == 2 else values
         elif len(values) == count:
             grid.cell_data[name] = values

@@ -243,7 +243,8 @@ class Simulation:
     @property
     def summary(self) -> dict[str, Any]:
         """What ``summary.json`` would say now."""
-        return json.loads(self._native.summary())
+        summary: dict[str, Any] = json.loads(self._native.summary())
+        return summary
 
     def hash(self) -> str:
         """Hash of the state: the same as ``state_hash`` in ``summary.json`` of the command's run."""

@@ -6,18 +6,15 @@ use crate::numbers::{grouped, per_cent, table, with_unit};
 use crate::progress::Display;
 use crate::{Failure, cpu, terminal};
 use clap::Args;
-use embate_files::checkpoint::Origin;
 use embate_files::checkpoint::messages::LAST_GOOD;
 use embate_files::model_file::Loaded;
 use embate_files::post_mortem::{self, Failed};
 use embate_files::results::messages::NO_POST_MORTEM;
-use embate_files::results::{Checkpoints, OnProgress, Recorder, Report, ResultsError, RunStatus};
+use embate_files::results::{OnProgress, Recorder, Report, ResultsError, RunStatus};
 use embate_solver::error::Error;
-use embate_solver::model::Model;
 use embate_solver::simulation::{ContactSearch, Control, Observer, Options, Progress, Simulation};
 use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::Duration;
 
 /// How a model is run, and what is told of it; changes no result.
 #[derive(Args)]
@@ -51,11 +48,6 @@ const FILES: &[(&str, &str)] = &[
     ("summary.json", "the figures of the run"),
     ("checkpoint", "states from which `embate resume` goes on"),
 ];
-
-/// When a run of a model keeps its state.
-pub(crate) fn checkpoints(model: &Model, origin: Origin) -> Checkpoints {
-    Checkpoints { pause: model.run.checkpoint.and_then(|pause| Duration::try_from_secs_f64(pause).ok()), origin }
-}
 
 /// What is run, and where its results go.
 pub(crate) struct Recording<'r> {

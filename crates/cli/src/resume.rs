@@ -9,7 +9,7 @@ use clap::Args;
 use embate_files::checkpoint::messages::{MODEL_CHANGED, NO_CHECKPOINT, OLDER};
 use embate_files::checkpoint::{self, Checkpoint, CheckpointError, Identity, Origin};
 use embate_files::model_file::{self, Loaded};
-use embate_files::results::Recorder;
+use embate_files::results::{Checkpoints, Recorder};
 use embate_files::threads::Threads;
 use embate_solver::model::Model;
 use embate_solver::simulation::{Options, Simulation};
@@ -89,7 +89,7 @@ pub(crate) fn resume(arguments: &Arguments) -> Result<(), Failure> {
     let frame = simulation.frame();
     let make = |simulation: &Simulation, on_progress| {
         let shown = (simulation.cells(), &frame);
-        let checkpoints = recording::checkpoints(model, origin);
+        let checkpoints = Checkpoints::of(model, origin);
         Recorder::reopen(path, (model, &past), simulation.history_columns(), shown, options.thread_count(), checkpoints, on_progress)
     };
     recording::record(&Recording::of(&loaded, path, &arguments.manner, arguments.verbose), &mut simulation, make, Simulation::run)

@@ -8,7 +8,7 @@ use clap::Args;
 use embate_files::model_file::{self, Loaded};
 use embate_files::post_mortem;
 use embate_files::results::messages::NO_POST_MORTEM;
-use embate_files::results::{Recorder, ResultFolder};
+use embate_files::results::{Checkpoints, Recorder, ResultFolder};
 use embate_solver::error::{Error, Fault, MEMORY};
 use embate_solver::model::Model;
 use embate_solver::simulation::Simulation;
@@ -49,7 +49,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     input::warn(&loaded, &simulation);
     // Only now: a model that can't run must not cost the results of an earlier one.
     let folder = ResultFolder::create(&path, arguments.force).map_err(in_the_way)?;
-    let checkpoints = recording::checkpoints(model, input::origin(&arguments.model));
+    let checkpoints = Checkpoints::of(model, input::origin(&arguments.model));
     let make = |simulation: &Simulation, on_progress| {
         let shown = (simulation.history_columns(), simulation.cells());
         Recorder::keeping(folder, model, shown, options.thread_count(), Some(checkpoints), on_progress)

@@ -23,6 +23,7 @@ pub(crate) struct Entry {
 
 impl Entry {
     fn of(kind: &Message, path: &str, line: usize, message: &str, help: &str) -> Self {
+        let help = if help.is_empty() { kind.cure } else { help };
         Self { code: kind.code.into(), path: path.into(), line, message: message.into(), help: help.into() }
     }
 

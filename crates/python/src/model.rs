@@ -2,6 +2,7 @@
 
 use crate::fault::{entries, guarded, of_diagnostics};
 use embate_files::Reach;
+use embate_files::checkpoint::Origin;
 use embate_files::model_file::{GivenMeshes, Loaded, load_text_with_meshes, load_with_places};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -12,6 +13,8 @@ use std::sync::Arc;
 #[pyclass(frozen, module = "embate._embate")]
 pub(crate) struct Model {
     pub(crate) loaded: Arc<Loaded>,
+    /// The file that it came from.
+    pub(crate) origin: Option<Origin>,
 }
 
 fn reach(is_anywhere: bool) -> Reach {
@@ -25,7 +28,8 @@ impl Model {
     fn from_file(py: Python<'_>, path: PathBuf, set: Vec<String>, allow_outside: bool) -> PyResult<Self> {
         let read = || load_with_places(&path, &set, reach(allow_outside)).map_err(|faults| of_diagnostics(&faults));
         let loaded = py.detach(|| guarded(read))?;
-        Ok(Self { loaded: Arc::new(loaded) })
+        let path = std::path::absolute(&path).unwrap_or(path);
+        Ok(Self { loaded: Arc::new(loaded), origin: Some(Origin { path, set }) })
     }
 
     /// Reads a text; files that it names are looked for in `folder`, meshes first among the bytes of .msh files in `meshes`.
@@ -39,11 +43,10 @@ impl Model {
         allow_outside: bool,
         meshes: GivenMeshes,
     ) -> PyResult<Self> {
-        let read = || {
-            load_text_with_meshes(&name, &text, (&folder, reach(allow_outside)), &set, meshes).map_err(|faults| of_diagnostics(&faults))
-        };
+        let read =
+            || load_text_with_meshes(&name, &text, (&folder, reach(allow_outside)), &set, meshes).map_err(|faults| of_diagnostics(&faults));
         let loaded = py.detach(|| guarded(read))?;
-        Ok(Self { loaded: Arc::new(loaded) })
+        Ok(Self { loaded: Arc::new(loaded), origin: None })
     }
 
     /// Name.

@@ -6,11 +6,12 @@
 use crate::bytes;
 use crate::fault::{self, Class, Entry, guarded, raise};
 use crate::model::Model;
-use embate_files::checkpoint::{Checkpoint, Identity};
+use embate_files::checkpoint::{Checkpoint, Identity, Origin};
 use embate_files::model_file::Loaded;
 use embate_files::results::{Checkpoints, Recorder, Report, ResultFolder};
 use embate_files::threads::Threads;
 use embate_solver::error::Error;
+use embate_solver::model::ImportedMesh;
 use embate_solver::output::{CellKind, Frame, Shown};
 use embate_solver::simulation::{self, Control, Observer, ObserverError, Options, Progress, State};
 use pyo3::exceptions::PyValueError;
@@ -28,6 +29,7 @@ const SLICES: f64 = 4.0;
 pub(crate) struct Simulation {
     inner: Mutex<Option<Inner>>,
     loaded: Arc<Loaded>,
+    origin: Option<Origin>,
     options: Options,
     /// A child of a fork has the memory of its parent but not its threads.
     process: u32,
@@ -145,8 +147,9 @@ impl Inner {
 }
 
 impl Simulation {
-    fn of(inner: Inner, loaded: Arc<Loaded>, options: Options) -> Self {
-        Self { inner: Mutex::new(Some(inner)), loaded, options, process: std::process::id() }
+    fn of(inner: Inner, model: &Model, options: Options) -> Self {
+        let (loaded, origin) = (model.loaded.clone(), model.origin.clone());
+        Self { inner: Mutex::new(Some(inner)), loaded, origin, options, process: std::process::id() }
     }
 
     fn lock(&self) -> PyResult<MutexGuard<'_, Option<Inner>>> {
@@ -181,10 +184,10 @@ impl Simulation {
     #[new]
     fn new(py: Python<'_>, model: &Model, threads: usize, instruction_set: Option<String>) -> PyResult<Self> {
         let options = Options { threads, simd: instruction_set };
-        let loaded = model.loaded.clone();
+        let loaded = &model.loaded;
         let make = || simulation::Simulation::new(&loaded.model, &options).map_err(|error| fault::of_error(&error));
         let simulation = py.detach(|| guarded(make))?;
-        Ok(Self::of(Inner::of(simulation), loaded, options))
+        Ok(Self::of(Inner::of(simulation), model, options))
     }
 
     /// One that stands where a file says that another one of the same model stood; with the rows of its history.
@@ -198,7 +201,7 @@ impl Simulation {
         instruction_set: Option<String>,
     ) -> PyResult<Self> {
         let options = Options { threads, simd: instruction_set };
-        let loaded = model.loaded.clone();
+        let loaded = &model.loaded;
         let make = || {
             let threads = Threads::new(options.thread_count());
             let past = Checkpoint::read(&path, &threads).map_err(|error| fault::of_checkpoint(&error))?;
@@ -212,7 +215,7 @@ impl Simulation {
         };
         let simulation = py.detach(|| guarded(make))?;
         let inner = Inner { history: History { rows, ..History::default() }, ..Inner::of(simulation) };
-        Ok(Self::of(inner, loaded, options))
+        Ok(Self::of(inner, model, options))
     }
 
     /// Steps until a time (s), so many steps, the end, or so many seconds of wall time have passed, whichever is first.
@@ -225,15 +228,15 @@ impl Simulation {
         })
     }
 
-    /// Begins to write results into a folder, which is made; `force`: what is there goes.
+    /// Begins to write results into a folder, which is made; `force`: what is there goes. Only a model of a file can be resumed or run again by the command, so only its results have states and hashes.
     fn record(&self, py: Python<'_>, folder: PathBuf, force: bool) -> PyResult<()> {
-        let (loaded, options) = (&self.loaded, &self.options);
+        let (loaded, options, origin) = (&self.loaded, &self.options, &self.origin);
         self.without_lock(py, |inner| {
             let model = &loaded.model;
             let folder = ResultFolder::create(&folder, force).map_err(|error| fault::of_results(&error))?;
             let shown = (inner.simulation.history_columns(), inner.simulation.cells());
-            // Nobody can resume a model that is in memory alone.
-            let checkpoints: Option<Checkpoints> = None;
+            // Nobody can resume, or run again, a model that is in memory alone.
+            let checkpoints = origin.clone().map(|origin| Checkpoints::of(model, origin));
             let go_on = Box::new(|_: &Progress<'_>| Control::Continue);
             let recorder = Recorder::keeping(folder, model, shown, options.thread_count(), checkpoints, go_on);
             inner.recorder = Some(recorder.map_err(|error| fault::of_results(&error))?);
@@ -310,6 +313,15 @@ impl Simulation {
         };
         let of = |values: &[u32]| bytes(py, values, u32::to_ne_bytes);
         Ok((of(&cells.nodes)?, of(&cells.offsets)?, cells.kinds.iter().map(kind).collect(), of(&cells.parts)?, cells.part_names.clone()))
+    }
+
+    /// Of each mesh from a file or from memory: its name, and where its nodes are among those of the state (u32, the largest number: nowhere).
+    fn imported<'py>(&self, py: Python<'py>) -> PyResult<Vec<(String, Bound<'py, PyBytes>)>> {
+        let meshes = &self.loaded.model.meshes;
+        self.with(|inner| {
+            let of = |(mesh, numbers): (&Arc<ImportedMesh>, &Vec<u32>)| Ok((mesh.source.clone(), bytes(py, numbers, u32::to_ne_bytes)?));
+            meshes.iter().zip(inner.simulation.imported()).map(of).collect()
+        })
     }
 
     /// Names of the history's columns.

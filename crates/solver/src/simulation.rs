@@ -386,6 +386,12 @@ impl Simulation {
         either!(self, run => run.frame())
     }
 
+    /// Where the nodes of each of the model's meshes from files are among those of a [`Frame`], in the file's order; `u32::MAX`: no part has it.
+    #[must_use]
+    pub fn imported(&self) -> &[Vec<u32>] {
+        either!(self, run => run.imported())
+    }
+
     /// A field now by its name in [`crate::output::FIELDS`], whether the model asks for it or not; `None`: there is none of this name.
     #[must_use]
     pub fn field(&self, name: &str) -> Option<Field> {

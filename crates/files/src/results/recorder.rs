@@ -59,6 +59,14 @@ pub struct Checkpoints {
     pub origin: Origin,
 }
 
+impl Checkpoints {
+    /// As a model wants them.
+    #[must_use]
+    pub fn of(model: &Model, origin: Origin) -> Self {
+        Self { pause: model.run.checkpoint.and_then(|pause| Duration::try_from_secs_f64(pause).ok()), origin }
+    }
+}
+
 /// How recording ended.
 #[derive(Debug)]
 pub struct Outcome {

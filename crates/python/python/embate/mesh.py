@@ -71,6 +71,16 @@ class Mesh:
             groups = {"all": {kind: np.arange(len(nodes)) for kind, nodes in self.cells.items() if KINDS[kind][2] == dimension}}
         self.groups = {str(name): {_kind(kind): _indices(name, kind, which, self.cells) for kind, which in parts.items()} for name, parts in groups.items()}
 
+    def used(self) -> np.ndarray[Any, Any]:
+        """Which points belong to cells of the highest dimension of a group: the others are left out."""
+        kinds = [(kind, which) for parts in self.groups.values() for kind, which in parts.items() if len(which)]
+        highest = max((KINDS[kind][2] for kind, _ in kinds), default=0)
+        used = np.zeros(len(self.points), bool)
+        for kind, which in kinds:
+            if KINDS[kind][2] == highest:
+                used[self.cells[kind][which]] = True
+        return used
+
     def bytes(self) -> bytes:
         """A .msh file of version 2.2, binary."""
         out = io.BytesIO()

@@ -8,11 +8,14 @@ import warnings
 from collections.abc import Mapping
 from os import PathLike, fspath
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from . import _embate, toml
 from .errors import Warning as EmbateWarning
-from .mesh import mesh_of
+from .mesh import Mesh, mesh_of
+
+if TYPE_CHECKING:
+    from .simulation import Simulation
 
 _SECTIONS: dict[str, dict[str, Any]] = {section["name"]: section for section in _embate.sections()}
 _FORMS: dict[str, str] = {name: section["form"] for name, section in _SECTIONS.items()}
@@ -55,12 +58,14 @@ class Model:
     ) -> None:
         self._path: Path | None = None
         self._sections: dict[str, Any] = {}
+        self._meshes: dict[int, tuple[str, Mesh]] | None = None
         self._set: dict[str, Any] = dict(set or {})
         self._name = name
         self._folder = Path(folder) if folder is not None else None
         self._allow_outside = bool(allow_outside)
         if isinstance(source, Mapping):
-            self._sections.update(copy.deepcopy({k: v for k, v in source.items() if k != "name"}) if not _holds_meshes(source) else dict(source))
+            # Lists and tables are the model's own, so that methods add to them; meshes and values stay those that were given.
+            self._sections.update({k: list(v) if isinstance(v, list) else dict(v) if isinstance(v, Mapping) else v for k, v in source.items() if k != "name"})
             self._name = name or (str(source["name"]) if "name" in source else None)
         elif source is not None:
             self._path = Path(fspath(source))
@@ -133,12 +138,19 @@ class Model:
     def _text(self) -> tuple[str, dict[str, bytes]]:
         """The text, and the meshes that it names."""
         meshes: dict[str, bytes] = {}
-        known: dict[int, str] = {}
+        known: dict[int, tuple[str, Mesh]] = {}
         sections = dict(self._sections)
         parts = sections.get("part")
         if isinstance(parts, (list, tuple)):
             sections["part"] = [_with_mesh(part, k, meshes, known) if isinstance(part, Mapping) else part for k, part in enumerate(parts)]
+        self._meshes = known
         return toml.document(sections, _FORMS), meshes
+
+    def _mesh_names(self) -> dict[int, tuple[str, Mesh]]:
+        """File and arrays of each object that was given as a mesh."""
+        if self._meshes is None:
+            self._text()
+        return self._meshes or {}
 
     def _overrides(self) -> list[str]:
         return [f"{key}={toml.value(value, key)}" for key, value in self._set.items()]
@@ -177,7 +189,7 @@ class Model:
         """Reads the model: raises :class:`embate.ModelError` with all its faults, or returns its warnings (code, path, line, message, help)."""
         return self._native().warnings()
 
-    def simulation(self, threads: int = 0, instruction_set: str | None = None) -> "embate.Simulation":  # type: ignore[name-defined] # noqa: F821
+    def simulation(self, threads: int = 0, instruction_set: str | None = None) -> Simulation:
         """Makes the model ready to step.
 
         Parameters
@@ -207,6 +219,24 @@ class Model:
             with self.simulation(threads=1) as simulation:
                 return simulation.plot(ax=ax, **options)
 
+    if TYPE_CHECKING:
+        # Made below, from the sections of the model file.
+        def run(self, **keys: Any) -> Model: ...
+        def part(self, **keys: Any) -> Model: ...
+        def contact(self, **keys: Any) -> Model: ...
+        def obstacle(self, **keys: Any) -> Model: ...
+        def symmetry(self, **keys: Any) -> Model: ...
+        def constraint(self, **keys: Any) -> Model: ...
+        def join(self, **keys: Any) -> Model: ...
+        def load(self, **keys: Any) -> Model: ...
+        def non_reflecting(self, **keys: Any) -> Model: ...
+        def spring(self, **keys: Any) -> Model: ...
+        def point_mass(self, **keys: Any) -> Model: ...
+        def probe(self, **keys: Any) -> Model: ...
+        def output(self, **keys: Any) -> Model: ...
+        def material(self, name: str, /, **keys: Any) -> Model: ...
+        def curve(self, name: str, /, **keys: Any) -> Model: ...
+
     def __repr__(self) -> str:
         if self._path is not None:
             return f"embate.Model({str(self._path)!r})"
@@ -222,33 +252,27 @@ class Model:
             return f"<pre>{html.escape(str(error))}</pre>"
 
 
-def _holds_meshes(source: Mapping[str, Any]) -> bool:
-    parts = source.get("part", [])
-    return isinstance(parts, (list, tuple)) and any(isinstance(part, Mapping) and mesh_of_safely(part.get("mesh")) for part in parts)
-
-
-def mesh_of_safely(what: Any) -> bool:
+def _is_mesh(what: Any) -> bool:
     """Whether this is a mesh of arrays, however wrong."""
     return what is not None and not (isinstance(what, Mapping) and "points" not in what) and not isinstance(what, str)
 
 
-def _with_mesh(part: Mapping[str, Any], index: int, meshes: dict[str, bytes], known: dict[int, str]) -> Mapping[str, Any]:
+def _with_mesh(part: Mapping[str, Any], index: int, meshes: dict[str, bytes], known: dict[int, tuple[str, Mesh]]) -> Mapping[str, Any]:
     """A part whose mesh of arrays is named as a file."""
     what = part.get("mesh")
-    if not mesh_of_safely(what):
+    if not _is_mesh(what):
         return part
     path = f"part[{index}].mesh"
     try:
-        mesh = mesh_of(what)
+        mesh = known[id(what)][1] if id(what) in known else mesh_of(what)
     except (TypeError, ValueError) as error:
         raise type(error)(f"{path}: {error}") from None
     if mesh is None:
         raise TypeError(f"{path}: a {type(what).__name__} is no mesh; arrays (points, cells), a dict with points and cells, embate.Mesh, meshio, gmsh and pyvista are")
-    file = known.get(id(what))
-    if file is None:
+    if id(what) not in known:
         file = f"mesh-{len(meshes) + 1}.msh"
-        meshes[file], known[id(what)] = mesh.bytes(), file
-    keys = {"file": file}
+        meshes[file], known[id(what)] = mesh.bytes(), (file, mesh)
+    keys = {"file": known[id(what)][0]}
     groups = [name for name, parts in mesh.groups.items() if any(len(which) for which in parts.values())]
     if "group" in part:
         keys["group"] = part["group"]

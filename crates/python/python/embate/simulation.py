@@ -264,6 +264,26 @@ class Simulation:
         """Name of the part of each cell."""
         return _cells(self._native)[2]
 
+    def node_numbers(self, mesh: Any) -> np.ndarray[Any, Any]:
+        """Where the points of a part's mesh are among the nodes of the state: ``state.position[numbers]`` are in the order of the points.
+
+        Parameters
+        ----------
+        mesh
+            What was given as ``mesh=`` of a part, the very object; -1 in the answer where no part has the point.
+        """
+        names = self.model._mesh_names()
+        if id(mesh) not in names:
+            raise ValueError("mesh is none of those that parts of this model were given; the very object is wanted, not an equal one")
+        name, known = names[id(mesh)]
+        numbers = np.full(len(known.points), -1, np.int64)
+        for source, data in self._native.imported():
+            if source == name:
+                found = np.frombuffer(data, np.uint32).astype(np.int64)
+                found[found == 2**32 - 1] = -1
+                numbers[np.flatnonzero(known.used())] = found
+        return numbers
+
     def save(self, path: str | PathLike[str]) -> Path:
         """Writes model, state and history into one file, from which :func:`embate.load` goes on with the same bits."""
         path = Path(fspath(path))

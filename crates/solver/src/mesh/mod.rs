@@ -102,6 +102,8 @@ where
     pub groups: Vec<ElementGroup>,
     /// The user's number of each node: its place in the parts as they were made or read.
     pub user_nodes: Vec<u32>,
+    /// The user's number of each node of the model's mesh files, of each file in its order; `u32::MAX`: no part has it.
+    pub imported: Vec<Vec<u32>>,
     /// Whether each node, in the order of the curve that they are sorted along, is on an outline: those are numbered first.
     outlines: Vec<bool>,
     /// Named pieces of the outside: `part.side`, and groups of lines in the plane, of surfaces in space.
@@ -154,6 +156,7 @@ where
         if !faults.is_empty() {
             return Err(faults);
         }
+        mesh.imported = imported;
         mesh.reorder();
         Ok(mesh)
     }

@@ -385,6 +385,11 @@ where
         frame
     }
 
+    /// The user's number of each node of the model's mesh files.
+    pub(crate) fn imported(&self) -> &[Vec<u32>] {
+        &self.system.mesh.imported
+    }
+
     /// A field now, whether the model asks for it or not; `None`: there is none of this name.
     pub(crate) fn field(&self, name: &str) -> Option<Field> {
         let kind = fields_of(D).iter().find(|kind| kind.name == name)?;

@@ -1,0 +1,215 @@
+"""Pictures of bodies by matplotlib, and grids for pyvista."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from .simulation import Simulation
+
+#: Faces of solids, outward.
+FACES = {
+    "hexahedron": [(0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)],
+    "wedge": [(0, 2, 1), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5)],
+    "tetra": [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)],
+}
+VTK = {"line": 3, "triangle": 5, "quad": 9, "tetra": 10, "hexahedron": 12, "wedge": 13}
+
+
+def plot(
+    simulation: Simulation,
+    field: str | None = None,
+    ax: Any = None,
+    *,
+    component: str | int | None = None,
+    edges: bool | None = None,
+    cmap: str = "viridis",
+    clim: tuple[float, float] | None = None,
+    colorbar: bool = True,
+) -> Any:
+    """Draws the bodies of a simulation as they are now.
+
+    Parameters
+    ----------
+    simulation : embate.Simulation
+    field : str, optional
+        What colours them: ``von_mises``, ``plastic_strain``, ``velocity`` … (of vectors the size, unless a ``component`` is given); None: each part its colour.
+    ax : matplotlib axes, optional
+        Where to; of solids axes with ``projection="3d"``. None: a new figure.
+    component : str or int, optional
+        Which component of a field: ``"x"``, ``"xx"``.
+    edges : bool, optional
+        Whether the mesh is drawn; None: where it is coarse enough to be seen.
+    cmap, clim, colorbar
+        Colours, the range that they span, and whether a legend stands beside.
+
+    Returns
+    -------
+    matplotlib axes
+    """
+    import matplotlib.pyplot as plt
+    from matplotlib.collections import LineCollection, PolyCollection
+
+    state, cells, index, parts = simulation.state, simulation.cells, simulation.cell_index, simulation.cell_part
+    is_solid = simulation.dimension == 3
+    if ax is None:
+        _, ax = plt.subplots(subplot_kw={"projection": "3d"} if is_solid else {}, layout="constrained")
+    points = state.position
+    alive = _alive(state, len(parts))
+    polygons, owners = _faces(cells, index, alive)
+    at_cells, at_nodes, label = _values(simulation, field, component)
+    names = list(dict.fromkeys(parts.tolist()))
+    shown: list[np.ndarray[Any, Any]] = []
+    for corners, owner in zip(polygons, owners):
+        if at_cells is not None:
+            shown.append(at_cells[owner])
+        elif at_nodes is not None:
+            shown.append(at_nodes[corners].mean(axis=1))
+        else:
+            shown.append(np.array([names.index(name) for name in parts[owner]], dtype=float))
+    values = np.concatenate(shown) if shown else np.zeros(0)
+    count = len(values)
+    edges = count <= 4000 if edges is None else edges
+    places = [points[corner] for corners in polygons for corner in corners]
+    style: dict[str, Any] = {"linewidth": 0.3 if edges else 0.0, "edgecolor": (0.1, 0.1, 0.1, 0.6) if edges else "face"}
+    if is_solid:
+        from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+
+        collection: Any = Poly3DCollection(places, **style)
+    else:
+        collection = PolyCollection(places, **style)
+    if field is None:
+        collection.set_facecolor(plt.get_cmap("tab10")(values.astype(int) % 10))
+    else:
+        collection.set_array(values)
+        collection.set_cmap(cmap)
+        finite = values[np.isfinite(values)]
+        collection.set_clim(*(clim if clim is not None else (finite.min(), finite.max()) if len(finite) else (0.0, 1.0)))
+    if is_solid:
+        ax.add_collection3d(collection)
+    else:
+        ax.add_collection(collection)
+    if "line" in cells and not is_solid:
+        ax.add_collection(LineCollection(list(points[cells["line"]]), colors="0.2"))
+    _frame(ax, points, is_solid)
+    if field is not None and colorbar:
+        ax.figure.colorbar(collection, ax=ax, label=label, shrink=0.8)
+    elif field is None and len(names) > 1:
+        from matplotlib.patches import Patch
+
+        colours = plt.get_cmap("tab10")
+        ax.legend(handles=[Patch(color=colours(k % 10), label=name) for k, name in enumerate(names)], loc="best", fontsize="small")
+    ax.set_title(f"{simulation.model.name}, t = {_seconds(simulation.time)}", fontsize="medium")
+    return ax
+
+
+def _alive(state: Any, cells: int) -> np.ndarray[Any, Any]:
+    alive = state.alive
+    return np.ones(cells, bool) if len(alive) != cells else alive > 0.5
+
+
+def _faces(
+    cells: dict[str, np.ndarray[Any, Any]], index: dict[str, np.ndarray[Any, Any]], alive: np.ndarray[Any, Any]
+) -> tuple[list[np.ndarray[Any, Any]], list[np.ndarray[Any, Any]]]:
+    """Corners of what is to be drawn and the cell of each: surfaces as they are, of solids what is outside."""
+    polygons, owners = [], []
+    outside: dict[int, list[tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]]] = {}
+    for kind, nodes in cells.items():
+        is_there = alive[index[kind]]
+        nodes, own = nodes[is_there], index[kind][is_there]
+        if kind in ("triangle", "quad"):
+            polygons.append(nodes)
+            owners.append(own)
+        for face in FACES.get(kind, []):
+            outside.setdefault(len(face), []).append((nodes[:, face], own))
+    for found in outside.values():
+        corners, own = np.concatenate([c for c, _ in found]), np.concatenate([o for _, o in found])
+        _, first, count = np.unique(np.sort(corners, axis=1), axis=0, return_index=True, return_counts=True)
+        alone = first[count == 1]
+        polygons.append(corners[alone])
+        owners.append(own[alone])
+    return polygons, owners
+
+
+def _values(
+    simulation: Simulation, field: str | None, component: str | int | None
+) -> tuple[np.ndarray[Any, Any] | None, np.ndarray[Any, Any] | None, str]:
+    """Values at cells, or at nodes, and what they are."""
+    if field is None:
+        return None, None, ""
+    kind = simulation.state.fields.get(field)
+    if kind is None:
+        raise ValueError(f"field is {field!r}; there are {', '.join(simulation.state.fields)}")
+    values = simulation.state.field(field)
+    label = field.replace("_", " ")
+    if values.ndim == 2:
+        if component is None:
+            values = np.sqrt((values**2).sum(axis=1))
+        else:
+            names = kind["components"]
+            if component not in names and component not in range(len(names)):
+                raise ValueError(f"component is {component!r}; {field} has {', '.join(names)}")
+            k = names.index(component) if component in names else int(component)
+            values, label = values[:, k], f"{label} {names[k]}"
+    elif component is not None:
+        raise ValueError(f"component is {component!r}; {field} is a number without components")
+    unit = kind["unit"]
+    size = np.nanmax(np.abs(values)) if np.isfinite(values).any() else 0.0
+    if unit == "Pa" and size >= 1e6:
+        values, unit = values / 1e6, "MPa"
+    label = f"{label} ({unit})" if unit else label
+    return (values, None, label) if kind["location"] == "cells" else (None, values, label)
+
+
+def _frame(ax: Any, points: np.ndarray[Any, Any], is_solid: bool) -> None:
+    if not len(points):
+        return
+    low, high = points.min(axis=0), points.max(axis=0)
+    room = 0.05 * max((high - low).max(), 1e-12)
+    ax.set_xlim(low[0] - room, high[0] + room)
+    ax.set_ylim(low[1] - room, high[1] + room)
+    ax.set_xlabel("x (m)")
+    ax.set_ylabel("y (m)")
+    if is_solid:
+        ax.set_zlim(low[2] - room, high[2] + room)
+        ax.set_zlabel("z (m)")
+        ax.set_box_aspect(high - low + 2 * room)
+    else:
+        ax.set_aspect("equal")
+
+
+def _seconds(time: float) -> str:
+    for size, unit in ((1.0, "s"), (1e-3, "ms"), (1e-6, "µs")):
+        if time >= size:
+            return f"{time / size:.4g} {unit}"
+    return f"{time:.4g} s"
+
+
+def to_pyvista(simulation: Simulation) -> Any:
+    """The bodies with all fields as an ``UnstructuredGrid``: cells in the order of fields, eroded ones left out."""
+    import pyvista
+
+    state = simulation.state
+    points = state.position
+    if points.shape[1] == 2:
+        points = np.column_stack([points, np.zeros(len(points))])
+    count = len(simulation.cell_part)
+    rows: list[Any] = [None] * count
+    kinds = np.empty(count, np.uint8)
+    for kind, nodes in simulation.cells.items():
+        for cell, own in zip(simulation.cell_index[kind], nodes):
+            rows[cell] = own
+        kinds[simulation.cell_index[kind]] = VTK[kind]
+    flat = np.concatenate([np.concatenate([[len(row)], row]) for row in rows]) if rows else np.zeros(0, np.int64)
+    grid = pyvista.UnstructuredGrid(flat.astype(np.int64), kinds, np.ascontiguousarray(points))
+    for name, kind in state.fields.items():
+        values = np.array(state.field(name))
+        if kind["location"] == "nodes" and len(values) == len(points):
+            grid.point_data[name] = np.column_stack([values, np.zeros(len(values))]) if values.ndim == 2 and values.shape[1] == 2 else values
+        elif len(values) == count:
+            grid.cell_data[name] = values
+    grid.cell_data["part"] = simulation.cell_part
+    alive = _alive(state, count)
+    return grid if alive.all() else grid.extract_cells(np.flatnonzero(alive))

@@ -369,11 +369,11 @@ impl Simulation {
     fn energy<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         self.with(|inner| {
             let ledger = inner.simulation.ledger();
-            let (stores, works) = (&ledger.stores, &ledger.works);
+            let stores = &ledger.stores;
             let dict = PyDict::new(py);
             let energies = [
                 ("kinetic", stores.kinetic),
-                ("elastic", stores.elastic),
+                ("internal", stores.elastic + stores.plastic),
                 ("plastic", stores.plastic),
                 ("hourglass", stores.hourglass),
                 ("bulk_viscosity", stores.bulk_viscosity),
@@ -382,8 +382,8 @@ impl Simulation {
                 ("contact_damping", stores.contact_damping),
                 ("damping", stores.damping),
                 ("eroded", stores.eroded),
-                ("total", stores.total()),
-                ("external_work", works.external()),
+                ("total", stores.total() - ledger.external),
+                ("external", ledger.external),
                 ("drift", ledger.drift()),
             ];
             energies.into_iter().try_for_each(|(name, value)| dict.set_item(name, value))?;

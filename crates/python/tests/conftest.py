@@ -12,7 +12,8 @@ import pytest
 
 import embate
 
-ROOT = Path(__file__).resolve().parents[3]
+#: Folder of the project, for its examples.
+ROOT = Path(os.environ.get("EMBATE_ROOT") or Path(__file__).resolve().parents[3])
 
 STEEL = {"law": "j2", "density": 7800, "young": 210e9, "poisson": 0.3, "yield": 250e6, "hardening": 1e9}
 

@@ -95,7 +95,7 @@ def test_keys_are_set_by_their_paths(tmp_path: Path, model: embate.Model, comman
 
 
 def test_an_example_of_the_house_has_the_hash_of_the_command(tmp_path: Path, command: str) -> None:
-    example = ROOT / "examples" / "disk" if (ROOT / "examples" / "disk").is_dir() else next(iter(sorted((ROOT / "examples").iterdir())))
+    example = ROOT / "examples" / "tube-plate"
     model = embate.Model(example)
     out = tmp_path / "out"
     subprocess.run([command, "run", str(example), "--set", f"run.end={model.end / 20}", "--out", str(out), "--quiet"], check=True)
@@ -108,7 +108,6 @@ def test_an_example_of_the_house_has_the_hash_of_the_command(tmp_path: Path, com
 def test_a_model_is_shown_with_a_picture_and_its_parts(model: embate.Model) -> None:
     page = model._repr_html_()
     assert "data:image/png;base64" in page and "upper" in page and "<table>" in page
-    assert "no parts" not in embate.Model()._repr_html_().lower() or True
     assert "<pre>" in embate.Model(name="empty")._repr_html_()
     assert "2 part" in repr(model)
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
+from conftest import STEEL
+from test_model import grid
 
 import embate
 
@@ -21,6 +23,15 @@ def test_rows_do_not_depend_on_the_workers(model: embate.Model) -> None:
     assert [row["run.safety"] for row in here] == [0.5, 0.9, 0.5, 0.9]
     assert len(set(here.column("hash"))) == 4 and here.column("error") == [None] * 4
     assert "<table>" in here._repr_html_()
+
+
+def test_a_model_that_has_run_and_has_a_mesh_of_arrays_can_be_swept_beside() -> None:
+    points, quads = grid(4, 2, (0.02, 0.01))
+    model = embate.Model(name="grid").run(end="2 us").material("steel", **STEEL)
+    model.part(name="block", mesh=(points, quads), material="steel", velocity=(3, 0))
+    model.simulation().run()
+    rows = embate.sweep(model, {"run.safety": [0.4, 0.8]}, workers=2)
+    assert rows.column("error") == [None, None] and rows[0]["steps"] > rows[1]["steps"]
 
 
 def test_a_run_that_fails_leaves_the_others(model: embate.Model) -> None:

@@ -165,6 +165,16 @@ class Model:
                 self._read = _embate.Model.from_text(self._name or "model", text, folder, self._overrides(), self._allow_outside, meshes)
         return self._read
 
+    def __getstate__(self) -> dict[str, Any]:
+        """For other processes: meshes as arrays, since nobody can send gmsh's model."""
+        state = {**self.__dict__, "_read": None, "_meshes": None}
+        parts = self._sections.get("part")
+        if isinstance(parts, list):
+            known = {key: mesh for key, (_, mesh) in self._mesh_names().items()}
+            parts = [{**part, "mesh": known.get(id(part["mesh"]), part["mesh"])} if isinstance(part, Mapping) and "mesh" in part else part for part in parts]
+            state["_sections"] = {**self._sections, "part": parts}
+        return state
+
     @property
     def name(self) -> str:
         """Name of the model."""

@@ -286,7 +286,7 @@ class Simulation:
 
     @property
     def energy(self) -> dict[str, float]:
-        """Energies (J, in the plane J per metre of depth), the work from outside, and the drift as a fraction of the largest total energy."""
+        """Energies by the names of the history (J, in the plane J per metre of depth), ``total`` is less the work from outside (``external``), so that it stays; and ``drift``, a fraction of the largest total energy."""
         return self._native.energy()
 
     @property

@@ -8,7 +8,7 @@
 //! - a pair is not taken where an end of one of its edges is in contact with a facet at the other one already; while ridges that cross are held (and none lies on a face), such nodes are left
 //!   out that were not in contact before: the depth of the edges is that of the bodies, also where a node is inside;
 //! - where a crossing goes over a node to the next edge of the same line, the spring goes on there with what it knows; where the line bends inward, so that it is on neither edge, it goes on
-//!   along the first one.
+//!   along the first one; where the next edge leaves in any other direction, but the normal stays about the same, the spring goes on there as soon as it is well off the first one.
 //!
 //! A pair is inside only if it was seen to come in (on its way in the step, at any speed, as long as the edges still cross at its end), or at the start. Candidates come from the same global
 //! search, of the ends of edges against edges; order is fixed: edges ascending.
@@ -266,7 +266,10 @@ impl EdgeTracker {
             let is_beyond = |touch: &EdgeTouch| !touch.crossing.is_within(BEYOND);
             let turn_of = |touch: &EdgeTouch| if touch.is_new { 1 } else { 2 * u32::from(is_beyond(touch)) };
             for touch in found.iter().filter(|touch| turn_of(touch) == turn) {
-                taken[touch.pair as usize] = turn == 0 || self.beside(touch, around).all(|other| !taken[other]);
+                let mut lines = self.beside(touch, around);
+                let is_held = |other: usize| taken[other] && dot(self.pairs[other].memory.normal, touch.crossing.normal) > STRAIGHT;
+                let is_free = turn == 0 || lines.all(|other| !taken[other]) && (turn == 2 || !self.come_from(touch.edges, around).any(is_held));
+                taken[touch.pair as usize] = is_free;
             }
         }
         for touch in &mut found {
@@ -278,7 +281,9 @@ impl EdgeTracker {
                 let pair = &mut self.pairs[touch.pair as usize];
                 (pair.stiffness, pair.area, pair.memory) = (stiffness, area, Memory::default());
                 // A spring that went over the end of another edge goes on.
-                let left = self.beside(touch, around).find(|&other| self.goes_over(other, touch, &taken));
+                let mut others = self.beside(touch, around).chain(self.come_from(touch.edges, around));
+                let left = others.find(|&other| self.goes_over(other, touch, &taken));
+                drop(others);
                 if let Some(left) = left {
                     let EdgePair { stiffness, area, memory, .. } = self.pairs[left];
                     self.pairs[left].touches = false;
@@ -307,6 +312,28 @@ impl EdgeTracker {
         firsts.into_iter().flat_map(move |a| seconds.clone().into_iter().map(move |b| [a, b])).filter_map(move |[a, b]| {
             let edges = if sides[0] == sides[1] && a > b { [b, a] } else { [a, b] };
             if edges == own { None } else { self.pairs.binary_search_by_key(&edges, |pair| pair.edges).ok() }
+        })
+    }
+
+    /// Pairs with an edge that goes on from one of these at its end in any direction, and the same other edge, that cross beyond that end: what crosses has gone over the node.
+    fn come_from<'a>(&'a self, edges: [u32; 2], around: &'a Around<'_>) -> impl Iterator<Item = usize> + use<'a> {
+        let nodes = move |of: usize, edge: u32| around.surfaces[self.sides[of]].edges[edge as usize].nodes;
+        let ends = (0..2).flat_map(move |of| nodes(of, edges[of]).map(|node| (of, node)));
+        let others = ends.flat_map(move |(of, node)| {
+            let surface = &around.surfaces[self.sides[of]];
+            let at_node = surface.nodes.binary_search(&node).map_or(&[][..], |rank| self.at_nodes[self.sides[of]].of(rank));
+            at_node.iter().filter(move |&&edge| edge != edges[of]).map(move |&edge| (of, node, edge))
+        });
+        others.filter_map(move |(of, node, edge)| {
+            let mut pair = edges;
+            pair[of] = edge;
+            let is_turned = self.sides[0] == self.sides[1] && pair[0] > pair[1];
+            let (sorted, at) = if is_turned { ([pair[1], pair[0]], 1 - of) } else { (pair, of) };
+            let found = self.pairs.binary_search_by_key(&sorted, |pair| pair.edges).ok().filter(|&found| self.pairs[found].touches)?;
+            let placed = [0, 1].map(|of| Placed { surface: &around.surfaces[self.sides[of]], positions: around.sweep.new }.edge(sorted[of]));
+            let along = crossing(placed[0], placed[1])?.along[at];
+            let is_beyond = if nodes(of, edge)[0] == node { along < 0.0 } else { along > 1.0 };
+            is_beyond.then_some(found)
         })
     }
 
@@ -428,7 +455,7 @@ impl EdgeTracker {
             let pair = &self.pairs[other];
             pair.touches && pair.memory.half < around.open && dot(pair.memory.normal, crossing.normal) > STRAIGHT
         };
-        self.beside(&touch, around).any(follows)
+        self.beside(&touch, around).any(follows) || self.come_from(pair.edges, around).any(follows)
     }
 
     /// Keeps what is known of the past.
@@ -494,11 +521,11 @@ fn ridges(surface: &SpaceSurface, positions: &[Vector]) -> Vec<Listed> {
     (0..surface.edges.len() as u32).filter_map(listed).collect()
 }
 
-/// Direction of the first edge, and the normal: what slips turn with.
+/// Direction of the first edge: the first tangent along which the slip is.
 #[must_use]
-pub fn frame(touch: &EdgeTouch, positions: &[Vector]) -> [Vector; 2] {
+pub fn tangent(touch: &EdgeTouch, positions: &[Vector]) -> Vector {
     let [a, b] = touch.nodes[0].map(|node| positions[node as usize]);
-    [unit(minus(b, a)), touch.crossing.normal]
+    unit(minus(b, a))
 }
 
 /// The ends of a spring between two edges; `tangent` is the first along which the slip is.

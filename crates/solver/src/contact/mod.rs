@@ -11,6 +11,7 @@ pub mod tracker;
 pub mod initial;
 pub mod law;
 pub mod springs;
+mod spin;
 pub mod forces;
 pub mod formulation;
 pub mod edge_edge;

@@ -18,6 +18,7 @@ use super::projection::edge_edge::distance;
 use super::projection::node_facet::{Placed, Projection, Vector, unit};
 use super::proof::Proof;
 use super::search::Search;
+use super::spin;
 use super::springs::friction::cone;
 use super::springs::{Answer, Answers, End, Spring, Springs};
 use super::tracker::{Certificate, SearchReport};
@@ -84,8 +85,6 @@ pub struct NodeFacet {
     let_go: f64,
     /// The touches of nodes that made springs in this step; those of edges follow.
     used: Vec<u32>,
-    /// Positions at which the springs of this step lie: of the facets that slips turn with.
-    frames: Vec<[Vector; 2]>,
     /// Nodes whose springs were closed after the last step, and those that edges stand for in this one: slave surface, node, and facet.
     closed_nodes: Vec<(usize, u32, u32)>,
     superseded: Vec<(usize, u32, u32)>,
@@ -110,7 +109,6 @@ impl NodeFacet {
             closed: Closed::default(),
             let_go: 0.0,
             used: Vec::new(),
-            frames: Vec::new(),
             closed_nodes: Vec::new(),
             superseded: Vec::new(),
         }
@@ -234,22 +232,21 @@ impl NodeFacet {
         let before = Before { half: memory.half, normal: memory.normal, carried: memory.carried };
         let steadily = before.steadily(normal, gap, self.reach, self.has_begun);
         let placed = Placed { surface: self.tracker.target(touch.pass), positions: scene.sweep.new };
-        let (carried, frame) = match steadily {
+        let carried = match steadily {
             // Nearly all, nearly always.
             Some(carried) if !self.slips && weights.iter().all(|weight| *weight >= 0.0) => {
                 let carried = if self.stores { carried } else { 0.0 };
                 let corners = placed.surface.facets[facet as usize].into_iter().zip(weights);
                 let shares = corners.filter(|(_, weight)| *weight != 0.0).map(|(corner, weight)| (corner, -weight));
                 springs.push_plain(Spring { gap: gap + carried, ..spring }, std::iter::once((node, 1.0)).chain(shares));
-                (carried, [[0.0; 3]; 2])
+                carried
             }
             _ => self.push_whole(&touch, &memory, spring, scene, springs),
         };
-        self.frames.push(frame);
         *self.tracker.kept_mut(&touch) = Memory { offset, carried, normal, facet, stored: 0.0, ..memory };
     }
 
-    /// The same with slip, rims and gaps that jump: by what its gap was moved (m), and the frame with which its slip turns.
+    /// The same with slip, rims and gaps that jump: by what its gap was moved, m.
     fn push_whole(
         &self,
         touch: &Touch,
@@ -257,22 +254,21 @@ impl NodeFacet {
         spring: Spring<3>,
         scene: &Scene<'_, 3>,
         springs: &mut Springs<3>,
-    ) -> (f64, [Vector; 2]) {
+    ) -> f64 {
         let Projection { normal, facet, .. } = touch.projection;
         let placed = Placed { surface: self.tracker.target(touch.pass), positions: scene.sweep.new };
         if !self.slips {
             let (ends, known) = pushed(&placed, touch.node, &touch.projection);
             let carried = self.carried(memory, normal, spring.gap, &ends[..known], scene);
             springs.push(Spring { gap: spring.gap + carried, ..spring }, &ends[..known]);
-            return (carried, [[0.0; 3]; 2]);
+            return carried;
         }
         let (ends, known) = ends(&placed, touch.node, &touch.projection);
-        let frame = frame(&placed, facet);
-        let tangent = tangent(normal, frame[0]);
+        let tangent = tangent(normal, first_edge(&placed, facet));
         let carried = self.carried(memory, normal, spring.gap, &ends[..known], scene);
-        let slip = cone::carried(slip(frame_of(&placed, memory), memory), Dim::<3>::tangents(normal, &tangent));
+        let slip = cone::carried(slip(&placed, memory, scene.sweep), Dim::<3>::tangents(normal, &tangent));
         springs.push(Spring { gap: spring.gap + carried, slip, tangent, ..spring }, &ends[..known]);
-        (carried, frame)
+        carried
     }
 
     /// The spring of edges that touch; the energy that it had, J.
@@ -282,14 +278,16 @@ impl NodeFacet {
         let touch = &touch;
         let (pair, positions, normal) = (*edges.kept(touch), scene.sweep.new, touch.crossing.normal);
         let side = if edges.sides()[0] == edges.sides()[1] { 0.0 } else { 1.0 };
-        let frame = edge_edge::frame(touch, positions);
-        let ends = edge_edge::ends(touch, frame[0], positions);
+        let tangent = edge_edge::tangent(touch, positions);
+        let ends = edge_edge::ends(touch, tangent, positions);
         let (gap, offset) = self.beyond(self.edge_gap(touch), touch.own, &pair.memory);
         let carried = self.carried(&pair.memory, normal, gap, &ends, scene);
-        let slip = cone::carried(slip(frame, &pair.memory), Dim::<3>::tangents(normal, &frame[0]));
-        let (stiffness, area, tangent) = (pair.stiffness, pair.area, frame[0]);
+        // It turns with both edges alike: which is the first says nothing.
+        let turn = || spin::turn(touch.nodes.iter().map(|nodes| &nodes[..]), scene.sweep);
+        let slip = if pair.memory.slip == [0.0; 3] { [0.0; 3] } else { spin::turned(pair.memory.slip, turn()) };
+        let slip = cone::carried(slip, Dim::<3>::tangents(normal, &tangent));
+        let (stiffness, area) = (pair.stiffness, pair.area);
         springs.push(Spring { normal, gap: gap + carried, stiffness, area, side, slip, tangent, ..Spring::default() }, &ends);
-        self.frames.push(frame);
         if let Some(edges) = &mut self.edges {
             edges.kept_mut(touch).memory = Memory { offset, carried, normal, facet: touch.edges[1], stored: 0.0, ..pair.memory };
         }
@@ -312,7 +310,6 @@ impl NodeFacet {
         }
         self.find_superseded();
         let mut again = Closed::default();
-        self.frames.clear();
         self.used.clear();
         for index in 0..count {
             let touch = self.tracker.touches()[index];
@@ -349,27 +346,26 @@ impl Formulation<3> for NodeFacet {
     fn remember(&mut self, solved: Answers<'_, 3>) {
         self.closed = Closed::default();
         let (nodes, edges) = (solved.clone().part(0, self.used.len()), solved.part(self.used.len(), usize::MAX));
-        let (frames, edge_frames) = self.frames.split_at(self.used.len());
         let (stores, slips, reach, closed) = (self.stores, self.slips, self.reach, &mut self.closed);
-        let mut note = |memory: &mut Memory, answer: &Answer<'_, 3>, frame: [Vector; 2]| {
+        let mut note = |memory: &mut Memory, answer: &Answer<'_, 3>| {
             if slips {
                 let ([first, second], [a, b]) = (answer.spring.tangents(), answer.solved.slip_new);
                 memory.slip = [0, 1, 2].map(|d| a * first[d] + b * second[d]);
             }
-            (memory.frame, memory.half) = (frame, answer.gap_new());
+            memory.half = answer.gap_new();
             if stores && memory.half < reach {
                 memory.stored = answer.stored_new();
                 closed.add(memory.stored);
             }
         };
-        for ((&index, answer), &frame) in self.used.iter().zip(nodes).zip(frames) {
+        for (&index, answer) in self.used.iter().zip(nodes) {
             let touch = self.tracker.touches()[index as usize];
-            note(self.tracker.kept_mut(&touch), &answer, frame);
+            note(self.tracker.kept_mut(&touch), &answer);
         }
         if let Some(pairs) = &mut self.edges {
-            for (at, (answer, &frame)) in edges.zip(edge_frames).enumerate() {
+            for (at, answer) in edges.enumerate() {
                 let touch = pairs.touches()[at];
-                note(&mut pairs.kept_mut(&touch).memory, &answer, frame);
+                note(&mut pairs.kept_mut(&touch).memory, &answer);
             }
         }
     }
@@ -385,7 +381,6 @@ impl Formulation<3> for NodeFacet {
             initial: _,
             let_go: _,
             used: _,
-            frames: _,
             closed_nodes: _,
             superseded: _,
             tracker,
@@ -450,11 +445,10 @@ pub fn edges_at_start(tracker: &Tracker, search: Box<dyn Search<3>>, positions: 
     edges.track(&around, |_, _, _| false, |_| [0.0; 2]).to_vec()
 }
 
-/// Direction of a facet's first edge, and its normal: what turns with it.
-fn frame(placed: &Placed<'_>, facet: u32) -> [Vector; 2] {
+/// A facet's first edge, m.
+fn first_edge(placed: &Placed<'_>, facet: u32) -> Vector {
     let [a, b, ..] = placed.surface.facets[facet as usize].map(|node| placed.positions[node as usize]);
-    let normal = placed.facet_normal(facet);
-    [tangent(normal, [0, 1, 2].map(|d| b[d] - a[d])), normal]
+    [0, 1, 2].map(|d| b[d] - a[d])
 }
 
 /// The unit vector at right angles to a unit vector that is nearest to a direction.
@@ -465,28 +459,13 @@ fn tangent(normal: Vector, direction: Vector) -> Vector {
     if dot(across, across) > 0.5 && dot(across, normal).abs() < 1e-6 { across } else { any_tangent(normal) }
 }
 
-/// The frame of the facet with which a slip turns, now.
-fn frame_of(placed: &Placed<'_>, memory: &Memory) -> [Vector; 2] {
-    if memory.facet == NONE { memory.frame } else { frame(placed, memory.facet) }
-}
-
-/// The elastic slip of the step before, turned with what it lies on, which is at `frame` now.
-fn slip(frame: [Vector; 2], memory: &Memory) -> Vector {
-    let Memory { slip, facet, frame: [along, normal], .. } = *memory;
-    if facet == NONE {
+/// The elastic slip of the step before, turned as the facet that it lay on turns in the step, whichever of its corners is the first.
+fn slip(placed: &Placed<'_>, memory: &Memory, sweep: Sweep<'_, 3>) -> Vector {
+    let Memory { slip, facet, .. } = *memory;
+    if facet == NONE || slip == [0.0; 3] {
         return slip;
     }
-    let axes = |[along, normal]: [Vector; 2]| [along, cross(normal, along), normal];
-    turned(slip, &axes([along, normal]), &axes(frame))
-}
-
-/// A slip that turns with axes.
-fn turned(slip: Vector, from: &[Vector; 3], to: &[Vector; 3]) -> Vector {
-    if slip == [0.0; 3] {
-        return slip;
-    }
-    let parts = from.map(|axis| dot(axis, slip));
-    [0, 1, 2].map(|d| parts[0] * to[0][d] + parts[1] * to[1][d] + parts[2] * to[2][d])
+    spin::turned(slip, spin::turn([placed.surface.facets[facet as usize].corners()], sweep))
 }
 
 /// The ends of a spring that does not care for slip, between a node and where it projects, and how many there are: those of corners with a share.
@@ -513,7 +492,7 @@ pub fn ends(placed: &Placed<'_>, node: u32, projection: &Projection) -> ([End<3>
     let x = placed.positions[node as usize];
     let arm = [0, 1, 2].map(|d| x[d] - foot[d]);
     let spins = spin_rows(placed, facet, triangle);
-    let tangents = Dim::<3>::tangents(normal, &tangent(normal, frame(placed, facet)[0]));
+    let tangents = Dim::<3>::tangents(normal, &tangent(normal, first_edge(placed, facet)));
     let mut ends = [End::node(node, 1.0); 5];
     for k in 0..count {
         // t·(ω × r) = ω·(r × t)

@@ -201,12 +201,9 @@ where
         let Some(normal) = unit(first(symmetry.normal)) else { return };
         let nodes = on_line(symmetry, normal, place.mesh);
         if nodes.is_empty() {
-            faults.push(Fault::new(
-                &OFF_SYMMETRY,
-                &found.path,
-                "no node lies on this symmetry line",
-                "move the line or the bodies; nodes must lie on it within 1e-9 of the model's size",
-            ));
+            let what = if D == 2 { "line" } else { "plane" };
+            let help = format!("move the {what} or the bodies; nodes must lie on it within 1e-9 of the model's size");
+            faults.push(Fault::new(&OFF_SYMMETRY, &found.path, format!("no node lies on this symmetry {what}"), help));
         }
         for node in nodes {
             self.mirrors.push(Mirror { node, line: i, normal });

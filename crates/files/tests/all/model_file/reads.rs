@@ -4,8 +4,8 @@ use super::{SOUND, changed, read};
 use embate_files::model_file::{load, load_text, reference_markdown, schema, starter};
 use embate_solver::model::describe::SECTIONS;
 use embate_solver::model::{
-    Cadence, Camera, ContactLaw, Drive, Formulation, InitialStress, Interface, Load, Model, Obstacle, Output, Partners, Penalty,
-    PenaltySource, PictureView, ProbeAt, Rectangle, Ring, Run, Shape, Symmetry,
+    Cadence, ContactLaw, Drive, Formulation, InitialStress, Interface, Load, Model, Obstacle, Output, Partners, Penalty, PenaltySource,
+    PictureView, ProbeAt, Rectangle, Ring, Run, Shape, Symmetry,
 };
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::path::{Path, PathBuf};
@@ -70,8 +70,6 @@ fn what_is_left_out_has_the_default_of_the_solver() {
     assert_eq!(sound(&changed("[output]\nfields = 10\n", "")).output, Output::default());
     let view = sound(&changed("fields = 10\n", "picture_view = { corner = [\"-2 mm\", 0], size = [1, \"5 cm\"] }\n")).output.picture_view;
     assert_eq!(view, Some(PictureView { corner: [-0.002, 0.0], size: [1.0, 0.05] }));
-    let camera = sound(&changed("fields = 10\n", "camera = { from = [1, -1, 0.6], at = [0, \"5 mm\", 1], zoom = 2 }\n")).output.camera;
-    assert_eq!(camera, Some(Camera { from: [1.0, -1.0, 0.6], at: Some([0.0, 0.005, 1.0]), zoom: 2.0, ..Camera::default() }));
     assert_eq!(model.parts[0].velocity, [0.0, 0.0, 0.0]);
     assert_eq!(model.contacts[0].interface, Interface::default());
     assert_eq!((model.contacts[0].name.as_str(), model.obstacles[0].name.as_str()), ("tube-plate", "obstacle"));

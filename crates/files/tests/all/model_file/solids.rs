@@ -1,7 +1,7 @@
 //! Units between solids: masses, forces and stiffness are whole ones there, and not those of a metre of depth.
 
 use super::{faults, read};
-use embate_solver::model::{ContactLaw, Model, Penalty, PointMass, Spring};
+use embate_solver::model::{Camera, ContactLaw, Model, Penalty, PointMass, Spring};
 
 /// Two boxes, one above the other, and further sections.
 fn boxes(sections: &str) -> String {
@@ -123,4 +123,86 @@ fn parts_that_are_solids_by_their_mesh_alone_have_the_units_of_solids() {
     };
     assert_eq!((plane("2 kg"), plane("2 kg/m")), (0, 1));
     std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn pictures_of_solids_have_a_camera() {
+    let camera = sound("[output]\ncamera = { from = [1, -1, 0.6], at = [0, \"5 mm\", 1], zoom = 2 }\n").output.camera;
+    assert_eq!(camera, Some(Camera { from: [1.0, -1.0, 0.6], at: Some([0.0, 0.005, 1.0]), zoom: 2.0, ..Camera::default() }));
+}
+
+/// Each of these lines is refused alone, at its path and on a line of the text.
+fn each_is_refused(text: &dyn Fn(&str) -> String, cases: &[(&str, &str, &str)]) {
+    for (lines, path, words) in cases {
+        let found = faults(&text(lines));
+        assert_eq!(found.len(), 1, "{lines}: {found:#?}");
+        let shown = format!("{} | {}", found[0].message, found[0].help);
+        assert!(found[0].path == *path && shown == *words && found[0].line > 0, "{lines}: {found:#?}");
+    }
+}
+
+#[test]
+fn what_only_the_plane_knows_is_refused_in_space_on_its_line() {
+    let cases = [
+        (
+            "[[contact]]\nbodies = \"all\"\nformulation = \"segment\"",
+            "contact[0].formulation",
+            "in space there are no segments: nodes meet facets, and edges meet edges | take `double_pass`, `single_pass` or `pinball`",
+        ),
+        (
+            "[[obstacle]]\ncircle = { centre = [0, -2], radius = 1 }",
+            "obstacle[0].circle",
+            "there are no circles in space | take `sphere` or `cylinder`",
+        ),
+        (
+            "[[obstacle]]\npolyline = { points = [[0, -2], [1, -2]] }",
+            "obstacle[0].polyline",
+            "there are no polylines in space | take `plane`, `sphere`, `cylinder` or `stl`, or a rigid part",
+        ),
+        (
+            "[[obstacle]]\nplane = { point = [0, 0, -1], normal = [0, 0, 1], length = 2 }",
+            "obstacle[0].plane.length",
+            "a plane of space has no end | leave `length` out",
+        ),
+    ];
+    each_is_refused(&boxes, &cases);
+}
+
+#[test]
+fn what_only_space_knows_is_refused_in_the_plane_on_its_line() {
+    let flat = |sections: &str| {
+        let part = "[[part]]\nname = \"flat\"\nmaterial = \"steel\"\nrectangle = { corner = [0, 0], size = [1, 1], elements = [1, 1] }\n";
+        let steel = "[run]\nend = \"1 ms\"\n[material.steel]\nlaw = \"elastic\"\nyoung = \"200 GPa\"\npoisson = 0.3\ndensity = 7800\n";
+        format!("{steel}{part}{sections}\n")
+    };
+    assert!(read(&flat("rigid = { x = 0, y = 0, rotation = 0 }\n[output]\nmirror = [\"x\", \"y\"]")).is_ok());
+    let cure = "leave it out, or make the parts solid: `extrude` them, or give them a shape of space";
+    let (no_z, no_camera, no_half) = (
+        format!("there is no `z` in the plane | {cure}"),
+        format!("pictures of the plane are seen along z: they have no camera | {cure}"),
+        format!("a picture of the plane has no other half at z = 0 | {cure}"),
+    );
+    let cases = [
+        ("rigid = { z = 0 }", "part[0].rigid.z", no_z.as_str()),
+        ("rigid = { x = 0, z = \"1 m/s\" }", "part[0].rigid.z", no_z.as_str()),
+        ("[output]\ncamera = { from = [1, 1, 1] }", "output.camera", no_camera.as_str()),
+        ("[output]\nmirror = [\"x\", \"z\"]", "output.mirror", no_half.as_str()),
+    ];
+    each_is_refused(&flat, &cases);
+}
+
+#[test]
+fn bars_beside_parts_of_another_dimension_are_called_bars_and_told_their_shape() {
+    let area = |unit: &str| format!("[[part]]\nname = \"net\"\nmaterial = \"steel\"\nelement = \"bar2\"\narea = \"1e-4 {unit}\"\n");
+    // In the plane beside solids.
+    let found = told(&format!("{}truss.lines = [[[0, 0], [1, 0]]]", area("m^2")));
+    let help = "take `space_truss` with `element = \"bar2\"`: bars in space";
+    assert!(found.contains(&format!("part[2].truss: the part is in the plane, but part `low` is a solid | {help}")), "{found:#?}");
+    // In space beside what is flat.
+    let flat = "[[part]]\nname = \"flat\"\nmaterial = \"steel\"\nrectangle = { corner = [0, 0], size = [1, 1], elements = [1, 1] }\n";
+    let steel = "[run]\nend = \"1 ms\"\n[material.steel]\nlaw = \"elastic\"\nyoung = \"200 GPa\"\npoisson = 0.3\ndensity = 7800\n";
+    let text = format!("{steel}{flat}{}space_truss.lines = [[[0, 0, 0], [1, 0, 1]]]\n", area("m^2"));
+    let found: Vec<String> = faults(&text).iter().map(|fault| format!("{}: {} | {}", fault.path, fault.message, fault.help)).collect();
+    let help = "take `truss`: bars in the plane; or make the other parts solids, such as by `extrude`";
+    assert!(found.contains(&format!("part[1].space_truss: the part is of bars in space, but part `flat` is in the plane | {help}")), "{found:#?}");
 }

@@ -1,7 +1,7 @@
 //! Pressure as a function of the gap: a table, linear between its points. F = A p(g), energy A ∫ p dg from the gap on.
 //!
 //! Below the deepest gap the pressure goes on with the last slope. Positive gaps with a pressure are allowed: a soft layer that is
-//! not modelled.
+//! not modelled. Edges that cross press on half of what their four nodes stand for, and nodes that come in while they hold press on nothing, so that nothing is counted twice.
 
 use super::{ContactLawKind, Law, fixed_point};
 use crate::contact::springs::{Closing, Patch};

@@ -5,7 +5,7 @@
 //! they stored is told to the ledger; nodes that are free, and those whose ties are gone, are in ordinary contact with the same surface.
 
 use super::groups::{bend, halves};
-use super::{NodeFacet, PassInput, ends, frame, tangent};
+use super::{NodeFacet, PassInput, ends, first_edge, tangent};
 use crate::archive::{Archive, Kept, keep_all, keep_each};
 use crate::contact::projection::node_facet::{Feature, Placed, Projection, Vector};
 use crate::contact::search::{Query, Search};
@@ -130,7 +130,7 @@ impl Formulation<3> for TiedFacet {
             let (weights, gap, normal) = placed.above(x, tie.facet, triangle).unwrap_or((tie.place, tie.gap, [0.0, 0.0, 1.0]));
             let at = |shares: Vector| [0, 1, 2].map(|d| (0..3).map(|k| shares[k] * corners[k][d]).sum::<f64>());
             let (foot, place) = (at(weights), at(tie.place));
-            let along = tangent(normal, frame(&placed, tie.facet)[0]);
+            let along = tangent(normal, first_edge(&placed, tie.facet));
             let off = [0, 1, 2].map(|d| foot[d] - place[d]);
             let slip = Dim::<3>::tangents(normal, &along).map(|t| dot(t, off));
             // Forces act at the present foot of the node, so that both are collinear.

@@ -50,10 +50,8 @@ const SLACK: f64 = 1.001;
 pub struct Memory {
     /// Elastic slip at n + ½ as a vector, m.
     pub slip: Vector,
-    /// Facet with which it turns, or [`NONE`], and the frame of that facet (its first edge and its normal) when it was noted.
+    /// Facet with which it turns, or [`NONE`].
     pub facet: u32,
-    /// See `facet`.
-    pub frame: [Vector; 2],
     /// Gap that counts as zero, m.
     pub offset: f64,
     /// Where the spring's gap was at n − ½, m.
@@ -76,7 +74,6 @@ impl Default for Memory {
         Self {
             slip: none,
             facet: NONE,
-            frame: [none; 2],
             offset: 0.0,
             half: 0.0,
             normal: none,
@@ -88,7 +85,7 @@ impl Default for Memory {
     }
 }
 
-keep_all!(Memory { slip, facet, frame, offset, half, normal, carried, stored, side, is_led });
+keep_all!(Memory { slip, facet, offset, half, normal, carried, stored, side, is_led });
 
 /// A slave node and a body of the target.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -11,6 +11,7 @@ mod geometry;
 
 use super::super::projection::node_facet::Placed;
 use super::super::search::Search;
+use super::super::spin;
 use super::super::springs::friction::cone;
 use super::super::springs::{Answers, End, Spring, Springs};
 use super::super::tracker::SearchReport;
@@ -124,15 +125,8 @@ impl Formulation<3> for Pinball {
 ///
 /// Of each the spin is Θ⁻¹ Σ r × Δx about the mean of its nodes with r half way, which is 2 tan ½φ along the axis of every rigid motion: half of it makes the rotation by Cayley's map, exactly.
 fn turned_with(balls: [&Ball; 2], slip: Vector, sweep: Sweep<'_, 3>) -> Vector {
-    if slip == [0.0; 3] {
-        return slip;
-    }
-    let [one, other] = balls.map(|ball| ball.turn(sweep));
-    let half = [0, 1, 2].map(|d| 0.25 * (one[d] + other[d]));
-    let once = cross(half, slip);
-    let twice = cross(half, once);
-    let scale = 2.0 / (1.0 + dot(half, half));
-    [0, 1, 2].map(|d| slip[d] + scale * (once[d] + twice[d]))
+    let [one, other] = balls.map(|ball| spin::turn([&ball.nodes[..ball.count]], sweep));
+    spin::turned(slip, [0, 1, 2].map(|d| 0.5 * (one[d] + other[d])))
 }
 
 impl Ball {
@@ -147,26 +141,10 @@ impl Ball {
         let (mut arms, mut inertia) = ([[0.0; 3]; 8], [[0.0; 3]; 3]);
         for (arm, &node) in arms.iter_mut().zip(nodes) {
             let r = minus(at(node), mean);
-            let square = dot(r, r);
-            for i in 0..3 {
-                (0..3).for_each(|j| inertia[i][j] -= r[i] * r[j]);
-                inertia[i][i] += square;
-            }
+            spin::add_arm(r, &mut inertia);
             *arm = r;
         }
         (arms, inertia)
-    }
-
-    /// How its element turns in a step: along the axis, 2 tan ½φ of the angle φ.
-    fn turn(&self, sweep: Sweep<'_, 3>) -> Vector {
-        let (old, new) = (|node: u32| sweep.old[node as usize], |node: u32| sweep.new[node as usize]);
-        let (arms, inertia) = self.arms(|node| [0, 1, 2].map(|d| 0.5 * (old(node)[d] + new(node)[d])));
-        let mut sum = [0.0; 3];
-        for (arm, &node) in arms.iter().zip(&self.nodes[..self.count]) {
-            let more = cross(*arm, minus(new(node), old(node)));
-            (0..3).for_each(|d| sum[d] += more[d]);
-        }
-        solved(&inertia, sum)
     }
 
     /// Writes the ends of a spring that pushes the ball along `sign` n; friction's couple is taken by the element's nodes as their mean spin takes it: `arms` is n × t times the radius, for
@@ -174,20 +152,13 @@ impl Ball {
     fn add_ends(&self, positions: &[Vector], sign: f64, arms: [Vector; 2], ends: &mut [End<3>]) -> usize {
         // ω = Θ⁻¹ Σ r × v: the spin of every rigid motion. ω·a of a vector a has the rows (Θ⁻¹ a) × r.
         let (of_nodes, inertia) = self.arms(|node| positions[node as usize]);
-        let spins = arms.map(|arm| solved(&inertia, arm));
+        let spins = arms.map(|arm| spin::solved(&inertia, arm));
         for (((end, &node), share), r) in ends.iter_mut().zip(&self.nodes[..self.count]).zip(self.shares).zip(of_nodes) {
             let turn = spins.map(|spin| cross(r, spin));
             *end = End { turn, ..End::node(node, sign * share) };
         }
         self.count
     }
-}
-
-/// The solution of a symmetric system, zero where it has none.
-fn solved([a, b, c]: &[Vector; 3], right: Vector) -> Vector {
-    let (bc, ca, ab) = (cross(*b, *c), cross(*c, *a), cross(*a, *b));
-    let whole = dot(*a, bc);
-    if whole.abs() > f64::MIN_POSITIVE { [dot(bc, right), dot(ca, right), dot(ab, right)].map(|part| part / whole) } else { [0.0; 3] }
 }
 
 #[cfg(test)]

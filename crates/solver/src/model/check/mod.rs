@@ -10,6 +10,7 @@ mod load;
 mod motion;
 mod parts;
 mod plane;
+mod space;
 mod warnings;
 
 pub(crate) use parts::CheckOf;
@@ -60,6 +61,8 @@ impl Model {
         check.output();
         if self.dimension() == 2 {
             check.nothing_out_of_the_plane();
+        } else {
+            check.nothing_of_the_plane_alone();
         }
         check.faults
     }

@@ -124,12 +124,9 @@ impl Check<'_> {
         }
         if !part.is_of_bars() {
             if part.area.is_some() {
-                self.fault(
-                    &BARS,
-                    area,
-                    "`area` is the cross-section of bars, but the part has none",
-                    "leave it out, or take `element = \"bar2\"`",
-                );
+                let of_space = self.model.dimension_of(part) == 3;
+                let help = if of_space { "leave it out, or take `space_truss` with `element = \"bar2\"`" } else { "leave it out, or take `element = \"bar2\"`" };
+                self.fault(&BARS, area, "`area` is the cross-section of bars, but the part has none", help);
             }
             return;
         }
@@ -202,10 +199,24 @@ impl Check<'_> {
         let known = |part: &&Part| !self.model.lacks_mesh(part);
         if known(&part) && self.model.dimension_of(part) != dimension {
             let first = excerpt(self.model.parts.iter().find(known).map_or("", |first| &first.name));
-            let (own, other) = if dimension == 2 { ("a solid", "in the plane") } else { ("in the plane", "a solid") };
+            let lines = |part: &Part| {
+                let built_in = part.shape.built_in().map(|(shape, _)| shape.nodes_per_element());
+                built_in.or(part.shape.solid().map(|(shape, _)| shape.nodes_per_element())) == Some(2) || part.is_of_bars()
+            };
+            let word = |dimension: usize, part: &Part| match (dimension, lines(part)) {
+                (2, _) => "in the plane",
+                (_, true) => "of bars in space",
+                _ => "a solid",
+            };
+            let other = self.model.parts.iter().find(known).map_or("", |first| word(dimension, first));
+            let own = word(self.model.dimension_of(part), part);
+            let help = match (lines(part), dimension) {
+                (true, 2) => "take `truss`: bars in the plane; or make the other parts solids, such as by `extrude`",
+                (true, _) => "take `space_truss` with `element = \"bar2\"`: bars in space",
+                _ => "make all parts solids, such as by `extrude`, or none",
+            };
             let at = part.sweep.as_ref().map_or_else(|| size_key(&part.shape), |sweep| sweep.key().to_string());
             let at = at.split('.').next().unwrap_or_default().to_string();
-            let help = "make all parts solids, such as by `extrude`, or none";
             self.fault(&DIMENSION, format!("{path}.{at}"), format!("the part is {own}, but part `{first}` is {other}"), help);
         }
         let Some(sweep) = &part.sweep else { return };

@@ -7,13 +7,18 @@ use crate::model::{Axis, Drive, Image, Load, Motion, ObstacleShape, ProbeAt};
 /// What to do.
 const HELP: &str = "leave it out, or make the parts solid: `extrude` them, or give them a shape of space";
 
+const NO_Z: &str = "there is no `z` in the plane";
+
 impl Check<'_> {
     /// Faults of what points out of the plane.
     pub(super) fn nothing_out_of_the_plane(&mut self) {
         let model = self.model;
         for (index, part) in model.parts.iter().enumerate() {
             self.flat(&format!("part[{index}].velocity"), part.velocity);
-            part.rigid.iter().for_each(|motion| self.flat_motion(&format!("part[{index}].rigid"), motion));
+            // What is left out is free: who holds z has written it.
+            if part.rigid.as_ref().is_some_and(|motion| motion.velocity[2].is_some()) {
+                self.third(format!("part[{index}].rigid.z"), NO_Z);
+            }
         }
         for (index, symmetry) in model.symmetries.iter().enumerate() {
             self.flat(&format!("symmetry[{index}].point"), symmetry.point);
@@ -31,7 +36,7 @@ impl Check<'_> {
                     // What is held is written in short.
                     let held = key == "velocity" && *drive == Drive::Constant(0.0);
                     let place = if held { format!("{path}.fixed") } else { format!("{path}.{key}.z") };
-                    self.third(place, "there is no `z` in the plane");
+                    self.third(place, NO_Z);
                 }
             }
             constraint.rotation.iter().for_each(|rotation| self.flat_axis(&format!("{path}.rotation"), &rotation.about));
@@ -76,6 +81,12 @@ impl Check<'_> {
                 self.flat(&format!("probe[{index}].point"), *point);
             }
         }
+        if model.output.camera.is_some() {
+            self.third("output.camera".into(), "pictures of the plane are seen along z: they have no camera");
+        }
+        if model.output.mirror[2] {
+            self.third("output.mirror".into(), "a picture of the plane has no other half at z = 0");
+        }
     }
 
     /// A vector without a third component; one that is no number has its fault already.
@@ -94,7 +105,7 @@ impl Check<'_> {
 
     fn flat_motion(&mut self, path: &str, motion: &Motion) {
         if motion.velocity[2].as_ref().is_some_and(|drive| *drive != Drive::Constant(0.0)) {
-            self.third(format!("{path}.z"), "there is no `z` in the plane");
+            self.third(format!("{path}.z"), NO_Z);
         }
     }
 

@@ -109,6 +109,12 @@ fn of_faults(faults: &[Fault]) -> PyErr {
     raise(Class::Model, &lines.collect::<Vec<_>>().join("\n"), &entries)
 }
 
+/// Of a change of a simulation that can't be made.
+pub(crate) fn of_change(fault: &Fault) -> PyErr {
+    let entry = Entry::of(fault.kind, &fault.path, 0, &fault.message, &fault.help);
+    raise(Class::State, &format!("{}: {}\n  help: {}", fault.kind, fault.message, fault.help), &[entry])
+}
+
 /// Of files of results.
 pub(crate) fn of_results(error: &ResultsError) -> PyErr {
     raise(Class::File, &format!("{}: {error}", error.kind()), &[Entry::of(error.kind(), "", 0, &error.to_string(), error.kind().cure)])

@@ -64,3 +64,8 @@ fn bytes<'py, const N: usize, T: Copy>(py: Python<'py>, values: &[T], of: impl F
         Ok(())
     })
 }
+
+/// The same back; bytes of less than a number are left out.
+fn numbers<const N: usize, T>(bytes: &[u8], of: impl Fn([u8; N]) -> T) -> Vec<T> {
+    bytes.as_chunks::<N>().0.iter().map(|&bytes| of(bytes)).collect()
+}

@@ -3,9 +3,9 @@
 //! Rows of the history are kept as they are told, so a run in pieces has the history of the whole one. What Python asks for is copied: the solver has its nodes in an order of its own, and goes on
 //! writing.
 
-use crate::bytes;
 use crate::fault::{self, Class, Entry, guarded, raise};
 use crate::model::Model;
+use crate::{bytes, numbers};
 use embate_files::checkpoint::{Checkpoint, Identity, Origin};
 use embate_files::model_file::Loaded;
 use embate_files::results::{Checkpoints, Recorder, Report, ResultFolder};
@@ -173,6 +173,14 @@ impl Simulation {
         guarded(|| guard.as_mut().map_or_else(|| Err(raise(Class::State, "this simulation is closed", &[])), work))
     }
 
+    /// Changes something between two steps.
+    fn change(&self, change: impl FnOnce(&mut simulation::Simulation) -> Result<(), embate_solver::error::Fault>) -> PyResult<()> {
+        self.with(|inner| match &inner.failure {
+            Some(failure) => Err(raise(Class::State, &format!("the run has failed, nothing can be changed: {failure}"), &[])),
+            None => change(&mut inner.simulation).map_err(|fault| fault::of_change(&fault)),
+        })
+    }
+
     /// The same without the interpreter's lock.
     fn without_lock<T: Send>(&self, py: Python<'_>, work: impl FnOnce(&mut Inner) -> PyResult<T> + Send) -> PyResult<T> {
         py.detach(|| self.with(work))
@@ -322,6 +330,24 @@ impl Simulation {
             let of = |(mesh, numbers): (&Arc<ImportedMesh>, &Vec<u32>)| Ok((mesh.source.clone(), bytes(py, numbers, u32::to_ne_bytes)?));
             meshes.iter().zip(inner.simulation.imported()).map(of).collect()
         })
+    }
+
+    /// Nodes of a part, a side or a group (u32), ascending; `None`: there is nothing of this name.
+    fn nodes<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Option<Bound<'py, PyBytes>>> {
+        let nodes = self.with(|inner| Ok(inner.simulation.nodes_of(name)))?;
+        nodes.map(|nodes| bytes(py, &nodes, u32::to_ne_bytes)).transpose()
+    }
+
+    /// Gives nodes (u32) other velocities (f64), one node after the other.
+    fn set_velocities(&self, nodes: &[u8], velocities: &[u8]) -> PyResult<()> {
+        let (nodes, velocities) = (numbers(nodes, u32::from_ne_bytes), numbers(velocities, f64::from_ne_bytes));
+        self.change(|simulation| simulation.set_velocities(&nodes, &velocities))
+    }
+
+    /// Lets forces (f64) act on nodes (u32), until others are given.
+    fn set_forces(&self, nodes: &[u8], forces: &[u8]) -> PyResult<()> {
+        let (nodes, forces) = (numbers(nodes, u32::from_ne_bytes), numbers(forces, f64::from_ne_bytes));
+        self.change(|simulation| simulation.set_forces(&nodes, &forces))
     }
 
     /// Names of the history's columns.

@@ -225,6 +225,16 @@ impl Ledger {
         self.drift = self.drift.max((self.stores.total() - self.external - start).abs());
     }
 
+    /// Books a change of velocities at the end of a step as external work, J/m: by what ½ Σ m|v^{n+1/2}|² changes, and by what the kinetic energy at the whole step does; `ahead` is what loads do more
+    /// in the half step that follows, because they act on other velocities.
+    pub(crate) fn throw(&mut self, half: f64, whole: f64, ahead: f64) {
+        self.works.load += half;
+        self.halves[0] += whole + ahead;
+        self.external += whole;
+        self.stores.kinetic += whole;
+        self.largest = self.largest.max(self.stores.total().abs());
+    }
+
     /// Largest |change of kinetic energy − sum of works| over the largest total energy.
     #[must_use]
     pub fn residual(&self) -> f64 {

@@ -18,6 +18,7 @@ pub(crate) static MESSAGES: &[&Message] = &[
     &RUNAWAY,
     &MEMORY,
     &INSTRUCTIONS,
+    &STEERING,
     &MASS_ADDED,
     &ERODED,
     &RELAXED,
@@ -119,6 +120,14 @@ pub(crate) static INSTRUCTIONS: Message = Message {
     example: Example::Command("run model.toml --simd sse9"),
     cause: "The processor, or the program as it was built for it, does not know the set.",
     cure: "Take one of those that the message lists, or leave --simd out; results do not depend on it.",
+};
+
+pub(crate) static STEERING: Message = Message {
+    code: "E0609",
+    title: "a change of a running simulation that can't be made",
+    example: Example::Words("Python gives a velocity to a node of a rigid part, or a force that is not a number."),
+    cause: "Between two steps nodes may be given other velocities and forces: finite numbers, a vector for each node; velocities only where nothing else leads the node.",
+    cure: "Look at the numbers and nodes that the message names; a rigid part is moved by forces, joined nodes by forces too.",
 };
 
 pub(crate) static MASS_ADDED: Message = Message {

@@ -6,13 +6,14 @@ mod memory;
 pub(crate) mod run;
 mod shortest;
 mod state;
+mod steering;
 mod summary;
 
 pub use state::State;
 
 use crate::archive::Section;
 use crate::contact::tracker::SearchReport;
-use crate::error::{Error, Notice, Warning};
+use crate::error::{Error, Fault, Notice, Warning};
 use crate::hashes::Hashes;
 use crate::model::Model;
 use crate::output::{Cells, Field, Frame, Shown, Summary};
@@ -333,6 +334,29 @@ impl Simulation {
     /// As [`Simulation::run`].
     pub fn run_until(&mut self, time: f64, steps: u64, observer: &mut dyn Observer) -> Result<(), Error> {
         either!(mut self, run => run.run(time, steps, observer))
+    }
+
+    /// Nodes of a part, of a side of it or of a group, by their numbers in frames, ascending; `None` where there is nothing of this name.
+    #[must_use]
+    pub fn nodes_of(&self, name: &str) -> Option<Vec<u32>> {
+        either!(self, run => run.nodes_of(name))
+    }
+
+    /// Gives nodes, by their numbers in frames, other velocities at the present time, m/s, one node after the other: what is held goes on as prescribed. The change is booked as work from outside.
+    ///
+    /// # Errors
+    /// Nodes that are not there, of rigid parts or joined to others, and numbers that are not finite or too few; then nothing has changed.
+    pub fn set_velocities(&mut self, nodes: &[u32], velocities: &[f64]) -> Result<(), Fault> {
+        either!(mut self, run => run.set_velocities(nodes, velocities))
+    }
+
+    /// Lets forces (in the plane N per metre of depth, in space and of bodies of revolution N), one node after the other, act on nodes besides the loads of the model, from the next velocity update
+    /// on until others are given; zero ends them. Their work is booked as that of loads.
+    ///
+    /// # Errors
+    /// Nodes that are not there, and numbers that are not finite or too few; then nothing has changed.
+    pub fn set_forces(&mut self, nodes: &[u32], forces: &[f64]) -> Result<(), Fault> {
+        either!(mut self, run => run.set_forces(nodes, forces))
     }
 
     /// Hashes of the state now.

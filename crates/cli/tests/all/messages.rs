@@ -48,6 +48,7 @@ const IN_WORDS: &[(&str, &str)] = &[
     ("E0301", "only programs that make models themselves come to it: of a model file it is E0107 before"),
     ("E0302", "only programs that make models themselves come to it: of a model file it is E0106 before"),
     ("E0603", "contact that makes energy is a fault of the solver rather than of a short model"),
+    ("E0609", "only programs that change a simulation between its steps come to it"),
     ("E0701", "it takes a disk that is full; restart.rs has one"),
     ("E0705", "only programs that write fields themselves come to it"),
     ("E0706", "only programs that draw frames themselves come to it"),

@@ -5,10 +5,12 @@ from __future__ import annotations
 import json
 import math
 import tempfile
+import threading
 import time as clock
 import warnings
 import zipfile
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from os import PathLike, fspath
 from pathlib import Path
 from typing import Any
@@ -16,6 +18,7 @@ from typing import Any
 import numpy as np
 
 from . import _embate
+from .control import node_numbers, vectors
 from .errors import FileError, StateError
 from .errors import Warning as EmbateWarning
 from .model import Model
@@ -112,6 +115,7 @@ class Simulation:
         self._instruction_set = instruction_set
         self._native = _native if _native is not None else _embate.Simulation(model._native(), self._threads, instruction_set)
         self._callbacks: list[tuple[int, Callable[[Simulation], Any]]] = []
+        self._working = threading.Lock()
 
     def run(
         self,
@@ -142,24 +146,39 @@ class Simulation:
             The run failed; the state of the failure can be looked at.
         """
         end = math.inf if until is None else _time(until, "until")
-        if out is not None:
-            self._native.record(Path(fspath(out)), bool(force))
-        try:
-            with _shown(progress, self) as show:
-                while not self.is_over and self.time < end:
-                    self._advance(end, _ALL)
-                    show()
-        finally:
-            if out is not None and not self.is_closed:
-                self._native.finish()
+        with self._at_work():
+            if out is not None:
+                self._native.record(Path(fspath(out)), bool(force))
+            try:
+                with _shown(progress, self) as show:
+                    while not self.is_over and self.time < end:
+                        self._advance(end, _ALL)
+                        show()
+            finally:
+                if out is not None and not self.is_closed:
+                    self._native.finish()
         return self
 
     def step(self, n: int = 1) -> Simulation:
         """So many steps, fewer where the end is reached before."""
-        target = self.steps + _count(n, "n")
-        while not self.is_over and self.steps < target:
-            self._advance(math.inf, target - self.steps)
+        count = _count(n, "n")
+        with self._at_work():
+            target = self.steps + count
+            while not self.is_over and self.steps < target:
+                self._advance(math.inf, target - self.steps)
         return self
+
+    @contextmanager
+    def _at_work(self) -> Iterator[None]:
+        """One thread steps it, and no callback does."""
+        # In a child of a fork, and of one that is closed, this tells what is wrong.
+        self._native.clock()
+        if not self._working.acquire(blocking=False):
+            raise StateError("this simulation is being stepped already, by another thread or by the run that calls this function: it does one thing at a time")
+        try:
+            yield
+        finally:
+            self._working.release()
 
     def _advance(self, until: float, steps: int) -> None:
         now = self.steps
@@ -173,7 +192,8 @@ class Simulation:
                     function(self)
 
     def every(self, n: int, function: Callable[[Simulation], Any]) -> Callable[[Simulation], Any]:
-        """Calls a function with the simulation after every step whose number n divides. It may look at everything, and change velocities and loads.
+        """Calls a function with the simulation after every step whose number n divides. It may look at everything, and change velocities and forces
+        (:meth:`set_velocity`, :meth:`set_force`); it can't step.
 
         Returns the function. :meth:`forget` ends it.
         """
@@ -188,6 +208,41 @@ class Simulation:
     def forget(self, function: Callable[[Simulation], Any]) -> None:
         """Calls a function no more."""
         self._callbacks = [(n, known) for n, known in self._callbacks if known is not function]
+
+    def nodes(self, where: Any) -> np.ndarray[Any, Any]:
+        """Numbers of the nodes of a part (``"disk"``), a side (``"disk.outer"``) or a group, ascending: ``state.position[simulation.nodes("disk")]``."""
+        return node_numbers(self, where)
+
+    def set_velocity(self, where: Any, velocity: Any) -> None:
+        """Gives nodes other velocities at the present time, between two steps. What holds a node (a constraint, a symmetry) goes on to do so.
+
+        The change of kinetic energy is booked as work from outside. Nodes of rigid parts and joined nodes are refused: give them forces.
+
+        Parameters
+        ----------
+        where : str or array
+            Name of a part, side or group; or numbers of nodes, or a mask with a value for each node.
+        velocity : array
+            m/s; shape (dimension,) for all of them, or (nodes, dimension).
+        """
+        nodes = node_numbers(self, where)
+        values = vectors(velocity, len(nodes), self.dimension, "velocity", "m/s")
+        self._native.set_velocities(nodes.tobytes(), values.tobytes())
+
+    def set_force(self, where: Any, force: Any) -> None:
+        """Lets forces act on nodes besides the loads of the model, from the next step on until others are given for these nodes. Their work is booked as that of loads; :meth:`save` keeps them.
+
+        Parameters
+        ----------
+        where : str or array
+            As for :meth:`set_velocity`.
+        force : array or None
+            N (in the plane N per metre of depth); shape (dimension,) for the force on all of them together, in equal shares, or (nodes, dimension). None ends the forces.
+        """
+        nodes = node_numbers(self, where)
+        force = np.zeros(self.dimension) if force is None else force
+        values = vectors(force, len(nodes), self.dimension, "force", "N", is_shared=True)
+        self._native.set_forces(nodes.tobytes(), values.tobytes())
 
     @property
     def time(self) -> float:

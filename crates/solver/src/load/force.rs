@@ -7,6 +7,7 @@
 
 use super::curve::Curves;
 use super::tributary::{self, Depth, Tributary};
+use crate::archive::{Archive, Keep, Kept};
 use crate::error::Fault;
 use crate::mesh::surface::{Corners, Facet, Sided};
 use crate::mesh::{Mesh, Meshed};
@@ -23,6 +24,8 @@ where
     Dim<D>: Meshed<D>,
 {
     loads: Vec<Acting<D>>,
+    /// Forces that somebody gave while the simulation stood between two steps: nodes, ascending, and their forces, N/m.
+    pushes: Vec<(u32, [f64; D])>,
     /// Force on every node now, N/m; empty when the model has no such load.
     now: Vec<[f64; D]>,
     depth: Depth,
@@ -71,7 +74,7 @@ where
                 Err(fault) => faults.push(Fault { path: format!("load[{i}].on"), ..fault }),
             }
         }
-        if faults.is_empty() { Ok(Self { loads, now: Vec::new(), depth }) } else { Err(faults) }
+        if faults.is_empty() { Ok(Self { loads, pushes: Vec::new(), now: Vec::new(), depth }) } else { Err(faults) }
     }
 
     /// Whether the model has no such load.
@@ -82,7 +85,9 @@ where
 
     /// Takes their means between two times (s) at these positions (m).
     pub fn prepare(&mut self, curves: &Curves, [from, to]: [f64; 2], positions: &[[f64; D]]) {
-        if self.loads.is_empty() {
+        if self.loads.is_empty() && self.pushes.is_empty() {
+            // The last push may have ended.
+            self.now.clear();
             return;
         }
         self.now.clear();
@@ -105,10 +110,41 @@ where
                 }
             }
         }
+        for &(node, force) in &self.pushes {
+            let sum = &mut self.now[node as usize];
+            *sum = plus(*sum, force);
+        }
+    }
+
+    /// Lets these forces (N/m) act on nodes from the next update on, until others are given for them; a force of zero ends that of its node.
+    pub fn push(&mut self, given: impl IntoIterator<Item = (u32, [f64; D])>) {
+        for (node, force) in given {
+            match (self.pushes.binary_search_by_key(&node, |&(node, _)| node), force == [0.0; D]) {
+                (Ok(at), false) => self.pushes[at].1 = force,
+                (Ok(at), true) => drop(self.pushes.remove(at)),
+                (Err(at), false) => self.pushes.insert(at, (node, force)),
+                (Err(_), true) => {}
+            }
+        }
+    }
+
+    /// What was given so, in a kept state.
+    pub(crate) fn keep_pushes(&mut self, archive: &mut Archive<'_>) -> Kept {
+        let mut count = self.pushes.len();
+        count.keep(archive)?;
+        archive.check(count <= archive.nodes, "forces act on more nodes than there are")?;
+        self.pushes.resize(count, (0, [0.0; D]));
+        for (node, force) in &mut self.pushes {
+            node.keep(archive)?;
+            force.keep(archive)?;
+            archive.check((*node as usize) < archive.nodes, "a force acts on a node that is not there")?;
+        }
+        Ok(())
     }
 
     /// Leaves nodes without elements alone, and surfaces that are outside no more.
     pub fn renew(&mut self, is_free: impl Fn(u32) -> bool, is_outside: impl Fn(Facet<D>) -> bool) {
+        self.pushes.retain(|&(node, _)| !is_free(node));
         for load in &mut self.loads {
             match &mut load.what {
                 What::Given(forces) => forces.retain(|&(node, _)| !is_free(node)),

@@ -259,6 +259,7 @@ where
             let notices =
                 if over || course.stage == self.system.step { self.watch.look(&self.system, &self.shortest, over) } else { Vec::new() };
             if over {
+                self.pause(course);
                 return Ok(());
             }
             if course.stage == self.system.step && self.memory.is_due(self.system.step) {

@@ -39,7 +39,11 @@ where
         }
         let mut has_momentum = momentum.is_some();
         keep_each!(archive; &mut has_momentum);
-        archive.check(has_momentum == momentum.is_some(), "momentum is kept in one and not in the other")?;
+        archive.check(!has_momentum || momentum.is_some(), "momentum is kept in it and not in the model")?;
+        if !has_momentum {
+            // Somebody pushed the bodies.
+            *momentum = None;
+        }
         if let Some(momentum) = momentum {
             momentum.keep(archive)?;
         }

@@ -52,18 +52,19 @@ where
     Dim<D>: World<D>,
 {
     fn keep_system(&mut self, archive: &mut Archive<'_>) -> Kept {
-        // Nothing of these is state, or it is kept elsewhere below; loads, dampings and constraints are worked out from the time.
+        // Nothing of these is state, or it is kept elsewhere below; loads of the model, dampings and constraints are worked out from the time.
         #[rustfmt::skip]
         let Self {
             mesh: _, assembly: _, mass: _, body_parts: _, rigid: _, has_springs: _, shares: _, outlines: _, constraints: _, damping: _, body_forces: _,
-            forces: _, boundary: _, joins: _, level: _, team: _, of_revolution: _, slots: _, sums: _, groups: _, of_bodies: _, initial_penetrations: _,
+            boundary: _, joins: _, level: _, team: _, of_revolution: _, slots: _, sums: _, groups: _, of_bodies: _, initial_penetrations: _,
             mass_added: _, blocks: _, contacts: _, traces: _, positions: _, positions_old: _, velocities: _, velocities_old: _, contact_forces: _,
             springs: _, erosion: _,
             limits: Limits { end, safety: _, energy: _, step: _, largest: _, velocity: _, penetration: _ },
-            bodies, curves, step, time, time_step_old, time_step, governor, reports, ledger, penetration_max, speed, travel, relaxation,
+            bodies, curves, forces, step, time, time_step_old, time_step, governor, reports, ledger, penetration_max, speed, travel, relaxation,
         } = self;
         keep_each!(archive; step, time, time_step_old, time_step, governor, penetration_max, speed, travel);
         keep_each!(archive; ledger, bodies, curves, &mut reports[..]);
+        forces.keep_pushes(archive)?;
         let mut has_relaxation = relaxation.is_some();
         has_relaxation.keep(archive)?;
         archive.check(has_relaxation == relaxation.is_some(), "there is no relaxation")?;

@@ -59,6 +59,7 @@ mod self_contact;
 mod shocks;
 mod softening;
 mod space;
+mod steering;
 mod stress_states;
 mod symmetry_planes;
 mod swept;

@@ -1,0 +1,101 @@
+//! Changes between two steps, by whoever drives the simulation: other velocities, and forces besides those of the model.
+//!
+//! At the end of step n velocities are known at n − ½ and n + ½. A change Δv at n is added to both: what is shown at n is what was asked for, as if the steps until
+//! then had led to it. The books get the change of kinetic energy as work from outside, so that they close as without it (what friction and damping take in the half step that follows is booked by the
+//! velocities before). Nodes are named by the user's numbers, those of frames.
+
+use super::run::Run;
+use crate::error::{Fault, STEERING};
+use crate::record::velocity;
+use crate::tensor::Dim;
+use crate::vector::{dot, minus, plus, times};
+use crate::world::World;
+
+impl<const D: usize> Run<D>
+where
+    Dim<D>: World<D>,
+{
+    /// Nodes of a part, a side or a group by the user's numbers, ascending; `None`: there is no such thing.
+    pub(crate) fn nodes_of(&self, name: &str) -> Option<Vec<u32>> {
+        let user = &self.system.mesh.user_nodes;
+        let nodes = self.system.mesh.nodes(name)?;
+        let mut numbers: Vec<u32> = nodes.iter().filter_map(|&node| user.get(node as usize).copied()).collect();
+        numbers.sort_unstable();
+        Some(numbers)
+    }
+
+    /// Gives nodes these velocities at the present time, m/s; those that are held keep what is prescribed.
+    ///
+    /// # Errors
+    /// Nodes that are not there, or that something else leads; numbers that are none. Then nothing has changed.
+    pub(crate) fn set_velocities(&mut self, nodes: &[u32], velocities: &[f64]) -> Result<(), Fault> {
+        let given = self.vectors("velocity", nodes, velocities)?;
+        let system = &mut self.system;
+        for (&(node, _), user) in given.iter().zip(nodes) {
+            let led = if system.bodies.of_node(node).is_some() { "of a rigid part" } else { "joined to others" };
+            if system.bodies.of_node(node).is_some() || system.joins.of_node(node).is_some() {
+                return Err(refused(format!("node {user} is {led}: its velocity can't be set"), "give it a force, or let it be free"));
+            }
+        }
+        let (mut half, mut whole, mut ahead) = (0.0, 0.0, 0.0);
+        for (number, wanted) in given {
+            let node = number as usize;
+            let change = minus(wanted, velocity(system, node));
+            let old = system.velocities[node];
+            let free = plus(old, change);
+            let new = system.constraints.of(node).map_or(free, |held| held.apply(free));
+            let change = minus(new, old);
+            let (mass, before) = (system.mass[node], system.specific_kinetic(node));
+            system.velocities[node] = new;
+            system.velocities_old[node] = plus(system.velocities_old[node], change);
+            // Where the velocity update leads what nothing holds; elsewhere it is written before it is read.
+            system.positions_old[node] = plus(system.positions[node], times(system.time_step, new));
+            half += 0.5 * mass * (dot(new, new) - dot(old, old));
+            whole += mass * (system.specific_kinetic(node) - before);
+            let load = system.forces.now().get(node).map_or(0.0, |&load| dot(load, change));
+            let weight = system.body_forces.accelerations().get(node).map_or(0.0, |&g| mass * dot(g, change));
+            ahead += 0.5 * system.time_step * (load + weight);
+            system.speed = system.speed.max(dot(new, new).sqrt());
+        }
+        system.ledger.throw(half, whole, ahead);
+        // What comes from outside changes it.
+        self.momentum = None;
+        Ok(())
+    }
+
+    /// Lets these forces act on nodes from the next update on, N/m; zero ends what acted so.
+    ///
+    /// # Errors
+    /// Nodes that are not there, numbers that are none. Then nothing has changed.
+    pub(crate) fn set_forces(&mut self, nodes: &[u32], forces: &[f64]) -> Result<(), Fault> {
+        let given = self.vectors("force", nodes, forces)?;
+        self.system.forces.push(given);
+        self.momentum = None;
+        Ok(())
+    }
+
+    /// The system's nodes with their vectors.
+    fn vectors(&self, what: &str, nodes: &[u32], values: &[f64]) -> Result<Vec<(u32, [f64; D])>, Fault> {
+        let user = &self.system.mesh.user_nodes;
+        if values.len() != D * nodes.len() {
+            let message = format!("{} numbers of {what} are given for {} nodes", values.len(), nodes.len());
+            return Err(refused(message, &format!("a node has {D}")));
+        }
+        let mut numbers = vec![0; user.len()];
+        (0..).zip(user).for_each(|(node, &user)| numbers[user as usize] = node);
+        let of = |(&node, vector): (&u32, &[f64; D])| {
+            let Some(&number) = numbers.get(node as usize) else {
+                return Err(refused(format!("there is no node {node}"), &format!("nodes are numbered from 0 to {}", user.len() - 1)));
+            };
+            if vector.iter().all(|value| value.is_finite()) {
+                return Ok((number, *vector));
+            }
+            Err(refused(format!("the {what} of node {node} is no finite number"), "give finite numbers"))
+        };
+        nodes.iter().zip(values.as_chunks::<D>().0).map(of).collect()
+    }
+}
+
+fn refused(message: String, help: &str) -> Fault {
+    Fault::new(&STEERING, "", message, help)
+}

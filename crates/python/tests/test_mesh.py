@@ -141,3 +141,22 @@ def test_a_grid_of_pyvista_by_what_it_has() -> None:
     grid_ = Grid()
     model.part(name="a", mesh=grid_, group="a", material="steel").part(name="b", mesh=grid_, group="b", material="steel")
     assert len(model.simulation().cell_part) == 8
+
+
+def test_grids_go_to_pyvista_and_come_back() -> None:
+    pyvista = pytest.importorskip("pyvista")
+    points, quads = grid(4, 2, (0.02, 0.01))
+    flat = np.column_stack([points, np.zeros(len(points))])
+    surface = pyvista.PolyData(flat, np.column_stack([np.full(len(quads), 4), quads]).ravel())
+    simulation = body(surface).simulation().run()
+    shown = simulation.to_pyvista()
+    assert shown.n_cells == 8 and set(simulation.state.fields) & set(shown.cell_data.keys()) >= {"stress", "von_mises"}
+    np.testing.assert_array_equal(shown.cell_data["von_mises"], simulation.state.von_mises)
+    np.testing.assert_array_equal(np.asarray(shown.point_data["velocity"])[:, :2], simulation.state.velocity)
+    np.testing.assert_array_equal(np.asarray(shown.points)[:, :2], simulation.state.position)
+    np.testing.assert_array_equal(body(shown).simulation().cells["quad"], simulation.cells["quad"])
+    cube = pyvista.ImageData(dimensions=(3, 3, 3), spacing=(0.01, 0.01, 0.01)).cast_to_unstructured_grid()
+    assert cube.n_cells == 8
+    solid = embate.Model(name="c").run(end="1 us").material("steel", **STEEL).part(name="c", mesh=cube, material="steel", velocity=(0, 0, 1)).simulation()
+    assert solid.dimension == 3 and solid.cells["hexahedron"].shape == (8, 8)
+    assert solid.to_pyvista().volume == pytest.approx(8e-6)

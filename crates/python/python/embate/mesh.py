@@ -37,7 +37,9 @@ OTHER_NAMES = {
     "prism": "wedge",
 }
 #: Types of VTK cells.
-VTK = {1: "vertex", 3: "line", 5: "triangle", 9: "quad", 10: "tetra", 12: "hexahedron", 13: "wedge"}
+VTK = {1: "vertex", 3: "line", 5: "triangle", 8: "quad", 9: "quad", 10: "tetra", 11: "hexahedron", 12: "hexahedron", 13: "wedge"}
+#: Pixels and voxels count their nodes row by row, not around.
+ROWS = {8: [0, 1, 3, 2], 11: [0, 1, 3, 2, 4, 5, 7, 6]}
 
 
 class Mesh:
@@ -250,15 +252,17 @@ def _of_meshio(mesh: Any) -> Mesh:
 
 def _of_pyvista(grid: Any) -> Mesh:
     """Groups from the cell array ``group`` (texts or numbers), if there is one."""
-    types, offsets, connectivity = np.asarray(grid.celltypes), np.asarray(grid.offset), np.asarray(grid.cell_connectivity)
-    cells, order = {}, {}
-    for number in np.unique(types):
-        if int(number) not in VTK:
-            raise ValueError(f"mesh: VTK cells of type {int(number)} can't be computed; known are {', '.join(KINDS)}")
-        kind = VTK[int(number)]
-        which = np.flatnonzero(types == number)
-        cells[kind] = connectivity[offsets[which][:, None] + np.arange(KINDS[kind][1])]
-        order[kind] = which
+    offsets = grid.cell_offsets if hasattr(grid, "cell_offsets") else grid.offset
+    types, offsets, connectivity = np.asarray(grid.celltypes), np.asarray(offsets), np.asarray(grid.cell_connectivity)
+    found: dict[str, list[tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]]] = {}
+    for number in np.unique(types).tolist():
+        if number not in VTK:
+            raise ValueError(f"mesh: VTK cells of type {number} can't be computed; known are {', '.join(KINDS)}")
+        kind, which = VTK[number], np.flatnonzero(types == number)
+        nodes = connectivity[offsets[which][:, None] + np.asarray(ROWS.get(number, range(KINDS[kind][1])))]
+        found.setdefault(kind, []).append((nodes, which))
+    cells = {kind: np.concatenate([nodes for nodes, _ in blocks]) for kind, blocks in found.items()}
+    order = {kind: np.concatenate([which for _, which in blocks]) for kind, blocks in found.items()}
     groups = None
     names = grid.cell_data["group"] if "group" in grid.cell_data else None
     if names is not None:

@@ -210,4 +210,4 @@ def to_pyvista(simulation: Simulation) -> Any:
             grid.cell_data[name] = values
     grid.cell_data["part"] = simulation.cell_part
     alive = _alive(state, count)
-    return grid if alive.all() else grid.extract_cells(np.flatnonzero(alive))
+    return grid if alive.all() else grid.extract_cells(alive)

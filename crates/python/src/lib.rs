@@ -31,7 +31,7 @@ fn sections(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
     let of = |section: &embate_solver::model::describe::Section| {
         let form = match section.form {
             Form::Repeated => "list",
-            Form::Named { .. } => "named",
+            Form::Named => "named",
             _ => "table",
         };
         let dict = PyDict::new(py);

@@ -162,10 +162,12 @@ impl Checkpoint {
     /// [`CheckpointError::File`].
     pub fn write_file(&self, path: &Path, threads: &Threads) -> Result<(), CheckpointError> {
         let part = part_path(path);
-        self.write_to(&part, threads).and_then(|()| fs::rename(&part, path)).map_err(CheckpointError::file("write", path)).inspect_err(|_| {
-            // Room for what is more urgent; the first error is the one that matters.
-            let _ = fs::remove_file(&part);
-        })
+        self.write_to(&part, threads).and_then(|()| fs::rename(&part, path)).map_err(CheckpointError::file("write", path)).inspect_err(
+            |_| {
+                // Room for what is more urgent; the first error is the one that matters.
+                let _ = fs::remove_file(&part);
+            },
+        )
     }
 
     fn write_to(&self, path: &Path, threads: &Threads) -> io::Result<()> {

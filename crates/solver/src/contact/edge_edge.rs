@@ -268,7 +268,8 @@ impl EdgeTracker {
             for touch in found.iter().filter(|touch| turn_of(touch) == turn) {
                 let mut lines = self.beside(touch, around);
                 let is_held = |other: usize| taken[other] && dot(self.pairs[other].memory.normal, touch.crossing.normal) > STRAIGHT;
-                let is_free = turn == 0 || lines.all(|other| !taken[other]) && (turn == 2 || !self.come_from(touch.edges, around).any(is_held));
+                let is_free =
+                    turn == 0 || lines.all(|other| !taken[other]) && (turn == 2 || !self.come_from(touch.edges, around).any(is_held));
                 taken[touch.pair as usize] = is_free;
             }
         }
@@ -330,7 +331,8 @@ impl EdgeTracker {
             let is_turned = self.sides[0] == self.sides[1] && pair[0] > pair[1];
             let (sorted, at) = if is_turned { ([pair[1], pair[0]], 1 - of) } else { (pair, of) };
             let found = self.pairs.binary_search_by_key(&sorted, |pair| pair.edges).ok().filter(|&found| self.pairs[found].touches)?;
-            let placed = [0, 1].map(|of| Placed { surface: &around.surfaces[self.sides[of]], positions: around.sweep.new }.edge(sorted[of]));
+            let placed =
+                [0, 1].map(|of| Placed { surface: &around.surfaces[self.sides[of]], positions: around.sweep.new }.edge(sorted[of]));
             let along = crossing(placed[0], placed[1])?.along[at];
             let is_beyond = if nodes(of, edge)[0] == node { along < 0.0 } else { along > 1.0 };
             is_beyond.then_some(found)

@@ -247,14 +247,7 @@ impl NodeFacet {
     }
 
     /// The same with slip, rims and gaps that jump: by what its gap was moved, m.
-    fn push_whole(
-        &self,
-        touch: &Touch,
-        memory: &Memory,
-        spring: Spring<3>,
-        scene: &Scene<'_, 3>,
-        springs: &mut Springs<3>,
-    ) -> f64 {
+    fn push_whole(&self, touch: &Touch, memory: &Memory, spring: Spring<3>, scene: &Scene<'_, 3>, springs: &mut Springs<3>) -> f64 {
         let Projection { normal, facet, .. } = touch.projection;
         let placed = Placed { surface: self.tracker.target(touch.pass), positions: scene.sweep.new };
         if !self.slips {

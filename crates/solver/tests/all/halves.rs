@@ -140,13 +140,10 @@ fn squeezed_ball(low: f64, interface: Interface) -> Model {
         *model.meshes.last_mut().unwrap() = Arc::new(mesh);
     };
     add("ball", [size, size, 2.0], [cells, cells, 4], [middle, middle, 0.0], 0.0, &rounded);
-    let wide =
-        |name: &str, z: f64, velocity: f64, add: &mut dyn FnMut(&str, Vector, [usize; 3], Vector, f64, &dyn Fn(Vector) -> Vector)| {
-            let cells = if low < 0.0 { 6 } else { 3 };
-            add(name, [size, size, 0.5], [cells, cells, 2], [middle, middle, z], velocity, &|[x, y, z]| [2.0 * x, 2.0 * y, z]);
-        };
-    wide("upper", 1.6, -8.0, &mut add);
-    wide("lower", -1.7, 6.0, &mut add);
+    for (name, z, velocity) in [("upper", 1.6, -8.0), ("lower", -1.7, 6.0)] {
+        let cells = if low < 0.0 { 6 } else { 3 };
+        add(name, [size, size, 0.5], [cells, cells, 2], [middle, middle, z], velocity, &|[x, y, z]| [2.0 * x, 2.0 * y, z]);
+    }
     // Slabs that stay flat, and the ball's nodes alone: on the planes nodes lie over edges of the other body, and of two facets that lean there rounding would say which is the nearer one.
     for (slab, velocity) in [("upper", -8.0), ("lower", 6.0)] {
         let held = Some(Drive::from(0.0));

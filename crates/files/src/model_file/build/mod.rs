@@ -8,12 +8,12 @@ mod discrete;
 mod load;
 mod motion;
 
+use super::GivenMeshes;
 use super::diagnostics::Faults;
 use super::reader::{Document, Record};
 use super::tree::Place;
 use super::units::shorten;
 use super::value::Datum;
-use super::GivenMeshes;
 use crate::gmsh::messages::MESH_FILE;
 use crate::reach::{Bounds, Reach};
 use crate::{abaqus, gmsh, stl};

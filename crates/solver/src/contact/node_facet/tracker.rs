@@ -71,17 +71,7 @@ pub struct Memory {
 impl Default for Memory {
     fn default() -> Self {
         let none = [0.0; 3];
-        Self {
-            slip: none,
-            facet: NONE,
-            offset: 0.0,
-            half: 0.0,
-            normal: none,
-            carried: 0.0,
-            stored: 0.0,
-            side: none,
-            is_led: false,
-        }
+        Self { slip: none, facet: NONE, offset: 0.0, half: 0.0, normal: none, carried: 0.0, stored: 0.0, side: none, is_led: false }
     }
 }
 

@@ -125,7 +125,11 @@ impl Check<'_> {
         if !part.is_of_bars() {
             if part.area.is_some() {
                 let of_space = self.model.dimension_of(part) == 3;
-                let help = if of_space { "leave it out, or take `space_truss` with `element = \"bar2\"`" } else { "leave it out, or take `element = \"bar2\"`" };
+                let help = if of_space {
+                    "leave it out, or take `space_truss` with `element = \"bar2\"`"
+                } else {
+                    "leave it out, or take `element = \"bar2\"`"
+                };
                 self.fault(&BARS, area, "`area` is the cross-section of bars, but the part has none", help);
             }
             return;

@@ -17,7 +17,10 @@ def body(mesh: object, **keys: object) -> embate.Model:
 
 def test_arrays_in_all_their_forms_are_the_same_mesh() -> None:
     points, quads = grid(5, 3, (0.02, 0.01))
+    read_only = points.copy()
+    read_only.setflags(write=False)
     forms = [
+        (read_only, quads),
         (points, quads),
         (points.tolist(), quads.tolist()),
         (np.asfortranarray(points), np.asfortranarray(quads.astype(np.uint16))),

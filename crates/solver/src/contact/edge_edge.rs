@@ -508,13 +508,13 @@ struct Listed {
     class: u64,
 }
 
-/// The ridges of a surface, ascending.
+/// The ridges of a surface, ascending, with those edges that may become some until the next search: an edge that a blow folds would be found when it is inside already.
 fn ridges(surface: &SpaceSurface, positions: &[Vector]) -> Vec<Listed> {
     let placed = Placed { surface, positions };
     let listed = |number: u32| {
         let [a, b] = placed.edge(number);
         let length = length(minus(b, a));
-        placed.ridge(number).filter(|ridge| ridge.is_sharp() && length.is_finite()).map(|_| Listed {
+        placed.ridge(number).filter(|ridge| ridge.may_be_sharp() && length.is_finite()).map(|_| Listed {
             number,
             length,
             class: length.to_bits() >> 52,

@@ -13,6 +13,8 @@ use crate::vector::minus;
 
 /// Cosine of the angle between the facets of an edge below which it is a ridge (20 degrees): what nodes alone miss of flatter ones is less than 5 % of their length.
 const SHARP: f64 = 0.94;
+/// The same of one that may become a ridge while its nodes go as far as they may until the next search (10 degrees).
+const BLUNT: f64 = 0.985;
 /// Sine of the angle between edges below which they do not cross.
 const PARALLEL: f64 = 0.1;
 
@@ -34,6 +36,12 @@ impl Ridge {
     #[must_use]
     pub fn is_sharp(&self) -> bool {
         self.cosine < SHARP
+    }
+
+    /// Whether it folds enough to count, or may soon.
+    #[must_use]
+    pub fn may_be_sharp(&self) -> bool {
+        self.cosine < BLUNT
     }
 
     /// How well a direction leaves the body there: 1 half way between the facets' normals, 0 along one of them, negative beyond.

@@ -22,6 +22,12 @@ pub(crate) struct Entry {
 }
 
 impl Entry {
+    /// What goes wrong in a run or with files: it has no place in a model.
+    pub(crate) fn of_kind(kind: &Message, text: &impl ToString) -> Self {
+        Self::of(kind, "", 0, &text.to_string(), "")
+    }
+
+    /// Without a help of its own the kind's cure tells what to do.
     fn of(kind: &Message, path: &str, line: usize, message: &str, help: &str) -> Self {
         let help = if help.is_empty() { kind.cure } else { help };
         Self { code: kind.code.into(), path: path.into(), line, message: message.into(), help: help.into() }
@@ -93,7 +99,7 @@ pub(crate) fn of_error(error: &Error) -> PyErr {
     match error {
         Error::Model(faults) => of_faults(faults),
         other => {
-            let entries = other.kind().map(|kind| Entry::of(kind, "", 0, &other.to_string(), kind.cure));
+            let entries = other.kind().map(|kind| Entry::of_kind(kind, other));
             raise(Class::Run, &other.with_code(), entries.as_slice())
         }
     }
@@ -117,12 +123,16 @@ pub(crate) fn of_change(fault: &Fault) -> PyErr {
 
 /// Of files of results.
 pub(crate) fn of_results(error: &ResultsError) -> PyErr {
-    raise(Class::File, &format!("{}: {error}", error.kind()), &[Entry::of(error.kind(), "", 0, &error.to_string(), error.kind().cure)])
+    of_files(error.kind(), error)
 }
 
 /// Of checkpoints.
 pub(crate) fn of_checkpoint(error: &CheckpointError) -> PyErr {
-    raise(Class::File, &format!("{}: {error}", error.kind()), &[Entry::of(error.kind(), "", 0, &error.to_string(), error.kind().cure)])
+    of_files(error.kind(), error)
+}
+
+fn of_files(kind: &Message, error: &impl ToString) -> PyErr {
+    raise(Class::File, &format!("{kind}: {}", error.to_string()), &[Entry::of_kind(kind, error)])
 }
 
 /// Does something; a panic becomes an exception.

@@ -49,7 +49,7 @@ struct Inner {
 #[derive(Default)]
 struct History {
     rows: Vec<f64>,
-    /// Rows of the run, not those of pieces that were read from a file.
+    /// What the user should know, since it was asked for last.
     notices: Vec<Entry>,
 }
 
@@ -96,14 +96,7 @@ impl Observer for Ears<'_> {
     }
 
     fn progress(&mut self, progress: &Progress<'_>) -> Control {
-        let of = |notice: &embate_solver::error::Notice| Entry {
-            code: notice.kind.code.into(),
-            path: String::new(),
-            line: 0,
-            message: notice.text.clone(),
-            help: notice.kind.cure.into(),
-        };
-        self.history.notices.extend(progress.notices.iter().map(of));
+        self.history.notices.extend(progress.notices.iter().map(|notice| Entry::of_kind(notice.kind, &notice.text)));
         self.recorder.as_mut().map_or(Control::Continue, |recorder| recorder.progress(progress))
     }
 }
@@ -363,32 +356,6 @@ impl Simulation {
     /// Values of the history's columns now.
     fn row(&self) -> PyResult<Vec<f64>> {
         self.with(|inner| Ok(inner.simulation.history_row()))
-    }
-
-    /// Energies and works so far, by name.
-    fn energy<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        self.with(|inner| {
-            let ledger = inner.simulation.ledger();
-            let stores = &ledger.stores;
-            let dict = PyDict::new(py);
-            let energies = [
-                ("kinetic", stores.kinetic),
-                ("internal", stores.elastic + stores.plastic),
-                ("plastic", stores.plastic),
-                ("hourglass", stores.hourglass),
-                ("bulk_viscosity", stores.bulk_viscosity),
-                ("contact", stores.contact),
-                ("friction", stores.friction),
-                ("contact_damping", stores.contact_damping),
-                ("damping", stores.damping),
-                ("eroded", stores.eroded),
-                ("total", stores.total() - ledger.external),
-                ("external", ledger.external),
-                ("drift", ledger.drift()),
-            ];
-            energies.into_iter().try_for_each(|(name, value)| dict.set_item(name, value))?;
-            Ok(dict)
-        })
     }
 
     /// What `summary.json` would say now, without times of the wall.

@@ -83,7 +83,7 @@ def test_the_energy_is_kept(model: embate.Model) -> None:
 @pytest.mark.parametrize("kind", ["dict", "file"])
 def test_a_saved_state_goes_on_with_the_same_bits(tmp_path: Path, model: embate.Model, kind: str) -> None:
     if kind == "file":
-        model = embate.Model(model.save(tmp_path / "model"))
+        model = embate.Model(model.save(tmp_path / "model"), set={"run.safety": 0.8})
     whole = model.simulation().run()
     half = model.simulation().run(17e-6)
     saved = half.save(tmp_path / "half.embate")
@@ -95,6 +95,7 @@ def test_a_saved_state_goes_on_with_the_same_bits(tmp_path: Path, model: embate.
     for name in whole.history:
         np.testing.assert_array_equal(again.history[name], whole.history[name], err_msg=name)
     path = again.checkpoint(tmp_path / "states")
+    assert embate.load(path).hash() == whole.hash()
     assert path.name == f"{again.steps:012}.embate" and path.exists()
     (tmp_path / "damaged").write_bytes(saved.read_bytes()[:200])
     with pytest.raises(embate.FileError, match="damaged"):

@@ -60,6 +60,8 @@ class Model:
         self._sections: dict[str, Any] = {}
         self._meshes: dict[int, tuple[str, Mesh]] | None = None
         self._set: dict[str, Any] = dict(set or {})
+        #: The same as texts, of a model that was saved with them; they come first.
+        self._saved_set: list[str] = []
         self._name = name
         self._folder = Path(folder) if folder is not None else None
         self._allow_outside = bool(allow_outside)
@@ -110,10 +112,7 @@ class Model:
 
     def to_toml(self) -> str:
         """The text of the model file. Meshes of arrays are named in it by what :meth:`save` would call their files; changes by ``set`` are not in it."""
-        if self._path is not None:
-            file = self._path / "model.toml" if self._path.is_dir() else self._path
-            return file.read_text(encoding="utf-8")
-        return self._text()[0]
+        return self._files()[0]
 
     def save(self, path: str | PathLike[str]) -> Path:
         """Writes the model file, with meshes of arrays as .msh files beside it; the command ``embate run`` computes it as it is here.
@@ -124,20 +123,23 @@ class Model:
         if file.is_dir() or not file.suffix:
             file.mkdir(parents=True, exist_ok=True)
             file = file / "model.toml"
-        if self._path is not None:
-            text = self.to_toml()
-            meshes: dict[str, bytes] = {}
-        else:
-            text, meshes = self._text()
-        if self._set:
+        text, meshes = self._files()
+        if self._overrides():
             raise ValueError("save: keys changed by set are not written into files; give them as sections")
         for name, data in meshes.items():
             (file.parent / name).write_bytes(data)
         file.write_text(text, encoding="utf-8")
         return file
 
+    def _files(self) -> tuple[str, dict[str, bytes]]:
+        """The text of the model file, and the meshes of arrays that it names."""
+        if self._path is None:
+            return self._text()
+        file = self._path / "model.toml" if self._path.is_dir() else self._path
+        return file.read_text(encoding="utf-8"), {}
+
     def _text(self) -> tuple[str, dict[str, bytes]]:
-        """The text, and the meshes that it names."""
+        """The same of a model that is not from a file."""
         meshes: dict[str, bytes] = {}
         known: dict[int, tuple[str, Mesh]] = {}
         sections = dict(self._sections)
@@ -154,7 +156,7 @@ class Model:
         return self._meshes or {}
 
     def _overrides(self) -> list[str]:
-        return [f"{key}={toml.value(value, key)}" for key, value in self._set.items()]
+        return self._saved_set + [f"{key}={toml.value(value, key)}" for key, value in self._set.items()]
 
     def _native(self) -> _embate.Model:
         if self._read is None:

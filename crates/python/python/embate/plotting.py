@@ -52,7 +52,7 @@ def plot(
     import matplotlib.pyplot as plt
     from matplotlib.collections import LineCollection, PolyCollection
 
-    state, cells, index, parts = simulation.state, simulation.cells, simulation.cell_index, simulation.cell_part
+    state, (cells, index, parts) = simulation.state, simulation._layout()
     is_solid = simulation.dimension == 3
     if ax is None:
         _, ax = plt.subplots(subplot_kw={"projection": "3d"} if is_solid else {}, layout="constrained")
@@ -193,13 +193,14 @@ def to_pyvista(simulation: Simulation) -> Any:
     points = state.position
     if points.shape[1] == 2:
         points = np.column_stack([points, np.zeros(len(points))])
-    count = len(simulation.cell_part)
+    cells, index, parts = simulation._layout()
+    count = len(parts)
     rows: list[Any] = [None] * count
     kinds = np.empty(count, np.uint8)
-    for kind, nodes in simulation.cells.items():
-        for cell, own in zip(simulation.cell_index[kind], nodes):
+    for kind, nodes in cells.items():
+        for cell, own in zip(index[kind], nodes):
             rows[cell] = own
-        kinds[simulation.cell_index[kind]] = VTK[kind]
+        kinds[index[kind]] = VTK[kind]
     flat = np.concatenate([np.concatenate([[len(row)], row]) for row in rows]) if rows else np.zeros(0, np.int64)
     grid = pyvista.UnstructuredGrid(flat.astype(np.int64), kinds, np.ascontiguousarray(points))
     for name, about in state.fields.items():
@@ -208,6 +209,6 @@ def to_pyvista(simulation: Simulation) -> Any:
             grid.point_data[name] = np.column_stack([values, np.zeros(len(values))]) if values.ndim == 2 and values.shape[1] == 2 else values
         elif len(values) == count:
             grid.cell_data[name] = values
-    grid.cell_data["part"] = simulation.cell_part
+    grid.cell_data["part"] = parts
     alive = _alive(state, count)
     return grid if alive.all() else grid.extract_cells(alive)

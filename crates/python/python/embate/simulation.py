@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 
 from . import _embate
+from ._saved import SavedModel
 from .control import node_numbers, vectors
 from .errors import FileError, StateError
 from .errors import Warning as EmbateWarning
@@ -27,6 +28,8 @@ from .model import Model
 _PAUSE = 0.1
 _ALL = 2**63 - 1
 _FORMAT = 1
+#: Nodes of the cells and their places in fields, by kind; part of each cell.
+_Layout = tuple[dict[str, np.ndarray[Any, Any]], dict[str, np.ndarray[Any, Any]], np.ndarray[Any, Any]]
 
 
 class State:
@@ -287,7 +290,9 @@ class Simulation:
     @property
     def energy(self) -> dict[str, float]:
         """Energies by the names of the history (J, in the plane J per metre of depth), ``total`` is less the work from outside (``external``), so that it stays; and ``drift``, a fraction of the largest total energy."""
-        return self._native.energy()
+        row = zip(self._native.columns(), self._native.row())
+        energies = {name.removeprefix("energy."): value for name, value in row if name.startswith("energy.") and "[" not in name}
+        return {**energies, "drift": self._native.clock()[4]}
 
     @property
     def history(self) -> History:
@@ -308,17 +313,21 @@ class Simulation:
     @property
     def cells(self) -> dict[str, np.ndarray[Any, Any]]:
         """Nodes of the cells by kind (``quad``, ``hexahedron`` …), in the order of :attr:`cell_index`."""
-        return _cells(self._native)[0]
+        return self._layout()[0]
 
     @property
     def cell_index(self) -> dict[str, np.ndarray[Any, Any]]:
         """Where the cells of each kind are in fields of cells."""
-        return _cells(self._native)[1]
+        return self._layout()[1]
 
     @property
     def cell_part(self) -> np.ndarray[Any, Any]:
         """Name of the part of each cell."""
-        return _cells(self._native)[2]
+        return self._layout()[2]
+
+    def _layout(self) -> _Layout:
+        """All three at once: the solver makes them anew each time."""
+        return _cells(self._native)
 
     def node_numbers(self, mesh: Any) -> np.ndarray[Any, Any]:
         """Where the points of a part's mesh are among the nodes of the state: ``state.position[numbers]`` are in the order of the points.
@@ -344,7 +353,7 @@ class Simulation:
         """Writes model, state and history into one file, from which :func:`embate.load` goes on with the same bits."""
         path = Path(fspath(path))
         model = self.model
-        text, meshes = (model.to_toml(), {}) if model._path is not None else model._text()
+        text, meshes = model._files()
         head = {
             "format": _FORMAT,
             "version": _embate.__version__,
@@ -415,16 +424,12 @@ def load(path: str | PathLike[str], *, threads: int = 0, instruction_set: str | 
             head = json.loads(archive.read("head.json"))
             if head.get("format") != _FORMAT or head.get("version") != _embate.__version__:
                 raise FileError(f"{path} was written by embate {head.get('version')}, this is {_embate.__version__}: run the model again, or use that version")
-            model = Model(name=head["name"], folder=head["folder"], allow_outside=head["allow_outside"])
-            text = archive.read("model.toml").decode()
-            meshes = {name[5:]: archive.read(name) for name in archive.namelist() if name.startswith("mesh/")}
             if head["path"] is not None:
                 model = Model(head["path"], allow_outside=head["allow_outside"])
-                model._read = _embate.Model.from_file(head["path"], head["set"], head["allow_outside"])
             else:
-                from ._saved import SavedModel
-
-                model = SavedModel(head, text, meshes)
+                meshes = {name[5:]: archive.read(name) for name in archive.namelist() if name.startswith("mesh/")}
+                model = SavedModel(head, archive.read("model.toml").decode(), meshes)
+            model._saved_set = head["set"]
             rows = np.frombuffer(archive.read("history.f64"), np.float64).tolist()
             state = Path(archive.extract("state.embate", folder))
             native = _embate.Simulation.resumed(model._native(), state, rows, _count(threads, "threads"), instruction_set)
@@ -460,7 +465,7 @@ def _fields(dimension: int) -> dict[str, dict[str, Any]]:
     }
 
 
-def _cells(native: Any) -> tuple[dict[str, np.ndarray[Any, Any]], dict[str, np.ndarray[Any, Any]], np.ndarray[Any, Any]]:
+def _cells(native: Any) -> _Layout:
     nodes, offsets, kinds, parts, names = native.cells()
     nodes, offsets = np.frombuffer(nodes, np.uint32), np.frombuffer(offsets, np.uint32).astype(np.int64)
     kinds = np.asarray(kinds)

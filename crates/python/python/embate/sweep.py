@@ -17,7 +17,8 @@ FIGURES = ("steps", "time_end", "stable_time_step_min", "energy_drift", "penetra
 
 def figures(simulation: Simulation) -> dict[str, Any]:
     """What a table has where no ``measure`` is given: figures of the summary, and largest and last value of each column of the history."""
-    found: dict[str, Any] = {name: simulation.summary[name] for name in FIGURES}
+    summary = simulation.summary
+    found: dict[str, Any] = {name: summary[name] for name in FIGURES}
     for name, values in simulation.history.items():
         if name != "time" and len(values):
             found[f"{name}.max"], found[f"{name}.end"] = float(abs(values).max()), float(values[-1])

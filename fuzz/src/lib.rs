@@ -24,6 +24,11 @@ pub fn state() -> Target {
     by_changes(targets::state())
 }
 
+/// A field file.
+pub fn fields() -> Target {
+    by_changes(targets::fields())
+}
+
 /// The file of a checkpoint with its check sums set right.
 pub fn checkpoint() -> Target {
     by_changes(targets::checkpoint())

@@ -20,12 +20,15 @@ mod numbers;
 mod progress;
 mod recording;
 mod replay;
+mod report;
 mod resume;
 mod run;
 mod schema;
 mod sweep;
 mod terminal;
 mod verify;
+mod view;
+mod watch;
 
 use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
@@ -48,8 +51,12 @@ enum Command {
     Resume(resume::Arguments),
     /// Go through a stretch of a run once more, with denser output
     Replay(replay::Arguments),
+    /// Look at results in the browser, or at two runs side by side
+    View(view::Arguments),
     /// Tell the first step, part and node at which two runs part
     Diff(diff::Arguments),
+    /// Write what a run left as one HTML file that can be sent away
+    Report(report::Arguments),
     /// Run a model with many values, one run on each core, and write one table
     Sweep(sweep::Arguments),
     /// Look at a model without running it: parts, masses, stable step, probes, penetrations, a picture
@@ -133,7 +140,9 @@ fn obey(command: &Command) -> Result<(), Failure> {
         Command::Run(arguments) => run::run(arguments),
         Command::Resume(arguments) => resume::resume(arguments),
         Command::Replay(arguments) => replay::replay(arguments),
+        Command::View(arguments) => view::view(arguments),
         Command::Diff(arguments) => diff::diff(arguments),
+        Command::Report(arguments) => report::report(arguments),
         Command::Sweep(arguments) => sweep::sweep(arguments),
         Command::Check(arguments) => check::check(arguments),
         Command::List(arguments) => list::list(arguments),

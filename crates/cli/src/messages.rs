@@ -14,6 +14,7 @@ pub(crate) static MESSAGES: &[&Message] = &[
     &CHECKS_FAILED,
     &IGNORED,
     &NOT_AGAIN,
+    &NO_PAGE,
 ];
 
 pub(crate) static USAGE: Message = Message {
@@ -112,4 +113,12 @@ pub(crate) static IGNORED: Message = Message {
     ),
     cause: "Something of the deck does not act in the model; import.txt says what.",
     cure: "Read import.txt, and add to the model what is missing.",
+};
+
+pub(crate) static NO_PAGE: Message = Message {
+    code: "E0821",
+    title: "the page can't be shown",
+    example: Example::Shell("embate run model.toml --out out --quiet\nembate view out --no-open --token short\n"),
+    cause: "The port is taken by another program, the address is not one of this machine, or the token is too short.",
+    cure: "Leave out --port, --listen and --token: a free port of this machine and a token that nobody can guess are taken.",
 };

@@ -4,6 +4,7 @@ use crate::complaint::Complaint;
 use crate::interrupt::Interrupt;
 use crate::numbers::{grouped, per_cent, table, with_unit};
 use crate::progress::Display;
+use crate::watch::Watched;
 use crate::{Failure, cpu, terminal};
 use clap::Args;
 use embate_files::checkpoint::messages::LAST_GOOD;
@@ -13,6 +14,7 @@ use embate_files::results::messages::NO_POST_MORTEM;
 use embate_files::results::{OnProgress, Recorder, Report, ResultsError, RunStatus};
 use embate_solver::error::Error;
 use embate_solver::simulation::{ContactSearch, Control, Observer, Options, Progress, Simulation};
+use embate_viewer::Tap;
 use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -59,6 +61,8 @@ pub(crate) struct Recording<'r> {
     pub(crate) keeps_last_good: bool,
     pub(crate) manner: &'r Manner,
     pub(crate) is_verbose: bool,
+    /// Of a run that is shown in the browser.
+    pub(crate) watched: Option<Watched>,
 }
 
 impl<'r> Recording<'r> {
@@ -66,7 +70,7 @@ impl<'r> Recording<'r> {
     pub(crate) fn of(loaded: &'r Loaded, path: &'r Path, manner: &'r Manner, is_verbose: bool) -> Self {
         let run = &loaded.model.run;
         let keeps_last_good = run.checkpoint.is_some() || run.checkpoint_steps.is_some();
-        Self { loaded, path, checkpoints: path, keeps_last_good, manner, is_verbose }
+        Self { loaded, path, checkpoints: path, keeps_last_good, manner, is_verbose, watched: None }
     }
 }
 
@@ -80,12 +84,12 @@ pub(crate) fn in_the_way(error: ResultsError) -> Failure {
 
 /// Runs a simulation by `go` and records it by what `make` makes, to the last word.
 pub(crate) fn record<'a>(
-    recording: &Recording<'_>,
+    recording: Recording<'_>,
     simulation: &mut Simulation,
     make: impl FnOnce(&Simulation, OnProgress<'a>) -> Result<Recorder<'a>, ResultsError>,
     go: impl FnOnce(&mut Simulation, &mut dyn Observer) -> Result<(), Error>,
 ) -> Result<(), Failure> {
-    let Recording { path, manner, .. } = *recording;
+    let Recording { path, manner, ref watched, .. } = recording;
     let interrupt = Interrupt::watch();
     let display = Arc::new(Mutex::new(Display::new(manner.quiet)));
     let told = Arc::new(Mutex::new(Vec::new()));
@@ -108,14 +112,17 @@ pub(crate) fn record<'a>(
     };
     let mut recorder = make(simulation, Box::new(on_progress)).map_err(in_the_way)?;
     simulation.keep_states_in(ROOM);
-    let ran = go(simulation, &mut recorder);
+    let ran = match watched {
+        Some(Watched { live, .. }) => go(simulation, &mut Tap::new(&mut recorder, live.clone(), || interrupt.is_pressed())),
+        None => go(simulation, &mut recorder),
+    };
     let mut told_late = Vec::new();
     if let Err(error) = &ran
         && !matches!(error, Error::Output(_) | Error::State(_))
         && !interrupt.is_pressed()
     {
         of(&display).say("the run failed; going once more to its last steps, to see how it came (Ctrl-C: not)");
-        told_late = look_into(recording, simulation, error, &interrupt, &mut recorder);
+        told_late = look_into(&recording, simulation, error, &interrupt, &mut recorder);
     }
     let outcome = recorder.finish(ran.as_ref().err().map(Error::with_code), &simulation.summary(), cpu::user_seconds);
     if let Some(display) = Arc::into_inner(display) {
@@ -123,6 +130,9 @@ pub(crate) fn record<'a>(
     }
     // What went wrong first is what matters.
     let unwritten = outcome.unwritten.map_or(Ok(()), |error| Err(Complaint::new(error.kind(), error)));
+    if let Some(watched) = watched {
+        watched.end(&outcome.report);
+    }
     let result = ran.map_err(|error| Complaint::from(&error)).and(unwritten);
     let report = outcome.report;
     told_late.iter().for_each(|complaint| terminal::complain(&complaint.to_string()));
@@ -133,14 +143,20 @@ pub(crate) fn record<'a>(
         let of_run = of_run.filter(|notice| !told.iter().any(|text: &String| notice.text.starts_with(text)));
         of_run.for_each(|notice| terminal::complain(&Complaint::from(notice).to_string()));
     }
-    result.map_err(|complaint| Failure::Run(with_results(complaint, path)))?;
-    if !manner.quiet {
-        terminal::print(&closing_text(&report, path))?;
+    let is_stopped = interrupt.is_pressed() || watched.as_ref().is_some_and(|watched| watched.live.is_stopped());
+    let result = result.map_err(|complaint| Failure::Run(with_results(complaint, path))).and_then(|()| {
+        if !manner.quiet {
+            terminal::print(&closing_text(&report, path))?;
+        }
+        if recording.is_verbose {
+            terminal::print(&search_text(&simulation.searches()))?;
+        }
+        if is_stopped && report.status == RunStatus::Stopped { Err(Failure::Interrupted) } else { Ok(()) }
+    });
+    if let Some(watched) = recording.watched {
+        watched.close(&interrupt);
     }
-    if recording.is_verbose {
-        terminal::print(&search_text(&simulation.searches()))?;
-    }
-    if interrupt.is_pressed() && report.status == RunStatus::Stopped { Err(Failure::Interrupted) } else { Ok(()) }
+    result
 }
 
 /// What only one thread ever asks for.

@@ -72,7 +72,7 @@ pub(crate) fn replay(arguments: &Arguments) -> Result<(), Failure> {
     };
     let window = |simulation: &mut Simulation, observer: &mut dyn Observer| simulation.run_window([from, to], output_every, observer);
     let of_run = Recording::of(&loaded, &path, &arguments.manner, false);
-    recording::record(&Recording { checkpoints: &arguments.folder, keeps_last_good: false, ..of_run }, &mut simulation, make, window)
+    recording::record(Recording { checkpoints: &arguments.folder, keeps_last_good: false, ..of_run }, &mut simulation, make, window)
 }
 
 /// Where the model of a run came from, and its newest checkpoint that is not after a time; without one the run begins anew.

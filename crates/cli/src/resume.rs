@@ -4,6 +4,7 @@ use crate::complaint::Complaint;
 use crate::input::{self, Leave, ModelArguments, key_and_value};
 use crate::messages::USAGE;
 use crate::recording::{self, Manner, Recording};
+use crate::watch::Watching;
 use crate::{Failure, terminal};
 use clap::Args;
 use embate_files::checkpoint::messages::{MODEL_CHANGED, NO_CHECKPOINT, OLDER};
@@ -34,6 +35,8 @@ pub(crate) struct Arguments {
     /// How contact was searched, besides the summary
     #[arg(long, short, conflicts_with = "quiet")]
     verbose: bool,
+    #[command(flatten)]
+    watching: Watching,
 }
 
 /// Where the model is now. Leave to read outside of its folder is asked for again: a checkpoint may come from somebody else.
@@ -86,13 +89,15 @@ pub(crate) fn resume(arguments: &Arguments) -> Result<(), Failure> {
     if !arguments.manner.quiet {
         terminal::complain(&format!("going on from step {} at {:.6e} s", past.state.step, past.state.time));
     }
+    let watched = arguments.watching.begin(model, &simulation, path)?;
     let frame = simulation.frame();
     let make = |simulation: &Simulation, on_progress| {
         let shown = (simulation.cells(), &frame);
         let checkpoints = Checkpoints::of(model, origin);
         Recorder::reopen(path, (model, &past), simulation.history_columns(), shown, options.thread_count(), checkpoints, on_progress)
     };
-    recording::record(&Recording::of(&loaded, path, &arguments.manner, arguments.verbose), &mut simulation, make, Simulation::run)
+    let recording = Recording { watched, ..Recording::of(&loaded, path, &arguments.manner, arguments.verbose) };
+    recording::record(recording, &mut simulation, make, Simulation::run)
 }
 
 /// The newest sound checkpoint of a run; what is wrong with newer ones is told.

@@ -4,6 +4,7 @@ use crate::Failure;
 use crate::complaint::Complaint;
 use crate::input::{self, ModelArguments};
 use crate::recording::{self, Manner, Recording, in_the_way};
+use crate::watch::Watching;
 use clap::Args;
 use embate_files::model_file::{self, Loaded};
 use embate_files::post_mortem;
@@ -30,6 +31,8 @@ pub(crate) struct Arguments {
     /// Replace results that are there
     #[arg(long)]
     force: bool,
+    #[command(flatten)]
+    watching: Watching,
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
@@ -47,6 +50,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     })?;
     // Also of a quiet run, and before it: who reads them late has waited for nothing.
     input::warn(&loaded, &simulation);
+    let watched = arguments.watching.begin(model, &simulation, &path)?;
     // Only now: a model that can't run must not cost the results of an earlier one.
     let folder = ResultFolder::create(&path, arguments.force).map_err(in_the_way)?;
     let checkpoints = Checkpoints::of(model, input::origin(&arguments.model));
@@ -54,8 +58,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         let shown = (simulation.history_columns(), simulation.cells());
         Recorder::keeping(folder, model, shown, options.thread_count(), Some(checkpoints), on_progress)
     };
-    let recording = Recording::of(&loaded, &path, &arguments.manner, arguments.verbose);
-    recording::record(&recording, &mut simulation, make, Simulation::run)
+    let recording = Recording { watched, ..Recording::of(&loaded, &path, &arguments.manner, arguments.verbose) };
+    recording::record(recording, &mut simulation, make, Simulation::run)
 }
 
 /// Reads the model; of one that needs too much memory there is a page.

@@ -10,11 +10,13 @@ mod outline;
 pub mod picture;
 pub mod post_mortem;
 mod reach;
+pub mod report;
 pub mod results;
 pub mod stl;
 pub mod sweep;
 pub mod threads;
 pub mod verification;
+pub mod view;
 pub mod vtu;
 
 pub use reach::Reach;

@@ -8,6 +8,7 @@
 //! Source: VTK file formats, "XML formats", `vtkZLibDataCompressor`.
 
 mod pack;
+pub(crate) mod read;
 
 use crate::outline::Surface;
 use crate::threads::{Rooms, Threads};

@@ -132,7 +132,17 @@ pub trait Observer {
     }
     /// The run has failed: the row and the frame that follow show the state of the failure.
     fn failing(&mut self) {}
-    /// Called every few hundred steps.
+    /// Whether it wants to see the state now, between two output times; asked before each [`Observer::progress`].
+    fn wants_glance(&mut self) -> bool {
+        false
+    }
+    /// The state now, because it was wanted. The run waits meanwhile, and its results are the same however long that is.
+    fn glance(&mut self, _shown: &dyn Shown) {}
+    /// Steps after which it wants to be asked again at the latest.
+    fn stride(&self) -> u64 {
+        u64::MAX
+    }
+    /// Called every few hundred steps, and after [`Observer::stride`] at the latest.
     fn progress(&mut self, progress: &Progress<'_>) -> Control;
 }
 

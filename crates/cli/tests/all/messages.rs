@@ -53,6 +53,7 @@ const IN_WORDS: &[(&str, &str)] = &[
     ("E0705", "only programs that write fields themselves come to it"),
     ("E0706", "only programs that draw frames themselves come to it"),
     ("E0710", "a state of another version comes with the header of that version, which is E0712"),
+    ("E0731", "a field file is damaged by hand in the tests of the viewer, and the page tells of it, not the program"),
     ("E0799", "it is a bug by definition"),
     ("W0405", "of the random models of embate-soak a few come to it, and none of them is short"),
     ("W0406", "no model is known in which contact misses a node; locate.rs counts, and the tests of contact hold that there are none"),

@@ -62,6 +62,11 @@ impl Identity {
         Self { lines }
     }
 
+    /// Keys with their values, in the order of the alphabet.
+    pub fn keys(&self) -> impl Iterator<Item = (&str, &str)> {
+        self.lines.iter().map(|(key, value)| (key.as_str(), value.as_str()))
+    }
+
     /// One line for each key.
     pub(super) fn text(&self) -> String {
         self.lines.iter().fold(String::new(), |mut text, (key, value)| {

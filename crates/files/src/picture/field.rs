@@ -5,8 +5,8 @@ use embate_solver::output::{Field, FieldKind, Frame, Location};
 
 /// A scalar that is read from frames.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Scalar {
-    pub(super) kind: &'static FieldKind,
+pub(crate) struct Scalar {
+    pub(crate) kind: &'static FieldKind,
     /// Component of a vector or stress; none: its size.
     component: Option<usize>,
 }
@@ -14,11 +14,16 @@ pub(super) struct Scalar {
 impl Scalar {
     /// The scalar `name` of a frame: `von_mises`, `velocity` (its size) or `stress.xy`.
     pub(super) fn named(frame: &Frame, name: &str) -> Option<Self> {
+        Self::of(frame.fields.iter().map(|field| field.kind), name)
+    }
+
+    /// The same of some fields.
+    pub(crate) fn of(kinds: impl IntoIterator<Item = &'static FieldKind>, name: &str) -> Option<Self> {
         let (field, component) = match name.split_once('.') {
             Some((field, component)) => (field, Some(component)),
             None => (name, None),
         };
-        let kind = frame.fields.iter().find(|f| f.kind.name == field)?.kind;
+        let kind = kinds.into_iter().find(|kind| kind.name == field)?;
         let component = match component {
             Some(wanted) => Some(kind.components.iter().position(|c| *c == wanted)?),
             None => None,
@@ -35,6 +40,22 @@ impl Scalar {
         found
     }
 
+    /// All that can be told of some fields, by what [`Scalar::of`] knows them by: each, and its components.
+    pub(crate) fn all(kinds: &[&'static FieldKind]) -> Vec<(String, Self)> {
+        let has_equivalent = kinds.iter().any(|kind| kind.name == "von_mises");
+        let mut all = Vec::new();
+        for &kind in kinds {
+            // The size of a stress is the equivalent stress.
+            if !(kind.name == "stress" && has_equivalent) {
+                all.push((kind.name.to_string(), Self { kind, component: None }));
+            }
+            all.extend(
+                kind.components.iter().enumerate().map(|(k, name)| (format!("{}.{name}", kind.name), Self { kind, component: Some(k) })),
+            );
+        }
+        all
+    }
+
     /// Values of a frame; empty if it does not hold the field.
     pub(super) fn values(&self, frame: &Frame) -> Vec<f32> {
         let Some(field) = frame.fields.iter().find(|f| f.kind.name == self.kind.name) else { return Vec::new() };
@@ -42,7 +63,8 @@ impl Scalar {
         field.values.chunks_exact(width).map(|tuple| self.scalar(tuple) as f32).collect()
     }
 
-    fn scalar(&self, tuple: &[f64]) -> f64 {
+    /// Of the values of a node or cell.
+    pub(crate) fn scalar(&self, tuple: &[f64]) -> f64 {
         match (self.component, tuple) {
             (Some(index), _) => tuple[index],
             (None, [value]) => *value,
@@ -60,24 +82,24 @@ impl Scalar {
     }
 
     /// Whether values live at nodes.
-    pub(super) fn at_nodes(&self) -> bool {
+    pub(crate) fn at_nodes(&self) -> bool {
         self.kind.location == Location::Node
     }
 
     /// Whether the colour range starts at zero by nature.
-    pub(super) fn starts_at_zero(&self) -> bool {
+    pub(crate) fn starts_at_zero(&self) -> bool {
         let size = self.component.is_none() && !self.kind.components.is_empty();
         let scalars = ["plastic_strain", "von_mises", "energy_density", "damage", "contact_pressure", "contact_slip", "friction_heat"];
         size || scalars.contains(&self.kind.name)
     }
 
     /// Names of the values 0, 1, ... of a field that tells states; empty for quantities.
-    pub(super) fn states(&self) -> &'static [&'static str] {
+    pub(crate) fn states(&self) -> &'static [&'static str] {
         if self.kind.name == "contact_status" { &["open", "stick", "slip"] } else { &[] }
     }
 
     /// Name for people.
-    pub(super) fn label(&self) -> String {
+    pub(crate) fn label(&self) -> String {
         match (self.kind.name, self.component) {
             ("von_mises", _) | ("stress", None) => "von Mises stress".into(),
             (name, None) => name.replace('_', " "),

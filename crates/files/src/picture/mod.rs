@@ -8,7 +8,7 @@
 mod animation;
 mod body;
 pub(crate) mod colour;
-mod field;
+pub(crate) mod field;
 mod film;
 mod lzw;
 mod mesh;
@@ -31,7 +31,9 @@ mod view;
 
 pub use film::{Film, FilmSettings};
 pub use mesh::mesh_png;
+pub(crate) use plots::charts;
 pub use plots::plots;
+pub(crate) use space::base64;
 
 use crate::results::messages::{PICTURE, REFUSED};
 use embate_solver::message::Message;

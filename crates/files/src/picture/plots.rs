@@ -15,9 +15,16 @@ use std::path::Path;
 /// # Errors
 /// [`PictureError::Io`] if a file can't be written.
 pub fn plots(columns: &[String], rows: &[Vec<f64>], title: &str, of_whole_bodies: bool, folder: &Path) -> Result<(), PictureError> {
+    let [energy, history] = charts(columns, rows, title, of_whole_bodies);
+    write_text(&folder.join("energy.svg"), &energy)?;
+    write_text(&folder.join("history.svg"), &history)
+}
+
+/// The same two as texts of SVG files.
+pub(crate) fn charts(columns: &[String], rows: &[Vec<f64>], title: &str, of_whole_bodies: bool) -> [String; 2] {
     let table = Table { columns, rows, of_whole_bodies };
-    write_text(&folder.join("energy.svg"), &chart(&titled(title, "energy"), &[Group::over_time(vec![energy(&table)])]))?;
-    write_text(&folder.join("history.svg"), &chart(&titled(title, "history"), &[Group::over_time(history(&table))]))
+    [("energy", vec![energy(&table)]), ("history", history(&table))]
+        .map(|(what, panels)| chart(&titled(title, what), &[Group::over_time(panels)]))
 }
 
 fn titled(title: &str, what: &str) -> String {
@@ -104,16 +111,16 @@ const ROUND_OFF: f64 = 1e-9;
 /// Probes that move less than this fraction of the distances between them are shown by their displacements: their positions would be flat lines.
 const FLAT: f64 = 0.05;
 
-/// One quantity of probes, contacts or obstacles: its columns, with the names of their curves, by axis (y first: the direction in which most things fall).
+/// One quantity of probes, contacts or obstacles: its columns, with the names of their curves, by axis (z, then y first: the direction in which most things fall).
 struct Quantity {
     name: &'static str,
     si: &'static str,
-    axes: [Vec<(usize, String)>; 2],
+    axes: [Vec<(usize, String)>; 3],
     /// Whether curves show the change since the first row.
     from_start: bool,
 }
 
-const AXES: [&str; 2] = ["y", "x"];
+const AXES: [&str; 3] = ["z", "y", "x"];
 
 /// A panel for each kind of quantity that the history holds.
 fn history(table: &Table<'_>) -> Vec<Panel> {
@@ -151,7 +158,7 @@ fn history(table: &Table<'_>) -> Vec<Panel> {
 }
 
 /// Whether no probe moves by more than a small part of the range that the positions of all span.
-fn is_flat(table: &Table<'_>, positions: &[Vec<(usize, String)>; 2]) -> bool {
+fn is_flat(table: &Table<'_>, positions: &[Vec<(usize, String)>; 3]) -> bool {
     let (mut span, mut motion) = (0.0_f64, 0.0_f64);
     for axis in positions {
         let mut all = [f64::INFINITY, f64::NEG_INFINITY];
@@ -228,6 +235,13 @@ mod tests {
         let columns = ["time", "A.x", "A.y", "contact.force_x[c]", "contact.force_y[c]"];
         let rows: Vec<Vec<f64>> = (0..9).map(f64::from).map(|t| vec![t, 1e-17 * t, 0.1 * t, 1e3 * t, 1e-8 * t]).collect();
         assert_eq!(names_of(&columns, &rows), ["position y", "contact force x"]);
+    }
+
+    #[test]
+    fn what_goes_on_along_z_is_shown_in_space() {
+        let columns = ["time", "A.x", "A.y", "A.z", "contact.force_z[c]"];
+        let rows: Vec<Vec<f64>> = (0..9).map(f64::from).map(|t| vec![t, 0.0, 0.1 * t, -0.2 * t, 1e3 * t]).collect();
+        assert_eq!(names_of(&columns, &rows), ["position z", "position y", "contact force z"]);
     }
 
     #[test]

@@ -10,6 +10,7 @@ mod plots;
 mod start;
 
 pub use again::Findings;
+pub(crate) use page::shown;
 pub use start::at_start;
 
 use crate::model_file::Loaded;

@@ -20,7 +20,7 @@ use std::fmt::Write;
 const PANELS: usize = 4;
 
 /// A value with four digits and its unit.
-pub(super) fn shown(value: f64, si: &str) -> String {
+pub(crate) fn shown(value: f64, si: &str) -> String {
     if !value.is_finite() {
         return "no number".into();
     }

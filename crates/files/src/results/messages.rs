@@ -2,8 +2,20 @@
 
 use embate_solver::message::{Example, Message};
 
-pub(crate) static MESSAGES: &[&Message] =
-    &[&EXISTS, &NOT_A_FOLDER, &REFUSED, &FRAME, &PICTURE, &DAMAGED_LOG, &BUG, &NO_PICTURES, &NO_POST_MORTEM];
+pub(crate) static MESSAGES: &[&Message] = &[
+    &EXISTS,
+    &NOT_A_FOLDER,
+    &REFUSED,
+    &FRAME,
+    &PICTURE,
+    &DAMAGED_LOG,
+    &NO_RUN,
+    &UNREADABLE,
+    &NOTHING_TO_SEE,
+    &BUG,
+    &NO_PICTURES,
+    &NO_POST_MORTEM,
+];
 
 /// Something is in the way.
 pub static EXISTS: Message = Message {
@@ -56,6 +68,33 @@ pub(crate) static DAMAGED_LOG: Message = Message {
     ),
     cause: "A line of `hashes.csv` is not the one that its check sum was made of, or `run.json` can't be read: the disk, a copy or another program changed the file.",
     cure: "Put the file back from a copy, or run the model again. Without the file the end states are compared all the same.",
+};
+
+/// A field file is not as it was written.
+pub(crate) static UNREADABLE: Message = Message {
+    code: "E0731",
+    title: "a field file that can't be read",
+    example: Example::Words("`embate view results/ball` where `fields/frame-00003.vtu` was cut off by a copy that failed."),
+    cause: "The file was damaged, cut off, or written by another program: only field files as embate writes them are read.",
+    cure: "Put the file back from a copy, or run the model again. All other frames can be looked at.",
+};
+
+/// A folder without frames.
+pub static NOTHING_TO_SEE: Message = Message {
+    code: "E0732",
+    title: "results without anything to look at",
+    example: Example::Command("view ."),
+    cause: "The folder is not one of results, or its run has not written its first frame, or wrote no fields.",
+    cure: "Give the folder that `embate run` wrote, the one with `fields.pvd`; run the model with `output.fields`.",
+};
+
+/// Nothing of a run is there.
+pub(super) static NO_RUN: Message = Message {
+    code: "E0722",
+    title: "a folder without results to report on",
+    example: Example::Command("report ."),
+    cause: "The folder has none of `summary.json`, `run.json` and `history.csv`: it is not one of results, or its run was killed before it left anything.",
+    cure: "Give the folder that `embate run` wrote, such as results/NAME.",
 };
 
 /// A bug.

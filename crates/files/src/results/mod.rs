@@ -9,6 +9,7 @@ mod csv;
 mod figures;
 mod folder;
 mod hashes;
+mod history;
 pub mod messages;
 mod handover;
 mod lines;
@@ -16,6 +17,7 @@ mod queue;
 mod ran;
 mod recorder;
 mod report;
+mod thinned;
 mod told;
 mod writer;
 
@@ -25,10 +27,12 @@ pub(crate) use csv::{append_number, append_text};
 pub(crate) use figures::{read_figures, write_figures};
 pub use folder::ResultFolder;
 pub use hashes::HashTable;
-pub use ran::Ran;
+pub use history::{History, unit};
 pub(crate) use ran::read_json;
+pub use ran::{Appearance, Ran, Seen};
 pub use recorder::{Checkpoints, OnProgress, Outcome, Recorder};
 pub use report::{MomentumDrift, Report, RunStatus};
+pub use thinned::ThinnedRows;
 pub use told::Told;
 pub use writer::film_settings;
 
@@ -36,7 +40,7 @@ use crate::checkpoint::CheckpointError;
 use crate::checkpoint::messages::{IN_USE, RESULTS_CHANGED};
 use crate::vtu::VtuError;
 use embate_solver::message::Message;
-use messages::{BUG, DAMAGED_LOG, EXISTS, FRAME, NOT_A_FOLDER, REFUSED};
+use messages::{BUG, DAMAGED_LOG, EXISTS, FRAME, NO_RUN, NOT_A_FOLDER, NOTHING_TO_SEE, REFUSED, UNREADABLE};
 use std::io::ErrorKind;
 use std::path::PathBuf;
 use thiserror::Error;
@@ -89,6 +93,28 @@ pub enum ResultsError {
         /// What gave it away.
         what: String,
     },
+    /// A field file that can't be read.
+    #[error("{} can't be read: {what}; put the file back from a copy, or run the model again", .path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        what: String,
+    },
+    /// A folder without anything to look at.
+    #[error("{} can't be shown: {what}; give the folder that `embate run` wrote, the one with fields.pvd", .path.display())]
+    NothingToSee {
+        /// The folder.
+        path: PathBuf,
+        /// What it is instead.
+        what: String,
+    },
+    /// A folder that holds nothing of a run.
+    #[error("{} holds no results of embate (no summary.json, run.json or history.csv); give the folder that `embate run` wrote", .path.display())]
+    NoRun {
+        /// The folder.
+        path: PathBuf,
+    },
     /// Another run writes to a file.
     #[error("another run writes to {}; wait for it, or stop it first", .path.display())]
     InUse {
@@ -127,6 +153,9 @@ impl ResultsError {
             Self::File { .. } => &REFUSED,
             Self::Changed { .. } => &RESULTS_CHANGED,
             Self::Damaged { .. } => &DAMAGED_LOG,
+            Self::Unreadable { .. } => &UNREADABLE,
+            Self::NothingToSee { .. } => &NOTHING_TO_SEE,
+            Self::NoRun { .. } => &NO_RUN,
             Self::InUse { .. } => &IN_USE,
             Self::Checkpoint(error) => error.kind(),
             Self::Frame(_) => &FRAME,

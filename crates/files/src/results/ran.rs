@@ -4,6 +4,7 @@
 
 use super::{ResultsError, write_whole};
 use crate::checkpoint::{Identity, Origin};
+use embate_solver::model::{Camera, Model};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::fs;
@@ -24,13 +25,74 @@ pub struct Ran {
     set: Vec<String>,
     /// What the model was.
     pub keys: Identity,
+    /// How it is shown; those of earlier versions did not tell.
+    #[serde(default)]
+    pub appearance: Appearance,
+}
+
+/// How a model wants to be shown, and what its field files don't tell of it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Appearance {
+    /// In words; may be empty.
+    pub title: String,
+    /// Components of a position: 2 in the plane, 3 in space.
+    pub dimension: usize,
+    /// Whether it is a body of revolution.
+    pub axisymmetric: bool,
+    /// End time, s.
+    pub end: Option<f64>,
+    /// Names of the parts, and which are rigid bodies.
+    pub parts: Vec<(String, bool)>,
+    /// Names.
+    pub obstacles: Vec<String>,
+    /// Names.
+    pub contacts: Vec<String>,
+    /// Pictures show the mirrored half at x = 0, y = 0, z = 0.
+    pub mirror: [bool; 3],
+    /// Field of the pictures; empty: none was chosen.
+    pub field: String,
+    /// Where a model of space is seen from.
+    pub camera: Option<Seen>,
+}
+
+/// Where a model of space is seen from.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Seen {
+    /// Direction from the model to the camera.
+    pub from: [f64; 3],
+    /// What is in the middle, m; none: the middle of all.
+    pub at: Option<[f64; 3]>,
+    /// Direction that is upwards.
+    pub up: [f64; 3],
+    /// How many times larger than so that everything is seen.
+    pub zoom: f64,
+}
+
+impl Appearance {
+    /// That of a model.
+    #[must_use]
+    pub fn of(model: &Model) -> Self {
+        let seen = |camera: Camera| Seen { from: camera.from, at: camera.at, up: camera.up, zoom: camera.zoom };
+        Self {
+            title: model.title.clone(),
+            dimension: model.dimension(),
+            axisymmetric: model.is_axisymmetric(),
+            end: Some(model.run.end).filter(|end| end.is_finite()),
+            parts: model.parts.iter().map(|part| (part.name.clone(), part.rigid.is_some())).collect(),
+            obstacles: model.obstacles.iter().map(|obstacle| obstacle.name.clone()).collect(),
+            contacts: model.contacts.iter().map(|contact| contact.name.clone()).collect(),
+            mirror: model.output.mirror,
+            field: model.output.picture_field.clone(),
+            camera: model.output.camera.map(seen),
+        }
+    }
 }
 
 impl Ran {
     /// What a model is and where it came from.
-    pub(super) fn of(keys: Identity, origin: &Origin) -> Self {
+    pub(super) fn of(keys: Identity, origin: &Origin, model: &Model) -> Self {
         let path = origin.path.to_string_lossy().into_owned();
-        Self { version: env!("CARGO_PKG_VERSION").into(), model: path, set: origin.set.clone(), keys }
+        Self { version: env!("CARGO_PKG_VERSION").into(), model: path, set: origin.set.clone(), keys, appearance: Appearance::of(model) }
     }
 
     pub(super) fn write(&self, folder: &Path) -> Result<(), ResultsError> {
@@ -44,6 +106,13 @@ impl Ran {
     /// [`ResultsError::Damaged`]; what the system says.
     pub fn read(folder: &Path) -> Result<Option<Self>, ResultsError> {
         read_json(&folder.join(RAN))
+    }
+
+    /// The command by which it is run again; none of a model that came from no file.
+    #[must_use]
+    pub fn command(&self) -> Option<String> {
+        let set: String = self.set.iter().map(|set| format!(" --set {}", quoted(set))).collect();
+        (!self.model.is_empty()).then(|| format!("embate run {}{set}", quoted(&self.model)))
     }
 
     /// Where the model came from.
@@ -66,5 +135,24 @@ pub(crate) fn read_json<T: DeserializeOwned>(path: &Path) -> Result<Option<T>, R
             line: error.line(),
             what: error.to_string(),
         }),
+    }
+}
+
+/// A word of a shell.
+fn quoted(word: &str) -> String {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "_-./=:,+@%".contains(c);
+    if !word.is_empty() && word.chars().all(is_plain) { word.to_string() } else { format!("'{}'", word.replace('\'', "'\\''")) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_of_a_shell_are_quoted_where_they_must_be() {
+        assert_eq!(quoted("examples/tube-plate"), "examples/tube-plate");
+        assert_eq!(quoted("run.end=\"5 ms\""), "'run.end=\"5 ms\"'");
+        assert_eq!(quoted("it's $(x)"), "'it'\\''s $(x)'");
+        assert_eq!(quoted(""), "''");
     }
 }

@@ -6,6 +6,7 @@ use super::folder::ResultFolder;
 use super::hashes;
 use super::lines::Lines;
 use super::ran::Ran;
+use super::thinned::ThinnedRows;
 use super::told::Told;
 use super::{HASHES, ResultsError};
 use crate::checkpoint::{Checkpoint, Identity, Origin};
@@ -23,8 +24,6 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// Rows that are kept for the plots; a longer history is thinned evenly.
-const PLOT_ROWS: usize = 4096;
 /// Time from rewriting to rewriting the collections: a second file with each frame would cost as much as a small frame.
 const COLLECTION_PAUSE: Duration = Duration::from_millis(500);
 
@@ -161,7 +160,7 @@ impl Writer {
     /// Where the model came from. From now on there is kept what ran, and its hashes if the model wants them; `parts` are its names.
     pub(super) fn set_origin(&mut self, origin: Origin, parts: &[String]) -> Result<(), ResultsError> {
         let folder = self.folder.path();
-        Ran::of(self.identity().clone(), &origin).write(folder)?;
+        Ran::of(self.identity().clone(), &origin, &self.model).write(folder)?;
         if self.model.output.hash_steps.is_some() && self.hashes.is_none() {
             self.hashes = Some(Lines::create(&folder.join(HASHES), hashes::names(parts))?);
         }
@@ -236,8 +235,7 @@ impl Writer {
         let made = self.film.map(|film| {
             self.folder.add_pictures(|side| {
                 film.finish(side, &self.threads).map_err(|e| e.to_string())?;
-                picture::plots(&self.columns, &self.plot_rows.into_rows(), &self.title, self.of_whole_bodies, side)
-                    .map_err(|e| e.to_string())
+                picture::plots(&self.columns, &self.plot_rows.rows(), &self.title, self.of_whole_bodies, side).map_err(|e| e.to_string())
             })
         });
         Closed { result, pictures_missing: made.and_then(Result::err) }
@@ -364,66 +362,5 @@ impl Obstacles {
         }
         self.written.push((frame.time, name));
         Ok(())
-    }
-}
-
-/// History rows for the plots: all of a short history, every second, fourth ... of a long one, and the last.
-#[derive(Default)]
-struct ThinnedRows {
-    rows: Vec<Vec<f64>>,
-    last: Option<Vec<f64>>,
-    stride_exponent: u32,
-    seen: u64,
-}
-
-impl ThinnedRows {
-    fn add(&mut self, row: &[f64]) {
-        if self.seen.trailing_zeros() >= self.stride_exponent {
-            self.rows.push(row.to_vec());
-            self.last = None;
-        } else {
-            self.last = Some(row.to_vec());
-        }
-        self.seen += 1;
-        if self.rows.len() >= PLOT_ROWS {
-            let mut index = 0;
-            self.rows.retain(|_| {
-                index += 1;
-                index % 2 == 1
-            });
-            self.stride_exponent += 1;
-        }
-    }
-
-    fn into_rows(mut self) -> Vec<Vec<f64>> {
-        self.rows.extend(self.last);
-        self.rows
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_long_history_is_thinned_evenly_for_the_plots() {
-        let mut rows = ThinnedRows::default();
-        for value in 0..10_000 {
-            rows.add(&[f64::from(value)]);
-        }
-        let kept = rows.into_rows();
-        assert!(kept.len() < PLOT_ROWS && kept.len() > PLOT_ROWS / 2 - 1);
-        assert_eq!(kept[1][0] - kept[0][0], 4.0);
-        assert!(kept[..kept.len() - 1].windows(2).all(|w| w[1][0] - w[0][0] == 4.0));
-        assert_eq!(kept[kept.len() - 1], [9999.0]);
-    }
-
-    #[test]
-    fn a_short_history_is_plotted_whole() {
-        let mut rows = ThinnedRows::default();
-        for value in 0..100 {
-            rows.add(&[f64::from(value)]);
-        }
-        assert_eq!(rows.into_rows().len(), 100);
     }
 }

@@ -10,5 +10,7 @@ mod picture;
 mod picture_space;
 mod post_mortem;
 mod reach;
+mod report;
 mod results;
 mod stl;
+mod view;

@@ -1,6 +1,6 @@
 //! Damaged inputs one after the other: whatever a file holds, its reader answers, and soon.
 //!
-//! `cargo test --release -p embate-files --test embate-fuzz -- --seconds 600 [--only model|gmsh|deck|checkpoint|state] [--first N] [--count N]` (two seconds each if nothing is said). Inputs are those of the other
+//! `cargo test --release -p embate-files --test embate-fuzz -- --seconds 600 [--only model|gmsh|deck|checkpoint|state|fields] [--first N] [--count N]` (two seconds each if nothing is said). Inputs are those of the other
 //! tests (`--write DIR` writes them there) with bytes flipped, cut out, doubled, put in from elsewhere, and numbers made large, negative or none; input number N is always the same. States and checkpoints are damaged behind their check sums.
 #![allow(clippy::unwrap_used)] // what is found is told with its number
 
@@ -13,7 +13,7 @@ use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::time::{Duration, Instant};
-use targets::{Target, checkpoint, deck, gmsh, model, state};
+use targets::{Target, checkpoint, deck, fields, gmsh, model, state};
 
 /// Folder of this crate.
 const FILES: &str = env!("CARGO_MANIFEST_DIR");
@@ -27,7 +27,7 @@ fn main() {
     let first: u64 = value("--first").and_then(|word| word.parse().ok()).unwrap_or(1);
     let count: u64 = value("--count").and_then(|word| word.parse().ok()).unwrap_or(u64::MAX);
     let mut found = Vec::new();
-    let targets = [model(), gmsh(), deck(), checkpoint(), state()];
+    let targets = [model(), gmsh(), deck(), checkpoint(), state(), fields()];
     if let Some(folder) = value("--write") {
         targets.iter().for_each(|target| write(target, &Path::new(&folder).join(target.name)));
         return;

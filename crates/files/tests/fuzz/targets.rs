@@ -3,11 +3,13 @@
 #![allow(missing_docs, unreachable_pub)] // another crate has it as a file of its own
 
 use embate_files::checkpoint::{self, Checkpoint};
+use embate_files::results::{Recorder, ResultFolder};
 use embate_files::threads::Threads;
+use embate_files::view::{ResultView, Wish};
 use embate_files::{abaqus, gmsh, model_file};
 use embate_solver::archive::Section;
 use embate_solver::model::Model;
-use embate_solver::simulation::{Options, Simulation};
+use embate_solver::simulation::{Control, Observer, Options, Simulation};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -156,4 +158,28 @@ pub fn state() -> Target {
         }
     };
     Target { name: "state", seeds, read: Box::new(read) }
+}
+
+/// Field files: whatever stands in one, it is shown or refused.
+pub fn fields() -> Target {
+    let (model, simulation) = met();
+    let folder = std::env::temp_dir().join(format!("embate-fuzz-fields-{}", std::process::id()));
+    let results = ResultFolder::create(&folder, true).unwrap();
+    let shown = (simulation.history_columns(), simulation.cells());
+    let mut recorder = Recorder::keeping(results, &model, shown, 1, None, Box::new(|_| Control::Continue)).unwrap();
+    recorder.frame(simulation.frame()).unwrap();
+    drop(recorder);
+    let file = folder.join("fields/frame-00000.vtu");
+    let seeds = vec![fs::read(&file).unwrap()];
+    let read = move |bytes: &[u8]| {
+        fs::write(&file, bytes).unwrap();
+        if let Ok(view) = ResultView::open(&folder) {
+            for scalar in ["velocity", "stress.xy", "contact_gap"] {
+                let _ = view.frame(0, &Wish { scalar: Some(scalar.into()), arrows: true });
+                let _ = (view.probe(scalar, 3), view.range(scalar));
+            }
+            let _ = view.description();
+        }
+    };
+    Target { name: "fields", seeds, read: Box::new(read) }
 }

@@ -267,6 +267,9 @@ where
                 let state = self.state()?;
                 self.memory.take(state);
             }
+            if observer.wants_glance() {
+                observer.glance(&self.recorded.showing(&self.system));
+            }
             let control = observer.progress(&self.progress(end, &self.system.governor_name(self.system.governor), &notices));
             if matches!(control, Control::Keep | Control::KeepAndStop) || course.is_state_due(self.system.step, state_steps) {
                 course.last_state = Some(self.system.step);
@@ -286,7 +289,7 @@ where
                 return Ok(());
             }
             let until = rows.next().min(frames.next());
-            let stage = course.steps(self.system.step, state_steps).min(last - self.system.step);
+            let stage = course.steps(self.system.step, state_steps).min(last - self.system.step).min(observer.stride().max(1));
             let result = self.go_on(until.min(pause), stage);
             // A stop for the state alone leaves no trace.
             if result.is_err() || self.system.time >= until || self.is_over() || course.is_stage(self.system.step) {

@@ -22,7 +22,9 @@ mod spot;
 pub(super) use camera::Sight;
 pub(crate) use near::neighbourhood;
 pub(super) use scene::{Moment, Scene};
-pub(super) use skin::{Skin, Skinner};
+pub(crate) use shot::base64;
+pub(super) use skin::Skin;
+pub(crate) use skin::{Bar, Facet, Skinner};
 pub(crate) use spot::{Spot, place};
 
 #[cfg(test)]

@@ -7,12 +7,12 @@ use embate_solver::output::{CellKind, Cells};
 
 /// A triangle, which repeats its last corner, or a quadrilateral; outward by the right-hand rule.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::picture) struct Facet {
-    /// Places in [`Skin::nodes`].
-    pub(super) corners: [u32; 4],
-    pub(super) part: u32,
+pub(crate) struct Facet {
+    /// Places in [`Skin::nodes`]; of [`Skinner::seen`] nodes.
+    pub(crate) corners: [u32; 4],
+    pub(crate) part: u32,
     /// Its cell in the frame's fields.
-    pub(in crate::picture) cell: u32,
+    pub(crate) cell: u32,
 }
 
 impl Facet {
@@ -38,10 +38,10 @@ pub(super) struct Edge {
 
 /// A bar of two nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::picture) struct Bar {
-    pub(super) nodes: [u32; 2],
-    pub(super) part: u32,
-    pub(in crate::picture) cell: u32,
+pub(crate) struct Bar {
+    pub(crate) nodes: [u32; 2],
+    pub(crate) part: u32,
+    pub(crate) cell: u32,
 }
 
 /// All that can be seen of bodies.
@@ -59,7 +59,7 @@ pub(in crate::picture) struct Skin {
 
 /// Makes the skins of one set of cells.
 #[derive(Clone, Debug)]
-pub(in crate::picture) struct Skinner {
+pub(crate) struct Skinner {
     sides: Sides,
     /// Sides that nothing lies against while all cells are there, ascending.
     outer: Vec<u32>,
@@ -74,7 +74,7 @@ const TOLD_BY: usize = 100;
 impl Skinner {
     /// Looks for the sides that lie against each other: the work that grows with the number of cells. Places of the nodes, m, tell which side of a facet is
     /// outside.
-    pub(in crate::picture) fn new(cells: &Cells, place: &dyn Fn(u32) -> [f64; 3]) -> Self {
+    pub(crate) fn new(cells: &Cells, place: &dyn Fn(u32) -> [f64; 3]) -> Self {
         let sides = Sides::new(cells);
         let outer = (0..sides.len() as u32).filter(|&side| sides.partner(side).is_none()).collect();
         let is_bar = |cell: &u32| cells.kinds[*cell as usize] == CellKind::Line && is_sound(cells, *cell as usize);
@@ -86,6 +86,12 @@ impl Skinner {
 
     /// The skin of the cells that are not `gone` (ascending).
     pub(in crate::picture) fn skin(&self, cells: &Cells, gone: &[u32]) -> Skin {
+        let (facets, bars) = self.seen(cells, gone);
+        Skin::of(facets, bars)
+    }
+
+    /// What can be seen of them, of cells of the plane too: facets and bars by the nodes of the frame, each by its cell, ascending.
+    pub(crate) fn seen(&self, cells: &Cells, gone: &[u32]) -> (Vec<Facet>, Vec<Bar>) {
         let is_there = |cell: usize| gone.binary_search(&(cell as u32)).is_err();
         let mut seen: Vec<u32> = self.outer.iter().copied().filter(|&side| is_there(self.sides.cell(side).0)).collect();
         if !gone.is_empty() {
@@ -106,7 +112,7 @@ impl Skinner {
         };
         let bar = |cell: u32| Bar { nodes: [cells.cell(cell as usize)[0], cells.cell(cell as usize)[1]], part: part(cell as usize), cell };
         let bars = self.bars.iter().copied().filter(|&cell| is_there(cell as usize)).map(bar).collect();
-        Skin::of(seen.into_iter().map(facet).collect(), bars)
+        (seen.into_iter().map(facet).collect(), bars)
     }
 }
 

@@ -1,0 +1,169 @@
+//! `embate view` and `run --watch` from outside: who is let in, what is answered, when it ends, and that a run that is watched is the run that it is otherwise.
+
+use crate::{FLIGHT, embate, fresh};
+use std::fs;
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::TcpStream;
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::time::Duration;
+
+/// A program that shows a page; ended when it is dropped.
+struct Page {
+    child: Child,
+    port: u16,
+    token: String,
+}
+
+impl Drop for Page {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+impl Page {
+    fn open(folder: &Path, arguments: &[&str]) -> Self {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_embate"));
+        let mut child =
+            command.args(arguments).arg("--no-open").current_dir(folder).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+        let mut lines = BufReader::new(child.stderr.take().unwrap()).lines();
+        let line = lines.find_map(|line| line.unwrap().strip_prefix("page: http://127.0.0.1:").map(ToString::to_string)).unwrap();
+        let (port, token) = line.split_once('/').unwrap();
+        // What is told later has somewhere to go.
+        std::thread::spawn(move || lines.for_each(drop));
+        Self { child, port: port.parse().unwrap(), token: token.trim_end_matches('/').into() }
+    }
+
+    /// Status and body of an answer.
+    fn get(&self, path: &str, headers: &str) -> (u16, Vec<u8>) {
+        let mut stream = TcpStream::connect(("127.0.0.1", self.port)).unwrap();
+        stream.set_read_timeout(Some(Duration::from_secs(20))).unwrap();
+        let host = if headers.contains("Host:") { String::new() } else { format!("Host: 127.0.0.1:{}\r\n", self.port) };
+        write!(stream, "GET {path} HTTP/1.1\r\n{host}Connection: close\r\n{headers}\r\n").unwrap();
+        let mut bytes = Vec::new();
+        stream.read_to_end(&mut bytes).unwrap();
+        let end = bytes.windows(4).position(|window| window == b"\r\n\r\n").unwrap();
+        let status = String::from_utf8_lossy(&bytes[9..12]).parse().unwrap();
+        (status, bytes[end + 4..].to_vec())
+    }
+
+    /// What is there below the token.
+    fn own(&self, path: &str) -> (u16, Vec<u8>) {
+        self.get(&format!("/{}/{path}", self.token), "")
+    }
+}
+
+/// Results of a short run.
+fn results(name: &str) -> std::path::PathBuf {
+    let folder = fresh(name);
+    fs::write(folder.join("model.toml"), FLIGHT).unwrap();
+    let answer = embate(&folder, ["run", "model.toml", "--out", "out", "--quiet"]);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    folder
+}
+
+#[test]
+fn who_knows_the_token_is_let_in_and_nobody_else() {
+    let folder = results("view-token");
+    let page = Page::open(&folder, &["view", "out"]);
+    assert_eq!(page.token.len(), 32);
+    assert!(page.own("").1.starts_with(b"<!doctype html") || page.own("").1.starts_with(b"<!DOCTYPE html"));
+    assert_eq!(page.own("app.js").0, 200);
+    let (status, runs) = page.own("api/runs");
+    let runs: serde_json::Value = serde_json::from_slice(&runs).unwrap();
+    assert_eq!((status, &runs["runs"][0]["elements"], &runs["live"]), (200, &4.into(), &false.into()));
+    assert_eq!(runs["runs"][0]["frames"].as_array().unwrap().len(), 5);
+    for wrong in ["/", "/api/runs", "/0123456789abcdef0123456789abcdef/api/runs", "//api/runs", "/%2e%2e/api/runs"] {
+        assert_eq!(page.get(wrong, "").0, 403, "{wrong}");
+    }
+    let own = format!("/{}/api/runs", page.token);
+    let answered = |headers: &str| page.get(&own, headers).0;
+    assert_eq!(answered(&format!("Origin: http://127.0.0.1:{}\r\n", page.port)), 200);
+    assert_eq!(answered("Origin: http://evil.example\r\n"), 403);
+    assert_eq!(answered("Origin: null\r\n"), 403);
+    assert_eq!(answered(&format!("Host: evil.example:{}\r\n", page.port)), 403);
+}
+
+#[test]
+fn what_is_not_there_is_told_so() {
+    let folder = results("view-missing");
+    let page = Page::open(&folder, &["view", "out"]);
+    for (path, status) in [
+        ("api/runs/0/frames/4?scalar=velocity&arrows=1", 200),
+        ("api/runs/0/frames/99", 404),
+        ("api/runs/7", 404),
+        ("api/runs/0/topology/5", 404),
+        ("api/runs/0/probe?scalar=velocity&node=8", 200),
+        ("api/runs/0/probe?scalar=velocity&node=9", 404),
+        ("api/runs/0/probe?scalar=smell&node=1", 404),
+        ("api/runs/0/frames/minus-one", 400),
+        ("secret.txt", 404),
+        ("api/live", 403),
+    ] {
+        assert_eq!(page.own(path).0, status, "{path}");
+    }
+    fs::write(folder.join("out/fields/frame-00002.vtu"), "rubbish").unwrap();
+    let (status, told) = page.own("api/runs/0/frames/2");
+    let told: serde_json::Value = serde_json::from_slice(&told).unwrap();
+    assert_eq!((status, &told["code"]), (422, &"E0731".into()));
+    assert!(told["error"].as_str().unwrap().contains("frame-00002.vtu"));
+}
+
+#[test]
+fn two_runs_are_shown_beside_each_other_and_one_that_can_not_be_read_says_why() {
+    let folder = results("view-two");
+    fs::create_dir_all(folder.join("broken/fields")).unwrap();
+    fs::write(folder.join("broken/run.json"), "{").unwrap();
+    let page = Page::open(&folder, &["view", "out", "broken"]);
+    let runs: serde_json::Value = serde_json::from_slice(&page.own("api/runs").1).unwrap();
+    assert!(runs["runs"][0]["name"] == "view-two" && runs["runs"][1]["fault"].as_str().unwrap().contains("run.json"), "{runs}");
+}
+
+#[test]
+fn a_folder_without_results_and_a_short_token_are_refused() {
+    let folder = results("view-refused");
+    let told = |arguments: &[&str]| {
+        let answer = embate(&folder, arguments.iter().chain(&["--no-open"]));
+        assert_eq!(answer.code, Some(2));
+        answer.err
+    };
+    assert!(told(&["view", "."]).contains("E0732"));
+    assert!(told(&["view", "nowhere"]).contains("there is no such folder"));
+    assert!(told(&["view", "out", "--token", "short"]).contains("E0821"));
+    let page = Page::open(&folder, &["view", "out"]);
+    assert!(told(&["view", "out", "--port", &page.port.to_string()]).contains("choose another port"));
+}
+
+#[test]
+fn a_run_that_is_watched_leaves_what_it_leaves_otherwise_and_its_page_ends_with_it() {
+    let folder = fresh("view-watched");
+    fs::write(folder.join("model.toml"), FLIGHT).unwrap();
+    assert_eq!(embate(&folder, ["run", "model.toml", "--out", "alone", "--quiet"]).code, Some(0));
+    let answer = embate(&folder, ["run", "model.toml", "--out", "watched", "--quiet", "--watch", "--no-open"]);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    let address = answer.err.lines().find_map(|line| line.strip_prefix("page: http://")).unwrap();
+    assert!(TcpStream::connect(address.split('/').next().unwrap()).is_err(), "nobody listens any more");
+    for file in ["history.csv", "hashes.csv", "fields/frame-00004.vtu", "fields.pvd"] {
+        assert!(fs::read(folder.join("alone").join(file)).unwrap() == fs::read(folder.join("watched").join(file)).unwrap(), "{file}");
+    }
+}
+
+#[test]
+fn a_page_that_is_kept_shows_the_results_when_the_run_is_over() {
+    let folder = fresh("view-kept");
+    fs::write(folder.join("model.toml"), FLIGHT).unwrap();
+    let page = Page::open(&folder, &["run", "model.toml", "--out", "out", "--quiet", "--watch", "--keep"]);
+    let over = (0..200).any(|_| {
+        std::thread::sleep(Duration::from_millis(50));
+        let run: serde_json::Value = serde_json::from_slice(&page.own("api/runs/0").1).unwrap();
+        run["is_over"] == true && run["summary"]["status"] == "done"
+    });
+    assert!(over, "the run is over, and the page is there");
+    assert_eq!(page.own("api/runs/0/frames/4").0, 200);
+    let history: serde_json::Value = serde_json::from_slice(&page.own("api/runs/0/history").1).unwrap();
+    assert_eq!(history["values"][0].as_array().unwrap().len(), 21);
+    // Orders come by the socket alone, and that asks where one comes from.
+    let upgrade = "Upgrade: websocket\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\n";
+    assert_eq!(page.get(&format!("/{}/api/live", page.token), upgrade).0, 403);
+}

@@ -1,0 +1,315 @@
+//! A result folder that is looked at: its description, frames, histories, values over time; of a run that goes on, too.
+//!
+//! Files are read when they are asked for (`vtu::read`, `results`); what a whole run must be read for (the range of a scalar) is kept.
+
+use super::bodies::{Bodies, Topology};
+use super::container::Container;
+use super::describe::{Column, FrameTime, PartDescription, RunDescription};
+use super::frame::{self, Wish, range};
+use crate::picture::field::Scalar;
+use crate::results::{Appearance, History, Ran, ResultsError, read_json, unit};
+use crate::vtu::read::VtuReader;
+use embate_solver::output::{Cells, FieldKind, Location, Outline};
+use serde::Serialize;
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// A folder of results.
+#[derive(Debug)]
+pub struct ResultView {
+    path: PathBuf,
+    bodies: Arc<Bodies>,
+    kinds: Vec<&'static FieldKind>,
+    appearance: Appearance,
+    nodes: usize,
+    /// Range of each scalar that was asked for.
+    ranges: Mutex<BTreeMap<String, Ranged>>,
+}
+
+/// Range of a scalar, and over how many frames.
+pub type Ranged = (Option<[f32; 2]>, usize);
+
+/// Columns of a history.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Series {
+    /// Names and units.
+    pub columns: Vec<Column>,
+    /// By column; `null` where a value is not a number.
+    pub values: Vec<Vec<Option<f64>>>,
+}
+
+impl Series {
+    /// That of a history whose columns are those of `history.csv`; energies and forces are those of whole bodies or per metre of depth.
+    #[must_use]
+    pub fn of(columns: &[String], values: Vec<Vec<f64>>, of_whole_bodies: bool) -> Self {
+        let columns = columns.iter().map(|name| Column { name: name.clone(), unit: unit(name, of_whole_bodies).into() }).collect();
+        let finite = |values: Vec<f64>| values.into_iter().map(|value| Some(value).filter(|value| value.is_finite())).collect();
+        Self { columns, values: values.into_iter().map(finite).collect() }
+    }
+}
+
+/// A scalar at a node or in a cell over the frames.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Probed {
+    /// s.
+    pub times: Vec<f64>,
+    /// `null` where there is none: the cell was eroded, the field has no value there.
+    pub values: Vec<Option<f64>>,
+    /// SI.
+    pub unit: &'static str,
+    /// Name for people.
+    pub label: String,
+}
+
+impl ResultView {
+    /// Opens a folder that has at least one frame.
+    ///
+    /// # Errors
+    /// [`ResultsError::NothingToSee`], [`ResultsError::Unreadable`], what the system says.
+    pub fn open(path: &Path) -> Result<Self, ResultsError> {
+        let nothing = |what: &str| ResultsError::NothingToSee { path: path.into(), what: what.into() };
+        if !path.is_dir() {
+            return Err(nothing(if path.exists() { "it is a file" } else { "there is no such folder" }));
+        }
+        let appearance = Ran::read(path)?.map(|ran| ran.appearance).unwrap_or_default();
+        let first = frames(path)?.into_iter().next();
+        let mut reader = match first {
+            Some((_, file)) => VtuReader::open(&file)?,
+            None if path.join("run.json").exists() || path.join("summary.json").exists() => return Err(nothing("it has no field files")),
+            None => return Err(nothing("there are no results in it")),
+        };
+        let mut cells = reader.cells()?;
+        let dimension = if appearance.dimension == 0 { reader.dimension(&cells) } else { appearance.dimension };
+        let kinds = reader.kinds(dimension);
+        cells.part_names = part_names(path, &appearance, &cells)?;
+        let displacement: Vec<_> = kinds.iter().copied().filter(|kind| kind.name == "displacement").collect();
+        let frame = reader.frame(dimension, &displacement)?;
+        let bodies = Arc::new(Bodies::new(cells, &frame));
+        Ok(Self { path: path.into(), bodies, kinds, appearance, nodes: reader.nodes, ranges: Mutex::default() })
+    }
+
+    /// A folder into which a run begins to write: what it will hold is known, its frames are read as they come.
+    #[must_use]
+    pub fn begun(path: &Path, bodies: Arc<Bodies>, kinds: Vec<&'static FieldKind>, appearance: Appearance, nodes: usize) -> Self {
+        Self { path: path.into(), bodies, kinds, appearance, nodes, ranges: Mutex::default() }
+    }
+
+    /// The folder.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Its bodies.
+    #[must_use]
+    pub fn bodies(&self) -> &Arc<Bodies> {
+        &self.bodies
+    }
+
+    /// Whether energies and forces are those of whole bodies, not per metre of depth.
+    #[must_use]
+    pub fn is_of_whole_bodies(&self) -> bool {
+        self.appearance.axisymmetric || self.bodies.dimension == 3
+    }
+
+    /// What there is now.
+    ///
+    /// # Errors
+    /// What the system says; [`ResultsError::Damaged`].
+    pub fn description(&self) -> Result<RunDescription, ResultsError> {
+        let summary: Option<Value> = read_json(&self.path.join("summary.json"))?;
+        let ran = Ran::read(&self.path)?;
+        let text = |key: &str| summary.as_ref().and_then(|summary| summary.get(key)).and_then(Value::as_str).map(ToString::to_string);
+        let folder = self.path.file_name().map(|name| name.to_string_lossy().into_owned());
+        let name = text("model").or(folder).unwrap_or_default();
+        let mut elements = vec![0usize; self.bodies.cells.part_names.len()];
+        for &part in &self.bodies.cells.parts {
+            if let Some(count) = elements.get_mut(part as usize) {
+                *count += 1;
+            }
+        }
+        let is_rigid = |name: &str| self.appearance.parts.iter().any(|(part, is_rigid)| part == name && *is_rigid);
+        let parts = self.bodies.cells.part_names.iter().zip(elements);
+        let parts = parts.map(|(name, elements)| PartDescription { is_rigid: is_rigid(name), name: name.clone(), elements });
+        let frames = frames(&self.path)?;
+        let size_on_disk = frames.iter().filter_map(|(_, file)| std::fs::metadata(file).ok()).map(|data| data.len()).sum();
+        let mut description = RunDescription {
+            title: name.clone(),
+            name,
+            path: std::path::absolute(&self.path).unwrap_or_else(|_| self.path.clone()).to_string_lossy().into_owned(),
+            command: ran.and_then(|ran| ran.command()),
+            dimension: self.bodies.dimension,
+            nodes: self.nodes,
+            elements: self.bodies.cells.len(),
+            parts: parts.collect(),
+            frames: frames.into_iter().map(|(frame, _)| frame).collect(),
+            is_over: summary.is_some(),
+            size: self.bodies.size().unwrap_or_default(),
+            obstacles: self.appearance.obstacles.clone(),
+            contacts: self.appearance.contacts.clone(),
+            warnings: summary.as_ref().map(RunDescription::warned).unwrap_or_default(),
+            error: text("error"),
+            size_on_disk,
+            ..RunDescription::default()
+        };
+        description.show(&self.appearance, &self.kinds);
+        description.summary = summary;
+        Ok(description)
+    }
+
+    /// A frame; none where there is none of this number.
+    ///
+    /// # Errors
+    /// [`ResultsError::Unreadable`], what the system says.
+    pub fn frame(&self, number: usize, wish: &Wish) -> Result<Option<Container>, ResultsError> {
+        let Some(file) = self.file("frame", number) else { return Ok(None) };
+        let mut reader = VtuReader::open(&file)?;
+        let topology = self.topology(&mut reader)?;
+        let scalar = wish.scalar.as_deref().and_then(|name| Scalar::of(self.kinds.iter().copied(), name)).map(|scalar| scalar.kind.name);
+        let is_wanted = |kind: &&&FieldKind| Some(kind.name) == scalar || (wish.arrows && kind.name == "contact_force");
+        let wanted: Vec<_> = self.kinds.iter().filter(is_wanted).copied().collect();
+        let shown = reader.frame(self.bodies.dimension, &wanted)?;
+        self.check(&reader)?;
+        let outlines = self.outlines(number)?;
+        Ok(Some(frame::frame(&self.bodies, &topology, &shown, &outlines, wish).with("frame", number)))
+    }
+
+    fn topology(&self, reader: &mut VtuReader) -> Result<Arc<Topology>, ResultsError> {
+        Ok(self.bodies.without(&reader.gone()?))
+    }
+
+    /// Whether a file is of these bodies.
+    fn check(&self, reader: &VtuReader) -> Result<(), ResultsError> {
+        reader.has(self.nodes, self.bodies.cells.len())
+    }
+
+    /// The obstacles at a frame, in model order.
+    fn outlines(&self, number: usize) -> Result<Vec<Outline>, ResultsError> {
+        let Some(file) = self.file("obstacles", number) else { return Ok(Vec::new()) };
+        let mut outlines = Vec::new();
+        for (index, outline) in VtuReader::open(&file)?.outlines()? {
+            // Those without points are not in the file.
+            if index < 1000 {
+                outlines.resize_with(outlines.len().max(index + 1), Outline::default);
+                outlines[index] = outline;
+            }
+        }
+        Ok(outlines)
+    }
+
+    fn file(&self, kind: &str, number: usize) -> Option<PathBuf> {
+        Some(self.path.join("fields").join(format!("{kind}-{number:05}.vtu"))).filter(|file| file.is_file())
+    }
+
+    /// The history, thinned to so many rows; of a run that goes on as far as it is written.
+    ///
+    /// # Errors
+    /// [`ResultsError::Damaged`], what the system says.
+    pub fn history(&self, rows: usize) -> Result<Series, ResultsError> {
+        let Some(history) = History::read(&self.path)? else { return Ok(Series::default()) };
+        let History { columns, values } = history.thinned(rows);
+        Ok(Series::of(&columns, values, self.is_of_whole_bodies()))
+    }
+
+    /// Smallest and largest value of a scalar on what is seen in all frames, and how many these are.
+    ///
+    /// # Errors
+    /// As [`ResultView::frame`].
+    pub fn range(&self, name: &str) -> Result<Ranged, ResultsError> {
+        let frames = frames(&self.path)?;
+        if let Some((range, count)) = self.ranges.lock().unwrap_or_else(PoisonError::into_inner).get(name)
+            && *count == frames.len()
+        {
+            return Ok((*range, *count));
+        }
+        let mut whole: Option<[f32; 2]> = None;
+        if let Some(scalar) = Scalar::of(self.kinds.iter().copied(), name) {
+            for (_, file) in &frames {
+                let mut reader = VtuReader::open(file)?;
+                self.check(&reader)?;
+                let topology = self.topology(&mut reader)?;
+                let places = if scalar.at_nodes() { self.nodes } else { self.bodies.cells.len() };
+                let values = reader.values(scalar.kind, 0..places)?;
+                let width = scalar.kind.width();
+                let value = |&place: &u32| {
+                    values.get(width * place as usize..width * (place as usize + 1)).map_or(f32::NAN, |own| scalar.scalar(own) as f32)
+                };
+                let cells = topology.facets.iter().map(|facet| &facet.cell).chain(topology.bars.iter().map(|bar| &bar.cell));
+                let seen: Vec<f32> =
+                    if scalar.at_nodes() { topology.nodes.iter().map(value).collect() } else { cells.map(value).collect() };
+                let own = range(&seen);
+                whole = whole.zip(own).map(|(a, b)| [a[0].min(b[0]), a[1].max(b[1])]).or(whole).or(own);
+            }
+        }
+        self.ranges.lock().unwrap_or_else(PoisonError::into_inner).insert(name.into(), (whole, frames.len()));
+        Ok((whole, frames.len()))
+    }
+
+    /// A scalar at a node or in a cell, in all frames; none where there is no such scalar or place.
+    ///
+    /// # Errors
+    /// As [`ResultView::frame`].
+    pub fn probe(&self, name: &str, place: usize) -> Result<Option<Probed>, ResultsError> {
+        let Some(scalar) = Scalar::of(self.kinds.iter().copied(), name) else { return Ok(None) };
+        let is_cell = scalar.kind.location == Location::Cell;
+        if place >= if is_cell { self.bodies.cells.len() } else { self.nodes } {
+            return Ok(None);
+        }
+        let mut probed = Probed { unit: scalar.kind.unit, label: scalar.label(), ..Probed::default() };
+        for (FrameTime { time, .. }, file) in frames(&self.path)? {
+            let mut reader = VtuReader::open(&file)?;
+            let is_gone = is_cell && reader.gone()?.binary_search(&(place as u32)).is_ok();
+            let own = reader.values(scalar.kind, place..place + 1)?;
+            let value = (!own.is_empty() && !is_gone).then(|| scalar.scalar(&own)).filter(|value| value.is_finite());
+            probed.times.push(time);
+            probed.values.push(value);
+        }
+        Ok(Some(probed))
+    }
+}
+
+/// The names of the parts, as far as anything tells them.
+fn part_names(path: &Path, appearance: &Appearance, cells: &Cells) -> Result<Vec<String>, ResultsError> {
+    let count = cells.parts.iter().max().map_or(0, |&last| last as usize + 1).min(cells.len());
+    let summary: Option<Value> = read_json(&path.join("summary.json"))?;
+    let told = summary.as_ref().and_then(|summary| summary.get("parts")).and_then(Value::as_array);
+    let told: Vec<String> = told.into_iter().flatten().filter_map(Value::as_str).map(ToString::to_string).collect();
+    let mut names = if told.is_empty() { appearance.parts.iter().map(|(name, _)| name.clone()).collect() } else { told };
+    names.extend((names.len()..count).map(|part| format!("part {part}")));
+    Ok(names)
+}
+
+/// The frames of a folder by number, with their times; those after the last collection are asked themselves.
+fn frames(path: &Path) -> Result<Vec<(FrameTime, PathBuf)>, ResultsError> {
+    let collection = std::fs::read_to_string(path.join("fields.pvd")).unwrap_or_default();
+    let attribute =
+        |line: &str, name: &str| line.split(&format!("{name}=\"")).nth(1).and_then(|rest| rest.split('"').next()).map(ToString::to_string);
+    let told: BTreeMap<String, f64> = collection
+        .lines()
+        .filter_map(|line| {
+            Some((attribute(line, "file")?, attribute(line, "timestep")?.parse().ok().filter(|time: &f64| time.is_finite())?))
+        })
+        .collect();
+    let folder = path.join("fields");
+    let mut found: Vec<(usize, PathBuf, String)> = Vec::new();
+    let entries = match std::fs::read_dir(&folder) {
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),
+        entries => entries.map_err(ResultsError::file("read", &folder))?,
+    };
+    for entry in entries {
+        let name = entry.map_err(ResultsError::file("read", &folder))?.file_name().to_string_lossy().into_owned();
+        let number = name.strip_prefix("frame-").and_then(|rest| rest.strip_suffix(".vtu"));
+        let Some(number) = number.filter(|digits| digits.len() >= 5).and_then(|digits| digits.parse().ok()) else { continue };
+        found.push((number, folder.join(&name), format!("fields/{name}")));
+    }
+    found.sort_unstable_by_key(|(number, _, _)| *number);
+    let time = |file: &Path, name: &str| told.get(name).map_or_else(|| VtuReader::open(file).map(|reader| reader.time), |time| Ok(*time));
+    let frames = found.into_iter().filter_map(|(number, file, name)| {
+        // One that can't be read is told of when it is wanted; without a time it has no place.
+        let time = time(&file, &name).ok()?;
+        Some((FrameTime { number, time }, file))
+    });
+    Ok(frames.collect())
+}

@@ -1,0 +1,144 @@
+// The page's middle: runs, view, what happens, and which frame is on the screen. Parts of the page change the view
+// through `change`, and listen to `events`.
+
+import type { Run, Runs } from "../types";
+import { Events } from "./events";
+import { Live } from "./live";
+import { Player } from "./player";
+import { Gone, Refusal, type Requests } from "./requests";
+import { FrameStore, Session } from "./session";
+import { firstView, viewOf, viewText, type View } from "./view";
+
+/** A text for the user at the top of the picture; `alert` is read aloud at once. */
+export interface Note {
+  text: string;
+  alert: boolean;
+}
+
+export class App {
+  readonly events = new Events();
+  readonly store = new FrameStore();
+  readonly sessions: Session[];
+  readonly live: Live | null;
+  readonly first: View;
+  readonly player: Player;
+  view: View;
+  note: Note | null = null;
+  private addressTimer = 0;
+  private pollTimer = 0;
+  private polling = false;
+
+  constructor(readonly told: Runs, readonly requests: Requests) {
+    const good = told.runs.map((run, index) => ({ run, index })).filter((one): one is { run: Run; index: number } => !("fault" in one.run));
+    this.sessions = good.map(({ run, index }) => new Session(index, run, requests, this.store, this.events));
+    const runs = this.sessions.map((session) => session.run);
+    this.first = firstView(runs);
+    const text = location.hash.length > 1 ? location.hash : told.view;
+    this.view = viewOf(text, this.first, runs[0]!);
+    this.live = told.live && this.sessions[0] ? new Live(this.sessions[0], requests, this.events) : null;
+    this.player = new Player(this);
+  }
+
+  start(): void {
+    this.requests.onConnection = (connection) => {
+      if (connection === "open") void this.poll(true);
+      this.events.tell("connection");
+    };
+    window.addEventListener("hashchange", () => {
+      if (location.hash.slice(1) === viewText(this.view, this.first)) return;
+      this.view = { ...viewOf(location.hash, this.first, this.sessions[0]!.run), playing: false };
+      this.events.tell("view");
+      this.events.tell("theme");
+      this.player.update();
+    });
+    if (this.live) {
+      this.live.onFrame = () => this.player.showLive();
+      this.live.open();
+    }
+    for (const session of this.sessions) void session.loadHistory();
+    this.player.update();
+    this.schedule();
+  }
+
+  /** The first run is the one that gives names, units and first choices. */
+  get run(): Run {
+    return this.sessions[0]!.run;
+  }
+  get end(): number {
+    return Math.max(...this.sessions.map((session) => session.end));
+  }
+  get isComparison(): boolean {
+    return this.sessions.length > 1;
+  }
+  /** Something may still come. */
+  get isGoing(): boolean {
+    return this.sessions.some((session) => !session.run.is_over) && !(this.live?.ended && !this.live.ended.stays);
+  }
+
+  change(part: Partial<View>): void {
+    const theme = part.theme !== undefined && part.theme !== this.view.theme;
+    this.view = { ...this.view, ...part };
+    this.events.tell("view");
+    if (theme) this.events.tell("theme");
+    this.player.update();
+    this.address();
+  }
+  picture(part: Partial<View["picture"]>): void {
+    this.change({ picture: { ...this.view.picture, ...part } });
+  }
+  /** Moves the time by hand: leaves playing and following. */
+  moveTo(time: number): void {
+    this.change({ time: Math.min(Math.max(time, this.player.times()[0] ?? 0), this.player.times().at(-1) ?? time), playing: false, follow: false });
+  }
+
+  say(text: string, alert = false): void {
+    this.note = { text, alert };
+    this.events.tell("message");
+  }
+
+  /** The view's text goes into the address, not more often than browsers like. */
+  private address(): void {
+    if (this.addressTimer !== 0) return;
+    this.addressTimer = window.setTimeout(() => {
+      this.addressTimer = 0;
+      if (this.view.playing) return;
+      const text = viewText(this.view, this.first);
+      if (location.hash.slice(1) !== text) history.replaceState(null, "", text === "" ? location.pathname : `#${text}`);
+    }, 250);
+  }
+  link(): string {
+    const text = viewText(this.view, this.first);
+    return `${location.origin}${location.pathname}${text === "" ? "" : `#${text}`}`;
+  }
+
+  // --- runs in progress ---
+
+  private schedule(): void {
+    window.clearTimeout(this.pollTimer);
+    if (this.isGoing) this.pollTimer = window.setTimeout(() => void this.poll(false), 2000);
+  }
+
+  /** Asks what is new of runs in progress; after the server was gone of all. */
+  async poll(all: boolean): Promise<void> {
+    if (this.polling) return;
+    this.polling = true;
+    try {
+      if (this.requests.connection !== "open") return;
+      for (const session of this.sessions) {
+        if (session.run.is_over && !all) continue;
+        const run = await this.requests.json<Run | { fault: string }>(`api/runs/${session.index}`);
+        if ("fault" in run) throw new Refusal("", run.fault, 200);
+        if (run.path !== session.run.path || (run.frames.length < session.run.frames.length && session.run.is_over)) location.reload();
+        session.run = run;
+        void session.loadHistory();
+      }
+      this.events.tell("run");
+      this.player.update();
+    } catch (fault) {
+      if (!(fault instanceof Gone)) this.say((fault as Error).message, true);
+    } finally {
+      this.polling = false;
+      this.schedule();
+    }
+  }
+}

@@ -1,0 +1,21 @@
+// What happens in the page, by name: parts of the page listen to it and bring themselves up to date.
+
+/** view: something of the view changed; shown: other frames are on the screen; run: runs' data are newer; history: histories are newer;
+ * range: the colours' range is known; live: progress of a live run; message: a text for the user; connection; probe: values of probes arrived. */
+export type Happening = "view" | "shown" | "run" | "history" | "range" | "live" | "message" | "connection" | "probe" | "theme";
+
+export class Events {
+  private listeners = new Map<Happening, (() => void)[]>();
+
+  on(names: Happening | Happening[], listener: () => void): void {
+    for (const name of Array.isArray(names) ? names : [names]) {
+      const list = this.listeners.get(name) ?? [];
+      list.push(listener);
+      this.listeners.set(name, list);
+    }
+  }
+
+  tell(name: Happening): void {
+    for (const listener of this.listeners.get(name) ?? []) listener();
+  }
+}

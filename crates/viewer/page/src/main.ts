@@ -1,0 +1,79 @@
+// The page of embate's viewer: asks what there is to show, and puts its parts together, or explains what is wrong.
+
+import "uplot/dist/uPlot.min.css";
+import "./app/theme.css";
+import "./app/style.css";
+import "./app/panel.css";
+import type { FaultyRun, Runs } from "./types";
+import { App } from "./app/app";
+import { help } from "./app/dialogs";
+import { fill, h } from "./app/dom";
+import { exportDialog, savePicture } from "./app/export";
+import { faultyRuns, unreachable } from "./app/fault";
+import { listenToKeys } from "./app/keys";
+import { banners, liveBar } from "./app/livebar";
+import { SidePanel } from "./app/panel";
+import { copyText } from "./app/panel_rest";
+import { Probes } from "./app/probes";
+import { Requests } from "./app/requests";
+import { Stage } from "./app/stage";
+import { apply, isDark, onSystem } from "./app/theme";
+import { Timeline } from "./app/timeline";
+import { pictureTools, toolbar } from "./app/toolbar";
+
+const root = document.getElementById("app")!;
+
+async function start(): Promise<void> {
+  apply("auto");
+  const requests = new Requests();
+  let told: Runs;
+  try {
+    told = await requests.json<Runs>("api/runs", 0);
+  } catch (fault) {
+    fill(root, unreachable(fault));
+    return;
+  }
+  const faulty = told.runs.filter((run): run is FaultyRun => "fault" in run);
+  if (faulty.length === told.runs.length) {
+    document.title = "embate: can't be shown";
+    fill(root, faultyRuns(faulty));
+    return;
+  }
+  page(told, requests);
+}
+
+function page(told: Runs, requests: Requests): void {
+  const app = new App(told, requests);
+  apply(app.view.theme);
+  const names = () => {
+    const percent = app.live?.progress && !app.live.ended ? `${Math.floor((100 * app.live.progress.time) / (app.live.progress.end ?? app.end))} % · ` : "";
+    const title = `${percent}${app.sessions.map((session) => session.run.name).join(" · ")} · embate`;
+    if (document.title !== title) document.title = title;
+  };
+  names();
+  app.events.on(["run", "live"], names);
+  app.events.on("theme", () => apply(app.view.theme));
+  // applied before the others hear of it, as they read its colours
+  const theme = () => {
+    const next = isDark(app.view.theme) ? "light" : "dark";
+    apply(next);
+    app.change({ theme: next });
+  };
+  onSystem(() => {
+    if (app.view.theme !== "auto") return;
+    apply("auto");
+    app.events.tell("theme");
+  });
+
+  const probes = new Probes(app);
+  const stage = new Stage(app, probes);
+  const panel = new SidePanel(app, probes);
+  const actions = { help, theme, export: () => exportDialog(app, stage, panel), screenshot: () => void savePicture(app, stage), link: () => void copyText(app, app.link(), "Link to this view copied.") };
+  fill(root, h("div", { class: "page" },
+    toolbar(app, actions), banners(app), liveBar(app),
+    h("main", { class: "middle" }, h("div", { class: "stage" }, stage.element, pictureTools(app, stage)), new Timeline(app).element), panel.element));
+  listenToKeys(app, stage, actions);
+  app.start();
+}
+
+void start().catch((fault: unknown) => fill(root, unreachable(fault)));

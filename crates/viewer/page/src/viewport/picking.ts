@@ -1,0 +1,77 @@
+// What lies under a pixel: facets and bars are drawn once more, into one pixel, with their numbers as colours.
+
+import { Group, Mesh, type OrthographicCamera, Scene, UnsignedByteType, WebGLRenderTarget, type WebGLRenderer } from "three";
+import type { Bars } from "./bars";
+import type { Skin } from "./skin";
+import type { Stage } from "./stage";
+
+export interface Found {
+  /** Facet, or after the facets bar. */
+  row: number;
+  /** Which mirror image. */
+  image: number;
+}
+
+export class Picker {
+  private readonly target = new WebGLRenderTarget(1, 1, { type: UnsignedByteType, depthBuffer: true });
+  private readonly scene = new Scene();
+  private readonly group = new Group();
+  private readonly image = { value: 0 };
+  private readonly pixel = new Uint8Array(4);
+
+  constructor(
+    private readonly renderer: WebGLRenderer,
+    private readonly stage: Stage,
+    private readonly skin: Skin,
+    private readonly bars: Bars,
+  ) {
+    this.scene.matrixAutoUpdate = false;
+    this.group.matrixAutoUpdate = false;
+    this.scene.add(this.group);
+  }
+
+  /** What a camera sees at this pixel of a picture of this size; null: nothing. */
+  at(camera: OrthographicCamera, x: number, y: number, width: number, height: number): Found | null {
+    this.group.clear();
+    for (const drawn of [this.skin.forPick(this.image), this.bars.forPick(this.image)]) {
+      if (drawn === null) continue;
+      const mesh = new Mesh(...drawn);
+      mesh.frustumCulled = false;
+      mesh.matrixAutoUpdate = false;
+      mesh.renderOrder = this.group.children.length;
+      this.group.add(mesh);
+    }
+    const { renderer, stage } = this;
+    const canvas = stage.shared.canvas.value;
+    const [wide, high] = [canvas.x, canvas.y];
+    camera.setViewOffset(width, height, Math.floor(x), Math.floor(y), 1, 1);
+    canvas.set(1, 1);
+    renderer.setRenderTarget(this.target);
+    renderer.clear();
+    renderer.autoClear = false;
+    for (let image = 0; image < stage.imageCount; image++) {
+      this.image.value = image;
+      this.group.matrix.copy(stage.images[image]!.matrix);
+      this.group.matrixWorldNeedsUpdate = true;
+      renderer.render(this.scene, camera);
+    }
+    renderer.readRenderTargetPixels(this.target, 0, 0, 1, 1, this.pixel);
+    renderer.autoClear = true;
+    renderer.setRenderTarget(null);
+    canvas.set(wide, high);
+    camera.clearViewOffset();
+    const [r, g, b, a] = this.pixel as unknown as [number, number, number, number];
+    const code = r + 256 * g + 65_536 * b;
+    return a < 128 || code === 0 ? null : { row: code - 1, image: a - 128 };
+  }
+
+  /** Waits until all is drawn, by reading a pixel of the picture. */
+  finish(): void {
+    const context = this.renderer.getContext();
+    context.readPixels(0, 0, 1, 1, context.RGBA, context.UNSIGNED_BYTE, this.pixel);
+  }
+
+  dispose(): void {
+    this.target.dispose();
+  }
+}

@@ -1,0 +1,391 @@
+// Programs of the GPU (GLSL ES 3.0). Vertices have no attributes: their number (`gl_VertexID`) leads through tables of
+// facets to nodes and from these to positions and values. Every program gets `COMMON` in front; names in capitals are
+// defined by the materials in `skin`, `bars`, `arrows`, `obstacles`.
+
+/** Reading of tables; positions of nodes as shown. */
+const COMMON = /* glsl */ `
+precision highp float;
+precision highp int;
+precision highp usampler2D;
+uniform mat4 modelViewMatrix;
+uniform mat4 projectionMatrix;
+uniform highp sampler2D positions;
+uniform highp sampler2D initials;
+uniform float scale;
+ivec2 at(int row) { return ivec2(row & 2047, row >> 11); }
+vec3 place(int node) {
+  vec3 x = texelFetch(positions, at(node), 0).xyz;
+#ifdef SCALED
+  vec3 initial = texelFetch(initials, at(node), 0).xyz;
+  x = initial + scale * (x - initial);
+#endif
+  return x;
+}
+`;
+
+/** Value of a facet or bar (`CELL`) or of a node (`NODE`); of no value the second number is 1. */
+const VALUE = /* glsl */ `
+uniform highp sampler2D values;
+vec2 valueAt(int row) {
+  float value = texelFetch(values, at(row), 0).x;
+  return value > 1e38 ? vec2(0.0, 1.0) : vec2(value, 0.0);
+}
+`;
+
+/** Colour of a value; nodes without a value do not take part in the mean of a facet's corners. */
+const COLOUR = /* glsl */ `
+precision highp float;
+precision highp int;
+uniform highp sampler2D colours;
+uniform highp sampler2D partColours;
+uniform vec2 range;
+uniform float bands;
+uniform vec3 noValue;
+vec3 colourOf(vec2 value) {
+  if (value.y > 0.5) return noValue;
+  float v = value.x / (1.0 - value.y);
+  float t = range.y > range.x ? clamp((v - range.x) / (range.y - range.x), 0.0, 1.0) : 0.0;
+  if (bands > 1.5) t = min(floor(t * bands), bands - 1.0) / (bands - 1.0);
+  else if (bands > 0.5) t = 0.5;
+  return texelFetch(colours, ivec2(int(floor(t * 255.0 + 0.5)), 0), 0).rgb;
+}
+`;
+
+export const SKIN_VERTEX = /* glsl */ `${COMMON}${VALUE}
+uniform usampler2D facets;
+uniform usampler2D sources;
+uniform usampler2D parts;
+out vec2 corner;
+flat out int flags;
+#ifdef SPACE
+out vec3 seen;
+#endif
+#ifdef PICK
+flat out uint row;
+#else
+#ifdef NODE
+out vec2 value;
+#endif
+#ifdef CELL
+flat out vec2 value;
+#endif
+#ifdef PART
+flat out int part;
+#endif
+#endif
+void main() {
+  int facet = gl_VertexID >> 2;
+  int own = gl_VertexID & 3;
+  uvec4 raw = texelFetch(facets, at(facet), 0);
+  uvec4 nodes = raw & 0x7fffffffu;
+  uvec4 outline = raw >> 31;
+  int node = int(own < 2 ? (own == 0 ? nodes.x : nodes.y) : (own == 2 ? nodes.z : nodes.w));
+  flags = int(outline.x | outline.y << 1 | outline.z << 2 | outline.w << 3) | (nodes.z == nodes.w ? 16 : 0);
+  corner = vec2(own == 1 || own == 2 ? 1.0 : 0.0, own >= 2 ? 1.0 : 0.0);
+  vec4 x = modelViewMatrix * vec4(place(node), 1.0);
+#ifdef SPACE
+  seen = x.xyz;
+#endif
+  int source = facet;
+#ifdef COARSE
+  source = int(texelFetch(sources, at(facet), 0).x);
+#endif
+#ifdef PICK
+  row = uint(source);
+#else
+#ifdef NODE
+  value = valueAt(node);
+#endif
+#ifdef CELL
+  value = valueAt(source);
+#endif
+#ifdef PART
+  part = int(texelFetch(parts, at(source), 0).x);
+#endif
+#endif
+  gl_Position = projectionMatrix * x;
+}
+`;
+
+/** Lines of a facet by the distance to its sides in pixels: `x` how much of a mesh line, `y` how much of an outline. */
+const LINES = /* glsl */ `
+in vec2 corner;
+flat in int flags;
+uniform float pixel;
+uniform float halfLine;
+uniform float halfOutline;
+vec2 linesOf() {
+  bool triangle = (flags & 16) != 0;
+  // Distances to the sides 0-1, 1-2, 2-3, 3-0; of a triangle (0,0) (1,0) (1,1) the third is the diagonal and there is no fourth.
+  vec4 side = triangle ? vec4(corner.y, 1.0 - corner.x, corner.x - corner.y, 1e9) : vec4(corner.y, 1.0 - corner.x, 1.0 - corner.y, corner.x);
+  vec2 dx = dFdx(corner), dy = dFdy(corner);
+  float u = length(vec2(dx.x, dy.x)), v = length(vec2(dx.y, dy.y));
+  vec4 slope = vec4(v, u, triangle ? length(vec2(dx.x - dx.y, dy.x - dy.y)) : v, u);
+  vec4 width = 1.0 / max(slope, vec4(1e-12));
+  vec4 far = side * width;
+  // Lines closer together than some pixels fade away: otherwise they cover the colours.
+  vec4 fade = smoothstep(vec4(4.0), vec4(14.0), width / pixel);
+  vec4 near = clamp(halfLine + 0.5 - far, 0.0, 1.0) * fade;
+  ivec4 bits = ivec4(flags & 1, flags & 2, flags & 4, flags & 8);
+  vec4 marked = vec4(notEqual(bits, ivec4(0)));
+  vec4 border = clamp(halfOutline + 0.5 - far, 0.0, 1.0) * marked * smoothstep(vec4(5.0), vec4(14.0), width / pixel);
+  return vec2(max(max(near.x, near.y), max(near.z, near.w)), max(max(border.x, border.y), max(border.z, border.w)));
+}
+`;
+
+/** Flat shading by the plane in which the neighbouring pixels lie; both sides are lit. */
+const SHADE = /* glsl */ `
+in vec3 seen;
+float shade() {
+  vec3 normal = cross(dFdx(seen), dFdy(seen));
+  float size = length(normal);
+  if (!(size > 0.0)) return 1.0;
+  normal *= (normal.z < 0.0 ? -1.0 : 1.0) / size;
+  return 0.52 + 0.48 * clamp(1.06 * dot(normal, vec3(-0.26, 0.38, 0.888)), 0.0, 1.0);
+}
+`;
+
+export const SKIN_FRAGMENT = /* glsl */ `${COLOUR}
+#if defined(LINES) || defined(OUTLINE)
+${LINES}
+#endif
+#ifdef SPACE
+${SHADE}
+#endif
+#ifdef NODE
+in vec2 value;
+#endif
+#ifdef CELL
+flat in vec2 value;
+#endif
+#ifdef PART
+flat in int part;
+#endif
+uniform vec3 ink;
+out vec4 colour;
+void main() {
+#ifdef PART
+  vec3 c = texelFetch(partColours, ivec2(part & 2047, part >> 11), 0).rgb;
+#else
+  vec3 c = colourOf(value);
+#endif
+#ifdef SPACE
+  c *= shade();
+#endif
+#if defined(LINES) || defined(OUTLINE)
+  vec2 line = linesOf();
+#ifdef LINES
+  c = mix(c, ink, 0.55 * line.x);
+#endif
+  c = mix(c, ink, 0.85 * line.y);
+#endif
+  colour = vec4(c, 1.0);
+}
+`;
+
+/** Row of a facet (or, after the facets, of a bar) as a colour: three bytes of row + 1, and which image. */
+const CODE = /* glsl */ `
+uniform float image;
+out vec4 colour;
+vec4 codeOf(uint row) {
+  uint code = row + 1u;
+  return vec4(float(code & 255u), float((code >> 8) & 255u), float((code >> 16) & 255u), 128.0 + image) / 255.0;
+}
+`;
+
+export const PICK_FRAGMENT = /* glsl */ `
+precision highp float;
+precision highp int;
+flat in uint row;
+${CODE}
+void main() { colour = codeOf(row); }
+`;
+
+export const BAR_VERTEX = /* glsl */ `${COMMON}${VALUE}
+uniform usampler2D bars;
+uniform vec2 canvas;
+uniform float thickness;
+uniform int firstBar;
+out float across;
+#ifdef PICK
+flat out uint row;
+#else
+#ifdef NODE
+out vec2 value;
+#endif
+#ifdef CELL
+flat out vec2 value;
+#endif
+#ifdef PART
+flat out int part;
+#endif
+#endif
+void main() {
+  int bar = gl_VertexID >> 2;
+  int own = gl_VertexID & 3;
+  uvec4 ends = texelFetch(bars, at(bar), 0);
+  vec4 from = projectionMatrix * modelViewMatrix * vec4(place(int(ends.x)), 1.0);
+  vec4 to = projectionMatrix * modelViewMatrix * vec4(place(int(ends.y)), 1.0);
+  bool isEnd = own == 1 || own == 2;
+  float side = own >= 2 ? 1.0 : -1.0;
+  vec2 along = (to.xy - from.xy) * canvas;
+  float size = length(along);
+  along = size > 0.0 ? along / size : vec2(1.0, 0.0);
+  gl_Position = isEnd ? to : from;
+  vec2 reach = (vec2(-along.y, along.x) * side + along * (isEnd ? 0.5 : -0.5)) * thickness;
+  gl_Position.xy += reach / canvas;
+  across = side * thickness * 0.5;
+#ifdef PICK
+  row = uint(firstBar + bar);
+#else
+#ifdef NODE
+  value = valueAt(int(isEnd ? ends.y : ends.x));
+#endif
+#ifdef CELL
+  value = valueAt(firstBar + bar);
+#endif
+#ifdef PART
+  part = int(ends.z);
+#endif
+#endif
+}
+`;
+
+export const BAR_FRAGMENT = /* glsl */ `${COLOUR}
+in float across;
+uniform float thickness;
+uniform float pixel;
+uniform vec3 ink;
+#ifdef NODE
+in vec2 value;
+#endif
+#ifdef CELL
+flat in vec2 value;
+#endif
+#ifdef PART
+flat in int part;
+#endif
+out vec4 colour;
+void main() {
+#ifdef PART
+  vec3 c = texelFetch(partColours, ivec2(part & 2047, part >> 11), 0).rgb;
+#else
+  vec3 c = colourOf(value);
+#endif
+  float border = clamp(abs(across) - 0.5 * thickness + pixel + 0.5, 0.0, 1.0);
+  colour = vec4(mix(c, ink, 0.8 * border), 1.0);
+}
+`;
+
+/** Arrows that face the camera: nine vertices each, a shaft of two triangles and a head. */
+export const ARROW_VERTEX = /* glsl */ `${COMMON}
+uniform usampler2D arrowNodes;
+uniform highp sampler2D arrowVectors;
+uniform vec2 canvas;
+uniform float longest;
+uniform float largest;
+uniform float halo;
+uniform float pixel;
+void main() {
+  int arrow = gl_VertexID / 9;
+  int own = gl_VertexID - 9 * arrow;
+  vec3 force = texelFetch(arrowVectors, at(arrow), 0).xyz;
+  int node = int(texelFetch(arrowNodes, at(arrow), 0).x);
+  float size = length(force);
+  vec4 tail = modelViewMatrix * vec4(place(node), 1.0);
+  vec3 direction = mat3(modelViewMatrix) * (size > 0.0 ? force / size : vec3(0.0));
+  vec4 tip = tail;
+  float reach = longest * sqrt(size / max(largest, 1e-37));
+  tip.xyz += direction * reach;
+  vec4 a = projectionMatrix * tail;
+  vec4 b = projectionMatrix * tip;
+  vec2 span = (b.xy - a.xy) * 0.5 * canvas;
+  float shown = length(span);
+  vec2 along = shown > 0.0 ? span / shown : vec2(0.0, 1.0);
+  vec2 across = vec2(-along.y, along.x);
+  float head = min(9.0 * pixel, 0.45 * shown);
+  float thick = min(1.1 * pixel, 0.12 * shown) + halo;
+  float wide = 0.42 * head + 1.8 * halo;
+  float end = shown + 2.2 * halo;
+  float start = shown - head - halo;
+  vec2 p;
+  if (own < 6) {
+    bool far = own == 1 || own == 2 || own == 4;
+    bool left = own == 2 || own == 4 || own == 5;
+    p = along * (far ? start + halo : -halo) + across * (left ? thick : -thick);
+  } else {
+    p = own == 6 ? along * end : along * start + across * (own == 7 ? wide : -wide);
+  }
+  if (shown < 1.0) p = vec2(0.0);
+  gl_Position = a;
+  gl_Position.z = mix(a.z, b.z, 0.5) - 1e-4 + (halo > 0.0 ? 2e-5 : 0.0);
+  gl_Position.xy += p * 2.0 / canvas;
+}
+`;
+
+export const PLAIN_FRAGMENT = /* glsl */ `
+precision highp float;
+uniform vec4 paint;
+out vec4 colour;
+void main() { colour = paint; }
+`;
+
+/** A line of an obstacle in the plane: a band of hatching on the right of its direction, where it is solid. */
+export const EDGE_VERTEX = /* glsl */ `${COMMON}
+uniform usampler2D edges;
+uniform vec2 canvas;
+uniform float bandWidth;
+uniform float lineWidth;
+out float depth;
+void main() {
+  int edge = gl_VertexID >> 2;
+  int own = gl_VertexID & 3;
+  uvec4 ends = texelFetch(edges, at(edge), 0);
+  vec4 a = modelViewMatrix * vec4(place(int(ends.x)), 1.0);
+  vec4 b = modelViewMatrix * vec4(place(int(ends.y)), 1.0);
+  vec3 way = place(int(ends.y)) - place(int(ends.x));
+  vec3 right = mat3(modelViewMatrix) * vec3(way.y, -way.x, 0.0);
+  float size = length(right.xy);
+  vec2 side = size > 0.0 ? right.xy / size : vec2(0.0);
+  vec2 along = size > 0.0 ? normalize(b.xy - a.xy) : vec2(0.0);
+  bool isEnd = own == 1 || own == 2;
+  bool isDeep = own >= 2;
+  depth = isDeep ? bandWidth : -0.5 * lineWidth;
+  gl_Position = projectionMatrix * (isEnd ? b : a);
+  gl_Position.xy += (side * depth + along * (isEnd ? 0.5 : -0.5) * lineWidth) * 2.0 / canvas;
+}
+`;
+
+export const EDGE_FRAGMENT = /* glsl */ `
+precision highp float;
+in float depth;
+uniform float bandWidth;
+uniform float lineWidth;
+uniform float pixel;
+uniform vec3 ink;
+uniform vec3 solid;
+out vec4 colour;
+void main() {
+  if (depth < 0.5 * lineWidth) { colour = vec4(ink, 1.0); return; }
+  float stripe = mod((gl_FragCoord.x + gl_FragCoord.y) / pixel, 7.0);
+  float line = clamp(1.6 - abs(stripe - 3.5) * 1.42, 0.0, 1.0);
+  float fade = 1.0 - depth / bandWidth;
+  colour = vec4(mix(solid, ink, 0.75 * line), (0.35 + 0.65 * line) * smoothstep(0.0, 0.5, fade));
+}
+`;
+
+/** Facets of an obstacle in space: translucent, their edges drawn. */
+export const WALL_FRAGMENT = /* glsl */ `
+precision highp float;
+precision highp int;
+${LINES}
+${SHADE}
+uniform vec3 ink;
+uniform vec3 solid;
+uniform float cover;
+out vec4 colour;
+void main() {
+  float line = linesOf().y;
+  colour = vec4(mix(solid * shade(), ink, line), mix(cover, 0.45, line));
+}
+`;

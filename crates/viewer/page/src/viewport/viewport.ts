@@ -1,0 +1,462 @@
+// The picture of one run: what the page sets (topology, frame, state) and asks (pick, figures).
+
+import { OrthographicCamera, WebGLRenderer } from "three";
+import type { MapName } from "../colormap";
+import type { Frame, Run, Topology, Vector } from "../types";
+import { Arrows } from "./arrows";
+import { Bars } from "./bars";
+import { type Camera, type Direction, dot, Rig } from "./camera";
+import { Controls } from "./controls";
+import { bodyBox, type Box, corners, joined, nearby } from "./extents";
+import { drawOverlay, type Shown } from "./overlay";
+import { Picker } from "./picking";
+import { Obstacles } from "./obstacles";
+import { type Colouring, Skin } from "./skin";
+import { imageSigns, Stage } from "./stage";
+
+export type { MapName } from "../colormap";
+export type { Camera, Direction } from "./camera";
+
+/** What a link restores of the picture; plain JSON. */
+export interface ViewState {
+  /** null = fit to the bodies */
+  camera: Camera | null;
+  /** Of the displacements: shown = initial + scale · (current − initial). */
+  scale: number;
+  /** Mesh lines. */
+  lines: boolean;
+  /** Contact forces. */
+  arrows: boolean;
+  arrow_scale: number;
+  mirror: [boolean, boolean, boolean];
+  obstacles: boolean;
+  /** Names of parts not shown. */
+  hidden: string[];
+  map: MapName;
+  /** Of the colours; null = as given by `setRange` (automatic). */
+  range: [number, number] | null;
+  /** Steps of colour; 0 = continuous. */
+  bands: number;
+}
+
+/** What lies under the pointer: the nearest corner of the facet or bar there. `facet` counts facets and then bars. */
+export interface Pick {
+  node: number;
+  skin_node: number;
+  cell: number;
+  part: number;
+  facet: number;
+  position: Vector;
+  value: number | null;
+}
+
+export interface Mark {
+  node: number;
+  colour: string;
+  label: string;
+}
+
+export interface Figures {
+  triangles: number;
+  level: number;
+  milliseconds: number;
+  frames_per_second: number;
+}
+
+/** The state of a new picture of a run. */
+export function firstState(run: Run): ViewState {
+  return {
+    camera: null,
+    scale: 1,
+    lines: run.elements <= 20_000,
+    arrows: false,
+    arrow_scale: 1,
+    mirror: [...run.mirror],
+    obstacles: true,
+    hidden: [],
+    map: "viridis",
+    range: null,
+    bands: 0,
+  };
+}
+
+/** A picture that takes longer than this (ms) is drawn coarser while it moves. */
+const SLOW = 50;
+/** What has not moved for so long (ms) is drawn whole. */
+const REST = 250;
+/** Skins with more triangles are waited for, to know how long they take. */
+const TIMED = 20_000;
+
+export class Viewport {
+  /** The user moved the camera (to link two viewports). */
+  onCamera?: (camera: Camera) => void;
+  readonly figures: Figures = { triangles: 0, level: 0, milliseconds: 0, frames_per_second: 0 };
+
+  /** Bodies are drawn here; axes, marks and the scale are put over them on the canvas that is seen. */
+  private readonly hidden = document.createElement("canvas");
+  private readonly paper: CanvasRenderingContext2D;
+  private readonly renderer: WebGLRenderer;
+  private readonly camera = new OrthographicCamera();
+  private readonly stage: Stage;
+  private readonly skin: Skin;
+  private readonly bars: Bars;
+  private readonly arrows: Arrows;
+  private readonly obstacles: Obstacles;
+  private readonly picker: Picker;
+  private readonly rig: Rig;
+  private readonly controls: Controls;
+  private current: ViewState;
+  private range: [number, number] | null = null;
+  private topology: Topology | null = null;
+  private frame: Frame | null = null;
+  private places = new Map<number, number>();
+  private marks: Mark[] = [];
+  /** Around what is looked at, in the tables' coordinates. */
+  private box: Box | null = null;
+  private pixels = 1;
+  private due = 0;
+  private rest = 0;
+  private drawn = 0;
+  private moves = false;
+  private cost = [0, 0];
+  private isLost = false;
+
+  constructor(
+    readonly canvas: HTMLCanvasElement,
+    readonly run: Run,
+    readonly options: { dark: boolean },
+  ) {
+    const paper = canvas.getContext("2d", { alpha: false });
+    if (paper === null) throw new Error("the canvas can't be drawn on");
+    this.paper = paper;
+    this.renderer = new WebGLRenderer({ canvas: this.hidden, antialias: true, alpha: true, powerPreference: "high-performance" });
+    this.renderer.setPixelRatio(1);
+    this.renderer.setClearColor(0x000000, 0);
+    for (const kind of ["webglcontextlost", "webglcontextrestored"] as const) {
+      this.hidden.addEventListener(kind, () => {
+        this.isLost = kind === "webglcontextlost";
+        canvas.dispatchEvent(new Event(kind, { cancelable: true }));
+        if (!this.isLost) this.request();
+      });
+    }
+    const isPlane = run.dimension !== 3;
+    this.stage = new Stage(isPlane, run.parts.length);
+    this.stage.setDark(options.dark);
+    this.skin = new Skin(this.stage);
+    this.bars = new Bars(this.stage);
+    this.arrows = new Arrows(this.stage);
+    this.obstacles = new Obstacles(this.stage);
+    this.picker = new Picker(this.renderer, this.stage, this.skin, this.bars);
+    this.rig = new Rig(isPlane, run.camera?.from ?? null, run.camera?.up ?? null);
+    this.current = firstState(run);
+    this.controls = new Controls(canvas, this.rig, () => this.moved());
+  }
+
+  /** WebGL's context was lost, or there is none: the page says so. */
+  get lost(): boolean {
+    return this.isLost;
+  }
+
+  setTopology(topology: Topology): void {
+    this.topology = topology;
+    this.frame = null;
+    const hidden = this.hiddenParts();
+    this.skin.setTopology(topology, hidden);
+    this.bars.setTopology(topology, hidden);
+    this.stage.initials.set(topology.initial);
+    this.places = new Map();
+    topology.nodeNumbers.forEach((number, place) => this.places.set(number, place));
+  }
+
+  setFrame(frame: Frame): void {
+    if (this.topology === null || frame.positions.length !== this.topology.initial.length) return;
+    this.frame = frame;
+    this.stage.positions.set(frame.positions);
+    this.stage.values.setValues(frame.values);
+    this.stage.refresh();
+    this.arrows.setFrame(frame);
+    this.obstacles.setFrame(frame, this.current.mirror, this.topology.origin);
+    this.follow();
+    this.request(true);
+  }
+
+  setState(state: ViewState): void {
+    const before = this.current;
+    this.current = structuredClone(state);
+    if (before.map !== state.map) this.stage.setMap(state.map);
+    if (String(before.hidden) !== String(state.hidden)) {
+      const hidden = this.hiddenParts();
+      this.skin.setHidden(hidden);
+      this.bars.setHidden(hidden);
+    }
+    if (this.frame !== null && this.topology !== null) this.obstacles.setFrame(this.frame, state.mirror, this.topology.origin);
+    if (state.camera !== null) this.rig.set(state.camera);
+    else if (before.camera !== null) this.rig.isFree = true;
+    this.follow();
+    this.request();
+  }
+
+  state(): ViewState {
+    return { ...structuredClone(this.current), camera: this.rig.isFree ? null : structuredClone(this.rig.camera) };
+  }
+
+  setRange(range: [number, number] | null): void {
+    this.range = range;
+    this.request();
+  }
+
+  setDark(dark: boolean): void {
+    this.stage.setDark(dark);
+    this.request();
+  }
+
+  /** Looks at all bodies; follows them until the camera is moved. */
+  fit(): void {
+    this.current.camera = null;
+    this.rig.isFree = true;
+    this.follow();
+    this.request();
+  }
+
+  look(direction: Direction): void {
+    this.rig.look(direction);
+    this.fitNow();
+    this.moved();
+  }
+
+  /** Turns by radians about the vertical and the horizontal of the picture; in the plane nothing. */
+  orbit(dx: number, dy: number): void {
+    this.rig.orbit(dx, dy);
+    this.moved();
+  }
+
+  /** Moves the picture by fractions of the canvas's height, right and up. */
+  pan(dx: number, dy: number): void {
+    this.rig.pan(dx, dy);
+    this.moved();
+  }
+
+  /** Larger than 1: closer. */
+  zoom(factor: number): void {
+    this.rig.zoom(factor);
+    this.moved();
+  }
+
+  /** What is seen at a place of the canvas, in px of CSS. */
+  pick(x: number, y: number): Pick | null {
+    const { topology, frame } = this;
+    if (topology === null || frame === null || this.isLost) return null;
+    this.prepare();
+    const size = this.size();
+    const found = this.picker.at(this.camera, x * size.unit, y * size.unit, size.width, size.height);
+    this.request();
+    const count = topology.facets.length / 4;
+    if (found === null || found.row >= count + topology.bars.length / 2) return null;
+    const isBar = found.row >= count;
+    const bar = found.row - count;
+    const nodes = isBar ? [...topology.bars.subarray(2 * bar, 2 * bar + 2)] : [...topology.facets.subarray(4 * found.row, 4 * found.row + 4)];
+    const sign = imageSigns(this.current.mirror)[found.image] ?? [1, 1, 1];
+    const away = (node: number): number => {
+      const place = this.place(node).map((value, k) => value * sign[k]!) as Vector;
+      const [u, v] = this.project(place);
+      return Math.hypot(u - x, v - y);
+    };
+    const node = nodes.reduce((best, other) => (away(other) < away(best) ? other : best));
+    const row = this.colouring() === "NODE" ? node : found.row;
+    const value = frame.values[row];
+    return {
+      node: topology.nodeNumbers[node]!,
+      skin_node: node,
+      cell: isBar ? topology.barCells[bar]! : topology.facetCells[found.row]!,
+      part: isBar ? topology.barParts[bar]! : topology.facetParts[found.row]!,
+      facet: found.row,
+      position: [0, 1, 2].map((k) => frame.positions[3 * node + k]! + topology.origin[k]!) as Vector,
+      value: value !== undefined && Number.isFinite(value) ? value : null,
+    };
+  }
+
+  mark(nodes: Mark[]): void {
+    this.marks = nodes;
+    this.request();
+  }
+
+  resize(): void {
+    this.follow();
+    this.request();
+  }
+
+  /** Pictures that are exported have more pixels. */
+  setPixels(factor: number): void {
+    this.pixels = factor;
+  }
+
+  dispose(): void {
+    cancelAnimationFrame(this.due);
+    clearTimeout(this.rest);
+    this.controls.dispose();
+    for (const drawn of [this.skin, this.bars, this.arrows, this.obstacles, this.picker, this.stage]) drawn.dispose();
+    this.renderer.dispose();
+  }
+
+  /** Draws at once, and whole. */
+  draw(): void {
+    this.paint(0);
+  }
+
+  /** Draws with the next picture of the screen; what moves may be drawn coarser. */
+  private request(moves = false): void {
+    this.moves ||= moves;
+    if (this.due === 0) this.due = requestAnimationFrame(() => this.next());
+  }
+
+  private moved(): void {
+    this.onCamera?.(structuredClone(this.rig.camera));
+    this.request(true);
+  }
+
+  /** The next picture: of what moves a coarser one if the whole takes long, which follows when it rests. */
+  private next(): void {
+    this.due = 0;
+    const level = this.moves && this.cost[0]! > SLOW && this.skin.levelCount > 1 ? 1 : 0;
+    this.moves = false;
+    this.paint(level);
+    const now = performance.now();
+    this.figures.frames_per_second = 1000 / Math.max(now - this.drawn, 1);
+    this.drawn = now;
+    clearTimeout(this.rest);
+    if (level > 0) this.rest = window.setTimeout(() => this.request(), REST);
+  }
+
+  private hiddenParts(): boolean[] {
+    const hidden = new Set(this.current.hidden);
+    return this.run.parts.map((part) => hidden.has(part.name));
+  }
+
+  /** What colours stand for in this frame. */
+  private colouring(): Colouring {
+    const { frame, topology } = this;
+    if (frame === null || topology === null || frame.scalar === null) return "PART";
+    const isNode = this.run.scalars.find((scalar) => scalar.key === frame.scalar)?.location === "node";
+    const wanted = isNode ? topology.nodeNumbers.length : topology.facets.length / 4 + topology.bars.length / 2;
+    return frame.values.length !== wanted ? "PART" : isNode ? "NODE" : "CELL";
+  }
+
+  private size(): { width: number; height: number; unit: number } {
+    const box = this.canvas.getBoundingClientRect();
+    const unit = Math.min(window.devicePixelRatio || 1, 2) * this.pixels;
+    return { width: Math.max(1, Math.round(box.width * unit)), height: Math.max(1, Math.round(box.height * unit)), unit };
+  }
+
+  /** A free camera sees where the bodies were at the beginning and where they are now: it steps back where they leave the picture, and a frame is seen the same however one comes to it. */
+  private follow(): void {
+    const { topology, frame } = this;
+    if (topology === null || frame === null) return;
+    const now = bodyBox(frame.positions, topology.initial, this.current.scale);
+    if (now === null) return;
+    const bodies = joined(this.first(), now);
+    const obstacles = this.current.obstacles ? this.obstacles.box() : null;
+    this.box = obstacles === null ? bodies : joined(bodies, nearby(obstacles, bodies));
+    if (this.rig.isFree) this.fitNow();
+  }
+
+  /** Around the bodies at the run's first frame, as the server tells. */
+  private first(): Box | null {
+    const [low, high] = this.run.size;
+    const origin = this.topology!.origin;
+    const of = (corner: Vector): Vector => corner.map((x, k) => x - origin[k]!) as Vector;
+    return [...low, ...high].every(Number.isFinite) ? [of(low), of(high)] : null;
+  }
+
+  private fitNow(): void {
+    const { box, topology } = this;
+    if (box === null || topology === null) return;
+    const all = corners(box, imageSigns(this.current.mirror), topology.origin);
+    const { width, height } = this.size();
+    const camera = this.run.camera;
+    const isFirst = this.rig.isFree && camera !== null && this.run.dimension === 3;
+    this.rig.fit(
+      ({ right, up, back }) => {
+        const along = [right, up, back].map((axis) => all.map((corner) => dot(corner, axis)));
+        return [along.map((values) => Math.min(...values)) as Vector, along.map((values) => Math.max(...values)) as Vector];
+      },
+      width / height,
+      isFirst ? camera.zoom : 1,
+      isFirst ? camera.at : null,
+    );
+  }
+
+  /** A skin node's place as shown, in the model's coordinates, m. */
+  private place(node: number): Vector {
+    const { topology, frame } = this;
+    return [0, 1, 2].map((k) => {
+      const initial = topology!.initial[3 * node + k]!;
+      return initial + this.current.scale * (frame!.positions[3 * node + k]! - initial) + topology!.origin[k]!;
+    }) as Vector;
+  }
+
+  /** Where a point of the model is seen, px of CSS. */
+  private project(point: Vector): [number, number] {
+    const { right, up } = this.rig.basis;
+    const { target, height } = this.rig.camera;
+    const box = this.canvas.getBoundingClientRect();
+    const unit = box.height / height;
+    const from = point.map((value, k) => value - target[k]!) as Vector;
+    return [0.5 * box.width + unit * dot(from, right), 0.5 * box.height - unit * dot(from, up)];
+  }
+
+  /** Sets what all programs read, and the camera. */
+  private prepare(): void {
+    const { shared } = this.stage;
+    const { width, height, unit } = this.size();
+    const { current, topology } = this;
+    if (this.hidden.width !== width || this.hidden.height !== height) this.renderer.setSize(width, height, false);
+    shared.canvas.value.set(width, height);
+    shared.pixel.value = unit;
+    shared.scale.value = current.scale;
+    shared.bands.value = current.bands;
+    const [low, high] = current.range ?? this.range ?? this.frame?.range ?? [0, 1];
+    shared.range.value.set(low, high);
+    const origin = topology?.origin ?? [0, 0, 0];
+    const signs = this.stage.setImages(current.mirror, origin);
+    const all = this.box === null ? [] : corners(this.box, signs, origin);
+    const far = all.reduce((most, corner) => Math.max(most, Math.hypot(...corner.map((value, k) => value - this.rig.camera.target[k]!))), 0);
+    // Walls may be larger than the bodies.
+    this.rig.apply(this.camera, width / height, this.rig.camera.target, 4 * far);
+  }
+
+  private paint(level: number): void {
+    if (this.isLost) return;
+    const begin = performance.now();
+    const { width, height, unit } = this.size();
+    this.prepare();
+    const colouring = this.colouring();
+    const { current } = this;
+    if (this.frame !== null) {
+      this.skin.show(level, colouring, current.lines);
+      this.bars.show(colouring);
+      if (current.arrows) this.arrows.show((this.rig.camera.height / 8) * current.arrow_scale);
+      else this.arrows.hide();
+      if (current.obstacles) this.obstacles.show();
+      else this.obstacles.hide();
+    }
+    this.renderer.render(this.stage.scene, this.camera);
+    const triangles = this.skin.triangles(level) * this.stage.imageCount;
+    if (triangles > TIMED) this.picker.finish();
+    if (this.canvas.width !== width || this.canvas.height !== height) [this.canvas.width, this.canvas.height] = [width, height];
+    this.paper.fillStyle = this.stage.theme.paper;
+    this.paper.fillRect(0, 0, width, height);
+    this.paper.drawImage(this.hidden, 0, 0);
+    drawOverlay(this.paper, this.shown(width, height, unit));
+    const took = performance.now() - begin;
+    this.cost[level] = took;
+    Object.assign(this.figures, { triangles, level, milliseconds: took });
+  }
+
+  private shown(width: number, height: number, unit: number): Shown {
+    const marks = this.frame === null ? [] : this.marks.flatMap(({ node, colour, label }) => {
+      const place = this.places.get(node);
+      return place === undefined ? [] : [{ at: this.project(this.place(place)), colour, label }];
+    });
+    return { size: [width, height], unit, basis: this.rig.basis, isPlane: this.run.dimension !== 3, metres: this.rig.camera.height, marks, theme: this.stage.theme };
+  }
+}

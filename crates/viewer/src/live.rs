@@ -1,0 +1,293 @@
+//! What is told of a run while it goes on, and what its viewers want of it: the state that the run and the sockets share.
+//!
+//! The run's side ([`crate::tap`]) leaves progress, rows and the newest frame here and never waits for a viewer; each socket takes what is new when it is ready. Frames that nobody has taken are
+//! replaced, so a slow viewer costs the run nothing.
+
+use embate_files::results::{History, ThinnedRows};
+use embate_files::view::{Bodies, Series, Wish};
+use embate_solver::output::Shown;
+use embate_solver::simulation::Progress;
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+use tokio::sync::watch;
+
+/// What the viewers want of the run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Order {
+    /// To go on.
+    #[default]
+    Running,
+    /// To wait.
+    Paused,
+    /// To stop after its step.
+    Stopping,
+}
+
+/// How far the run is.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub(crate) struct Told {
+    pub(crate) step: u64,
+    pub(crate) time: f64,
+    pub(crate) end: f64,
+    pub(crate) time_step: f64,
+    pub(crate) governor: String,
+    pub(crate) energy_drift: f64,
+}
+
+/// Something that the user should know.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub(crate) struct Notice {
+    pub(crate) code: &'static str,
+    pub(crate) text: String,
+}
+
+/// How a run ended.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Ended {
+    /// `done`, `stopped`, `failed`.
+    pub status: String,
+    /// The message of a failed run.
+    pub error: Option<String>,
+    /// Whether the server goes on.
+    pub stays: bool,
+}
+
+/// The newest frame for a wish, and which one it is.
+pub(crate) type Newest = (u64, Arc<Vec<u8>>);
+
+/// What the run and its viewers share.
+#[derive(Debug, Default)]
+pub(crate) struct Shared {
+    pub(crate) order: Order,
+    /// Whether the state is to be kept.
+    pub(crate) keep: bool,
+    pub(crate) told: Told,
+    pub(crate) notices: Vec<Notice>,
+    /// What became of commands.
+    pub(crate) kept: Vec<String>,
+    pub(crate) ended: Option<Ended>,
+    /// Frames until now.
+    pub(crate) published: u64,
+    pub(crate) frames: BTreeMap<Wish, Newest>,
+    /// What each viewer wants.
+    viewers: BTreeMap<u64, Wish>,
+    next_viewer: u64,
+    rows: ThinnedRows,
+    /// Wall time of the run so far does not count what it waited for viewers.
+    paused: Duration,
+    paused_since: Option<Instant>,
+    /// Time of the run when it began: more than zero where it goes on from a state.
+    time_begin: Option<f64>,
+}
+
+/// A run that is watched while it goes on.
+#[derive(Debug)]
+pub struct Live {
+    bodies: Arc<Bodies>,
+    columns: Vec<String>,
+    of_whole_bodies: bool,
+    begin: Instant,
+    shared: Mutex<Shared>,
+    /// Wakes a run that was paused.
+    wake: Condvar,
+    /// Counts changes; sockets wait for the next one.
+    changes: watch::Sender<u64>,
+}
+
+/// Between two frames for one viewer at least.
+pub(crate) const PAUSE: Duration = Duration::from_millis(60);
+
+impl Live {
+    /// A run with these bodies and columns of its history; `past`: the history of a run that goes on from a state, and the time (s) of that.
+    #[must_use]
+    pub fn new(bodies: Arc<Bodies>, columns: Vec<String>, of_whole_bodies: bool, past: (Option<&History>, f64)) -> Arc<Self> {
+        let mut shared = Shared::default();
+        if let (Some(past), until) = past
+            && past.columns == columns
+        {
+            let row = |row: usize| -> Vec<f64> { past.values.iter().map(|column| column[row]).collect() };
+            (0..past.rows()).map(row).filter(|row| row.first().is_some_and(|time| *time <= until)).for_each(|row| shared.rows.add(&row));
+        }
+        let (changes, _) = watch::channel(0);
+        Arc::new(Self {
+            bodies,
+            columns,
+            of_whole_bodies,
+            begin: Instant::now(),
+            shared: Mutex::new(shared),
+            wake: Condvar::new(),
+            changes,
+        })
+    }
+
+    pub(crate) fn shared(&self) -> MutexGuard<'_, Shared> {
+        self.shared.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Its bodies.
+    pub(crate) fn bodies(&self) -> &Arc<Bodies> {
+        &self.bodies
+    }
+
+    /// Changes what is shared, and tells the sockets and the run.
+    pub(crate) fn change<T>(&self, change: impl FnOnce(&mut Shared) -> T) -> T {
+        let result = change(&mut self.shared());
+        self.changes.send_modify(|count| *count += 1);
+        self.wake.notify_all();
+        result
+    }
+
+    /// What tells of changes.
+    pub(crate) fn changes(&self) -> watch::Receiver<u64> {
+        self.changes.subscribe()
+    }
+
+    /// Waits for a change, not for long.
+    pub(crate) fn wait(&self) {
+        let shared = self.shared();
+        drop(self.wake.wait_timeout(shared, Duration::from_millis(50)));
+    }
+
+    /// A viewer comes; its number.
+    pub(crate) fn welcome(&self) -> u64 {
+        self.change(|shared| {
+            shared.next_viewer += 1;
+            shared.viewers.insert(shared.next_viewer, Wish::default());
+            shared.next_viewer
+        })
+    }
+
+    /// What a viewer wants to see; none: it has gone.
+    pub(crate) fn wish(&self, viewer: u64, wish: Option<Wish>) {
+        self.change(|shared| {
+            match wish {
+                Some(wish) => shared.viewers.insert(viewer, wish),
+                None => shared.viewers.remove(&viewer),
+            };
+            let Shared { viewers, frames, .. } = shared;
+            frames.retain(|wish, _| viewers.values().any(|own| own == wish));
+        });
+    }
+
+    /// Gives an order; whether it can be done.
+    pub(crate) fn order(&self, order: Order) -> bool {
+        self.change(|shared| {
+            let is_open = shared.ended.is_none() && shared.order != Order::Stopping;
+            if is_open {
+                shared.order = order;
+                let now = Instant::now();
+                match (order, shared.paused_since) {
+                    (Order::Paused, None) => shared.paused_since = Some(now),
+                    (Order::Running | Order::Stopping, Some(since)) => {
+                        shared.paused += now - since;
+                        shared.paused_since = None;
+                    }
+                    _ => {}
+                }
+            }
+            is_open
+        })
+    }
+
+    /// Whether a viewer wants the run to stop.
+    #[must_use]
+    pub fn is_stopped(&self) -> bool {
+        self.shared().order == Order::Stopping
+    }
+
+    /// Whether a viewer wants the state to be kept; asks once.
+    pub fn takes_keep(&self) -> bool {
+        std::mem::take(&mut self.shared().keep)
+    }
+
+    /// That the state was kept, and where.
+    pub fn kept(&self, text: String) {
+        self.change(|shared| shared.kept.push(text));
+    }
+
+    /// How far the run is.
+    pub fn progress(&self, progress: &Progress<'_>) {
+        let told = Told {
+            step: progress.step,
+            time: progress.time,
+            end: progress.end,
+            time_step: progress.time_step,
+            governor: progress.governor.into(),
+            energy_drift: progress.energy_drift,
+        };
+        let notices = progress.notices.iter().map(|notice| Notice { code: notice.kind.code, text: notice.text.clone() });
+        self.change(|shared| {
+            shared.time_begin.get_or_insert(told.time);
+            shared.told = told;
+            shared.notices.extend(notices);
+        });
+    }
+
+    /// That the run is over.
+    pub fn end(&self, ended: Ended) {
+        self.change(|shared| shared.ended = Some(ended));
+    }
+
+    /// A row of the history.
+    pub(crate) fn row(&self, row: &[f64]) {
+        // Asked for every two seconds: nobody needs to be told.
+        self.shared().rows.add(row);
+    }
+
+    /// The history so far, thinned.
+    pub(crate) fn history(&self) -> Series {
+        let rows = self.shared().rows.rows();
+        let values =
+            (0..self.columns.len()).map(|column| rows.iter().map(|row| row.get(column).copied().unwrap_or(f64::NAN)).collect()).collect();
+        Series::of(&self.columns, values, self.of_whole_bodies)
+    }
+
+    /// Wall time without pauses, and what is left by the share that is done, s.
+    pub(crate) fn seconds(&self) -> (f64, Option<f64>) {
+        let shared = self.shared();
+        let paused = shared.paused + shared.paused_since.map_or(Duration::ZERO, |since| since.elapsed());
+        let seconds = self.begin.elapsed().saturating_sub(paused).as_secs_f64();
+        let Told { time, end, .. } = shared.told;
+        let done = time - shared.time_begin.unwrap_or(0.0);
+        (seconds, (done > 0.0 && end > time).then(|| seconds * (end - time) / done))
+    }
+
+    /// Whether a viewer waits for a frame that is not there: one that has come, or wants to see something else.
+    pub(crate) fn lacks(&self) -> bool {
+        let shared = self.shared();
+        shared.viewers.values().any(|wish| !shared.frames.contains_key(wish))
+    }
+
+    /// Whether anybody looks.
+    pub(crate) fn is_watched(&self) -> bool {
+        !self.shared().viewers.is_empty()
+    }
+
+    /// Leaves a frame of what is shown for every wish.
+    pub(crate) fn publish(&self, shown: &dyn Shown) {
+        let mut wishes: Vec<Wish> = self.shared().viewers.values().cloned().collect();
+        wishes.sort_unstable();
+        wishes.dedup();
+        if wishes.is_empty() {
+            return;
+        }
+        let topology = self.bodies.without(&embate_files::view::gone(shown));
+        let outlines = embate_files::view::outlines(shown);
+        let made: Vec<(Wish, Arc<Vec<u8>>)> = wishes
+            .into_iter()
+            .map(|wish| {
+                let container = embate_files::view::frame(&self.bodies, &topology, shown, &outlines, &wish);
+                let bytes = container.with("frame", -1).with("step", shown.step()).bytes();
+                (wish, Arc::new(bytes))
+            })
+            .collect();
+        self.change(|shared| {
+            shared.published += 1;
+            let number = shared.published;
+            shared.frames.extend(made.into_iter().map(|(wish, bytes)| (wish, (number, bytes))));
+        });
+    }
+}

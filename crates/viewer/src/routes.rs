@@ -1,0 +1,272 @@
+//! What can be asked of the server: the page, and the runs that it shows. Nothing can be changed here; orders to a run come by its socket alone.
+
+use crate::live::Live;
+use crate::{access, bundle, socket};
+use axum::Router;
+use axum::body::Body;
+use axum::extract::ws::WebSocketUpgrade;
+use axum::extract::{Path, Query, Request, State};
+use axum::http::{Response, StatusCode};
+use axum::middleware::{self, Next};
+use axum::response::IntoResponse;
+use axum::routing::get;
+use embate_files::results::ResultsError;
+use embate_files::view::{ResultView, Wish};
+use serde::Deserialize;
+use serde_json::{Value, json};
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex, PoisonError};
+use tokio::sync::watch;
+
+/// Rows of a history, unless the page wants another number.
+const ROWS: usize = 2000;
+
+/// What the server shows.
+pub(crate) struct Shown {
+    runs: Vec<Mutex<Run>>,
+    pub(crate) live: Option<Arc<Live>>,
+    view: String,
+    token: String,
+    port: u16,
+    /// Becomes true when the server ends.
+    pub(crate) stopped: watch::Receiver<bool>,
+}
+
+/// A folder, and what was found in it.
+struct Run {
+    path: PathBuf,
+    found: Result<Arc<ResultView>, (String, &'static str)>,
+}
+
+impl Run {
+    /// Looks again at a folder in which nothing was found: its run may have written its first frame.
+    fn look(&mut self) -> Result<Arc<ResultView>, (String, &'static str)> {
+        if self.found.is_err() {
+            self.found = found(ResultView::open(&self.path));
+        }
+        self.found.clone()
+    }
+}
+
+fn found(result: Result<ResultView, ResultsError>) -> Result<Arc<ResultView>, (String, &'static str)> {
+    result.map(Arc::new).map_err(|error| (error.to_string(), error.kind().code))
+}
+
+impl Shown {
+    pub(crate) fn new(
+        runs: Vec<(PathBuf, Result<ResultView, ResultsError>)>,
+        live: Option<Arc<Live>>,
+        view: String,
+        token: String,
+        port: u16,
+        stopped: watch::Receiver<bool>,
+    ) -> Self {
+        let runs = runs.into_iter().map(|(path, result)| Mutex::new(Run { path, found: found(result) })).collect();
+        Self { runs, live, view, token, port, stopped }
+    }
+
+    /// A run by its number.
+    fn run(&self, number: usize) -> Result<Arc<ResultView>, Refusal> {
+        let run = self.runs.get(number).ok_or(Refusal::nothing("no run has this number"))?;
+        let found = run.lock().unwrap_or_else(PoisonError::into_inner).look();
+        found.map_err(|(text, code)| Refusal { status: StatusCode::NOT_FOUND, code, text })
+    }
+
+    /// That of a run that is watched.
+    fn live(&self, number: usize) -> Option<&Arc<Live>> {
+        self.live.as_ref().filter(|_| number == 0)
+    }
+
+    fn description(&self, number: usize) -> Result<Value, Refusal> {
+        let mut description = self.run(number)?.description()?;
+        if let Some(live) = self.live(number) {
+            description.is_over = live.shared().ended.is_some();
+        }
+        serde_json::to_value(description).map_err(|error| Refusal::nothing(&error.to_string()))
+    }
+
+    fn all(&self) -> Value {
+        let described = (0..self.runs.len()).map(|number| {
+            let path = self.runs[number].lock().unwrap_or_else(PoisonError::into_inner).path.to_string_lossy().into_owned();
+            self.description(number).unwrap_or_else(|refusal| json!({ "path": path, "fault": refusal.text, "code": refusal.code }))
+        });
+        let is_live = self.live.as_ref().is_some_and(|live| live.shared().ended.is_none());
+        json!({ "version": env!("CARGO_PKG_VERSION"), "view": self.view, "live": is_live, "runs": described.collect::<Vec<_>>() })
+    }
+}
+
+/// Why something can't be had, for the page.
+pub(crate) struct Refusal {
+    status: StatusCode,
+    code: &'static str,
+    text: String,
+}
+
+impl Refusal {
+    fn nothing(text: &str) -> Self {
+        Self { status: StatusCode::NOT_FOUND, code: "", text: text.into() }
+    }
+
+    pub(crate) fn forbidden(text: &str) -> Self {
+        Self { status: StatusCode::FORBIDDEN, code: "", text: text.into() }
+    }
+}
+
+impl From<ResultsError> for Refusal {
+    fn from(error: ResultsError) -> Self {
+        Self { status: StatusCode::UNPROCESSABLE_ENTITY, code: error.kind().code, text: error.to_string() }
+    }
+}
+
+impl IntoResponse for Refusal {
+    fn into_response(self) -> Response<Body> {
+        bundle::answer(self.status, "application/json", json!({ "code": self.code, "error": self.text }).to_string())
+    }
+}
+
+type Answer = Result<Response<Body>, Refusal>;
+
+fn data(value: &Value) -> Answer {
+    Ok(bundle::answer(StatusCode::OK, "application/json", value.to_string()))
+}
+
+fn bytes(bytes: Vec<u8>) -> Answer {
+    Ok(bundle::answer(StatusCode::OK, "application/octet-stream", bytes))
+}
+
+/// Reads files beside the event loop.
+async fn beside(work: impl FnOnce() -> Answer + Send + 'static) -> Answer {
+    let panicked = |_| Refusal {
+        status: StatusCode::INTERNAL_SERVER_ERROR,
+        code: "E0799",
+        text: "the server panicked; this is a bug in embate".into(),
+    };
+    tokio::task::spawn_blocking(work).await.map_err(panicked)?
+}
+
+/// All routes.
+pub(crate) fn router(shown: Arc<Shown>) -> Router {
+    let own =
+        Router::new()
+            .route("/", get(|| async { bundle::file("").ok_or(Refusal::nothing("there is no page")) }))
+            .route(
+                "/{file}",
+                get(|Path((_, file)): Path<(String, String)>| async move {
+                    bundle::file(&file).ok_or(Refusal::nothing("there is no such file"))
+                }),
+            )
+            .route("/api/runs", get(runs))
+            .route("/api/runs/{run}", get(run))
+            .route("/api/runs/{run}/history", get(history))
+            .route("/api/runs/{run}/range", get(range))
+            .route("/api/runs/{run}/probe", get(probe))
+            .route("/api/runs/{run}/topology/{topology}", get(topology))
+            .route("/api/runs/{run}/frames/{frame}", get(frame))
+            .route("/api/live", get(live));
+    Router::new()
+        .route("/{token}/", get(|| async { bundle::file("").ok_or(Refusal::nothing("there is no page")) }))
+        .nest("/{token}", own)
+        .fallback(|| async { Refusal::forbidden(WRONG) })
+        .layer(middleware::from_fn_with_state(shown.clone(), admit))
+        .with_state(shown)
+}
+
+/// What is said to who does not know the token.
+const WRONG: &str = "this address is not that of the program that runs now: open the one that it has printed";
+
+/// Lets in who knows the token and comes from an own page.
+async fn admit(State(shown): State<Arc<Shown>>, request: Request, next: Next) -> Response<Body> {
+    let path = request.uri().path();
+    let token = path.strip_prefix('/').and_then(|rest| rest.split('/').next()).unwrap_or_default();
+    let is_socket = path.ends_with("/api/live");
+    if !access::is_same(token, &shown.token) {
+        return Refusal::forbidden(WRONG).into_response();
+    }
+    match access::refusal(request.headers(), shown.port, is_socket) {
+        Some(text) => Refusal::forbidden(text).into_response(),
+        // Without it the page's own addresses would be others.
+        None if path == format!("/{token}") => Response::builder()
+            .status(StatusCode::PERMANENT_REDIRECT)
+            .header("location", format!("/{token}/"))
+            .body(Body::empty())
+            .expect("the token is plain ASCII"),
+        None => next.run(request).await,
+    }
+}
+
+async fn runs(State(shown): State<Arc<Shown>>) -> Answer {
+    beside(move || data(&shown.all())).await
+}
+
+async fn run(State(shown): State<Arc<Shown>>, Path((_, run)): Path<(String, usize)>) -> Answer {
+    beside(move || data(&shown.description(run)?)).await
+}
+
+/// What can be wished of an answer.
+#[derive(Deserialize)]
+struct Wanted {
+    rows: Option<usize>,
+    scalar: Option<String>,
+    arrows: Option<u8>,
+    node: Option<usize>,
+    cell: Option<usize>,
+}
+
+async fn history(State(shown): State<Arc<Shown>>, Path((_, run)): Path<(String, usize)>, Query(wanted): Query<Wanted>) -> Answer {
+    beside(move || {
+        let series = match shown.live(run) {
+            Some(live) => live.history(),
+            None => shown.run(run)?.history(wanted.rows.unwrap_or(ROWS).clamp(2, 100_000))?,
+        };
+        data(&json!(series))
+    })
+    .await
+}
+
+async fn range(State(shown): State<Arc<Shown>>, Path((_, run)): Path<(String, usize)>, Query(wanted): Query<Wanted>) -> Answer {
+    beside(move || {
+        let (range, frames) = shown.run(run)?.range(&wanted.scalar.unwrap_or_default())?;
+        data(&json!({ "range": range, "frames": frames }))
+    })
+    .await
+}
+
+async fn probe(State(shown): State<Arc<Shown>>, Path((_, run)): Path<(String, usize)>, Query(wanted): Query<Wanted>) -> Answer {
+    beside(move || {
+        let place = wanted.node.or(wanted.cell).ok_or(Refusal::nothing("a probe needs a node or a cell"))?;
+        let probed = shown.run(run)?.probe(&wanted.scalar.unwrap_or_default(), place)?;
+        data(&json!(probed.ok_or(Refusal::nothing("there is no such node, cell or field"))?))
+    })
+    .await
+}
+
+async fn topology(State(shown): State<Arc<Shown>>, Path((_, run, number)): Path<(String, usize, usize)>) -> Answer {
+    beside(move || {
+        let bodies = match shown.live(run) {
+            Some(live) => live.bodies().clone(),
+            None => shown.run(run)?.bodies().clone(),
+        };
+        let topology = bodies.numbered(number).ok_or(Refusal::nothing("no frame has named this topology"))?;
+        bytes(bodies.container(&topology).bytes())
+    })
+    .await
+}
+
+async fn frame(
+    State(shown): State<Arc<Shown>>,
+    Path((_, run, number)): Path<(String, usize, usize)>,
+    Query(wanted): Query<Wanted>,
+) -> Answer {
+    beside(move || {
+        let wish = Wish { scalar: wanted.scalar, arrows: wanted.arrows == Some(1) };
+        let frame = shown.run(run)?.frame(number, &wish)?;
+        bytes(frame.ok_or(Refusal::nothing("there is no frame of this number"))?.bytes())
+    })
+    .await
+}
+
+async fn live(State(shown): State<Arc<Shown>>, socket: WebSocketUpgrade) -> Answer {
+    let live = shown.live.clone().ok_or(Refusal::nothing("no run is watched here"))?;
+    let stopped = shown.stopped.clone();
+    Ok(socket.max_message_size(1 << 16).on_upgrade(move |socket| socket::serve(socket, live, stopped)))
+}

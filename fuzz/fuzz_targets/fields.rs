@@ -1,0 +1,4 @@
+//! See README.md.
+#![no_main]
+
+embate_fuzz::fuzz!(fields);

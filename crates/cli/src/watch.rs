@@ -109,6 +109,8 @@ impl Watched {
         if self.keep && !interrupt.is_pressed() {
             terminal::complain("the page stays; Ctrl-C ends it");
             wait(interrupt);
+        } else if !self.live.was_watched() {
+            terminal::complain("nobody had opened the page when the run ended: `embate view` shows its results, --keep lets the page stay");
         }
         self.server.stop();
     }

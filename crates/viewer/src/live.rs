@@ -3,6 +3,7 @@
 //! The run's side ([`crate::tap`]) leaves progress, rows and the newest frame here and never waits for a viewer; each socket takes what is new when it is ready. Frames that nobody has taken are
 //! replaced, so a slow viewer costs the run nothing.
 
+use axum::body::Bytes;
 use embate_files::results::{History, ThinnedRows};
 use embate_files::view::{Bodies, Series, Wish};
 use embate_solver::output::Shown;
@@ -56,7 +57,7 @@ pub struct Ended {
 }
 
 /// The newest frame for a wish, and which one it is.
-pub(crate) type Newest = (u64, Arc<Vec<u8>>);
+pub(crate) type Newest = (u64, Bytes);
 
 /// What the run and its viewers share.
 #[derive(Debug, Default)]
@@ -261,6 +262,12 @@ impl Live {
         shared.viewers.values().any(|wish| !shared.frames.contains_key(wish))
     }
 
+    /// Whether anybody has looked at all.
+    #[must_use]
+    pub fn was_watched(&self) -> bool {
+        self.shared().next_viewer > 0
+    }
+
     /// Whether anybody looks.
     pub(crate) fn is_watched(&self) -> bool {
         !self.shared().viewers.is_empty()
@@ -276,12 +283,12 @@ impl Live {
         }
         let topology = self.bodies.without(&embate_files::view::gone(shown));
         let outlines = embate_files::view::outlines(shown);
-        let made: Vec<(Wish, Arc<Vec<u8>>)> = wishes
+        let made: Vec<(Wish, Bytes)> = wishes
             .into_iter()
             .map(|wish| {
                 let container = embate_files::view::frame(&self.bodies, &topology, shown, &outlines, &wish);
                 let bytes = container.with("frame", -1).with("step", shown.step()).bytes();
-                (wish, Arc::new(bytes))
+                (wish, Bytes::from(bytes))
             })
             .collect();
         self.change(|shared| {

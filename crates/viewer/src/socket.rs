@@ -168,7 +168,7 @@ impl Viewer {
             self.frame = *number;
             self.is_ready = false;
             self.next_frame = now + PAUSE;
-            news.push(Message::Binary(bytes.to_vec().into()));
+            news.push(Message::Binary(bytes.clone()));
         }
         if self.next_progress <= now || ended.is_some() {
             self.next_progress = now + PROGRESS;

@@ -7,11 +7,14 @@ use super::levels::{self, Level};
 use crate::picture::space::{Bar, Facet, Skinner};
 use embate_solver::output::{Cells, Shown};
 use serde_json::json;
+use std::collections::VecDeque;
 use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Topologies that are kept at once; one that is asked for again is made again.
 const KEPT: usize = 64;
+/// Sets of eroded cells that have a number at once: a run that is watched for long while it erodes has any number of them.
+const NUMBERED: usize = 1024;
 
 /// What is seen of the bodies while some cells are gone.
 #[derive(Debug)]
@@ -41,11 +44,27 @@ pub struct Bodies {
     found: Mutex<Found>,
 }
 
-/// The sets of cells that were gone in a frame, by number; the newest of their topologies.
+/// The newest sets of cells that were gone in a frame, with their numbers; the newest of their topologies.
 #[derive(Debug, Default)]
 struct Found {
-    gone: Vec<Vec<u32>>,
+    gone: VecDeque<(usize, Vec<u32>)>,
+    next: usize,
     topologies: Vec<Arc<Topology>>,
+}
+
+impl Found {
+    /// The number of a set.
+    fn number(&mut self, gone: &[u32]) -> usize {
+        if let Some((id, _)) = self.gone.iter().rev().find(|(_, set)| set == gone) {
+            return *id;
+        }
+        if self.gone.len() == NUMBERED {
+            self.gone.pop_front();
+        }
+        self.gone.push_back((self.next, gone.to_vec()));
+        self.next += 1;
+        self.next - 1
+    }
 }
 
 impl Bodies {
@@ -72,10 +91,7 @@ impl Bodies {
     /// The topology without these cells (ascending).
     pub fn without(&self, gone: &[u32]) -> Arc<Topology> {
         let mut found = self.found.lock().unwrap_or_else(PoisonError::into_inner);
-        let id = found.gone.iter().rposition(|set| set == gone).unwrap_or_else(|| {
-            found.gone.push(gone.to_vec());
-            found.gone.len() - 1
-        });
+        let id = found.number(gone);
         if let Some(topology) = found.topologies.iter().find(|topology| topology.id == id) {
             return topology.clone();
         }
@@ -87,10 +103,10 @@ impl Bodies {
         topology
     }
 
-    /// The topology of a number; none where no frame has named it.
+    /// The topology of a number; none where no frame has named it, or too long ago.
     #[must_use]
     pub fn numbered(&self, id: usize) -> Option<Arc<Topology>> {
-        let gone = self.found.lock().unwrap_or_else(PoisonError::into_inner).gone.get(id).cloned()?;
+        let gone = self.found.lock().unwrap_or_else(PoisonError::into_inner).gone.iter().find(|(own, _)| *own == id)?.1.clone();
         Some(self.without(&gone))
     }
 
@@ -220,6 +236,24 @@ mod tests {
         let places: Vec<[f64; 2]> = (0..9).map(|k| [f64::from(k), 1.0]).collect();
         let bodies = Bodies::new(cells, &Frame::of(&places));
         assert_eq!(bodies.without(&[]).facets.len(), 2);
+    }
+
+    #[test]
+    fn old_sets_of_eroded_cells_are_forgotten_and_new_ones_have_new_numbers() {
+        let count = 60;
+        let cells = Cells {
+            nodes: (0..count).flat_map(|k| [2 * k, 2 * k + 2, 2 * k + 3, 2 * k + 1]).collect(),
+            offsets: (0..=count).map(|k| 4 * k).collect(),
+            kinds: vec![CellKind::Quadrilateral; count as usize],
+            parts: vec![0; count as usize],
+            part_names: vec!["strip".into()],
+        };
+        let places: Vec<[f64; 2]> = (0..2 * count + 2).map(|k| [f64::from(k / 2), f64::from(k % 2)]).collect();
+        let bodies = Bodies::new(cells, &Frame::of(&places));
+        let pairs: Vec<[u32; 2]> = (0..count).flat_map(|a| (a + 1..count).map(move |b| [a, b])).take(1200).collect();
+        assert!(pairs.iter().map(|pair| bodies.without(pair).id).eq(0..1200));
+        assert!(bodies.numbered(100).is_none() && bodies.numbered(1100).is_some_and(|it| it.gone() == pairs[1100]));
+        assert_eq!((bodies.without(&pairs[3]).id, bodies.without(&pairs[1100]).id), (1200, 1100));
     }
 
     #[test]

@@ -16,6 +16,9 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
+/// More obstacles than any model has.
+const OBSTACLES: usize = 1 << 16;
+
 /// A folder of results.
 #[derive(Debug)]
 pub struct ResultView {
@@ -166,12 +169,12 @@ impl ResultView {
     pub fn frame(&self, number: usize, wish: &Wish) -> Result<Option<Container>, ResultsError> {
         let Some(file) = self.file("frame", number) else { return Ok(None) };
         let mut reader = VtuReader::open(&file)?;
+        self.check(&reader)?;
         let topology = self.topology(&mut reader)?;
         let scalar = wish.scalar.as_deref().and_then(|name| Scalar::of(self.kinds.iter().copied(), name)).map(|scalar| scalar.kind.name);
         let is_wanted = |kind: &&&FieldKind| Some(kind.name) == scalar || (wish.arrows && kind.name == "contact_force");
         let wanted: Vec<_> = self.kinds.iter().filter(is_wanted).copied().collect();
         let shown = reader.frame(self.bodies.dimension, &wanted)?;
-        self.check(&reader)?;
         let outlines = self.outlines(number)?;
         Ok(Some(frame::frame(&self.bodies, &topology, &shown, &outlines, wish).with("frame", number)))
     }
@@ -190,8 +193,8 @@ impl ResultView {
         let Some(file) = self.file("obstacles", number) else { return Ok(Vec::new()) };
         let mut outlines = Vec::new();
         for (index, outline) in VtuReader::open(&file)?.outlines()? {
-            // Those without points are not in the file.
-            if index < 1000 {
+            // Those without points are not in the file; a damaged file may name any number.
+            if index < OBSTACLES {
                 outlines.resize_with(outlines.len().max(index + 1), Outline::default);
                 outlines[index] = outline;
             }

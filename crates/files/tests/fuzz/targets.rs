@@ -169,13 +169,17 @@ pub fn fields() -> Target {
     let mut recorder = Recorder::keeping(results, &model, shown, 1, None, Box::new(|_| Control::Continue)).unwrap();
     recorder.frame(simulation.frame()).unwrap();
     drop(recorder);
-    let file = folder.join("fields/frame-00000.vtu");
-    let seeds = vec![fs::read(&file).unwrap()];
+    let files = [0, 1].map(|number| folder.join(format!("fields/frame-0000{number}.vtu")));
+    let sound = fs::read(&files[0]).unwrap();
+    let seeds = vec![sound.clone()];
     let read = move |bytes: &[u8]| {
-        fs::write(&file, bytes).unwrap();
-        if let Ok(view) = ResultView::open(&folder) {
-            for scalar in ["velocity", "stress.xy", "contact_gap"] {
-                let _ = view.frame(0, &Wish { scalar: Some(scalar.into()), arrows: true });
+        // Damaged is the first frame, which tells the mesh, or a later one.
+        for damaged in 0..2 {
+            fs::write(&files[damaged], bytes).unwrap();
+            fs::write(&files[1 - damaged], &sound).unwrap();
+            let Ok(view) = ResultView::open(&folder) else { continue };
+            for scalar in ["velocity", "stress.xy"] {
+                let _ = [0, 1].map(|number| view.frame(number, &Wish { scalar: Some(scalar.into()), arrows: true }));
                 let _ = (view.probe(scalar, 3), view.range(scalar));
             }
             let _ = view.description();

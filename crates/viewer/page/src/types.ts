@@ -183,7 +183,6 @@ export interface Progress {
   seconds: number;
   left: number | null;
   dropped: number;
-  frames_on_disk: number;
 }
 
 export type LiveMessage =

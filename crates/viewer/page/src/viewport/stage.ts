@@ -14,6 +14,8 @@ import {
   Mesh,
   NearestFilter,
   NoBlending,
+  OneFactor,
+  OneMinusSrcAlphaFactor,
   RawShaderMaterial,
   RGBAFormat,
   Scene,
@@ -171,6 +173,9 @@ export function makeMaterial(options: MaterialOptions): RawShaderMaterial {
     depthTest: depth,
     depthWrite: depth && (options.writesDepth ?? true),
     blending: options.blends === true ? CustomBlending : NoBlending,
+    // The picture is laid over the paper afterwards by its alpha, which must be the share of the paper that is covered.
+    blendSrcAlpha: OneFactor,
+    blendDstAlpha: OneMinusSrcAlphaFactor,
     transparent: options.late === true,
   });
   return material;

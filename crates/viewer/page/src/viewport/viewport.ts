@@ -220,7 +220,10 @@ export class Viewport {
 
   look(direction: Direction): void {
     this.rig.look(direction);
+    this.rig.isFree = false;
     this.fitNow();
+    // A chosen direction is kept: in links, and by a picture that is linked to this one.
+    this.rig.isFree = false;
     this.moved();
   }
 

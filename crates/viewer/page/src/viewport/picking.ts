@@ -1,4 +1,5 @@
-// What lies under a pixel: facets and bars are drawn once more, into one pixel, with their numbers as colours.
+// What lies under the pointer, or nearest to it within some pixels: facets and bars are drawn once more, into a few pixels,
+// with their numbers as colours.
 
 import { Group, Mesh, type OrthographicCamera, Scene, UnsignedByteType, WebGLRenderTarget, type WebGLRenderer } from "three";
 import type { Bars } from "./bars";
@@ -12,12 +13,16 @@ export interface Found {
   image: number;
 }
 
+/** Pixels that are looked at on each side of the pointer: bodies may be thinner than a hand is steady. */
+const NEAR = 6;
+const SIDE = 2 * NEAR + 1;
+
 export class Picker {
-  private readonly target = new WebGLRenderTarget(1, 1, { type: UnsignedByteType, depthBuffer: true });
+  private readonly target = new WebGLRenderTarget(SIDE, SIDE, { type: UnsignedByteType, depthBuffer: true });
   private readonly scene = new Scene();
   private readonly group = new Group();
   private readonly image = { value: 0 };
-  private readonly pixel = new Uint8Array(4);
+  private readonly pixels = new Uint8Array(4 * SIDE * SIDE);
 
   constructor(
     private readonly renderer: WebGLRenderer,
@@ -30,7 +35,7 @@ export class Picker {
     this.scene.add(this.group);
   }
 
-  /** What a camera sees at this pixel of a picture of this size; null: nothing. */
+  /** What a camera sees nearest to this pixel of a picture of this size; null: nothing is near. */
   at(camera: OrthographicCamera, x: number, y: number, width: number, height: number): Found | null {
     this.group.clear();
     for (const drawn of [this.skin.forPick(this.image), this.bars.forPick(this.image)]) {
@@ -44,8 +49,8 @@ export class Picker {
     const { renderer, stage } = this;
     const canvas = stage.shared.canvas.value;
     const [wide, high] = [canvas.x, canvas.y];
-    camera.setViewOffset(width, height, Math.floor(x), Math.floor(y), 1, 1);
-    canvas.set(1, 1);
+    camera.setViewOffset(width, height, Math.floor(x) - NEAR, Math.floor(y) - NEAR, SIDE, SIDE);
+    canvas.set(SIDE, SIDE);
     renderer.setRenderTarget(this.target);
     renderer.clear();
     renderer.autoClear = false;
@@ -55,20 +60,33 @@ export class Picker {
       this.group.matrixWorldNeedsUpdate = true;
       renderer.render(this.scene, camera);
     }
-    renderer.readRenderTargetPixels(this.target, 0, 0, 1, 1, this.pixel);
+    renderer.readRenderTargetPixels(this.target, 0, 0, SIDE, SIDE, this.pixels);
     renderer.autoClear = true;
     renderer.setRenderTarget(null);
     canvas.set(wide, high);
     camera.clearViewOffset();
-    const [r, g, b, a] = this.pixel as unknown as [number, number, number, number];
-    const code = r + 256 * g + 65_536 * b;
-    return a < 128 || code === 0 ? null : { row: code - 1, image: a - 128 };
+    return this.nearest();
+  }
+
+  /** The pixel with a number that is nearest to the middle. */
+  private nearest(): Found | null {
+    let best: Found | null = null;
+    let least = Infinity;
+    for (let i = 0; i < SIDE * SIDE; i++) {
+      const [r, g, b, a] = this.pixels.subarray(4 * i, 4 * i + 4) as unknown as [number, number, number, number];
+      const code = r + 256 * g + 65_536 * b;
+      const away = ((i % SIDE) - NEAR) ** 2 + (Math.floor(i / SIDE) - NEAR) ** 2;
+      if (a < 128 || code === 0 || away >= least) continue;
+      least = away;
+      best = { row: code - 1, image: a - 128 };
+    }
+    return best;
   }
 
   /** Waits until all is drawn, by reading a pixel of the picture. */
   finish(): void {
     const context = this.renderer.getContext();
-    context.readPixels(0, 0, 1, 1, context.RGBA, context.UNSIGNED_BYTE, this.pixel);
+    context.readPixels(0, 0, 1, 1, context.RGBA, context.UNSIGNED_BYTE, this.pixels);
   }
 
   dispose(): void {

@@ -438,9 +438,9 @@ pub(super) fn shorten(text: &str) -> String {
     format!("\"{shown}\"")
 }
 
-/// The units as a line for the documentation: names, with a star where prefixes are taken.
+/// The units as a line for the documentation: names, with a star where prefixes are taken, which is written so that it is none of Markdown's.
 pub(super) fn names() -> String {
-    TABLE.iter().map(|entry| format!("`{}`{}", entry.0, if entry.4.is_empty() { "" } else { "*" })).collect::<Vec<_>>().join(", ")
+    TABLE.iter().map(|entry| format!("`{}`{}", entry.0, if entry.4.is_empty() { "" } else { "\\*" })).collect::<Vec<_>>().join(", ")
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-"""Makes the gallery: `gallery.py --embate PROGRAM [--runs N] [EXAMPLE...]`; `gallery.py --check` runs nothing and tells what is missing or stale.
+"""Makes the gallery: `gallery.py --embate PROGRAM [--runs N] [EXAMPLE...]`; `gallery.py --text` runs nothing and takes the text of the READMEs anew, `gallery.py --check` tells what is missing or stale.
 
 Each example (all, if none is named) is run in a folder of its own that is removed afterwards, N times for the least run time. Its section in docs/gallery.md is written anew: title and first paragraph and
 `## What to look at` of its README, some moments of its `animation.gif` side by side in docs/images/gallery/EXAMPLE.png, the film itself where it is small, and figures of its `summary.json`.
@@ -84,6 +84,14 @@ def section(example: str, figures: str, film: bool) -> str:
 {", ".join(links)}
 
 """
+
+
+def again(example: str, part: str) -> str:
+    """A section with the text of the README as it is now and the figures that it has."""
+    figures = re.search(r"^\|---.*\n(\|.*\|)$", part, re.MULTILINE)
+    if figures is None:
+        raise Fault(f"docs/gallery.md: {example} has no figures")
+    return section(example, figures[1], f"({image(example, '.gif')})" in part)
 
 
 def parts_of_page() -> tuple[str, dict[str, str], str]:
@@ -186,7 +194,8 @@ def run(embate: Path, example: str, runs: int) -> tuple[dict, bytes]:
     with tempfile.TemporaryDirectory() as folder:
         for _ in range(runs):
             command = [str(embate), "run", str(ROOT / "examples" / example), "--out", f"{folder}/{example}", "--force", "--quiet"]
-            subprocess.run(command, check=True, stdin=subprocess.DEVNULL)
+            if (code := subprocess.run(command, stdin=subprocess.DEVNULL).returncode) != 0:
+                raise Fault(f"examples/{example}: exit code {code}")
             summary = json.loads(Path(folder, example, "summary.json").read_text(encoding="utf-8"))
             least = min(least or summary, summary, key=lambda one: one["user_cpu_seconds"])
         return least, Path(folder, example, "animation.gif").read_bytes()
@@ -214,15 +223,13 @@ def faults(sections: dict[str, str]) -> list[str]:
     found = [f"docs/gallery.md: {example} is no example" for example in sections if example not in EXAMPLES]
     for example in EXAMPLES:
         part = sections.get(example)
-        figures = part and re.search(r"^\|---.*\n(\|.*\|)$", part, re.MULTILINE)
-        if not figures:
-            found.append(f"docs/gallery.md: no section, or none with figures, for examples/{example}")
+        if part is None:
+            found.append(f"docs/gallery.md: no section for examples/{example}; `docs/gallery.py --embate PROGRAM {example}` writes it")
             continue
         try:
-            film = f"({image(example, '.gif')})" in part
-            if part.strip() != section(example, figures[1], film).strip():
-                found.append(f"docs/gallery.md: {example} does not say what examples/{example}/README.md says; `docs/gallery.py --embate PROGRAM {example}` writes it anew")
-            for name in [image(example, ".png")] + [image(example, ".gif")] * film:
+            if part.strip() != again(example, part).strip():
+                found.append(f"docs/gallery.md: {example} does not say what examples/{example}/README.md says; `docs/gallery.py --text` writes it anew")
+            for name in re.findall(rf"\((images/[\w/-]*{example}\.\w+)\)", part):
                 if not (PAGE.parent / name).is_file():
                     found.append(f"docs/{name} is missing")
         except Fault as fault:
@@ -242,20 +249,24 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--embate", type=Path, help="the program")
     parser.add_argument("--runs", type=int, default=1, help="how often each example is run, for the least run time")
-    parser.add_argument("--check", action="store_true", help="run nothing")
+    parser.add_argument("--text", action="store_true", help="run nothing, take the text anew")
+    parser.add_argument("--check", action="store_true", help="run nothing, write nothing")
     parser.add_argument("examples", nargs="*", metavar="EXAMPLE", help="all, if none is named")
     arguments = parser.parse_args()
     if unknown := set(arguments.examples) - set(EXAMPLES):
         parser.error(f"there is no example {', '.join(sorted(unknown))}")
     head, sections, foot = parts_of_page()
-    if not arguments.check:
-        if arguments.embate is None:
-            parser.error("needs --embate PROGRAM, or --check")
-        try:
+    if not (arguments.check or arguments.text or arguments.embate):
+        parser.error("needs --embate PROGRAM, --text or --check")
+    try:
+        if arguments.text:
+            sections = {example: again(example, part) for example, part in sections.items() if example in EXAMPLES}
+        elif not arguments.check:
             for example in arguments.examples or EXAMPLES:
                 sections[example] = make(arguments.embate.resolve(), example, arguments.runs)
-        except Fault as fault:
-            sys.exit(f"error: {fault}")
+    except Fault as fault:
+        sys.exit(f"error: {fault}")
+    if not arguments.check:
         PAGE.write_text(head + "".join(sections[example] for example in sorted(sections)) + foot, encoding="utf-8")
     wrong = faults(sections)
     for fault in wrong:

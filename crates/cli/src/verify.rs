@@ -6,12 +6,14 @@ use crate::complaint::Complaint;
 use crate::input::Leave;
 use crate::interrupt::Interrupt;
 use crate::messages::{CHECKS_FAILED, NO_CASE};
-use crate::numbers::{per_cent, significant, table, with_unit};
+use crate::numbers::{table, with_unit};
 use crate::progress::Display;
 use crate::{Failure, terminal};
 use clap::Args;
 use embate_files::results::{ResultFolder, write_whole};
+use embate_files::verification::report::{self, About, Form};
 use embate_files::verification::{self, Case, CaseOutcome, CheckOutcome, Tier, VerifyError};
+use embate_solver::bench::Level;
 use embate_solver::model::describe::suggestion;
 use embate_solver::simulation::{Control, Options, Progress};
 use std::path::{Path, PathBuf};
@@ -35,6 +37,9 @@ pub(crate) struct Arguments {
     /// Write all figures and verdicts to this file
     #[arg(long, value_name = "FILE", conflicts_with = "list")]
     json: Option<PathBuf>,
+    /// Write a report with plots: FILE.html holds everything, FILE.md has its pictures in a folder beside it; may be repeated
+    #[arg(long, value_name = "FILE", conflicts_with = "list", value_parser = report_file)]
+    report: Vec<PathBuf>,
     /// Keep the results of the runs in this folder, as DIR/CASE/MODEL
     #[arg(long, value_name = "DIR", conflicts_with = "list")]
     out: Option<PathBuf>,
@@ -46,6 +51,12 @@ pub(crate) struct Arguments {
     quiet: bool,
     #[command(flatten)]
     leave: Leave,
+}
+
+/// A file in one of the forms that there are.
+fn report_file(text: &str) -> Result<PathBuf, String> {
+    let file = PathBuf::from(text);
+    if Form::of(&file).is_some() { Ok(file) } else { Err("the name of a report ends in .html or .md".to_string()) }
 }
 
 pub(crate) fn verify(arguments: &Arguments) -> Result<(), Failure> {
@@ -64,9 +75,12 @@ pub(crate) fn verify(arguments: &Arguments) -> Result<(), Failure> {
     }
     let interrupt = Interrupt::watch();
     let mut outcomes = Vec::new();
+    let machine = format!("{}, {} threads", Level::best().name(), options.thread_count());
+    let mut about = About { program: concat!("embate ", env!("CARGO_PKG_VERSION")).to_string(), machine, seconds: Vec::new() };
     for case in &cases {
         let begin = Instant::now();
         let outcome = verified(case, &options, arguments, &interrupt)?;
+        about.seconds.push(begin.elapsed().as_secs_f64());
         terminal::print(&text(&outcome, begin.elapsed().as_secs_f64()))?;
         outcomes.push(outcome);
     }
@@ -74,6 +88,9 @@ pub(crate) fn verify(arguments: &Arguments) -> Result<(), Failure> {
         let mut json = serde_json::to_string_pretty(&outcomes).expect("plain numbers, texts and lists always have a JSON form");
         json.push('\n');
         write_whole(file, json.as_bytes()).map_err(|error| Failure::Run(Complaint::new(error.kind(), error)))?;
+    }
+    for file in &arguments.report {
+        report::write(file, &outcomes, &about, &arguments.folder).map_err(|error| Failure::Run(Complaint::new(error.kind(), error)))?;
     }
     closing(&outcomes)
 }
@@ -163,29 +180,7 @@ fn text(outcome: &CaseOutcome, seconds: f64) -> String {
 }
 
 fn row(check: &CheckOutcome) -> Vec<String> {
-    let expected = match (check.expected, check.tolerance, check.at_least, check.at_most) {
-        (Some(value), Some(tolerance), ..) if check.converges_from.is_some() => {
-            format!(
-                "{}, {} of the error of {}",
-                significant(value),
-                per_cent(tolerance),
-                check.converges_from.as_deref().unwrap_or_default()
-            )
-        }
-        (Some(value), Some(tolerance), ..) if check.relative => format!("{} ± {}", significant(value), per_cent(tolerance)),
-        (Some(value), Some(tolerance), ..) => format!("{} ± {}", significant(value), significant(tolerance)),
-        (.., Some(least), Some(most)) => format!("{} to {}", significant(least), significant(most)),
-        (.., Some(least), None) => format!("≥ {}", significant(least)),
-        (.., None, Some(most)) => format!("≤ {}", significant(most)),
-        _ => String::new(),
-    };
-    let deviation = check.deviation.map_or(String::new(), if check.relative { per_cent } else { significant });
-    let verdict = match (check.passed, check.note.as_str()) {
-        (true, _) => "holds".to_string(),
-        (false, "") => "FAILS".to_string(),
-        (false, note) => format!("FAILS: {note}"),
-    };
-    vec![check.check.clone(), check.model.clone(), expected, check.found.map_or("-".to_string(), significant), deviation, verdict]
+    vec![check.check.clone(), check.model.clone(), check.expectation(), check.finding(), check.error(), check.verdict()]
 }
 
 /// How many checks hold; those that don't are a failure.

@@ -6,6 +6,7 @@ pub mod comparison;
 pub mod gmsh;
 pub mod messages;
 pub mod model_file;
+pub mod numbers;
 mod outline;
 pub mod picture;
 pub mod post_mortem;

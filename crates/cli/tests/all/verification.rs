@@ -70,6 +70,29 @@ fn a_right_value_holds_and_a_wrong_one_fails() {
 }
 
 #[test]
+fn a_report_is_written_in_both_forms_whether_checks_hold_or_not() {
+    let quantity = "quantity = { history = \"P.vx\", take = \"mean\", from = \"20 us\", to = \"50 us\" }\n";
+    for (name, expected, code, says) in
+        [("report-right", 1.0, 0, "All 1 checks of 1 cases hold."), ("report-wrong", 2.0, 1, "1 of 1 checks fail, in block.")]
+    {
+        let check = check(&format!("{quantity}expect = {expected:?}\ntolerance = 0.01"));
+        let answer = verify(name, &check, &["--report", "verdicts.html", "--report", "pages/verdicts.md"]);
+        assert_eq!(answer.code, Some(code), "{}{}", answer.out, answer.err);
+        let read = |file: &str| fs::read_to_string(Path::new(env!("CARGO_TARGET_TMPDIR")).join(name).join(file)).unwrap();
+        let (html, markdown, svg) = (read("verdicts.html"), read("pages/verdicts.md"), read("pages/verdicts/block.svg"));
+        assert!(html.contains(says) && html.contains("<svg"), "{html}");
+        assert!(
+            markdown.contains(says) && markdown.contains("(../verification/block/README.md)") && markdown.contains("(verdicts/block.svg)"),
+            "{markdown}"
+        );
+        assert!(svg.contains("P.vx [m/s]"), "{svg}");
+    }
+    let answer = verify("report-other", &check(&format!("{quantity}at_most = 2")), &["--report", "verdicts.pdf"]);
+    assert_eq!(answer.code, Some(2));
+    assert!(answer.err.contains(".html or .md"), "{}", answer.err);
+}
+
+#[test]
 fn every_source_gives_its_number() {
     let all = [
         ("summary = \"elements\"", 4.0),

@@ -1,6 +1,6 @@
 //! The frame of the page, tables and figures. Whatever comes from a file goes through [`escape`]; there are no scripts and no addresses.
 
-pub(super) use crate::picture::svg::escape;
+pub(crate) use crate::picture::svg::escape;
 
 /// Light and dark, narrow and wide, on a screen and on paper; texts have a contrast of 4.5 to 1 at least.
 const STYLE: &str = "\
@@ -25,7 +25,7 @@ details{margin:.8rem 0}summary{cursor:pointer;padding:.3rem 0}\
 .plot svg{filter:none;min-width:0}.scroll{overflow:visible}figure,.message,tr{break-inside:avoid}h2,h3{break-after:avoid}}";
 
 /// The whole file.
-pub(super) fn page(title: &str, body: &str) -> String {
+pub(crate) fn page(title: &str, body: &str) -> String {
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n\
          <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'\">\n\
@@ -35,19 +35,19 @@ pub(super) fn page(title: &str, body: &str) -> String {
 }
 
 /// A section with its heading; none without contents. `body` is HTML.
-pub(super) fn section(title: &str, body: &str) -> String {
+pub(crate) fn section(title: &str, body: &str) -> String {
     if body.is_empty() { String::new() } else { format!("<section>\n<h2>{}</h2>\n{body}</section>\n", escape(title)) }
 }
 
 /// Names and values, texts.
-pub(super) fn facts(rows: &[(String, String)]) -> String {
+pub(crate) fn facts(rows: &[(String, String)]) -> String {
     let rows: String =
         rows.iter().map(|(name, value)| format!("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", escape(name), escape(value))).collect();
     if rows.is_empty() { rows } else { format!("<div class=\"scroll\"><table><tbody>\n{rows}</tbody></table></div>\n") }
 }
 
 /// A table of texts with its head; columns from `numbers` on stand at the right.
-pub(super) fn table(head: &[&str], rows: &[Vec<String>], numbers: usize) -> String {
+pub(crate) fn table(head: &[&str], rows: &[Vec<String>], numbers: usize) -> String {
     let class = |column: usize| if column >= numbers { " class=\"n\"" } else { "" };
     let head: String = head.iter().enumerate().map(|(k, cell)| format!("<th scope=\"col\"{}>{}</th>", class(k), escape(cell))).collect();
     let row = |cells: &Vec<String>| -> String {
@@ -64,12 +64,12 @@ pub(super) fn table(head: &[&str], rows: &[Vec<String>], numbers: usize) -> Stri
 }
 
 /// A paragraph of text.
-pub(super) fn paragraph(text: &str) -> String {
+pub(crate) fn paragraph(text: &str) -> String {
     format!("<p>{}</p>\n", escape(text))
 }
 
 /// A plot: the text of an SVG file within the page.
-pub(super) fn plot(svg: &str, told: &str, caption: &str) -> String {
+pub(crate) fn plot(svg: &str, told: &str, caption: &str) -> String {
     let inner = svg.find("<svg").map_or("", |start| &svg[start..]);
     // Within a page its namespace is known; what is not in it must not look like an address.
     let inner = inner.replacen(" xmlns=\"http://www.w3.org/2000/svg\"", "", 1);

@@ -4,7 +4,7 @@
 //! `energies.rs` the books, `pictures.rs` puts pictures and plots in, `html.rs` has the frame of the page and escapes all that comes from files.
 
 mod energies;
-mod html;
+pub(crate) mod html;
 mod model;
 mod outcome;
 mod pictures;

@@ -3,7 +3,10 @@
 //! Runs a case through `run.rs`, takes its numbers through `quantity.rs`, and compares. Every comparison is written so that NaN fails.
 
 use super::case::{Accepted, Case, Check, Combination};
+use super::plot::Plot;
+use super::quantity::Samples;
 use super::run::{Ran, VerifyError};
+use crate::numbers::{per_cent, significant};
 use embate_solver::simulation::{Control, Options, Progress};
 use serde::Serialize;
 use std::path::Path;
@@ -17,6 +20,9 @@ pub struct CaseOutcome {
     pub title: String,
     /// One for each check and model.
     pub checks: Vec<CheckOutcome>,
+    /// Columns of the history over which its checks look, for the report.
+    #[serde(skip)]
+    pub plots: Vec<Plot>,
 }
 
 /// A check of one model with its verdict.
@@ -58,6 +64,58 @@ impl CaseOutcome {
     }
 }
 
+impl CheckOutcome {
+    /// What is accepted, in words.
+    #[must_use]
+    pub fn expectation(&self) -> String {
+        match (self.expected, self.tolerance, self.at_least, self.at_most) {
+            (Some(value), Some(tolerance), ..) => match &self.converges_from {
+                Some(coarser) => format!("{}, {} of the error of {coarser}", significant(value), per_cent(tolerance)),
+                None if self.relative => format!("{} ± {}", significant(value), per_cent(tolerance)),
+                None => format!("{} ± {}", significant(value), significant(tolerance)),
+            },
+            (.., Some(least), Some(most)) => format!("{} to {}", significant(least), significant(most)),
+            (.., Some(least), None) => format!("≥ {}", significant(least)),
+            (.., None, Some(most)) => format!("≤ {}", significant(most)),
+            _ => String::new(),
+        }
+    }
+
+    /// What was found; a dash where nothing was.
+    #[must_use]
+    pub fn finding(&self) -> String {
+        self.found.map_or("-".to_string(), significant)
+    }
+
+    /// The deviation in the measure of the tolerance; empty where only limits hold.
+    #[must_use]
+    pub fn error(&self) -> String {
+        self.deviation.map_or(String::new(), if self.relative { per_cent } else { significant })
+    }
+
+    /// Whether it holds, and if not, why there is no number.
+    #[must_use]
+    pub fn verdict(&self) -> String {
+        match (self.passed, self.note.as_str()) {
+            (true, _) => "holds".to_string(),
+            (false, "") => "FAILS".to_string(),
+            (false, note) => format!("FAILS: {note}"),
+        }
+    }
+
+    /// How much of what is accepted was used up: 1 is the border. `None` where there is no such measure: a range, a limit at zero, no number.
+    #[must_use]
+    pub fn share(&self) -> Option<f64> {
+        let share = match (self.deviation, self.tolerance, self.at_least, self.at_most) {
+            (Some(deviation), Some(tolerance), ..) if tolerance > 0.0 => deviation / tolerance,
+            (.., None, Some(most)) if most > 0.0 => self.found?.max(0.0) / most,
+            (.., Some(least), None) if least > 0.0 => least / self.found?.max(0.0),
+            _ => return None,
+        };
+        share.is_finite().then_some(share)
+    }
+}
+
 impl Check {
     /// The coarser model of a check for convergence.
     pub(super) fn coarser(&self) -> Option<&str> {
@@ -81,7 +139,8 @@ pub fn verify(
         runs.push((name.as_str(), case.ran((name, model), options, keep, on_progress)?));
     }
     let checks = case.checks.iter().flat_map(|check| check.models.iter().map(|model| outcome(check, model, &runs))).collect();
-    Ok(CaseOutcome { case: case.name.clone(), title: case.title.clone(), checks })
+    let samples: Vec<(&str, &Samples)> = runs.iter().map(|(name, ran)| (*name, &ran.samples)).collect();
+    Ok(CaseOutcome { case: case.name.clone(), title: case.title.clone(), checks, plots: Plot::of(case, &samples) })
 }
 
 fn outcome(check: &Check, model: &str, runs: &[(&str, Ran)]) -> CheckOutcome {

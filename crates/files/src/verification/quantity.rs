@@ -168,7 +168,7 @@ impl Samples {
     }
 
     /// Time and value of a column from one time to another, both interpolated on straight lines.
-    fn curve(&self, name: &str, [begin, end]: [Option<f64>; 2]) -> Result<Vec<[f64; 2]>, String> {
+    pub(super) fn curve(&self, name: &str, [begin, end]: [Option<f64>; 2]) -> Result<Vec<[f64; 2]>, String> {
         let index = self.column(name).map_err(|(_, message, _)| message)?;
         let (Some(first), Some(last)) = (self.rows.first(), self.rows.last()) else { return Err("the history is empty".to_string()) };
         let (begin, end) = (begin.unwrap_or(first[0]), end.unwrap_or(last[0]));

@@ -9,6 +9,7 @@ pub mod model_file;
 mod outline;
 pub mod picture;
 pub mod post_mortem;
+pub mod program;
 mod reach;
 pub mod registries;
 pub mod report;

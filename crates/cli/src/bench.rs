@@ -5,7 +5,7 @@
 use crate::complaint::Complaint;
 use crate::interrupt::Interrupt;
 use crate::numbers::{grouped, table};
-use crate::{Failure, machine, terminal};
+use crate::{Failure, machine, terminal, version};
 use clap::Args;
 use embate_files::results::write_whole;
 use embate_solver::bench::{self, Level, Patch, Size};
@@ -115,6 +115,7 @@ pub(crate) fn bench(arguments: &Arguments) -> Result<(), Failure> {
     let Some(file) = &arguments.json else { return Ok(()) };
     let value = json!({
         "version": env!("CARGO_PKG_VERSION"),
+        "commit": version::commit(),
         "machine": {
             "processor": machine::processor(),
             "processors": threads,

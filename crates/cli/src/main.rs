@@ -6,6 +6,7 @@
 mod bench;
 mod check;
 mod complaint;
+mod completions;
 mod cpu;
 mod diff;
 mod explain;
@@ -14,6 +15,7 @@ mod input;
 mod interrupt;
 mod list;
 mod machine;
+mod man;
 mod messages;
 mod new;
 mod numbers;
@@ -27,17 +29,19 @@ mod schema;
 mod sweep;
 mod terminal;
 mod verify;
+mod version;
 mod view;
 mod watch;
 
 use clap::error::ErrorKind;
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use complaint::Complaint;
+use embate_files::program;
 use std::process::ExitCode;
 
 /// Explicit finite elements for contact-impact between flexible bodies in large deformation.
 #[derive(Parser)]
-#[command(name = "embate", version, arg_required_else_help = true)]
+#[command(name = "embate", version = version::short(), long_version = version::long(), arg_required_else_help = true)]
 struct CommandLine {
     #[command(subcommand)]
     command: Command,
@@ -75,6 +79,10 @@ enum Command {
     Explain(explain::Arguments),
     /// Print the JSON schema of the model file (for completion in editors)
     Schema,
+    /// Print what a shell needs to complete the command line: bash, zsh, fish, powershell, elvish
+    Completions(completions::Arguments),
+    /// Print the manual's page of the program, or write the pages of all commands into a folder
+    Man(man::Arguments),
 }
 
 /// Why a command did not succeed; the text is what the user reads.
@@ -106,6 +114,7 @@ impl Failure {
 fn main() -> ExitCode {
     interrupt::respect_nohup();
     terminal::announce_bugs();
+    version::commit().into_iter().for_each(program::built_from);
     let command = match CommandLine::try_parse() {
         Ok(line) => line.command,
         Err(error) => return not_understood(&error),
@@ -152,5 +161,7 @@ fn obey(command: &Command) -> Result<(), Failure> {
         Command::Bench(arguments) => bench::bench(arguments),
         Command::Explain(arguments) => explain::explain(arguments),
         Command::Schema => schema::schema(),
+        Command::Completions(arguments) => completions::completions(arguments, CommandLine::command()),
+        Command::Man(arguments) => man::man(arguments, CommandLine::command()),
     }
 }

@@ -1,7 +1,7 @@
 //! Standard output and standard error: a reader that goes away is no fault, and a bug is told as one.
 
-use crate::Failure;
 use crate::complaint::Complaint;
+use crate::{Failure, version};
 use embate_files::results::messages::{BUG, REFUSED};
 use std::io::{ErrorKind, Write};
 
@@ -28,7 +28,7 @@ pub(crate) fn announce_bugs() {
         let payload = panic.payload();
         let text = payload.downcast_ref::<&str>().copied().or_else(|| payload.downcast_ref::<String>().map(String::as_str));
         let place = panic.location().map(|l| format!(" at {}:{}", l.file(), l.line())).unwrap_or_default();
-        let what = format!("this is a bug in embate {}: {}{place}", env!("CARGO_PKG_VERSION"), text.unwrap_or("unknown"));
+        let what = format!("this is a bug in embate {}: {}{place}", version::short(), text.unwrap_or("unknown"));
         complain(&Complaint::new(&BUG, what).help("please report it with this message, the command and the model file").to_string());
     }));
 }

@@ -10,6 +10,7 @@ pub mod numbers;
 mod outline;
 pub mod picture;
 pub mod post_mortem;
+pub mod program;
 mod reach;
 pub mod registries;
 pub mod report;

@@ -33,10 +33,13 @@ fn usage_errors_end_with_code_two() {
 fn help_and_version_end_with_code_zero() {
     let help = embate(here(), ["--help"]);
     assert_eq!(help.code, Some(0));
-    for command in ["run", "sweep", "check", "list", "new", "import", "verify", "bench", "explain", "schema"] {
+    for command in ["run", "sweep", "check", "list", "new", "import", "verify", "bench", "explain", "schema", "completions", "man"] {
         assert!(help.out.contains(command), "{}", help.out);
     }
-    assert_eq!(embate(here(), ["--version"]).out.trim(), concat!("embate ", env!("CARGO_PKG_VERSION")));
+    for version in ["--version", "-V"] {
+        let version = embate(here(), [version]);
+        assert!(version.code == Some(0) && version.out.starts_with(concat!("embate ", env!("CARGO_PKG_VERSION"))), "{}", version.out);
+    }
     assert!(embate(here(), ["run", "--help"]).out.contains("--simd"));
 }
 

@@ -9,6 +9,7 @@ mod estimates;
 mod examples;
 mod messages;
 mod outside;
+mod packaging;
 mod post_mortem;
 mod report;
 mod restart;
@@ -52,4 +53,28 @@ struct Answer {
 fn embate(folder: &Path, arguments: impl IntoIterator<Item = impl AsRef<OsStr>>) -> Answer {
     let output = Command::new(env!("CARGO_BIN_EXE_embate")).args(arguments).current_dir(folder).output().unwrap();
     Answer { code: output.status.code(), out: String::from_utf8(output.stdout).unwrap(), err: String::from_utf8(output.stderr).unwrap() }
+}
+
+/// The repository.
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+/// Compares with what is kept, or keeps it.
+fn held(path: &Path, text: &str) {
+    if std::env::var_os("EMBATE_BLESS").is_some() {
+        fs::write(path, text).unwrap();
+    }
+    let kept = fs::read_to_string(path).unwrap_or_default();
+    let differs =
+        kept.lines().zip(text.lines()).position(|(kept, now)| kept != now).unwrap_or(kept.lines().count().min(text.lines().count()));
+    let line = |text: &str| text.lines().nth(differs).unwrap_or_default().to_string();
+    assert!(
+        kept == text,
+        "{} is not what the program says, from line {} on: run this test with EMBATE_BLESS=1 and look at it\n kept: {}\n  now: {}",
+        path.display(),
+        differs + 1,
+        line(&kept),
+        line(text)
+    );
 }

@@ -3,12 +3,12 @@
 #[path = "../../src/messages.rs"]
 mod own;
 
-use crate::{embate, fresh};
+use crate::{embate, fresh, held, root};
 use embate_files::messages::{self, markdown};
 use embate_solver::message::{AREAS, BASE, Example, Message};
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 
 fn catalogue() -> Vec<&'static Message> {
@@ -16,29 +16,6 @@ fn catalogue() -> Vec<&'static Message> {
     all.extend(own::MESSAGES);
     all.sort_by_key(|message| message.code);
     all
-}
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
-}
-
-/// Compares with what is kept, or keeps it.
-fn held(path: &Path, text: &str) {
-    if std::env::var_os("EMBATE_BLESS").is_some() {
-        fs::write(path, text).unwrap();
-    }
-    let kept = fs::read_to_string(path).unwrap_or_default();
-    let differs =
-        kept.lines().zip(text.lines()).position(|(kept, now)| kept != now).unwrap_or(kept.lines().count().min(text.lines().count()));
-    let line = |text: &str| text.lines().nth(differs).unwrap_or_default().to_string();
-    assert!(
-        kept == text,
-        "{} is not what the program says, from line {} on: run this test with EMBATE_BLESS=1 and look at it\n kept: {}\n  now: {}",
-        path.display(),
-        differs + 1,
-        line(&kept),
-        line(text)
-    );
 }
 
 /// Messages that no short input of the program provokes, and why; all others have examples that are run.

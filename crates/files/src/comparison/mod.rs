@@ -7,6 +7,7 @@ mod again;
 pub use again::{Again, Found, in_step};
 
 use crate::checkpoint::{Checkpoint, Identity, Origin, newest};
+use crate::program;
 use crate::results::{HashTable, Ran, ResultsError, read_json};
 use crate::threads::Threads;
 use embate_solver::hashes::Hashes;
@@ -20,7 +21,7 @@ pub struct RunLeft {
     pub folder: PathBuf,
     /// Where its model came from, and what it was; `None`: nothing tells.
     pub model: Option<(Origin, Identity)>,
-    /// Version of the program that ran it, if that is known.
+    /// Version of the program that ran it, with its commit, if that is known.
     pub version: Option<String>,
     /// How it ended; `None`: it has not, or was killed.
     pub end: Option<End>,
@@ -35,6 +36,9 @@ pub struct End {
     pub status: String,
     /// Version of the program.
     version: String,
+    /// Commit that the program was built from.
+    #[serde(default)]
+    commit: Option<String>,
     /// Threads that it had.
     pub threads: usize,
     /// Its instruction set.
@@ -57,7 +61,8 @@ impl RunLeft {
         if end.is_none() && hashes.is_none() {
             return Ok(None);
         }
-        let version = ran.as_ref().map(|ran| ran.version.clone()).or_else(|| end.as_ref().map(|end| end.version.clone()));
+        let version = ran.as_ref().map(|ran| program::named(&ran.version, ran.commit.as_deref()));
+        let version = version.or_else(|| end.as_ref().map(|end| program::named(&end.version, end.commit.as_deref())));
         let of_checkpoint = |checkpoint: Checkpoint| (checkpoint.origin, checkpoint.identity);
         let model = match ran {
             Some(ran) => Some((ran.origin(), ran.keys)),

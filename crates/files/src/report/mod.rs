@@ -9,6 +9,7 @@ mod model;
 mod outcome;
 mod pictures;
 
+use crate::program;
 use crate::results::{History, Ran, ResultsError, part_path, read_json, write_whole};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -73,8 +74,10 @@ impl Left {
         self.text("model").map(ToString::to_string).or_else(of_keys).or_else(of_folder).unwrap_or_else(|| "run".into())
     }
 
-    fn version(&self) -> &str {
-        self.text("version").or_else(|| self.ran.as_ref().map(|ran| ran.version.as_str())).unwrap_or("unknown")
+    fn version(&self) -> String {
+        let ran = self.ran.as_ref();
+        let version = self.text("version").or_else(|| ran.map(|ran| ran.version.as_str())).unwrap_or("unknown");
+        program::named(version, self.text("commit").or_else(|| ran.and_then(|ran| ran.commit.as_deref())))
     }
 
     /// Whether the history still grows, or grew when the run was cut off.

@@ -4,6 +4,7 @@ use super::Left;
 use super::html::{escape, facts, section};
 use crate::messages;
 use crate::post_mortem::shown;
+use crate::program;
 use crate::results::Ran;
 use embate_solver::message::Message;
 use serde_json::Value;
@@ -147,7 +148,7 @@ fn eroded(summary: &Value) -> Option<String> {
 pub(super) fn made(left: &Left) -> String {
     let body = format!(
         "<p class=\"faint\">Made by embate {} (<code>embate report</code>) from <code>{}</code>: summary.json, run.json, history.csv and the pictures. Everything is in this one file; it loads nothing.</p>\n",
-        env!("CARGO_PKG_VERSION"),
+        program::named(program::VERSION, program::commit()),
         escape(&left.folder.to_string_lossy())
     );
     section("How this was made", &body)

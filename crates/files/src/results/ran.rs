@@ -4,6 +4,7 @@
 
 use super::{ResultsError, write_whole};
 use crate::checkpoint::{Identity, Origin};
+use crate::program;
 use embate_solver::model::{Camera, Model};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -19,6 +20,9 @@ pub(super) const RAN: &str = "run.json";
 pub struct Ran {
     /// Version of the program.
     pub version: String,
+    /// Commit that the program was built from, if that was known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub commit: Option<String>,
     /// File or folder of the model; absolute.
     model: String,
     /// Keys that were overridden.
@@ -92,7 +96,14 @@ impl Ran {
     /// What a model is and where it came from.
     pub(super) fn of(keys: Identity, origin: &Origin, model: &Model) -> Self {
         let path = origin.path.to_string_lossy().into_owned();
-        Self { version: env!("CARGO_PKG_VERSION").into(), model: path, set: origin.set.clone(), keys, appearance: Appearance::of(model) }
+        Self {
+            version: program::VERSION.into(),
+            commit: program::commit().map(Into::into),
+            model: path,
+            set: origin.set.clone(),
+            keys,
+            appearance: Appearance::of(model),
+        }
     }
 
     pub(super) fn write(&self, folder: &Path) -> Result<(), ResultsError> {

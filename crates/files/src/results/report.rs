@@ -2,6 +2,7 @@
 //!
 //! Figures come from [`Summary`]; the recorder adds status, names and times. Goes to the user, to tests and to tools.
 
+use crate::program;
 use embate_solver::error::Notice;
 use embate_solver::output::{Eroded, Summary};
 use serde::Serialize;
@@ -79,6 +80,9 @@ pub struct Report {
     pub model: String,
     /// Version of embate.
     pub version: String,
+    /// Commit that the program was built from, if that was known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub commit: Option<String>,
     /// Names of the parts; their order gives the numbers of the cell field `part`.
     pub parts: Vec<String>,
     /// Threads used.
@@ -154,7 +158,8 @@ impl Report {
             error: None,
             post_mortem: None,
             model: model.to_string(),
-            version: env!("CARGO_PKG_VERSION").to_string(),
+            version: program::VERSION.to_string(),
+            commit: program::commit().map(Into::into),
             parts: parts.to_vec(),
             threads: summary.threads,
             simd: summary.simd.clone(),

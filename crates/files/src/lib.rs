@@ -10,6 +10,7 @@ mod outline;
 pub mod picture;
 pub mod post_mortem;
 mod reach;
+pub mod registries;
 pub mod report;
 pub mod results;
 pub mod stl;

@@ -226,7 +226,7 @@ fn a_rubber_disk_bounces_with_ninety_five_per_cent_of_its_velocity() {
 #[test]
 fn the_model_of_the_readme_runs() {
     let readme = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../README.md")).unwrap();
-    let model = readme.split("```toml\n").nth(1).unwrap().split("```").next().unwrap();
+    let model = readme.split("```toml file=disk/model.toml\n").nth(1).unwrap().split("```").next().unwrap();
     let folder = fresh("readme");
     fs::write(folder.join("model.toml"), model).unwrap();
     let answer = embate(&folder, ["run", "model.toml", "--out", "out", "--quiet"]);

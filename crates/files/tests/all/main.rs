@@ -10,6 +10,7 @@ mod picture;
 mod picture_space;
 mod post_mortem;
 mod reach;
+mod registries;
 mod report;
 mod results;
 mod stl;

@@ -26,7 +26,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 COPIED = ["examples", "verification", "failures", "docs"]
-# Their blocks are held by tests of their own: `messages`, `adding`.
+# Their blocks are held by tests of their own: `messages`, `adding`; and each example is run, with its figures, by `examples`.
 ELSEWHERE = ["docs/messages.md", "docs/adding.md"]
 SHOWN = {"text", "json", "csv", "bibtex", "html"}
 # What a piece of a model may lack: whole sections, keys, and what its names mean.
@@ -196,7 +196,7 @@ class Page:
 
 def pages() -> list[Path]:
     """All pages of the book with blocks, as they are under version control or in the folders of documents."""
-    patterns = ["*.md", "docs/**/*.md", "examples/*/README.md", "verification/*/README.md", "failures/README.md", "crates/python/README.md"]
+    patterns = ["*.md", "docs/**/*.md", "verification/*/README.md", "failures/README.md", "crates/python/README.md"]
     found = {path for pattern in patterns for path in ROOT.glob(pattern)}
     return sorted(path for path in found if str(path.relative_to(ROOT)) not in ELSEWHERE and blocks(path))
 

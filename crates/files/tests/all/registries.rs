@@ -1,6 +1,6 @@
 //! The page of elements, laws and fields: made from the registries and from the models of the repository.
 
-use embate_files::registries::{Entry, Registry, markdown};
+use embate_files::registries::{Entry, Registry, markdown, registries};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -68,4 +68,22 @@ fn names_are_found_as_models_write_them() {
     assert!(names("set = [\"part.bar.element=\\\"quad4\\\"\"]", "element", "quad4"));
     assert!(!names("law = \"j2_table\"", "law", "j2"));
     assert!(!names("name = \"j2\"", "law", "j2"));
+}
+
+#[test]
+fn every_element_law_and_equation_is_used_by_a_model_of_the_repository() {
+    let models = models();
+    // What the default is need not be named.
+    let unnamed: Vec<String> = registries()
+        .iter()
+        .filter(|registry| {
+            ["elements", "stress-states", "materials", "equations-of-state", "formulations", "laws"].contains(&registry.name)
+        })
+        .flat_map(|registry| registry.entries.iter().filter(|entry| !entry.default).map(move |entry| (registry, entry)))
+        .filter(|(registry, entry)| {
+            !models.iter().any(|(_, text)| registry.keys.iter().any(|key| names(text, key.rsplit('.').next().unwrap(), entry.name)))
+        })
+        .map(|(registry, entry)| format!("{} {}", registry.title, entry.name))
+        .collect();
+    assert_eq!(unnamed, Vec::<String>::new(), "no example and no verification case uses them");
 }

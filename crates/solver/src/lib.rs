@@ -8,6 +8,7 @@ pub mod archive;
 pub mod hash;
 pub mod quantity;
 pub mod tensor;
+mod angle;
 mod vector;
 pub mod motion;
 pub mod world;

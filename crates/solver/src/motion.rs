@@ -313,7 +313,7 @@ impl Motion<2> for Dim<2> {
     type Chords = [f64; 2];
     fn chords(body: &Body<2>, time_step: f64) -> [f64; 2] {
         let spin = body.velocity[2];
-        let [[_, sin], [_, half]] = [time_step * spin, 0.5 * time_step * spin].map(rigid::cos_sin);
+        let [[_, sin], [_, half]] = [time_step * spin, 0.5 * time_step * spin].map(crate::angle::cos_sin);
         [-2.0 * half * half / time_step, sin / time_step]
     }
     fn chord(body: &Body<2>, &[along, across]: &[f64; 2], arm: [f64; 2]) -> [f64; 2] {
@@ -325,7 +325,7 @@ impl Motion<2> for Dim<2> {
     }
     type Places = [f64; 2];
     fn places(&angle: &f64) -> [f64; 2] {
-        rigid::cos_sin(angle)
+        crate::angle::cos_sin(angle)
     }
     fn place(&[cos, sin]: &[f64; 2], [a, b]: [f64; 2]) -> [f64; 2] {
         [cos * a - sin * b, sin * a + cos * b]

@@ -290,7 +290,7 @@ mod tests {
     }
 
     fn about() -> About {
-        About { program: "embate 0.0.0".into(), machine: "scalar, 1 thread".into(), seconds: vec![1.25] }
+        About { program: "embate 0.0.0".into(), machine: "scalar, 1 thread".into(), seconds: vec![1.26] }
     }
 
     #[test]

@@ -125,7 +125,7 @@ impl Tied {
                 && self.target.surface.nodes.binary_search(&node).is_err()
             {
                 let beyond = f64::max(0.0, (along - 0.5 * whole).abs() - 0.5 * whole);
-                let distance = gap.hypot(beyond);
+                let distance = (gap * gap + beyond * beyond).sqrt();
                 if distance <= thickness + NEAR * whole && best.is_none_or(|(nearest, _)| distance < nearest) {
                     best =
                         Some((distance, Tie { node, slave: pair.slave, segment: pair.facet, place: along / whole, gap, stiffness, area }));
@@ -182,8 +182,8 @@ impl Formulation for Tied {
         let (broken, freed) = (&mut self.broken, &mut self.freed);
         self.ties.retain(|tie| {
             let Some(answer) = ties.next() else { return true };
-            let pull = (-answer.solved.force).max(0.0);
-            let holds = pull.hypot(answer.solved.friction[0]) <= strength * tie.area;
+            let [pull, shear] = [(-answer.solved.force).max(0.0), answer.solved.friction[0]];
+            let holds = (pull * pull + shear * shear).sqrt() <= strength * tie.area;
             if !holds {
                 bound[tie.slave as usize] = false;
                 *broken += 1;

@@ -10,6 +10,7 @@
 
 use super::trial::Trial;
 use super::{DENSITY, Family, Kinematics, Law, LawKind, POISSON, ParameterFault, Parameters, Response, Variable, YOUNG, bulk_and_shear};
+use crate::angle::cos_sin;
 use crate::material::messages::PARAMETERS;
 use crate::quantity::{Dimension, Parameter, Range};
 use crate::tensor::SymmetricTensor;
@@ -32,7 +33,8 @@ pub struct DruckerPrager {
 
 /// 6 sin φ / (3 − sin φ).
 fn slope(angle: f64) -> f64 {
-    6.0 * angle.sin() / (3.0 - angle.sin())
+    let [_, sin] = cos_sin(angle);
+    6.0 * sin / (3.0 - sin)
 }
 
 impl Law for DruckerPrager {
@@ -65,7 +67,8 @@ impl Law for DruckerPrager {
     fn new(parameters: &Parameters<'_>) -> Self {
         let [bulk, shear] = bulk_and_shear(parameters);
         let (cohesion, angle) = (parameters.value("cohesion"), parameters.value("friction_angle"));
-        let (friction, strength) = (slope(angle), 6.0 * cohesion * angle.cos() / (3.0 - angle.sin()));
+        let [cos, sin] = cos_sin(angle);
+        let (friction, strength) = (slope(angle), 6.0 * cohesion * cos / (3.0 - sin));
         Self { bulk, shear, friction, dilation: slope(parameters.value("dilation_angle")), strength, apex: strength / friction }
     }
 

@@ -14,6 +14,7 @@
 //! modulus that completes the bound; both are those of the isotropic law where the material is isotropic.
 
 use super::{DENSITY, Family, Kinematics, Law, LawKind, Orientation, ParameterFault, Parameters, Response};
+use crate::angle::cos_sin;
 use crate::message::{Example, Message};
 use crate::quantity::{Dimension, Parameter, Range};
 use crate::tensor::{Solid, SymmetricTensor, Turn};
@@ -108,7 +109,7 @@ impl Law for OrthotropicElastic {
         let mixed = (c12 + shear[0]).abs().max((c23 + shear[1]).abs()).max((c31 + shear[2]).abs());
         let wave = normal[0][0].max(normal[1][1]).max(normal[2][2]).max(largest + mixed);
         let bulk = normal.iter().flatten().sum::<f64>() / 9.0;
-        let (sin, cos) = parameters.value("angle").sin_cos();
+        let [cos, sin] = cos_sin(parameters.value("angle"));
         Self { normal, shear, axis: [cos, sin], reported: [bulk, 0.75 * (wave - bulk)] }
     }
 

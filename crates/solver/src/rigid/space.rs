@@ -12,10 +12,10 @@
 //! turns about one axis, or is driven altogether; a body that is driven about some axes and free about others has a rotation of first order in the step.
 
 use super::Body;
+use crate::angle::cos_sin;
 use crate::archive::{Archive, Keep, Kept, keep_all};
 use crate::energy::Sums;
 use crate::motion::{Motion, times_symmetric};
-use crate::rigid::cos_sin;
 use crate::tensor::{Dim, cross, dot};
 
 /// A rotation as a unit quaternion: w, x, y, z.

@@ -1,6 +1,7 @@
 //! What the plane means for the system: axes stand on it, cells are polygons and lines.
 
 use super::{Square, World};
+use crate::angle::cos_sin;
 use crate::build::{self, Builder};
 use crate::contact::Contact;
 use crate::contact::forces::ContactForces;
@@ -9,7 +10,7 @@ use crate::error::Fault;
 use crate::mesh::Mesh;
 use crate::model::{Model, Motion};
 use crate::output::CellKind;
-use crate::rigid::{self, Body, cos_sin};
+use crate::rigid::{self, Body};
 use crate::tensor::Dim;
 use crate::vector::{cross as cross_plane, dot, minus};
 

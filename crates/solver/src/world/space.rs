@@ -1,6 +1,7 @@
 //! What space means for the system: rotations about any axis, cells are tetrahedra, wedges, hexahedra and lines.
 
 use super::{Square, World, inverse, transposed};
+use crate::angle::cos_sin;
 use crate::build::Builder;
 use crate::contact::Contact;
 use crate::contact::forces::ContactForces;
@@ -12,7 +13,7 @@ use crate::mesh::surface::Corners;
 use crate::model::{self, Model};
 use crate::motion::Motion;
 use crate::output::CellKind;
-use crate::rigid::{Body, cos_sin};
+use crate::rigid::Body;
 use crate::tensor::{Dim, Space, SymmetricTensor, cross, product};
 use crate::vector::{dot, minus, plus, times};
 

@@ -11,6 +11,7 @@ use super::{Along, Closing, Solved, Spring, Tangential, Terms};
 use crate::contact::law;
 use crate::motion::Motion;
 use crate::tensor::Dim;
+use embate_lanes::math;
 
 /// An island is solved when a sweep changes no force by more than this fraction of the island's largest.
 pub(super) const TOLERANCE: f64 = 1e-12;
@@ -66,7 +67,7 @@ impl Change {
     /// Sweeps that are still to be expected where the last one changed `before`.
     fn sweeps_left(self, before: f64) -> f64 {
         let rate = self.change / before;
-        if rate < 1.0 { (TOLERANCE * self.largest / self.change).ln() / rate.ln() } else { f64::INFINITY }
+        if rate < 1.0 { math::ln(TOLERANCE * self.largest / self.change) / math::ln(rate) } else { f64::INFINITY }
     }
 }
 

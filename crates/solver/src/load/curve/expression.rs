@@ -5,7 +5,7 @@
 //!
 //! sum = product { (+|-) product },  product = sign { (*|/) sign },  sign = -sign | power,  power = atom [ ^ sign ],  atom = number | t | pi | name(sum, ...) | (sum)
 
-use crate::rigid::cos_sin;
+use crate::angle::cos_sin;
 use embate_lanes::math;
 
 /// Deepest nesting of an expression, and most values that wait on the stack.

@@ -1,6 +1,6 @@
 //! `sine`: offset + amplitude · sin(2π frequency · t + phase), with the project's own sine.
 
-use crate::rigid::cos_sin;
+use crate::angle::cos_sin;
 use std::f64::consts::TAU;
 
 /// A sine wave.

@@ -4,6 +4,7 @@ The pages stay where they are in the repository: docs/SUMMARY.md is the order, e
 them in target/book/source, in the folders of the repository, so that one link serves on disk, where the code is hosted and in the book.
 """
 
+import functools
 import html
 import html.parser
 import os
@@ -48,8 +49,10 @@ def prose(text: str) -> str:
     return "\n".join(lines)
 
 
-def anchors(text: str) -> set[str]:
+@functools.cache
+def anchors(page: Path) -> set[str]:
     """The places in a page that can be linked to: its headings, as mdBook and hosts of code name them."""
+    text = (ROOT / page).read_text(encoding="utf-8")
     found: set[str] = set()
     for heading in re.findall(r"^#{1,6}\s+(.*?)\s*#*\s*$", prose(text), re.MULTILINE):
         plain = LINK.sub(lambda link: link[2], heading)
@@ -80,6 +83,7 @@ def summary() -> tuple[list[str], list[Path]]:
     return lines, pages
 
 
+@functools.cache
 def tracked() -> set[Path]:
     """Files under version control, or new and not ignored."""
     names = subprocess.run(["git", "ls-files", "--cached", "--others", "--exclude-standard", "-z"], cwd=ROOT, check=True, capture_output=True, text=True).stdout
@@ -107,7 +111,7 @@ def check(pages: list[Path]) -> tuple[list[str], set[Path]]:
                 target = target / "README.md" if target / "README.md" in files else target
             if target not in files and target not in folders:
                 faults.append(f"{where}: there is no such file under version control")
-            elif anchor and target.suffix == ".md" and anchor not in anchors((ROOT / target).read_text(encoding="utf-8")):
+            elif anchor and target.suffix == ".md" and anchor not in anchors(target):
                 faults.append(f"{where}: {target} has no heading #{anchor}")
             elif target.suffix == ".md" and target not in pages:
                 faults.append(f"{where}: {target} is no page of the book")

@@ -146,7 +146,7 @@ pub fn markdown(outcomes: &[CaseOutcome], about: &About, pictures: &str, cases: 
     let _ = writeln!(out, "\nThe largest share is the largest {MEASURE}, of all checks of the case.");
     for outcome in outcomes {
         let _ = writeln!(out, "\n## {}\n\n{}: [the case]({cases}/{}/README.md).", outcome.case, cell(&outcome.title), outcome.case);
-        if drawing(outcome).is_some() {
+        if !groups(outcome).is_empty() {
             let _ = writeln!(out, "\n![{}]({pictures}/{}.svg)", caption(outcome), outcome.case);
         }
         let _ = writeln!(out, "\n| {} |\n|{}", HEAD.join(" | "), "---|".repeat(HEAD.len()));
@@ -207,11 +207,13 @@ fn caption(outcome: &CaseOutcome) -> String {
 /// Errors of all checks, and the columns that they look at with what is expected; `None` where there is nothing to draw.
 #[must_use]
 pub fn drawing(outcome: &CaseOutcome) -> Option<String> {
-    let mut groups: Vec<Group> = errors(&outcome.checks).into_iter().collect();
-    if !outcome.plots.is_empty() {
-        groups.push(Group::over_time(outcome.plots.iter().map(panel).collect()));
-    }
+    let groups = groups(outcome);
     (!groups.is_empty()).then(|| chart(&outcome.title, &groups))
+}
+
+fn groups(outcome: &CaseOutcome) -> Vec<Group> {
+    let over_time = (!outcome.plots.is_empty()).then(|| Group::over_time(outcome.plots.iter().map(panel).collect()));
+    errors(&outcome.checks).into_iter().chain(over_time).collect()
 }
 
 fn curve(name: &str, colour: Rgb, width: f64, points: Vec<[f64; 2]>) -> Curve {

@@ -94,33 +94,32 @@ function range(value: unknown): [number, number] | null {
   return typeof low === "number" && typeof high === "number" ? [low, high] : null;
 }
 
+/** What is drawn of one kind: nodes of each, its part and its cell. */
+function drawn(container: Container, kind: "facet" | "bar", width: number, limit: number) {
+  const nodes = container.u32(`${kind}s`);
+  const count = rows(`${kind}s`, nodes, width);
+  within(`${kind}s`, nodes, limit);
+  const [parts, cells] = [container.u32(`${kind}_parts`), container.u32(`${kind}_cells`)];
+  rows(`${kind}_parts`, parts, 1, count);
+  rows(`${kind}_cells`, cells, 1, count);
+  return { nodes, parts, cells };
+}
+
 /** A topology as `api/runs/R/topology/T` answers it. */
 export function decodeTopology(buffer: ArrayBuffer): Topology {
   const container = openContainer(buffer);
   const nodeNumbers = container.u32("node_numbers");
   const initial = container.f32("initial");
   rows("initial", initial, 3, nodeNumbers.length);
-  const facets = container.u32("facets");
-  const count = rows("facets", facets, 4);
-  within("facets", facets, nodeNumbers.length);
-  const facetParts = container.u32("facet_parts");
-  rows("facet_parts", facetParts, 1, count);
-  const facetCells = container.u32("facet_cells");
-  rows("facet_cells", facetCells, 1, count);
-  const bars = container.u32("bars");
-  const barCount = rows("bars", bars, 2);
-  within("bars", bars, nodeNumbers.length);
-  const barParts = container.u32("bar_parts");
-  rows("bar_parts", barParts, 1, barCount);
-  const barCells = container.u32("bar_cells");
-  rows("bar_cells", barCells, 1, barCount);
+  const facets = drawn(container, "facet", 4, nodeNumbers.length);
+  const bars = drawn(container, "bar", 2, nodeNumbers.length);
   const levels: Level[] = [];
   for (let level = 1; container.has(`facets_${level}`); level++) {
     const coarse = container.u32(`facets_${level}`);
     const sources = container.u32(`sources_${level}`);
     rows(`sources_${level}`, sources, 1, rows(`facets_${level}`, coarse, 4));
     within(`facets_${level}`, coarse, nodeNumbers.length);
-    within(`sources_${level}`, sources, count);
+    within(`sources_${level}`, sources, facets.cells.length);
     levels.push({ facets: coarse, sources });
   }
   return {
@@ -129,12 +128,12 @@ export function decodeTopology(buffer: ArrayBuffer): Topology {
     cells: Number(container.head["cells"] ?? 0),
     nodeNumbers,
     initial,
-    facets,
-    facetParts,
-    facetCells,
-    bars,
-    barParts,
-    barCells,
+    facets: facets.nodes,
+    facetParts: facets.parts,
+    facetCells: facets.cells,
+    bars: bars.nodes,
+    barParts: bars.parts,
+    barCells: bars.cells,
     levels,
   };
 }

@@ -32,6 +32,19 @@ vec2 valueAt(int row) {
 }
 `;
 
+/** What vertices hand on of the value or the part that is shown, and what pixels get of it. */
+const SHOWN = /* glsl */ `
+#ifdef NODE
+out vec2 value;
+#endif
+#ifdef CELL
+flat out vec2 value;
+#endif
+#ifdef PART
+flat out int part;
+#endif`;
+const SEEN = SHOWN.replaceAll("out ", "in ");
+
 /** Colour of a value; nodes without a value do not take part in the mean of a facet's corners. */
 const COLOUR = /* glsl */ `
 precision highp float;
@@ -63,15 +76,7 @@ out vec3 seen;
 #ifdef PICK
 flat out uint row;
 #else
-#ifdef NODE
-out vec2 value;
-#endif
-#ifdef CELL
-flat out vec2 value;
-#endif
-#ifdef PART
-flat out int part;
-#endif
+${SHOWN}
 #endif
 void main() {
   int facet = gl_VertexID >> 2;
@@ -152,15 +157,7 @@ ${LINES}
 #ifdef SPACE
 ${SHADE}
 #endif
-#ifdef NODE
-in vec2 value;
-#endif
-#ifdef CELL
-flat in vec2 value;
-#endif
-#ifdef PART
-flat in int part;
-#endif
+${SEEN}
 uniform vec3 ink;
 out vec4 colour;
 void main() {
@@ -210,15 +207,7 @@ out float across;
 #ifdef PICK
 flat out uint row;
 #else
-#ifdef NODE
-out vec2 value;
-#endif
-#ifdef CELL
-flat out vec2 value;
-#endif
-#ifdef PART
-flat out int part;
-#endif
+${SHOWN}
 #endif
 void main() {
   int bar = gl_VertexID >> 2;
@@ -256,15 +245,7 @@ in float across;
 uniform float thickness;
 uniform float pixel;
 uniform vec3 ink;
-#ifdef NODE
-in vec2 value;
-#endif
-#ifdef CELL
-flat in vec2 value;
-#endif
-#ifdef PART
-flat in int part;
-#endif
+${SEEN}
 out vec4 colour;
 void main() {
 #ifdef PART

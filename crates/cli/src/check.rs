@@ -27,7 +27,7 @@ pub(crate) fn check(arguments: &Arguments) -> Result<(), Failure> {
     let simulation = input::ready(model, &Options::default())?;
     input::warn(&loaded, &simulation);
     let mut text = overview_text(model, &simulation.overview());
-    let folder = arguments.out.clone().unwrap_or_else(|| input::default_folder(model));
+    let folder = input::folder(arguments.out.as_deref(), input::default_folder(model))?;
     match draw(model, &simulation, &folder) {
         Ok(path) => text.push_str(&format!("picture: {}\n", path.display())),
         Err(message) => terminal::complain(&Complaint::new(&NO_PICTURES, message).to_string()),
@@ -67,17 +67,10 @@ fn overview_text(model: &Model, overview: &Overview) -> String {
     text
 }
 
-/// Draws the mesh beside its final name and moves it there when it is complete.
+/// Draws the mesh.
 fn draw(model: &Model, simulation: &Simulation, folder: &Path) -> Result<PathBuf, String> {
     std::fs::create_dir_all(folder).map_err(|error| format!("can't create {}: {error}", folder.display()))?;
     let path = folder.join("check.png");
-    let part = folder.join("check.png.part");
-    let drawn = picture::mesh_png(&simulation.frame(), &simulation.cells(), &results::film_settings(model), &part)
-        .map_err(|error| error.to_string())
-        .and_then(|()| std::fs::rename(&part, &path).map_err(|error| format!("can't write {}: {error}", path.display())));
-    if drawn.is_err() {
-        // The first error is the one that matters.
-        let _ = std::fs::remove_file(&part);
-    }
-    drawn.map(|()| path)
+    let drawn = picture::mesh_png(&simulation.frame(), &simulation.cells(), &results::film_settings(model), &path);
+    drawn.map(|()| path).map_err(|error| error.to_string())
 }

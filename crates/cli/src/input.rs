@@ -6,6 +6,7 @@ use clap::Args;
 use embate_files::Reach;
 use embate_files::checkpoint::Origin;
 use embate_files::model_file::{self, Loaded};
+use embate_files::results::ResultFolder;
 use embate_solver::error::Error;
 use embate_solver::model::Model;
 use embate_solver::simulation::{Options, Simulation};
@@ -84,6 +85,14 @@ pub(crate) fn default_folder(model: &Model) -> PathBuf {
     // Only the last part of a name that looks like a path, so that nothing is written elsewhere.
     let name = Path::new(&model.name).file_name().unwrap_or(OsStr::new("model"));
     Path::new("results").join(name)
+}
+
+/// The folder that the user has named, which may be a link, or the `default`, which may not.
+pub(crate) fn folder(named: Option<&Path>, default: PathBuf) -> Result<PathBuf, Failure> {
+    match named {
+        Some(named) => Ok(named.to_path_buf()),
+        None => ResultFolder::refuse_link(&default).map(|()| default).map_err(|error| Failure::Input(Complaint::new(error.kind(), error))),
+    }
 }
 
 #[cfg(test)]

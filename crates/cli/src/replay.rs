@@ -45,7 +45,7 @@ pub(crate) fn replay(arguments: &Arguments) -> Result<(), Failure> {
     if from >= to || output_every <= 0.0 {
         return Err(usage("a stretch begins before it ends, and has some time between its outputs"));
     }
-    let path = arguments.out.clone().unwrap_or_else(|| arguments.folder.join("replay"));
+    let path = input::folder(arguments.out.as_deref(), arguments.folder.join("replay"))?;
     if !arguments.force {
         ResultFolder::refuse_existing(&path).map_err(in_the_way)?;
     }

@@ -41,7 +41,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     arguments.out.as_deref().map_or(Ok(()), refuse)?;
     let loaded = load(arguments)?;
     let model = &loaded.model;
-    let path = folder(arguments, model);
+    let path = folder(arguments, model)?;
     refuse(&path)?;
     let options = arguments.manner.options();
     let mut simulation = input::simulation(model, &options).map_err(|error| match &error {
@@ -76,7 +76,7 @@ fn load(arguments: &Arguments) -> Result<Loaded, Failure> {
 
 /// That a model can't begin: of what its numbers need there is a page, beside the results of earlier runs if there are any.
 fn with_page(complaint: Complaint, arguments: &Arguments, loaded: &Loaded, faults: &[Fault]) -> Failure {
-    let path = folder(arguments, &loaded.model);
+    let Ok(path) = folder(arguments, &loaded.model) else { return Failure::Input(complaint) };
     Failure::Input(match post_mortem::at_start(loaded, &arguments.manner.options(), faults, &path) {
         Ok(None) => complaint,
         Ok(Some(page)) => recording::with_page(complaint, &page),
@@ -84,6 +84,6 @@ fn with_page(complaint: Complaint, arguments: &Arguments, loaded: &Loaded, fault
     })
 }
 
-fn folder(arguments: &Arguments, model: &Model) -> PathBuf {
-    arguments.out.clone().unwrap_or_else(|| input::default_folder(model))
+fn folder(arguments: &Arguments, model: &Model) -> Result<PathBuf, Failure> {
+    input::folder(arguments.out.as_deref(), input::default_folder(model))
 }

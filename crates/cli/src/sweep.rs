@@ -75,11 +75,9 @@ pub(crate) fn sweep(arguments: &Arguments) -> Result<(), Failure> {
     let prepared =
         Sweep::prepare(model, leave.reach(), set, request, &arguments.output, arguments.simd.clone(), jobs, &is_stopped).map_err(told)?;
     let Some(sweep) = prepared else { return Err(Failure::Interrupted) };
-    let folder = arguments.out.clone().unwrap_or_else(|| {
-        let mut name = input::default_folder(sweep.first()).into_os_string();
-        name.push("-sweep");
-        name.into()
-    });
+    let mut name = input::default_folder(sweep.first()).into_os_string();
+    name.push("-sweep");
+    let folder = input::folder(arguments.out.as_deref(), name.into())?;
     let display = Mutex::new(Display::new(arguments.quiet));
     let lock = || display.lock().unwrap_or_else(PoisonError::into_inner);
     let on_advance = |advance: Advance| {

@@ -8,6 +8,7 @@ pub mod messages;
 pub mod model_file;
 pub mod numbers;
 mod outline;
+mod plain;
 pub mod picture;
 pub mod post_mortem;
 pub mod program;

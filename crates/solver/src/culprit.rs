@@ -1,6 +1,7 @@
 //! Who is to blame: names elements, nodes and contacts with their places, for errors, progress and the summary. Called rarely.
 
 use crate::contact::Contact;
+use crate::contact::overlap::{Findings, Overlap};
 use crate::error::Error;
 use crate::step::{Governor, System};
 use crate::tensor::Dim;
@@ -20,12 +21,16 @@ where
         }
     }
 
+    /// An element by group and number, with its part and place, in words.
+    pub(crate) fn element_name(&self, g: usize, element: usize) -> String {
+        let group = &self.mesh.groups[g];
+        let at = place(self.centre(group.cell(element)));
+        format!("element {} of part \"{}\" {at}", group.user_elements[element], self.mesh.parts[group.part].name)
+    }
+
     fn element_with_step(&self, squared: f64) -> String {
         if let Some((g, element)) = self.governing_element(squared) {
-            let group = &self.mesh.groups[g];
-            let at = place(self.centre(group.cell(element)));
-            let user = group.user_elements[element];
-            return format!("element {user} of part \"{}\" {at}", self.mesh.parts[group.part].name);
+            return self.element_name(g, element);
         }
         let what = if self.has_springs { "springs and the elements that they hold" } else { "an element" };
         what.into()
@@ -93,8 +98,11 @@ where
         Error::Runaway { place: self.node_place(node), speed: self.speed, limit: self.limits.velocity, time: self.time, step: self.step }
     }
 
-    /// The node of a contact that is deepest inside, and how deep, m.
+    /// The node of a contact that is deepest inside, and how deep, m: of a body that has gone through another, a node there.
     pub(crate) fn deepest(&self, contact: &Contact<D>) -> Option<(usize, f64)> {
+        if let Some(through) = contact.gone_through().filter(|_| self.limits.is_local) {
+            return Some((through.nodes[0] as usize, through.depth));
+        }
         let deepest = contact.penetrations(&self.springs).max_by(|(_, a), (_, b)| a.total_cmp(b));
         deepest.map(|(node, depth)| (node as usize, depth))
     }
@@ -106,10 +114,25 @@ where
             contact: format!("{} \"{}\"", contact.kind.name(), contact.name).into(),
             place: self.node_place(node).into(),
             depth,
-            limit: self.limits.penetration,
+            limit: contact.gone_through().filter(|_| self.limits.is_local).map_or(self.limits.penetration, |through| through.thickness),
             time: self.time,
             step: self.step,
         }
+    }
+
+    /// Where bodies in contact overlapped without being held, first and worst, in words.
+    pub(crate) fn overlaps_in_words(&self, contact: &str, found: &Findings) -> Option<String> {
+        let parts = |nodes: [u32; 2]| {
+            let of = |node: u32| self.mesh.parts.iter().find(|part| part.nodes.contains(&node)).map_or("?", |part| &part.name);
+            nodes.map(of)
+        };
+        let words = |Overlap { place: at, depth, thickness, nodes, time }: Overlap| {
+            let [a, b] = parts(nodes);
+            let at = at.map(|c| format!("{c:.4e}")).join(", ");
+            format!("{depth:.3e} m deep where the bodies are {thickness:.3e} m thick, parts \"{a}\" and \"{b}\" at ({at}), {time:.4e} s")
+        };
+        let first = found.first?;
+        Some(format!("; contact \"{contact}\": first {}; worst {}", words(first), words(found.worst)))
     }
 
     /// A node and where it is.

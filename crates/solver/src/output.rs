@@ -418,7 +418,7 @@ pub struct Summary {
     pub ledger_residual: f64,
     /// Change of linear momentum over Σ m|v|; `None` where something is held or driven, or loads act.
     pub momentum_drift_linear: Option<f64>,
-    /// Change of angular momentum over Σ m|x||v|; `None` where something is held or driven, or loads act.
+    /// Change of angular momentum about the centre of mass at the start c, over Σ m|x − c||v|; `None` where something is held or driven, or loads act.
     pub momentum_drift_angular: Option<f64>,
     /// Deepest penetration seen in any contact or obstacle, m.
     pub penetration_max: f64,

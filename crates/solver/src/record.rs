@@ -282,6 +282,8 @@ where
 /// Linear and angular momentum of a model on which nothing acts from outside.
 pub(crate) struct Momentum<const D: usize> {
     start: Moments<D>,
+    /// The centre of mass at the start, m: about it the angular momentum is measured, far from the origin too.
+    centre: [f64; D],
     drift: [f64; 2],
     /// Whether x is a radius: forces around the axis cancel, and only what goes along it is kept.
     of_revolution: bool,
@@ -292,14 +294,14 @@ struct Moments<const D: usize> {
     linear: [f64; D],
     /// In the plane about z alone.
     angular: [f64; 3],
-    /// Σ m|v| and Σ m|x||v|: what the drifts are measured against.
+    /// Σ m|v| and Σ m|x − c||v|: what the drifts are measured against.
     scale: [f64; 2],
 }
 
 impl<const D: usize> Keep for Momentum<D> {
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
         // The start is that of the model.
-        let Self { start: _, drift, of_revolution: _ } = self;
+        let Self { start: _, centre: _, drift, of_revolution: _ } = self;
         drift.keep(archive)
     }
 }
@@ -321,11 +323,14 @@ where
             && !system.joins.is_periodic()
             && system.damping.is_empty();
         // Forces at time zero have acted half a step already; both momenta are kept by them as well.
-        isolated.then(|| Self { start: Moments::of(system), drift: [0.0; 2], of_revolution })
+        isolated.then(|| {
+            let centre = centre_of_mass(system);
+            Self { start: Moments::of(system, centre), centre, drift: [0.0; 2], of_revolution }
+        })
     }
 
     pub(crate) fn note(&mut self, system: &System<D>) {
-        let now = Moments::of(system);
+        let now = Moments::of(system, self.centre);
         let mut change = minus(now.linear, self.start.linear);
         if self.of_revolution {
             change[0] = 0.0;
@@ -356,28 +361,48 @@ impl<const D: usize> Moments<D>
 where
     Dim<D>: World<D>,
 {
-    /// Σ m v^{n+1/2} and Σ m x^n × v^{n+1/2} + Σ I ω^{n+1/2}: the latter is the one that central differences keep exactly.
-    fn of(system: &System<D>) -> Self {
+    /// Σ m v^{n+1/2} and Σ m (x^n − c) × v^{n+1/2} + Σ I ω^{n+1/2} about a point c: the latter is the one that central differences keep exactly.
+    fn of(system: &System<D>, centre: [f64; D]) -> Self {
         let mut sum = Self { linear: [0.0; D], angular: [0.0; 3], scale: [0.0; 2] };
         for (node, ((&m, x), v)) in (0..).zip(system.mass.iter().zip(&system.positions).zip(&system.velocities)) {
             if system.bodies.of_node(node).is_none() {
-                sum.add(m, *x, *v);
+                sum.add(m, minus(*x, centre), *v);
             }
         }
         for body in system.bodies.iter() {
             let (m, velocity, spin) = <Dim<D>>::momenta(body);
-            sum.add(m, body.centre, velocity);
+            sum.add(m, minus(body.centre, centre), velocity);
             sum.angular = plus(sum.angular, spin);
             sum.scale[1] += dot(spin, spin).sqrt();
         }
         sum
     }
 
-    fn add(&mut self, m: f64, x: [f64; D], v: [f64; D]) {
+    fn add(&mut self, m: f64, arm: [f64; D], v: [f64; D]) {
         self.linear = plus(self.linear, times(m, v));
-        self.angular = plus(self.angular, times(m, <Dim<D> as World<D>>::moment(x, v)));
+        self.angular = plus(self.angular, times(m, <Dim<D> as World<D>>::moment(arm, v)));
         let speed = m * dot(v, v).sqrt();
         self.scale[0] += speed;
-        self.scale[1] += speed * dot(x, x).sqrt();
+        self.scale[1] += speed * dot(arm, arm).sqrt();
     }
+}
+
+/// Centre of the masses that `Moments` counts, m; seen from the first node, so that far from the origin no digits are lost.
+fn centre_of_mass<const D: usize>(system: &System<D>) -> [f64; D]
+where
+    Dim<D>: World<D>,
+{
+    let Some(&from) = system.positions.first() else { return [0.0; D] };
+    let (mut mass, mut sum) = (0.0, [0.0; D]);
+    let mut add = |m: f64, x: [f64; D]| {
+        mass += m;
+        sum = plus(sum, times(m, minus(x, from)));
+    };
+    for (node, (&m, x)) in (0..).zip(system.mass.iter().zip(&system.positions)) {
+        if system.bodies.of_node(node).is_none() {
+            add(m, *x);
+        }
+    }
+    system.bodies.iter().for_each(|body| add(<Dim<D>>::momenta(body).0, body.centre));
+    if mass > 0.0 { plus(from, times(1.0 / mass, sum)) } else { from }
 }

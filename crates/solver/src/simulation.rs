@@ -8,6 +8,7 @@ mod shortest;
 mod state;
 mod steering;
 mod summary;
+mod tiny;
 
 pub use state::State;
 

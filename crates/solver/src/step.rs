@@ -69,6 +69,8 @@ pub struct Limits {
     pub velocity: f64,
     /// Largest depth of a contact, m.
     pub penetration: f64,
+    /// Whether the model sets none: then no contact may be deeper than a body there is thick either.
+    pub is_local: bool,
 }
 
 /// Who sets the time step.
@@ -358,7 +360,7 @@ where
         let scene = Scene { sweep, bodies: &self.bodies, time: self.time };
         for contact in &mut self.contacts {
             contact.detect(&scene, &mut self.springs);
-            self.penetration_max = self.penetration_max.max(contact.penetration);
+            self.penetration_max = self.penetration_max.max(contact.depth());
         }
         let nodes = nodes!(self, velocities, time_step);
         let update =
@@ -451,10 +453,15 @@ where
         if self.speed > self.limits.velocity {
             return Err(self.runaway());
         }
+        let deep = self.contacts.iter().find(|contact| self.is_too_deep(contact));
+        deep.map_or(Ok(()), |contact| Err(self.too_deep(contact)))
+    }
+
+    /// Whether a contact is deeper than the limit, or, where the model sets none, than a body there is thick.
+    pub(crate) fn is_too_deep(&self, contact: &Contact<D>) -> bool {
         // What comes in within a step is no deeper than both sides go in it.
         let limit = self.limits.penetration + 2.0 * self.time_step_old * self.speed;
-        let deep = self.contacts.iter().find(|contact| contact.penetration > limit);
-        deep.map_or(Ok(()), |contact| Err(self.too_deep(contact)))
+        contact.depth() > limit || (self.limits.is_local && contact.gone_through().is_some())
     }
 
     /// Largest |v^{n+1/2}|, m/s.

@@ -43,6 +43,12 @@ pub(crate) fn dot<L: Lane, const D: usize>(a: [L; D], b: [L; D]) -> L {
     sum
 }
 
+/// Bound of the sum of the sizes of a vector's components, the same in every frame: √2 times its length.
+#[inline]
+pub(crate) fn bound_of(a: [f64; 2]) -> f64 {
+    std::f64::consts::SQRT_2 * dot(a, a).sqrt()
+}
+
 /// Length of a vector.
 pub(crate) fn length<const D: usize>(a: [f64; D]) -> f64 {
     dot(a, a).sqrt()

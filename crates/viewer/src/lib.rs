@@ -5,6 +5,7 @@
 
 mod access;
 mod bundle;
+mod connections;
 mod live;
 mod routes;
 mod server;

@@ -1,11 +1,13 @@
 //! What can be asked of the server: the page, and the runs that it shows. Nothing can be changed here; orders to a run come by its socket alone.
 
+use crate::connections::Patience;
 use crate::live::Live;
 use crate::{access, bundle, socket};
 use axum::Router;
-use axum::body::Body;
+use axum::body::{Body, to_bytes};
 use axum::extract::ws::WebSocketUpgrade;
 use axum::extract::{Path, Query, Request, State};
+use axum::http::header::{ALLOW, CONTENT_TYPE};
 use axum::http::{Response, StatusCode};
 use axum::middleware::{self, Next};
 use axum::response::IntoResponse;
@@ -28,6 +30,7 @@ pub(crate) struct Shown {
     view: String,
     token: String,
     port: u16,
+    pub(crate) patience: Patience,
     /// Becomes true when the server ends.
     pub(crate) stopped: watch::Receiver<bool>,
 }
@@ -57,12 +60,12 @@ impl Shown {
         runs: Vec<(PathBuf, Result<ResultView, ResultsError>)>,
         live: Option<Arc<Live>>,
         view: String,
-        token: String,
-        port: u16,
+        (token, port): (String, u16),
+        patience: Patience,
         stopped: watch::Receiver<bool>,
     ) -> Self {
         let runs = runs.into_iter().map(|(path, result)| Mutex::new(Run { path, found: found(result) })).collect();
-        Self { runs, live, view, token, port, stopped }
+        Self { runs, live, view, token, port, patience, stopped }
     }
 
     /// A run by its number.
@@ -166,7 +169,7 @@ pub(crate) fn router(shown: Arc<Shown>) -> Router {
     Router::new()
         .route("/{token}/", get(|| async { bundle::file("").ok_or(Refusal::nothing("there is no page")) }))
         .nest("/{token}", own)
-        .fallback(|| async { Refusal::forbidden(WRONG) })
+        .fallback(|| async { Refusal::nothing("there is nothing at this address; `api/runs` tells what is shown") })
         .layer(middleware::from_fn_with_state(shown.clone(), admit))
         .with_state(shown)
 }
@@ -190,8 +193,29 @@ async fn admit(State(shown): State<Arc<Shown>>, request: Request, next: Next) ->
             .header("location", format!("/{token}/"))
             .body(Body::empty())
             .expect("the token is plain ASCII"),
-        None => next.run(request).await,
+        None => as_json(next.run(request).await).await,
     }
+}
+
+/// Bytes of a reason that a library gives.
+const REASON: usize = 4096;
+
+/// An error that a library has told in its own way, told as all others are: a number that is none, another method, a socket that is asked for without its headers.
+async fn as_json(response: Response<Body>) -> Response<Body> {
+    let (status, kind) = (response.status(), response.headers().get(CONTENT_TYPE));
+    if !(status.is_client_error() || status.is_server_error()) || kind.is_some_and(|kind| kind == "application/json") {
+        return response;
+    }
+    let allow = response.headers().get(ALLOW).cloned();
+    let reason = to_bytes(response.into_body(), REASON).await.unwrap_or_default();
+    let text = match (status, String::from_utf8_lossy(&reason).trim()) {
+        (StatusCode::METHOD_NOT_ALLOWED, _) => "nothing is changed here: all addresses are asked with GET".into(),
+        (_, "") => status.canonical_reason().unwrap_or("the request can't be answered").to_lowercase(),
+        (_, reason) => reason.to_string(),
+    };
+    let mut told = Refusal { status, code: "", text }.into_response();
+    told.headers_mut().extend(allow.map(|allow| (ALLOW, allow)));
+    told
 }
 
 async fn runs(State(shown): State<Arc<Shown>>) -> Answer {
@@ -267,6 +291,6 @@ async fn frame(
 
 async fn live(State(shown): State<Arc<Shown>>, socket: WebSocketUpgrade) -> Answer {
     let live = shown.live.clone().ok_or(Refusal::nothing("no run is watched here"))?;
-    let stopped = shown.stopped.clone();
-    Ok(socket.max_message_size(1 << 16).on_upgrade(move |socket| socket::serve(socket, live, stopped)))
+    let (patience, stopped) = (shown.patience, shown.stopped.clone());
+    Ok(socket.max_message_size(1 << 16).on_upgrade(move |socket| socket::serve(socket, live, patience, stopped)))
 }

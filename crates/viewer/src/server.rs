@@ -1,6 +1,7 @@
 //! The server: listens on this machine alone, on a thread of its own, until it is stopped.
 
 use crate::access;
+use crate::connections::{self, Patience};
 use crate::live::Live;
 use crate::routes::{self, Shown};
 use embate_files::results::ResultsError;
@@ -76,6 +77,16 @@ impl Server {
         view: &str,
         address: &Address,
     ) -> Result<Self, ViewerError> {
+        Self::start_with(Patience::default(), runs, live, view, address)
+    }
+
+    pub(crate) fn start_with(
+        patience: Patience,
+        runs: Vec<(PathBuf, Result<ResultView, ResultsError>)>,
+        live: Option<Arc<Live>>,
+        view: &str,
+        address: &Address,
+    ) -> Result<Self, ViewerError> {
         let system = |what: &'static str| move |error: std::io::Error| ViewerError::System { what: format!("{what}: {error}") };
         let token = match &address.token {
             Some(token) if access::is_token(token) => token.clone(),
@@ -91,13 +102,10 @@ impl Server {
         let (stop, stopped) = watch::channel(false);
         let url = format!("http://{}/{token}/", own.to_string().replacen("0.0.0.0", "127.0.0.1", 1).replacen("[::]", "[::1]", 1));
         let watched = live.clone();
-        let shown = Arc::new(Shown::new(runs, live, view.into(), token, own.port(), stopped.clone()));
+        let shown = Arc::new(Shown::new(runs, live, view.into(), (token, own.port()), patience, stopped.clone()));
         let serve = async move {
             let Ok(listener) = TcpListener::from_std(listener) else { return };
-            let mut until = stopped.clone();
-            let goodbye = async move { over(&mut until).await };
-            // Errors of single connections end these alone.
-            let serving = axum::serve(listener, routes::router(shown)).with_graceful_shutdown(goodbye);
+            let serving = connections::serve(listener, routes::router(shown), patience, stopped.clone());
             let mut stopped = stopped;
             let farewell = async {
                 over(&mut stopped).await;
@@ -109,7 +117,7 @@ impl Server {
             };
             // Requests that come meanwhile are answered; whether they were is not waited for.
             let serving = async {
-                let _ = serving.await;
+                serving.await;
                 std::future::pending::<()>().await;
             };
             tokio::select! {

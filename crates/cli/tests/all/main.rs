@@ -7,6 +7,10 @@ mod determinism;
 mod diff;
 mod estimates;
 mod examples;
+mod far;
+#[cfg(unix)]
+mod links;
+mod lock;
 mod messages;
 mod outside;
 mod packaging;

@@ -21,7 +21,7 @@ const FAILURES: &[Failure] = &[
     Failure {
         name: "inverted-element",
         code: "E0601",
-        culprit: "element 181 of part \"pad\"",
+        culprit: "element 178 of part \"pad\"",
         keys: [("part[0].rectangle.elements", "[24, 8]"), ("obstacle[0].motion", "\"-150 m/s\"")],
         pictures: ALL,
     },
@@ -243,10 +243,10 @@ fn a_page_that_cannot_be_written_hides_nothing() {
     fs::create_dir_all(folder.join("out")).unwrap();
     fs::write(folder.join("out/post-mortem"), "a file").unwrap();
     let answer = run(&folder, "inverted-element", &["--set", "output.pictures=false"]);
-    assert!(answer.code == Some(1) && answer.err.contains("error[E0601]: element 181"), "{}", answer.err);
+    assert!(answer.code == Some(1) && answer.err.contains("error[E0601]: element 178"), "{}", answer.err);
     assert!(answer.err.contains("warning[W0702]: the post-mortem is missing: "), "{}", answer.err);
     let summary = fs::read_to_string(folder.join("out/summary.json")).unwrap();
-    assert!(summary.contains("E0601: element 181") && !summary.contains("post_mortem"), "{summary}");
+    assert!(summary.contains("E0601: element 178") && !summary.contains("post_mortem"), "{summary}");
 }
 
 #[test]

@@ -110,6 +110,87 @@ fn what_is_not_there_is_told_so() {
     assert!(told["error"].as_str().unwrap().contains("frame-00002.vtu"));
 }
 
+/// The answer to any request.
+fn asked(page: &Page, request: &str) -> (u16, String, serde_json::Value) {
+    let mut stream = TcpStream::connect(("127.0.0.1", page.port)).unwrap();
+    stream.set_read_timeout(Some(Duration::from_secs(20))).unwrap();
+    write!(stream, "{request}").unwrap();
+    let mut text = String::new();
+    stream.read_to_string(&mut text).unwrap();
+    let (head, body) = text.split_once("\r\n\r\n").unwrap();
+    (
+        head[9..12].parse().unwrap(),
+        head.to_lowercase(),
+        serde_json::from_str(body).unwrap_or_else(|error| panic!("{request:?}: {error}: {text}")),
+    )
+}
+
+#[test]
+fn every_error_is_json_and_says_what_is_wrong() {
+    let folder = results("view-json");
+    let page = Page::open(&folder, &["view", "out"]);
+    let own = format!("/{}", page.token);
+    let socket = "Upgrade: websocket\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\n";
+    for (method, path, more, status, what) in [
+        ("GET", "/api/runs/zero", "", 400, "`zero`"),
+        ("GET", "/api/runs/-1", "", 400, "`-1`"),
+        ("GET", "/api/runs/99999999999999999999999", "", 400, "cannot parse"),
+        ("GET", "/api/runs/0/history?rows=many", "", 400, "rows"),
+        ("GET", "/api/runs/0/probe?node=0&node=1", "", 400, "node"),
+        ("GET", "/api/runs/%ff", "", 400, "utf-8"),
+        ("GET", "/api/nothing", "", 404, "api/runs"),
+        ("GET", "/api/runs/0/nothing", "", 404, "api/runs"),
+        ("GET", "/api/", "", 404, "api/runs"),
+        ("POST", "/api/runs", "Content-Type: application/json\r\nContent-Length: 1\r\n", 405, "get"),
+        ("PUT", "/api/runs/0/frames/0", "", 405, "get"),
+        ("DELETE", "/", "", 405, "get"),
+        ("GET", "/api/live", "", 403, "does not say"),
+        ("GET", "/api/live", "Origin: ", 400, "connection"),
+        ("GET", "/api/live", &format!("{socket}Origin: "), 400, "connection"),
+    ] {
+        let host = format!("127.0.0.1:{}", page.port);
+        let more = more.replace("Origin: ", &format!("Origin: http://{host}\r\n"));
+        let (found, head, told) =
+            asked(&page, &format!("{method} {own}{path} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n{more}\r\n{{"));
+        let text = told["error"].as_str().unwrap_or_default().to_lowercase();
+        assert!(found == status && told["code"] == "" && text.contains(what), "{method} {path}: {found} {told}");
+        assert!(head.contains("content-type: application/json") && head.contains("nosniff"), "{head}");
+        assert!(status != 405 || head.contains("allow: get"), "{head}");
+    }
+}
+
+#[test]
+#[cfg(unix)]
+fn pipes_and_links_to_devices_in_shown_folders_are_told_of_and_keep_nobody_waiting() {
+    let folder = results("view-pipes");
+    let page = Page::open(&folder, &["view", "out"]);
+    for (name, asked, wanted) in [
+        ("fields/frame-00002.vtu", "frames/2", 404),
+        ("fields/frame-00001.vtu", "probe?scalar=velocity&node=1", 422),
+        // Times of frames stand in these, too.
+        ("fields.pvd", "range?scalar=velocity", 200),
+        ("history.csv", "history", 422),
+        ("summary.json", "", 422),
+        ("run.json", "", 422),
+    ] {
+        let path = folder.join("out").join(name);
+        let bytes = fs::read(&path).unwrap();
+        for is_device in [false, true] {
+            fs::remove_file(&path).unwrap();
+            if is_device {
+                std::os::unix::fs::symlink("/dev/zero", &path).unwrap();
+            } else {
+                assert!(Command::new("mkfifo").arg(&path).status().unwrap().success());
+            }
+            let (status, told) = page.own(format!("api/runs/0/{asked}").trim_end_matches('/'));
+            let told: serde_json::Value = serde_json::from_slice(&told).unwrap();
+            assert!(status == wanted && (status != 422 || told["code"] == "E0708"), "{name}: {status} {told}");
+        }
+        fs::remove_file(&path).unwrap();
+        fs::write(&path, bytes).unwrap();
+    }
+}
+
 #[test]
 fn two_runs_are_shown_beside_each_other_and_one_that_can_not_be_read_says_why() {
     let folder = results("view-two");

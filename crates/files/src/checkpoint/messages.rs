@@ -41,10 +41,10 @@ pub(crate) static IN_USE: Message = Message {
     code: "E0714",
     title: "results that another run writes",
     example: Example::Shell(
-        "embate run model.toml --out out --quiet --set run.checkpoint_steps=4 --set run.max_steps=9\nflock out/history.csv embate resume out\n",
+        "embate run model.toml --out out --quiet --set run.checkpoint_steps=4 --set run.max_steps=9\nflock out/run.lock embate resume out\n",
     ),
-    cause: "Two programs that append to one file would spoil it.",
-    cure: "Wait for the other run, or stop it first.",
+    cause: "Two runs that write into one folder, or to one file, would spoil it. The lock (`run.lock`) is the system's and ends with the run, also with one that is killed.",
+    cure: "Wait for the other run, stop it first, or choose another folder with --out.",
 };
 
 /// The model is not the one that ran.

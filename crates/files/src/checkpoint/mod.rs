@@ -11,8 +11,8 @@ mod pack;
 
 pub use difference::Identity;
 
-use crate::results::messages::REFUSED;
-use crate::results::{Told, part_path};
+use crate::plain;
+use crate::results::{Told, write_whole_by};
 use crate::threads::Threads;
 use container::Block;
 use embate_solver::archive::Section;
@@ -75,7 +75,7 @@ impl CheckpointError {
     #[must_use]
     pub fn kind(&self) -> &'static Message {
         match self {
-            Self::File { .. } => &REFUSED,
+            Self::File { source, .. } => plain::kind(source),
             Self::Damaged { .. } => &messages::DAMAGED,
             Self::Version { .. } => &messages::VERSION,
         }
@@ -145,7 +145,8 @@ impl Checkpoint {
     /// [`CheckpointError::File`].
     pub fn write(&self, results: &Path, threads: &Threads) -> Result<(), CheckpointError> {
         let folder = results.join(FOLDER);
-        fs::create_dir_all(&folder).map_err(CheckpointError::file("create", &folder))?;
+        fs::create_dir_all(results).map_err(CheckpointError::file("create", results))?;
+        plain::folder(&folder).map_err(CheckpointError::file("create", &folder))?;
         let path = folder.join(format!("{:012}.{ENDING}", self.state.step));
         self.write_file(&path, threads)?;
         // The name, too, must outlive a power failure; where folders can't be synchronised there is nothing to do.
@@ -161,16 +162,10 @@ impl Checkpoint {
     /// # Errors
     /// [`CheckpointError::File`].
     pub fn write_file(&self, path: &Path, threads: &Threads) -> Result<(), CheckpointError> {
-        let part = part_path(path);
-        self.write_to(&part, threads).and_then(|()| fs::rename(&part, path)).map_err(CheckpointError::file("write", path)).inspect_err(
-            |_| {
-                // Room for what is more urgent; the first error is the one that matters.
-                let _ = fs::remove_file(&part);
-            },
-        )
+        write_whole_by(path, |file| self.write_to(file, threads)).map_err(CheckpointError::file("write", path))
     }
 
-    fn write_to(&self, path: &Path, threads: &Threads) -> io::Result<()> {
+    fn write_to(&self, file: File, threads: &Threads) -> io::Result<File> {
         let model = Section { name: MODEL.into(), bytes: self.identity.text().into_bytes() };
         let film = self.film.iter().map(|section| Block { name: FILM, section });
         let state = self.state.sections.iter().map(|section| Block { name: &section.name, section });
@@ -185,8 +180,9 @@ impl Checkpoint {
             blocks: blocks.len(),
         };
         let header = serde_json::to_vec(&header).expect("plain numbers, texts and lists always have a JSON form");
-        let file = container::write(File::create(path)?, &header, &blocks, threads)?;
-        file.sync_all()
+        let file = container::write(file, &header, &blocks, threads)?;
+        file.sync_all()?;
+        Ok(file)
     }
 
     /// Reads a file back.
@@ -194,7 +190,7 @@ impl Checkpoint {
     /// # Errors
     /// [`CheckpointError::Damaged`] where not every byte is as it was written, [`CheckpointError::Version`] where another program wrote it.
     pub fn read(path: &Path, threads: &Threads) -> Result<Self, CheckpointError> {
-        Self::parse(&fs::read(path).map_err(CheckpointError::file("read", path))?, path, threads)
+        Self::parse(&plain::read(path).map_err(CheckpointError::file("read", path))?, path, threads)
     }
 
     /// Reads the bytes of the file `path`.

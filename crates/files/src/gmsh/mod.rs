@@ -17,6 +17,7 @@ mod version2;
 mod version4;
 
 use crate::gmsh::messages::{DAMAGED, FORMAT, MESH_FILE};
+use crate::plain;
 use contents::Contents;
 use embate_solver::error::Fault;
 use embate_solver::model::ImportedMesh;
@@ -30,7 +31,7 @@ use version4::Entities;
 /// The file can't be read, or what [`parse`] finds.
 pub fn read(path: &Path, scale: f64) -> Result<ImportedMesh, Vec<Fault>> {
     let source = path.display().to_string();
-    let bytes = std::fs::read(path).map_err(|error| {
+    let bytes = plain::read(path).map_err(|error| {
         vec![Fault::new(
             &MESH_FILE,
             &source,

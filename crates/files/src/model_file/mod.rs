@@ -31,6 +31,7 @@ pub(crate) use tree::Node;
 
 use crate::Reach;
 use crate::model_file::messages::{ENCODING, FILE, SYNTAX};
+use crate::plain;
 use embate_solver::error::Warning;
 use embate_solver::message::Message;
 use embate_solver::model::Model;
@@ -266,7 +267,9 @@ fn read(file: &Path) -> Result<Vec<u8>, (String, String)> {
         std::io::ErrorKind::NotFound => ("there is no such file".to_string(), near_files(file)),
         _ => (format!("the file can't be read: {error}"), String::new()),
     };
-    let opened = std::fs::File::open(file).map_err(|error| cannot(&error))?;
+    // A shell hands over what another program prints under such names, and there a pipe is meant.
+    let is_of_shell = ["/dev/stdin", "/dev/fd", "/proc/self/fd"].iter().any(|place| file.starts_with(place));
+    let opened = if is_of_shell { std::fs::File::open(file) } else { plain::open(file) }.map_err(|error| cannot(&error))?;
     let mut bytes = Vec::new();
     opened.take(SIZE_MAX + 1).read_to_end(&mut bytes).map_err(|error| cannot(&error))?;
     if bytes.len() as u64 > SIZE_MAX {

@@ -35,7 +35,9 @@ pub(crate) use plots::charts;
 pub use plots::plots;
 pub(crate) use space::base64;
 
+use crate::plain;
 use crate::results::messages::{PICTURE, REFUSED};
+use crate::results::write_whole_by;
 use embate_solver::message::Message;
 use raster::Canvas;
 use std::fs;
@@ -47,7 +49,7 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 pub enum PictureError {
     /// The disk refused.
-    #[error("{}: {source}; check that the folder exists, is writable and has space left", path.display())]
+    #[error("can't write {}: {source}{}", path.display(), cure(source))]
     Io {
         #[doc = "File."]
         path: PathBuf,
@@ -80,10 +82,15 @@ impl PictureError {
     #[must_use]
     pub fn kind(&self) -> &'static Message {
         match self {
-            Self::Io { .. } => &REFUSED,
+            Self::Io { source, .. } => plain::kind(source),
             Self::Encode { .. } | Self::Field { .. } | Self::Empty => &PICTURE,
         }
     }
+}
+
+/// What a person can do; what is no plain file says it itself.
+fn cure(error: &std::io::Error) -> &'static str {
+    if plain::kind(error).code == REFUSED.code { "; check that the folder exists, is writable and has space left" } else { "" }
 }
 
 /// Writes `NAME.part` next to `path`, then renames it: a file under its final name is always whole.
@@ -92,21 +99,27 @@ fn write_whole(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<(), Pic
     if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
         fs::create_dir_all(folder).map_err(io)?;
     }
-    let mut part = path.as_os_str().to_owned();
-    part.push(".part");
-    let part = PathBuf::from(part);
-    let written = (|| {
-        let mut writer = BufWriter::new(fs::File::create(&part).map_err(io)?);
-        write(&mut writer)?;
-        writer.flush().map_err(io)?;
-        drop(writer);
-        fs::rename(&part, path).map_err(io)
-    })();
-    if written.is_err() {
-        // The first error is the one to tell; a leftover that can't be removed either adds nothing.
-        let _ = fs::remove_file(&part);
+    let written = write_whole_by(path, |file| -> Result<_, Unwritten> {
+        let mut writer = BufWriter::new(file);
+        write(&mut writer).map_err(Unwritten::Picture)?;
+        Ok(writer.into_inner().map_err(std::io::IntoInnerError::into_error)?)
+    });
+    written.map_err(|error| match error {
+        Unwritten::Io(source) => io(source),
+        Unwritten::Picture(error) => error,
+    })
+}
+
+/// Why a file was not written: the system's words have no path yet.
+enum Unwritten {
+    Io(std::io::Error),
+    Picture(PictureError),
+}
+
+impl From<std::io::Error> for Unwritten {
+    fn from(source: std::io::Error) -> Self {
+        Self::Io(source)
     }
-    written
 }
 
 /// Writes `canvas` as an RGB PNG.

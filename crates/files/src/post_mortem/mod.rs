@@ -14,6 +14,7 @@ pub(crate) use page::shown;
 pub use start::at_start;
 
 use crate::model_file::Loaded;
+use crate::plain;
 use crate::results::{ResultsError, part_path, write_whole};
 use embate_solver::error::Error;
 use embate_solver::model::Model;
@@ -62,12 +63,13 @@ type Files = Vec<(&'static str, String)>;
 /// Writes the files beside their place, and moves them there when all are complete.
 fn write(results: &Path, files: &Files) -> Result<PathBuf, ResultsError> {
     remove(results)?;
+    fs::create_dir_all(results).map_err(ResultsError::file("create", results))?;
     let (folder, side) = (results.join(FOLDER), part_path(&results.join(FOLDER)));
     let written = files.iter().try_for_each(|(name, text)| {
-        fs::create_dir_all(&side).map_err(ResultsError::file("create", &side))?;
+        plain::folder(&side).map_err(ResultsError::file("create", &side))?;
         write_whole(&side.join(name), text.as_bytes())
     });
-    let moved = written.and_then(|()| fs::create_dir_all(&folder).map_err(ResultsError::file("create", &folder))).and_then(|()| {
+    let moved = written.and_then(|()| plain::folder(&folder).map_err(ResultsError::file("create", &folder))).and_then(|()| {
         files.iter().try_for_each(|(name, _)| {
             fs::rename(side.join(name), folder.join(name)).map_err(ResultsError::file("write", folder.join(name)))
         })
@@ -87,7 +89,11 @@ fn write(results: &Path, files: &Files) -> Result<PathBuf, ResultsError> {
 /// What the system says.
 pub(crate) fn remove(results: &Path) -> Result<(), ResultsError> {
     for folder in [results.join(FOLDER), part_path(&results.join(FOLDER))] {
-        for file in FILES.iter().map(|name| folder.join(name)).filter(|file| file.is_file()) {
+        if !plain::is_folder(&folder).map_err(ResultsError::file("write into", &folder))? {
+            continue;
+        }
+        let is_there = |file: &PathBuf| fs::symlink_metadata(file).is_ok_and(|data| !data.is_dir());
+        for file in FILES.iter().flat_map(|name| [folder.join(name), part_path(&folder.join(name))]).filter(is_there) {
             fs::remove_file(&file).map_err(ResultsError::file("remove", &file))?;
         }
         // Stays if something foreign lies in it.

@@ -9,11 +9,12 @@ use super::{Files, write};
 use crate::model_file::Loaded;
 use crate::picture::neighbourhood::Panel;
 use crate::picture::space::Spot;
-use crate::results::ResultsError;
+use crate::results::{FolderLock, ResultsError};
 use embate_solver::error::{Fault, MASS_SCALING, MEMORY};
 use embate_solver::model::Model;
 use embate_solver::post_mortem::MassNeeded;
 use embate_solver::simulation::Options;
+use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The page of a model that can't begin because of what its numbers need: more mass than its limit, more memory than there may be; `None` if that is not among the faults.
@@ -22,12 +23,19 @@ use std::path::{Path, PathBuf};
 /// What the system says.
 pub fn at_start(loaded: &Loaded, options: &Options, faults: &[Fault], results: &Path) -> Result<Option<PathBuf>, ResultsError> {
     if let Some(fault) = faults.iter().find(|fault| fault.kind == &MEMORY) {
-        return write(results, &vec![("README.md", memory_text(loaded, fault))]).map(Some);
+        return alone(results, &vec![("README.md", memory_text(loaded, fault))]).map(Some);
     }
     let Some(fault) = faults.iter().find(|fault| fault.kind == &MASS_SCALING) else { return Ok(None) };
     // Another fault of the model would be found here as well, and is told already.
     let Ok(Some(needed)) = MassNeeded::of(&loaded.model, options) else { return Ok(None) };
-    write(results, &of_mass(loaded, fault, &needed)).map(Some)
+    alone(results, &of_mass(loaded, fault, &needed)).map(Some)
+}
+
+/// There is no run that has the folder yet, and another one may write there.
+fn alone(results: &Path, files: &Files) -> Result<PathBuf, ResultsError> {
+    fs::create_dir_all(results).map_err(ResultsError::file("create", results))?;
+    let _lock = FolderLock::take(results)?;
+    write(results, files)
 }
 
 fn of_mass(loaded: &Loaded, fault: &Fault, needed: &MassNeeded) -> Files {

@@ -3,6 +3,7 @@
 use super::Left;
 use super::html::{escape, paragraph, plot, section};
 use crate::picture::{base64, charts};
+use crate::plain;
 use crate::results::{History, ResultsError};
 use std::fs;
 use std::io::ErrorKind;
@@ -31,7 +32,7 @@ pub(super) fn pictures(left: &Left) -> Result<String, ResultsError> {
             ));
             continue;
         }
-        let bytes = fs::read(&path).map_err(ResultsError::file("read", &path))?;
+        let bytes = plain::read(&path).map_err(ResultsError::file("read", &path))?;
         if !bytes.starts_with(start) {
             body += &paragraph(&format!("{name} ({what}) is left out: the file is damaged."));
             continue;

@@ -1,13 +1,14 @@
-//! Whole files or none: everything is written as `NAME.part` and renamed when it is complete.
+//! Whole files or none: everything is written as `NAME.part` and renamed when it is complete. This is the only place where such files are made, and none is made through a link ([`plain`]).
 //!
 //! [`write_whole`] takes the bytes of a file at once, `write_whole_in_pieces` writes it from one end to the other; [`PartFile`] grows while a run goes on.
 
 use super::ResultsError;
+use crate::plain;
 use flate2::Crc;
 use serde::{Deserialize, Serialize};
 use std::ffi::OsString;
-use std::fs::{self, File, OpenOptions, TryLockError};
-use std::io::{BufWriter, Read, Seek, Write};
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, BufWriter, ErrorKind, Read, Seek, Write};
 use std::path::{Path, PathBuf};
 
 /// Bytes that are collected before they are written: below what allocators fetch from the system each time.
@@ -25,29 +26,31 @@ pub(crate) fn part_path(path: &Path) -> PathBuf {
 /// # Errors
 /// [`ResultsError::File`]; no `.part` file is left behind.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), ResultsError> {
-    write_whole_by(path, |part| fs::write(part, bytes))
+    write_whole_by(path, |mut file| file.write_all(bytes).map(|()| file)).map_err(|error| in_use_or("write", path, error))
 }
 
 /// The same piece by piece: `write` gets the file under its name until it is complete.
 ///
 /// # Errors
 /// [`ResultsError::File`]; no `.part` file is left behind.
-pub(super) fn write_whole_in_pieces(
-    path: &Path,
-    write: impl FnOnce(&mut BufWriter<File>) -> std::io::Result<()>,
-) -> Result<(), ResultsError> {
-    write_whole_by(path, |part| {
-        let mut out = BufWriter::with_capacity(PIECES, File::create(part)?);
+pub(super) fn write_whole_in_pieces(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> Result<(), ResultsError> {
+    write_whole_by(path, |file| {
+        let mut out = BufWriter::with_capacity(PIECES, file);
         write(&mut out)?;
-        out.flush()
+        out.into_inner().map_err(io::IntoInnerError::into_error)
     })
+    .map_err(|error| in_use_or("write", path, error))
 }
 
-fn write_whole_by(path: &Path, write: impl FnOnce(&Path) -> std::io::Result<()>) -> Result<(), ResultsError> {
+/// What all files that are written at once come to: `write` gets the new `.part` file and gives it back complete; it takes the place of what has the name, also of a link.
+///
+/// # Errors
+/// What `write` or the system says, and what is no plain file under the name of the `.part` file; nothing of the new file is left.
+pub(crate) fn write_whole_by<E: From<io::Error>>(path: &Path, write: impl FnOnce(File) -> Result<File, E>) -> Result<(), E> {
     let part = part_path(path);
-    let written = write(&part)
-        .map_err(ResultsError::file("write", path))
-        .and_then(|()| fs::rename(&part, path).map_err(ResultsError::file("write", path)));
+    let file = plain::create(&part)?;
+    // It is open, and so locked, until it has its name.
+    let written = write(file).and_then(|file| fs::rename(&part, path).map(|()| drop(file)).map_err(E::from));
     if written.is_err() {
         // The first error is the one that matters.
         let _ = fs::remove_file(&part);
@@ -55,13 +58,17 @@ fn write_whole_by(path: &Path, write: impl FnOnce(&Path) -> std::io::Result<()>)
     written
 }
 
+/// An error of the system, or that another run writes to a file.
+fn in_use_or(action: &'static str, path: &Path, error: io::Error) -> ResultsError {
+    match error.kind() {
+        ErrorKind::ResourceBusy => ResultsError::InUse { path: path.into() },
+        _ => ResultsError::file(action, path)(error),
+    }
+}
+
 /// Two runs never write to one file, also where one of them goes on with it. Ends with the process, whatever ends that.
 fn locked(file: &File, path: &Path) -> Result<(), ResultsError> {
-    match file.try_lock() {
-        Err(TryLockError::WouldBlock) => Err(ResultsError::InUse { path: path.into() }),
-        // Some systems know no locks.
-        Ok(()) | Err(TryLockError::Error(_)) => Ok(()),
-    }
+    plain::hold(file).map_err(|error| in_use_or("write", path, error))
 }
 
 /// A file that grows record by record and gets its name at the end. After a failed write it is cut back to the last whole record.
@@ -93,10 +100,10 @@ impl PartFile {
     /// Goes on with `path`, complete or not, from where it was marked: what came later is cut off. With it comes what is there.
     pub(super) fn reopen(path: &Path, mark: Mark) -> Result<(Self, Vec<u8>), ResultsError> {
         let part = part_path(path);
-        if !part.exists() && path.exists() {
+        if fs::symlink_metadata(&part).is_err() && fs::symlink_metadata(path).is_ok() {
             fs::rename(path, &part).map_err(ResultsError::file("rename", path))?;
         }
-        let mut file = OpenOptions::new().read(true).write(true).open(&part).map_err(ResultsError::file("open", &part))?;
+        let mut file = plain::reopen(&part, OpenOptions::new().read(true).write(true)).map_err(ResultsError::file("open", &part))?;
         locked(&file, &part)?;
         let changed = |what: &str| ResultsError::Changed { path: part.clone(), what: what.into() };
         let there = file.metadata().map_err(ResultsError::file("read", &part))?.len();

@@ -6,6 +6,7 @@ use super::ResultsError;
 use super::atomic::write_whole;
 use super::csv::{append_number, append_text};
 use super::report::Report;
+use crate::plain;
 use std::path::Path;
 
 /// Writes `history.csv` and, last of all, `summary.json`; the folder must be there.
@@ -32,8 +33,8 @@ pub(crate) type Figures = (Vec<String>, Vec<Vec<f64>>, serde_json::Value);
 
 /// Columns and rows of `history.csv`, and the contents of `summary.json`; `None` where they are not all there.
 pub(crate) fn read_figures(folder: &Path) -> Option<Figures> {
-    let summary = serde_json::from_str(&std::fs::read_to_string(folder.join("summary.json")).ok()?).ok()?;
-    let history = std::fs::read_to_string(folder.join("history.csv")).ok()?;
+    let summary = serde_json::from_str(&plain::read_to_string(&folder.join("summary.json")).ok()?).ok()?;
+    let history = plain::read_to_string(&folder.join("history.csv")).ok()?;
     let mut lines = history.lines();
     // Names of parts and contacts are plain, so no column stands in quotes.
     let columns: Vec<String> = lines.next()?.split(',').map(ToString::to_string).collect();

@@ -1,12 +1,14 @@
 //! The folder: refuses to mix two runs, and removes only files that embate makes.
 
+use super::lock::FolderLock;
 use super::ran::RAN;
 use super::{HASHES, ResultsError, atomic::part_path};
 use crate::checkpoint::{FOLDER, is_checkpoint};
-use crate::post_mortem;
+use crate::{plain, post_mortem};
 use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Files of a run that lie in the folder itself.
 const FILES: &[&str] =
@@ -16,10 +18,11 @@ const FRAMES: &str = "fields";
 /// Folder in which pictures are made before they are complete.
 const PICTURES: &str = "pictures.part";
 
-/// A folder for the results of one run.
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// A folder for the results of one run; no other run writes into it until this and its clones are dropped.
+#[derive(Clone, Debug)]
 pub struct ResultFolder {
     path: PathBuf,
+    _lock: Arc<FolderLock>,
 }
 
 impl ResultFolder {
@@ -37,12 +40,21 @@ impl ResultFolder {
         }
     }
 
+    /// Refuses a link where the program chooses the name of a folder; one that the user has named may be a link.
+    ///
+    /// # Errors
+    /// [`ResultsError::File`].
+    pub fn refuse_link(path: &Path) -> Result<(), ResultsError> {
+        plain::is_folder(path).map(drop).map_err(ResultsError::file("write into", path))
+    }
+
     /// Makes the folder ready. With `force`, results of an earlier run are removed: only files with the names that embate
     /// gives, `.part` included; anything else in the folder stays.
     ///
     /// # Errors
-    /// As [`ResultFolder::refuse_existing`].
+    /// As [`ResultFolder::refuse_existing`], and [`ResultsError::InUse`].
     pub fn create(path: &Path, force: bool) -> Result<Self, ResultsError> {
+        let own = Self::take(path)?;
         if force {
             for file in existing(path)? {
                 fs::remove_file(&file).map_err(ResultsError::file("remove", &file))?;
@@ -56,15 +68,26 @@ impl ResultFolder {
         }
         post_mortem::remove(path)?;
         let frames = path.join(FRAMES);
-        fs::create_dir_all(&frames).map_err(ResultsError::file("create", &frames))?;
-        Ok(Self { path: path.to_path_buf() })
+        plain::folder(&frames).map_err(ResultsError::file("create", &frames))?;
+        Ok(own)
     }
 
-    /// The folder of results that go on from a checkpoint of `step`, with so many `frames`, and with `hashes` or not: what came later is removed, and what only a run that has ended has.
+    /// Makes a folder if there is none, and keeps other runs out of it.
+    ///
+    /// # Errors
+    /// [`ResultsError::NotAFolder`], [`ResultsError::InUse`], or what the system says.
+    pub(super) fn take(path: &Path) -> Result<Self, ResultsError> {
+        is_there(path)?;
+        fs::create_dir_all(path).map_err(ResultsError::file("create", path))?;
+        Ok(Self { path: path.to_path_buf(), _lock: Arc::new(FolderLock::take(path)?) })
+    }
+
+    /// Results that go on from a checkpoint of `step`, with so many `frames`, and with `hashes` or not: what came later is removed, and what only a run that has ended has.
     ///
     /// # Errors
     /// What the system says.
-    pub(crate) fn reopen(path: &Path, frames: usize, hashes: bool, step: u64) -> Result<Self, ResultsError> {
+    pub(super) fn cut(&self, frames: usize, hashes: bool, step: u64) -> Result<(), ResultsError> {
+        let path = self.path.as_path();
         let later = |name: &str| frame_number(name).is_some_and(|number| number >= frames) || name.ends_with(".part");
         let is = |file: &Path, name: &str| file == path.join(name) || file == part_path(&path.join(name));
         let is_table = |file: &Path| is(file, "history.csv") || (hashes && is(file, HASHES));
@@ -80,19 +103,21 @@ impl ResultFolder {
         }
         post_mortem::remove(path)?;
         let folder = path.join(FRAMES);
-        fs::create_dir_all(&folder).map_err(ResultsError::file("create", &folder))?;
-        Ok(Self { path: path.to_path_buf() })
+        plain::folder(&folder).map_err(ResultsError::file("create", &folder))
     }
 
     /// Takes the results of a run away: files with the names that embate gives, and the folder if nothing else is in it.
     ///
     /// # Errors
-    /// As [`ResultFolder::refuse_existing`].
+    /// As [`ResultFolder::create`]; a link is refused.
     pub(crate) fn remove(path: &Path) -> Result<(), ResultsError> {
+        Self::refuse_link(path)?;
+        let lock = FolderLock::take(path)?;
         for file in existing(path)? {
             fs::remove_file(&file).map_err(ResultsError::file("remove", &file))?;
         }
         post_mortem::remove(path)?;
+        drop(lock);
         for folder in [path.join(PICTURES), path.join(FRAMES), path.join(FOLDER), path.to_path_buf()] {
             // Stays if something foreign lies in it.
             let _ = fs::remove_dir(folder);
@@ -119,7 +144,7 @@ impl ResultFolder {
     /// Lets `make` write pictures into a side folder and moves those that are complete to their place.
     pub(super) fn add_pictures<E: std::fmt::Display>(&self, make: impl FnOnce(&Path) -> Result<(), E>) -> Result<(), String> {
         let side = self.path.join(PICTURES);
-        fs::create_dir_all(&side).map_err(|e| ResultsError::file("create", &side)(e).to_string())?;
+        plain::folder(&side).map_err(|e| ResultsError::file("create", &side)(e).to_string())?;
         let made = make(&side).map_err(|e| e.to_string());
         let moved = made.and_then(|()| {
             for name in FILES.iter().filter(|name| side.join(name).exists()) {
@@ -138,16 +163,25 @@ impl ResultFolder {
     }
 }
 
+/// Whether a folder is there, perhaps by a link.
+fn is_there(path: &Path) -> Result<bool, ResultsError> {
+    match fs::metadata(path) {
+        Ok(data) if data.is_dir() => Ok(true),
+        Ok(_) => Err(ResultsError::NotAFolder { path: path.to_path_buf() }),
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(false),
+        Err(error) => Err(ResultsError::file("open", path)(error)),
+    }
+}
+
 /// All files in `path` that a run of embate makes, in a fixed order.
 fn existing(path: &Path) -> Result<Vec<PathBuf>, ResultsError> {
-    match fs::metadata(path) {
-        Ok(data) if data.is_dir() => {}
-        Ok(_) => return Err(ResultsError::NotAFolder { path: path.to_path_buf() }),
-        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Vec::new()),
-        Err(error) => return Err(ResultsError::file("open", path)(error)),
+    if !is_there(path)? {
+        return Ok(Vec::new());
     }
     let mut found = Vec::new();
-    for folder in [path.to_path_buf(), path.join(PICTURES)] {
+    let pictures = path.join(PICTURES);
+    let side = plain::is_folder(&pictures).map_err(ResultsError::file("write into", &pictures))?.then_some(pictures);
+    for folder in std::iter::once(path.to_path_buf()).chain(side) {
         for name in FILES {
             let file = folder.join(name);
             found.extend([part_path(&file), file].into_iter().rev().filter(|f| fs::symlink_metadata(f).is_ok_and(|data| !data.is_dir())));
@@ -157,7 +191,7 @@ fn existing(path: &Path) -> Result<Vec<PathBuf>, ResultsError> {
     for (folder, is_own) in [(FRAMES, is_frame as Is), (FOLDER, |name| is_checkpoint(name.strip_suffix(".part").unwrap_or(name)).is_some())]
     {
         let folder = path.join(folder);
-        if fs::metadata(&folder).is_ok_and(|data| data.is_dir()) {
+        if plain::is_folder(&folder).map_err(ResultsError::file("write into", &folder))? {
             let mut files = Vec::new();
             for entry in fs::read_dir(&folder).map_err(ResultsError::file("read", &folder))? {
                 let entry = entry.map_err(ResultsError::file("read", &folder))?;

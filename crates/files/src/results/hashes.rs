@@ -6,11 +6,11 @@
 use super::atomic::part_path;
 use super::csv::{append_number, append_text};
 use super::{HASHES, ResultsError};
+use crate::plain;
 use embate_solver::hashes::Hashes;
 use flate2::Crc;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
-use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
 
@@ -71,7 +71,7 @@ impl HashTable {
     pub fn read(folder: &Path) -> Result<Option<Self>, ResultsError> {
         let whole = folder.join(HASHES);
         for path in [part_path(&whole), whole] {
-            match fs::read(&path) {
+            match plain::read(&path) {
                 Ok(bytes) => return Self::of(&bytes, &path).map(Some),
                 Err(error) if error.kind() == ErrorKind::NotFound => {}
                 Err(error) => return Err(ResultsError::file("read", &path)(error)),

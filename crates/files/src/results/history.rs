@@ -4,7 +4,7 @@
 
 use super::ResultsError;
 use super::atomic::part_path;
-use std::fs;
+use crate::plain;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
@@ -29,7 +29,7 @@ impl History {
         let path = folder.join(HISTORY);
         for (path, grows) in [(path.clone(), false), (part_path(&path), true), (path, false)] {
             // A run that ends between the first two looks has renamed the file.
-            match fs::read(&path) {
+            match plain::read(&path) {
                 Ok(bytes) => return Self::of_bytes(&bytes, grows, path).map(Some),
                 Err(error) if error.kind() == ErrorKind::NotFound => {}
                 Err(error) => return Err(ResultsError::file("read", path)(error)),

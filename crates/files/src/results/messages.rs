@@ -6,6 +6,8 @@ pub(crate) static MESSAGES: &[&Message] = &[
     &EXISTS,
     &NOT_A_FOLDER,
     &REFUSED,
+    &LINK,
+    &NO_FILE,
     &FRAME,
     &PICTURE,
     &DAMAGED_LOG,
@@ -41,6 +43,24 @@ pub static REFUSED: Message = Message {
     example: Example::Command("run model.toml --out model.toml/results"),
     cause: "The disk is full, the folder may not be written to, or a part of the path is a file; the system's own words are in the message.",
     cure: "Free some space, or choose another folder with --out.",
+};
+
+/// Nothing is written through it.
+pub(crate) static LINK: Message = Message {
+    code: "E0707",
+    title: "a symbolic link where embate writes",
+    example: Example::Shell("mkdir -p out elsewhere\nln -s ../elsewhere out/fields\nembate run model.toml --out out\n"),
+    cause: "A file or folder that embate makes itself is a symbolic link, which embate never makes: what is written there, or removed, would be somewhere else.",
+    cure: "Remove the link, or choose another folder. The folder that --out names may be a link itself.",
+};
+
+/// It is not opened.
+pub(crate) static NO_FILE: Message = Message {
+    code: "E0708",
+    title: "a named pipe, socket or device in place of a file",
+    example: Example::Shell("embate run model.toml --out out --quiet\nrm out/history.csv\nmkfifo out/history.csv\nembate report out\n"),
+    cause: "A file of a folder of results is none: reading it could wait for ever, or never end.",
+    cure: "Remove it, and put the file back from a copy or run the model again.",
 };
 
 pub(super) static FRAME: Message = Message {

@@ -13,6 +13,7 @@ mod history;
 pub mod messages;
 mod handover;
 mod lines;
+mod lock;
 mod queue;
 mod ran;
 mod recorder;
@@ -23,11 +24,13 @@ mod writer;
 
 pub(crate) use atomic::part_path;
 pub use atomic::write_whole;
+pub(crate) use atomic::write_whole_by;
 pub(crate) use csv::{append_number, append_text};
 pub(crate) use figures::{read_figures, write_figures};
 pub use folder::ResultFolder;
 pub use hashes::HashTable;
 pub use history::{History, unit};
+pub(crate) use lock::FolderLock;
 pub(crate) use ran::read_json;
 pub use ran::{Appearance, Ran, Seen};
 pub use recorder::{Checkpoints, OnProgress, Outcome, Recorder};
@@ -38,9 +41,10 @@ pub use writer::film_settings;
 
 use crate::checkpoint::CheckpointError;
 use crate::checkpoint::messages::{IN_USE, RESULTS_CHANGED};
+use crate::plain;
 use crate::vtu::VtuError;
 use embate_solver::message::Message;
-use messages::{BUG, DAMAGED_LOG, EXISTS, FRAME, NO_RUN, NOT_A_FOLDER, NOTHING_TO_SEE, REFUSED, UNREADABLE};
+use messages::{BUG, DAMAGED_LOG, EXISTS, FRAME, NO_RUN, NOT_A_FOLDER, NOTHING_TO_SEE, UNREADABLE};
 use std::io::ErrorKind;
 use std::path::PathBuf;
 use thiserror::Error;
@@ -115,10 +119,10 @@ pub enum ResultsError {
         /// The folder.
         path: PathBuf,
     },
-    /// Another run writes to a file.
+    /// Another run writes into a folder, or to a file.
     #[error("another run writes to {}; wait for it, or stop it first", .path.display())]
     InUse {
-        /// The file.
+        /// The folder or the file.
         path: PathBuf,
     },
     /// A checkpoint that can't be written.
@@ -150,7 +154,7 @@ impl ResultsError {
         match self {
             Self::Exists { .. } => &EXISTS,
             Self::NotAFolder { .. } => &NOT_A_FOLDER,
-            Self::File { .. } => &REFUSED,
+            Self::File { source, .. } => plain::kind(source),
             Self::Changed { .. } => &RESULTS_CHANGED,
             Self::Damaged { .. } => &DAMAGED_LOG,
             Self::Unreadable { .. } => &UNREADABLE,

@@ -4,11 +4,10 @@
 
 use super::{ResultsError, write_whole};
 use crate::checkpoint::{Identity, Origin};
-use crate::program;
+use crate::{plain, program};
 use embate_solver::model::{Camera, Model};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
-use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
 
@@ -138,7 +137,7 @@ impl Ran {
 /// # Errors
 /// [`ResultsError::Damaged`]; what the system says.
 pub(crate) fn read_json<T: DeserializeOwned>(path: &Path) -> Result<Option<T>, ResultsError> {
-    match fs::read(path) {
+    match plain::read(path) {
         Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
         Err(error) => Err(ResultsError::file("read", path)(error)),
         Ok(bytes) => serde_json::from_slice(&bytes).map(Some).map_err(|error| ResultsError::Damaged {

@@ -18,7 +18,7 @@ use embate_solver::hashes::Hashes;
 use embate_solver::model::Model;
 use embate_solver::output::{Cells, Frame, Shown, Summary};
 use embate_solver::simulation::{Control, Observer, ObserverError, Progress, State};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -30,7 +30,8 @@ pub type OnProgress<'a> = Box<dyn FnMut(&Progress<'_>) -> Control + Send + 'a>;
 
 /// Writes the results of one run; made just before the run begins, because it measures the run's time.
 pub struct Recorder<'a> {
-    path: PathBuf,
+    /// Until the last file is written no other run may have it.
+    folder: ResultFolder,
     model: String,
     end: f64,
     part_names: Vec<String>,
@@ -107,12 +108,12 @@ impl<'a> Recorder<'a> {
         checkpoints: Option<Checkpoints>,
         on_progress: OnProgress<'a>,
     ) -> Result<Self, ResultsError> {
-        let (path, part_names) = (folder.path().to_path_buf(), cells.part_names.clone());
+        let part_names = cells.part_names.clone();
         let mut writer = Writer::new(folder, model, columns, cells, Threads::new(threads))?;
         if let Some(checkpoints) = &checkpoints {
             writer.set_origin(checkpoints.origin.clone(), &part_names)?;
         }
-        Ok(Self::of(writer, path, (model, part_names), threads, checkpoints, on_progress))
+        Ok(Self::of(writer, (model, part_names), threads, checkpoints, on_progress))
     }
 
     /// One that goes on with the results in `path` where the checkpoint `past` was written; `frame` is the state there.
@@ -131,13 +132,12 @@ impl<'a> Recorder<'a> {
         let part_names = cells.part_names.clone();
         let mut writer = Writer::reopen(path, (model, past), columns, (cells, frame), Threads::new(threads))?;
         writer.set_origin(checkpoints.origin.clone(), &part_names)?;
-        let recorder = Self::of(writer, path.to_path_buf(), (model, part_names), threads, Some(checkpoints), on_progress);
+        let recorder = Self::of(writer, (model, part_names), threads, Some(checkpoints), on_progress);
         Ok(Self { steps_before: past.state.step, ..recorder })
     }
 
     fn of(
         writer: Writer,
-        path: PathBuf,
         (model, part_names): (&Model, Vec<String>),
         threads: usize,
         checkpoints: Option<Checkpoints>,
@@ -145,7 +145,7 @@ impl<'a> Recorder<'a> {
     ) -> Self {
         let now = Instant::now();
         Self {
-            path,
+            folder: writer.folder().clone(),
             model: model.name.clone(),
             end: model.run.end,
             part_names,
@@ -202,7 +202,7 @@ impl<'a> Recorder<'a> {
         report.user_cpu_seconds = user_cpu_seconds();
         report.output_seconds = end.worked.as_secs_f64();
         report.output_wait_seconds = end.waited.as_secs_f64();
-        let summarised = write_whole(&self.path.join("summary.json"), report.json().as_bytes());
+        let summarised = write_whole(&self.folder.path().join("summary.json"), report.json().as_bytes());
         Outcome { report, unwritten: closed.and(summarised).err() }
     }
 }

@@ -25,7 +25,7 @@ pub enum RunStatus {
 pub struct MomentumDrift {
     /// Change of linear momentum over Σ m|v|.
     pub linear: Option<f64>,
-    /// Change of angular momentum over Σ m|x||v|.
+    /// Change of angular momentum about the centre of mass at the start c, over Σ m|x − c||v|.
     pub angular: Option<f64>,
 }
 

@@ -83,6 +83,11 @@ pub(super) struct Closed {
 }
 
 impl Writer {
+    /// The folder, which is this run's as long as somebody has it.
+    pub(super) fn folder(&self) -> &ResultFolder {
+        &self.folder
+    }
+
     /// Starts the history.
     pub(super) fn new(
         folder: ResultFolder,
@@ -119,12 +124,14 @@ impl Writer {
         threads: Threads,
     ) -> Result<Self, ResultsError> {
         let told = &past.told;
+        let own = ResultFolder::take(folder)?;
         // Who can't have the history changes nothing.
         let (history, rows) = CsvStream::reopen(&folder.join("history.csv"), &columns, told.history)?;
         let mut frames = Frames::new(&cells, &threads);
         frames.recall(told);
         let hashes = told.hashes.map(|mark| Lines::reopen(&folder.join(HASHES), mark)).transpose()?.map(|(lines, _)| lines);
-        let folder = ResultFolder::reopen(folder, told.frames.len(), hashes.is_some(), past.state.step)?;
+        own.cut(told.frames.len(), hashes.is_some(), past.state.step)?;
+        let folder = own;
         frames.write_collection(&folder)?;
         let mut plot_rows = ThinnedRows::default();
         let film = model.output.pictures.then(|| {

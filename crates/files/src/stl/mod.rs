@@ -7,6 +7,7 @@
 pub(crate) mod messages;
 
 use crate::gmsh::messages::MESH_FILE;
+use crate::plain;
 use embate_solver::error::Fault;
 use embate_solver::model::TriangleSurface;
 use messages::STL;
@@ -23,7 +24,7 @@ const AGAIN: &str = "export the surface again, or copy the file again if it was 
 /// # Errors
 /// The file can't be read, or what [`parse`] finds.
 pub fn read(path: &Path, source: &str, scale: f64) -> Result<TriangleSurface, Fault> {
-    let bytes = std::fs::read(path).map_err(|error| {
+    let bytes = plain::read(path).map_err(|error| {
         Fault::new(&MESH_FILE, "", format!("the file can't be read: {error}"), "check its path, which starts at the model file's folder")
     })?;
     parse(&bytes, source, scale)

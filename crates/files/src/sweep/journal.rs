@@ -4,6 +4,7 @@
 //! the journal counts only with its end, so what was cut off by the end of a program or a machine is a run that has to be done again.
 
 use super::{Keep, SweepError};
+use crate::plain;
 use crate::results::{ResultsError, write_whole};
 use serde::{Deserialize, Serialize};
 use std::fs::{self, File, OpenOptions, TryLockError};
@@ -78,14 +79,14 @@ impl Journal {
     pub(super) fn open(folder: &Path, manifest: &Manifest, force: bool) -> Result<(Self, Option<Manifest>, Vec<Entry>), SweepError> {
         fs::create_dir_all(folder).map_err(ResultsError::file("create", folder))?;
         let path = folder.join(JOURNAL_NAME);
-        let file = OpenOptions::new().read(true).append(true).create(true).open(&path).map_err(ResultsError::file("open", &path))?;
+        let file = plain::reopen_or_create(&path, OpenOptions::new().read(true).append(true)).map_err(ResultsError::file("open", &path))?;
         match file.try_lock() {
             Err(TryLockError::WouldBlock) => return Err(SweepError::Busy { path: folder.to_path_buf() }),
             // A file system without locks: two programs in one folder are the user's care.
             Err(TryLockError::Error(_)) | Ok(()) => {}
         }
         let journal = Self { path, file };
-        let before = fs::read_to_string(folder.join(MANIFEST_NAME)).ok().and_then(|text| serde_json::from_str::<Manifest>(&text).ok());
+        let before = plain::read_to_string(&folder.join(MANIFEST_NAME)).ok().and_then(|text| serde_json::from_str::<Manifest>(&text).ok());
         let difference = before.as_ref().and_then(|before| before.difference(manifest));
         if let Some(difference) = difference.filter(|_| !force) {
             return Err(SweepError::Other { path: folder.to_path_buf(), difference });
@@ -96,7 +97,7 @@ impl Journal {
 
     /// Lines that are complete.
     fn entries(&self) -> Result<Vec<Entry>, SweepError> {
-        let text = fs::read(&self.path).map_err(ResultsError::file("read", &self.path))?;
+        let text = plain::read(&self.path).map_err(ResultsError::file("read", &self.path))?;
         let lines = text.split_inclusive(|byte| *byte == b'\n').filter(|line| line.ends_with(b"\n"));
         Ok(lines.filter_map(|line| serde_json::from_slice(line).ok()).collect())
     }

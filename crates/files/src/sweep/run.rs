@@ -6,6 +6,7 @@
 use super::journal::{Entry, Journal, Manifest, RunEnd};
 use super::prepare::{Sweep, in_parallel};
 use super::{Keep, SweepError, table};
+use crate::plain;
 use crate::results::{Recorder, Report, ResultFolder, ResultsError, RunStatus, read_figures, write_figures};
 use crate::verification::{Gathering, Samples};
 use embate_solver::error::Error;
@@ -205,6 +206,7 @@ impl Sweep {
         let recorder = match running.keep {
             Keep::Frames => {
                 let quiet = Box::new(|_: &Progress<'_>| Control::Continue);
+                ResultFolder::refuse_link(&folder)?;
                 let folder = ResultFolder::create(&folder, true)?;
                 Some(Recorder::new(folder, &model, simulation.history_columns(), simulation.cells(), 1, quiet)?)
             }
@@ -232,7 +234,7 @@ impl Sweep {
             None => report(&model, &summary, error.clone(), stepping, begin, used),
         };
         if running.keep == Keep::Figures {
-            std::fs::create_dir_all(&folder).map_err(ResultsError::file("create", &folder))?;
+            plain::folder(&folder).map_err(ResultsError::file("create", &folder))?;
             write_figures(&folder, samples.columns(), &samples.rows, &report)?;
         }
         if let Some(error) = error {

@@ -6,6 +6,7 @@ use super::judge::{CaseOutcome, CheckOutcome};
 use super::plot::{Mark, Plot};
 use crate::picture::colour::{DISTINCT, Rgb};
 use crate::picture::svg::{Abscissa, Curve, Group, Panel, Spacing, chart};
+use crate::plain;
 use crate::report::html;
 use crate::results::{ResultsError, write_whole};
 use std::fmt::Write;
@@ -68,7 +69,7 @@ pub fn write(file: &Path, outcomes: &[CaseOutcome], about: &About, cases: &Path)
     let folder = pictures.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     for outcome in outcomes {
         if let Some(svg) = drawing(outcome) {
-            fs::create_dir_all(&pictures).map_err(ResultsError::file("make", &pictures))?;
+            plain::folder(&pictures).map_err(ResultsError::file("make", &pictures))?;
             write_whole(&pictures.join(format!("{}.svg", outcome.case)), svg.as_bytes())?;
         }
     }

@@ -101,7 +101,10 @@ impl Case {
         let recorder = match keep {
             None => None,
             Some((folder, force)) => {
-                let folder = ResultFolder::create(&folder.join(&self.name).join(name), force)?;
+                let case = folder.join(&self.name);
+                // Both are of the program's making.
+                [&case, &case.join(name)].into_iter().try_for_each(|folder| ResultFolder::refuse_link(folder))?;
+                let folder = ResultFolder::create(&case.join(name), force)?;
                 let quiet = Box::new(|_: &Progress<'_>| Control::Continue);
                 Some(Recorder::new(folder, model, simulation.history_columns(), simulation.cells(), options.thread_count(), quiet)?)
             }

@@ -7,6 +7,7 @@ use super::container::Container;
 use super::describe::{Column, FrameTime, PartDescription, RunDescription};
 use super::frame::{self, Wish, range};
 use crate::picture::field::Scalar;
+use crate::plain;
 use crate::results::{Appearance, History, Ran, ResultsError, read_json, unit};
 use crate::vtu::read::VtuReader;
 use embate_solver::output::{Cells, FieldKind, Location, Outline};
@@ -286,7 +287,7 @@ fn part_names(path: &Path, appearance: &Appearance, cells: &Cells) -> Result<Vec
 
 /// The frames of a folder by number, with their times; those after the last collection are asked themselves.
 fn frames(path: &Path) -> Result<Vec<(FrameTime, PathBuf)>, ResultsError> {
-    let collection = std::fs::read_to_string(path.join("fields.pvd")).unwrap_or_default();
+    let collection = plain::read_to_string(&path.join("fields.pvd")).unwrap_or_default();
     let attribute =
         |line: &str, name: &str| line.split(&format!("{name}=\"")).nth(1).and_then(|rest| rest.split('"').next()).map(ToString::to_string);
     let told: BTreeMap<String, f64> = collection

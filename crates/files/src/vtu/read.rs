@@ -4,6 +4,7 @@
 //! the length of the file and against each other before memory is taken. Goes to [`crate::view`] as [`Cells`] and [`Frame`].
 
 use super::{HIDDEN_CELL, VTK_LINE, is_plane_vector};
+use crate::plain;
 use crate::results::ResultsError;
 use embate_solver::output::{CellKind, Cells, Field, FieldKind, Frame, Location, Outline, fields_of};
 use flate2::read::ZlibDecoder;
@@ -60,7 +61,7 @@ impl VtuReader {
     /// # Errors
     /// [`ResultsError::Unreadable`] where the head is not one of embate's; what the system says.
     pub(crate) fn open(path: &Path) -> Result<Self, ResultsError> {
-        let file = File::open(path).map_err(ResultsError::file("read", path))?;
+        let file = plain::open(path).map_err(ResultsError::file("read", path))?;
         let size = file.metadata().map_err(ResultsError::file("read", path))?.len();
         let mut file = BufReader::new(file);
         let (text, data) = head(&mut file, path)?;

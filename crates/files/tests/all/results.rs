@@ -238,12 +238,18 @@ fn a_file_in_the_way_is_named() {
 }
 
 #[test]
-fn two_runs_never_share_a_history() {
+fn two_runs_never_share_a_folder() {
     let folder = fresh("two-runs");
     let first = ResultFolder::create(&folder, false).unwrap();
-    let second = ResultFolder::create(&folder, false).unwrap();
-    let _running = Recorder::new(first, &model(), columns(), cells(), 1, go_on()).unwrap();
-    assert!(Recorder::new(second, &model(), columns(), cells(), 1, go_on()).is_err());
+    for force in [false, true] {
+        assert!(matches!(ResultFolder::create(&folder, force).unwrap_err(), ResultsError::InUse { path } if path == folder));
+    }
+    // Until the last file is there.
+    let running = Recorder::new(first, &model(), columns(), cells(), 1, go_on()).unwrap();
+    assert!(matches!(ResultFolder::create(&folder, true), Err(ResultsError::InUse { .. })));
+    assert!(running.finish(None, &summary(10), || None).unwritten.is_none());
+    ResultFolder::create(&folder, true).unwrap();
+    assert_eq!(names(&folder), ["fields"], "the lock leaves nothing");
 }
 
 #[test]

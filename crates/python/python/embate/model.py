@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from . import _embate, toml
 from .errors import Warning as EmbateWarning
 from .mesh import Mesh, mesh_of
+from .whole import written
 
 if TYPE_CHECKING:
     from .simulation import Simulation
@@ -127,8 +128,10 @@ class Model:
         if self._overrides():
             raise ValueError("save: keys changed by set are not written into files; give them as sections")
         for name, data in meshes.items():
-            (file.parent / name).write_bytes(data)
-        file.write_text(text, encoding="utf-8")
+            with written(file.parent / name) as mesh:
+                mesh.write(data)
+        with written(file) as out:
+            out.write(text.encode())
         return file
 
     def _files(self) -> tuple[str, dict[str, bytes]]:

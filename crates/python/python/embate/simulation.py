@@ -23,6 +23,7 @@ from .control import node_numbers, vectors
 from .errors import FileError, StateError
 from .errors import Warning as EmbateWarning
 from .model import Model
+from .whole import written
 
 #: Seconds between two looks at Ctrl-C and the progress bar.
 _PAUSE = 0.1
@@ -366,15 +367,13 @@ class Simulation:
         with tempfile.TemporaryDirectory() as folder:
             state = Path(folder) / "state.embate"
             self._native.write_state(state)
-            part = path.with_name(path.name + ".part")
-            with zipfile.ZipFile(part, "w", zipfile.ZIP_STORED) as archive:
+            with written(path) as file, zipfile.ZipFile(file, "w", zipfile.ZIP_STORED) as archive:
                 archive.writestr("head.json", json.dumps(head, indent=1))
                 archive.writestr("model.toml", text)
                 for name, data in meshes.items():
                     archive.writestr(f"mesh/{name}", data)
                 archive.writestr("history.f64", self._native.rows())
                 archive.write(state, "state.embate")
-            part.replace(path)
         return path
 
     def checkpoint(self, folder: str | PathLike[str]) -> Path:

@@ -32,6 +32,7 @@ where
         largest: run.time_step.unwrap_or(f64::INFINITY),
         velocity: run.velocity_limit.unwrap_or_else(|| -fastest_wave(model, mesh, blocks)),
         penetration: run.penetration_limit.unwrap_or_else(|| outside.facets().iter().map(length).fold(0.0, f64::max)),
+        is_local: run.penetration_limit.is_none(),
     }
 }
 

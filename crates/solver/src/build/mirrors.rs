@@ -5,7 +5,7 @@ use crate::contact::law::{self, Law};
 use crate::contact::mirror::{Mirror, Mirrored, MirroredNode};
 use crate::contact::springs::{Tangential, Terms};
 use crate::contact::tracker::SKIN;
-use crate::contact::{Formulation, Tributary, initial};
+use crate::contact::{Formulation, Tributary};
 use crate::load::constraint::unit;
 use crate::model::{ContactLaw, Interface, Partners};
 use crate::tensor::Dim;
@@ -19,7 +19,7 @@ where
 {
     /// Symmetry lines or planes behind which there is nothing of the parts that they hold: number, a point, and the unit normal that points to the parts.
     pub(crate) fn mirrors(&self) -> impl Iterator<Item = (usize, [f64; D], [f64; D])> {
-        let tolerance = initial::TOLERANCE * initial::size(&self.mesh.positions);
+        let tolerance = crate::mesh::tolerance(&self.mesh.positions);
         self.model.symmetries.iter().enumerate().filter_map(move |(number, symmetry)| {
             let (normal, point) = (unit(first(symmetry.normal))?, first(symmetry.point));
             let parts = self.mesh.parts.iter().filter(|part| symmetry.parts.is_empty() || symmetry.parts.contains(&part.name));
@@ -41,7 +41,7 @@ where
         if !matches!(contact.partners, Partners::Bodies(_)) {
             return Vec::new();
         }
-        let tolerance = initial::TOLERANCE * initial::size(&self.mesh.positions);
+        let tolerance = crate::mesh::tolerance(&self.mesh.positions);
         let mirror = |(number, point, normal): (usize, [f64; D], [f64; D])| {
             let held = &self.model.symmetries[number].parts;
             let mut is_held = vec![held.is_empty(); self.mesh.positions.len()];

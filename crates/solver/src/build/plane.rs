@@ -18,20 +18,18 @@ use crate::vector::{dot, minus};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
-/// Nodes nearer to the axis than this fraction of the model's size are on it.
-const ON_AXIS: f64 = 1e-9;
-
 /// An axisymmetric model with its axis as a symmetry line, if it touches that.
 pub(crate) fn with_axis(model: &Model, mesh: &Mesh<2>) -> Result<Option<Model>, Vec<Fault>> {
     if !model.is_axisymmetric() {
         return Ok(None);
     }
-    let size = mesh.positions.iter().flatten().fold(0.0f64, |size, x| size.max(x.abs()));
-    if let Some([x, y]) = mesh.positions.iter().find(|x| x[0] < -ON_AXIS * size) {
+    // Nodes nearer to the axis are on it.
+    let near = crate::mesh::tolerance(&mesh.positions);
+    if let Some([x, y]) = mesh.positions.iter().find(|x| x[0] < -near) {
         let message = format!("an axisymmetric part has a node at a negative radius, ({x:.6e}, {y:.6e}) m");
         return Err(vec![Fault::new(&NEGATIVE_RADIUS, "part", message, "x is the radius: move the part to the right of the axis x = 0")]);
     }
-    let touches = mesh.positions.iter().any(|x| x[0] <= ON_AXIS * size);
+    let touches = mesh.positions.iter().any(|x| x[0] <= near);
     let axis = Symmetry { normal: [1.0, 0.0, 0.0], ..Symmetry::default() };
     let is_there = |symmetry: &Symmetry| symmetry.parts.is_empty() && symmetry.point[0] == 0.0 && symmetry.normal[1] == 0.0;
     if !touches || model.symmetries.iter().any(is_there) {
@@ -180,7 +178,7 @@ impl Builder<'_, 2> {
 impl Builder<'_, 2> {
     /// Whether a point lies on a symmetry line of one of these parts (none: all) or beyond it, where the mirror images of the parts are.
     pub(crate) fn is_beyond_mirrors(&self, x: [f64; 2], parts: &[String]) -> bool {
-        let tolerance = contact::initial::TOLERANCE * contact::initial::size(&self.mesh.positions);
+        let tolerance = crate::mesh::tolerance(&self.mesh.positions);
         let concerns = |held: &[String]| held.is_empty() || parts.is_empty() || held.iter().any(|part| parts.contains(part));
         self.mirrors()
             .any(|(number, point, normal)| concerns(&self.model.symmetries[number].parts) && dot(minus(x, point), normal) <= tolerance)

@@ -12,6 +12,7 @@ use crate::contact::node_facet::tracker::Tracker;
 use crate::contact::node_facet::{NodeFacet, PassInput, Slave};
 use crate::contact::obstacle::OutlineShape;
 use crate::contact::obstacle::space::{NodeSolid, Solid, Vector};
+use crate::contact::overlap::{Bodies, Judge};
 use crate::contact::proof::Proof;
 use crate::contact::search::{Search, registry};
 use crate::contact::tracker::SKIN;
@@ -184,7 +185,7 @@ impl Builder<'_, 3> {
 
     /// See [`crate::world::World::part_at_start`].
     pub(crate) fn part_at_start_in_space(&mut self) -> Vec<String> {
-        let tolerance = initial::TOLERANCE * initial::size(&self.mesh.positions);
+        let tolerance = crate::mesh::tolerance(&self.mesh.positions);
         let (mut lines, mut pushed) = (Vec::new(), Vec::new());
         for (i, contact) in self.model.contacts.iter().enumerate() {
             let Interface { initial_penetration, active, .. } = contact.interface;
@@ -233,7 +234,19 @@ impl Builder<'_, 3> {
         let reach = law_of(&contact.interface).reach();
         let with_edges = contact.tied.is_none() && meets_edges(contact, passes);
         let proof = Proof::new(tracker.surfaces(), passes, &self.body_of_node, &self.mesh.positions, with_edges, registry::<3>()[0].make);
+        let judge = self.judge(tracker.surfaces(), contact)?;
+        let mut inputs = inputs;
+        let thickness: Vec<Vec<f64>> = tracker.surfaces().iter().map(|surface| judge.thickness_at(&surface.nodes)).collect();
+        for (input, &(slave, target)) in inputs.iter_mut().zip(passes) {
+            let limit = |thickness: f64| law::penalty::LIMIT * thickness;
+            let surface = &tracker.surfaces()[target];
+            let at = |node: &u32| surface.nodes.binary_search(node).map_or(f64::INFINITY, |rank| thickness[target][rank]);
+            let facets = surface.facets.iter().map(|facet| limit(facet.iter().map(at).fold(f64::INFINITY, f64::min)));
+            input.limits = [thickness[slave].iter().map(|&thickness| limit(thickness)).collect(), facets.collect()];
+        }
+        let judge = with_edges.then(|| moduli(judge, tracker.surfaces(), passes, &inputs));
         let made = NodeFacet::new(tracker, inputs, &contact.interface, reach, &self.mesh.positions).with_proof(proof);
+        let made = if let Some(judge) = judge { made.with_judge(judge) } else { made };
         let Some((strength, input)) = tied else {
             let made = if meets_edges(contact, passes) { made.with_edges(Self::search_in_space(contact)?) } else { made };
             return Ok((self.with_images(Box::new(made), mirrors, contact), terms));
@@ -250,6 +263,33 @@ impl Builder<'_, 3> {
             }
         }
         Ok((Box::new(made), terms))
+    }
+
+    /// What looks at the overlaps of the bodies whose surfaces meet.
+    fn judge(&self, surfaces: &[SpaceSurface], contact: &model::Contact) -> Result<Judge, Vec<Fault>> {
+        let body_of = |node: u32| self.body_of_node[node as usize];
+        let bodies_of = |surface: &SpaceSurface| {
+            let mut all: Vec<u32> = surface.facets.iter().map(|facet| body_of(facet[0])).collect();
+            all.sort_unstable();
+            all.dedup();
+            all
+        };
+        let sides: Vec<Vec<u32>> = surfaces.iter().map(bodies_of).collect();
+        let is_met = |body: u32| sides.iter().any(|side| side.binary_search(&body).is_ok());
+        let parts = self.mesh.parts.iter().filter(|part| part.nodes.iter().any(|&node| is_met(body_of(node))));
+        let parts: Vec<String> = parts.map(|part| part.name.clone()).collect();
+        let outside = self.mesh.outside_without(&parts, |facet| !is_met(body_of(facet[0])));
+        let outside = outside.map_err(|fault| vec![fault])?;
+        // A body on both sides meets itself.
+        let are_two = sides.len() == 2 && !sides[0].iter().any(|body| sides[1].binary_search(body).is_ok());
+        let side_of = |body: u32| u32::from(sides[sides.len() - 1].binary_search(&body).is_ok());
+        let bodies = Bodies {
+            outside: &outside,
+            is_mirror: &|facet| self.constraints.is_mirror(facet),
+            body_of: &body_of,
+            side_of: if are_two { Some(&side_of) } else { None },
+        };
+        Ok(Judge::new(&bodies, &self.mesh.positions, initial::is_ignored(&contact.interface)))
     }
 
     /// What follows the nodes of a contact, and its passes.
@@ -337,6 +377,16 @@ impl Builder<'_, 3> {
     }
 }
 
+/// The same judge with the pressure stiffness of slaves, Pa/m.
+fn moduli(mut judge: Judge, surfaces: &[SpaceSurface], passes: Passes, inputs: &[PassInput]) -> Judge {
+    for (&(slave, _), input) in passes.iter().zip(inputs) {
+        for (&node, own) in surfaces[slave].nodes.iter().zip(&input.slaves) {
+            judge.set_modulus(node, if own.area > 0.0 { own.stiffness / own.area } else { 0.0 });
+        }
+    }
+    judge
+}
+
 /// A surface, and what contact needs of the elements behind it.
 pub(super) struct Sided {
     /// What each node stands for.
@@ -361,7 +411,8 @@ impl Sided {
             Penalty::Automatic { scale, .. } => self.nodes.iter().map(|own| scale * own.area / passes as f64).collect(),
             Penalty::PerNode(_) | Penalty::Pressure(_) => Vec::new(),
         };
-        PassInput { slaves: self.nodes.iter().zip(&self.shares).map(slave).collect(), per_modulus, moduli: target.moduli.clone() }
+        let slaves = self.nodes.iter().zip(&self.shares).map(slave).collect();
+        PassInput { slaves, per_modulus, moduli: target.moduli.clone(), ..PassInput::default() }
     }
 }
 

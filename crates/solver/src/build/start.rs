@@ -33,7 +33,7 @@ struct Meeting {
 impl Builder<'_, 2> {
     /// Penetrations at the start: faults, or lines for the overview. Those that shall be pushed out are, in the mesh.
     pub(crate) fn part_at_start(&mut self) -> Vec<String> {
-        let tolerance = initial::TOLERANCE * initial::size(&self.mesh.positions);
+        let tolerance = crate::mesh::tolerance(&self.mesh.positions);
         let mut lines = Vec::new();
         let mut pushed = Vec::new();
         for (i, contact) in self.model.contacts.iter().enumerate() {

@@ -57,11 +57,13 @@ pub struct EdgePair {
     pub stiffness: f64,
     /// See `stiffness`.
     pub area: f64,
+    /// Depth beyond which the spring stiffens, m.
+    pub limit: f64,
     /// What is kept of the spring.
     pub memory: Memory,
 }
 
-keep_all!(EdgePair { edges, own, touches, stiffness, area, memory });
+keep_all!(EdgePair { edges, own, touches, stiffness, area, limit, memory });
 
 /// Edges that are inside each other, or near it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -246,12 +248,12 @@ impl EdgeTracker {
     }
 
     /// Pairs that are inside, or near enough to come in during the next update, ascending. `is_held` tells whether a node (of the first surface or of the second) is in contact with a facet of
-    /// the other one; `make` gives the stiffness and the area of a new spring.
+    /// the other one; `make` gives the stiffness and the area of a new spring, and the depth beyond which it stiffens.
     pub fn track(
         &mut self,
         around: &Around<'_>,
         is_held: impl Fn(usize, u32, u32) -> bool,
-        make: impl Fn(&EdgeTouch) -> [f64; 2],
+        make: impl Fn(&EdgeTouch) -> [f64; 3],
     ) -> &[EdgeTouch] {
         let springs = self.pairs.iter().filter(|pair| pair.touches);
         self.deepest =
@@ -260,12 +262,14 @@ impl EdgeTracker {
         for number in 0..self.pairs.len() {
             found.extend(self.look_at(number, around, &is_held));
         }
-        // What had a spring comes first; then one spring for each place at which two lines of edges cross; then what had one beyond an end.
+        // What had a spring comes first; then one spring for each place at which two lines of edges cross; then what had one beyond an end. The deepest first: numbers say nothing.
+        let mut order: Vec<usize> = (0..found.len()).collect();
+        order.sort_by(|&a, &b| found[a].crossing.gap.total_cmp(&found[b].crossing.gap).then(a.cmp(&b)));
         let mut taken: Vec<bool> = vec![false; self.pairs.len()];
         for turn in 0..3 {
             let is_beyond = |touch: &EdgeTouch| !touch.crossing.is_within(BEYOND);
             let turn_of = |touch: &EdgeTouch| if touch.is_new { 1 } else { 2 * u32::from(is_beyond(touch)) };
-            for touch in found.iter().filter(|touch| turn_of(touch) == turn) {
+            for touch in order.iter().map(|&at| &found[at]).filter(|touch| turn_of(touch) == turn) {
                 let mut lines = self.beside(touch, around);
                 let is_held = |other: usize| taken[other] && dot(self.pairs[other].memory.normal, touch.crossing.normal) > STRAIGHT;
                 let is_free =
@@ -273,22 +277,23 @@ impl EdgeTracker {
                 taken[touch.pair as usize] = is_free;
             }
         }
-        for touch in &mut found {
+        for touch in order.iter().map(|&at| &found[at]) {
             if !taken[touch.pair as usize] {
                 continue;
             }
             if touch.is_new {
-                let [stiffness, area] = make(touch);
+                let [stiffness, area, limit] = make(touch);
                 let pair = &mut self.pairs[touch.pair as usize];
-                (pair.stiffness, pair.area, pair.memory) = (stiffness, area, Memory::default());
-                // A spring that went over the end of another edge goes on.
-                let mut others = self.beside(touch, around).chain(self.come_from(touch.edges, around));
-                let left = others.find(|&other| self.goes_over(other, touch, &taken));
-                drop(others);
+                (pair.stiffness, pair.area, pair.limit, pair.memory) = (stiffness, area, limit, Memory::default());
+                // A spring that went over the end of another edge goes on: of several that which pushed most nearly along this normal.
+                let others = self.beside(touch, around).chain(self.come_from(touch.edges, around));
+                let cosine = |other: usize| dot(self.pairs[other].memory.normal, touch.crossing.normal);
+                let better = |a: usize, b: usize| if cosine(b) > cosine(a) { b } else { a };
+                let left = others.filter(|&other| self.goes_over(other, touch, &taken)).reduce(better);
                 if let Some(left) = left {
-                    let EdgePair { stiffness, area, memory, .. } = self.pairs[left];
+                    let EdgePair { stiffness, area, limit, memory, .. } = self.pairs[left];
                     self.pairs[left].touches = false;
-                    self.pairs[touch.pair as usize] = EdgePair { stiffness, area, memory, ..self.pairs[touch.pair as usize] };
+                    self.pairs[touch.pair as usize] = EdgePair { stiffness, area, limit, memory, ..self.pairs[touch.pair as usize] };
                 }
             }
         }

@@ -13,8 +13,6 @@ use crate::load::constraint::Constraints;
 use crate::model::{InitialPenetration, Interface};
 use crate::world::place;
 
-/// Penetrations deeper than this fraction of the model's size count.
-pub const TOLERANCE: f64 = 1e-9;
 /// At most so many are told one by one.
 const TOLD: usize = 20;
 /// Rounds of looking for penetrations, and sweeps over those that a round found.
@@ -94,7 +92,7 @@ pub fn kept(has_begun: bool, offset: f64, gap: f64) -> f64 {
     }
 }
 
-/// Size of a model for tolerances: its farthest coordinate, m.
+/// How far a model is drawn: its farthest coordinate, m.
 #[must_use]
 pub fn size<const D: usize>(positions: &[[f64; D]]) -> f64 {
     positions.iter().flatten().fold(0.0f64, |size, x| size.max(x.abs()))

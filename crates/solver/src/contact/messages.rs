@@ -213,8 +213,8 @@ pub(crate) static UNSOLVED: Message = Message {
 
 pub(crate) static MISSED: Message = Message {
     code: "W0406",
-    title: "a node inside a body without contact",
+    title: "bodies inside each other that nothing holds apart",
     example: Example::Words("Two parts that no contact names go through each other next to a contact."),
-    cause: "A node came in where no contact watches, or a body went through itself.",
-    cure: "Let one contact of `bodies = \"all\"` watch all surfaces, and look at the place in the last state.",
+    cause: "A node came in where no contact watches, a body went through itself, or solids overlap by more than a fifth of their thickness.",
+    cure: "Look at the place that the message names. Let one contact of `bodies = \"all\"` watch all surfaces; raise `penalty_scale` where a contact is too soft for what presses on it.",
 };

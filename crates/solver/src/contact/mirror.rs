@@ -3,6 +3,7 @@
 //! Lines or planes, and nodes, come from the builder; springs go to the same solution as those of the contact itself. By symmetry a node meets the image where it meets the line or plane, at half of the
 //! gap. Of the two passes of the pair, node against image and image against node, half belongs to the model: with the stiffness k of a pass its energy is 2 · ½ k (2g)² / 2 = ½ (4k) g².
 
+use super::overlap::Findings;
 use super::springs::{Answers, End, Spring, Springs};
 use super::tied::Ties;
 use super::tracker::{Certificate, SearchReport};
@@ -10,7 +11,7 @@ use super::{Formulation, Scene};
 use crate::archive::{Archive, Kept};
 use crate::motion::Motion;
 use crate::tensor::Dim;
-use crate::vector::{dot, minus};
+use crate::vector::{dot, length, minus};
 use std::any::Any;
 
 /// A node that may reach the line or plane.
@@ -73,7 +74,7 @@ where
             for &MirroredNode { node, stiffness, area, distance } in nodes {
                 let [from, to] = [scene.sweep.old, scene.sweep.new].map(|positions| positions[node as usize]);
                 let gap = dot(minus(to, point), normal) - distance;
-                let way: f64 = minus(to, from).iter().map(|along| along.abs()).sum();
+                let way = f64::sqrt(D as f64) * length(minus(to, from));
                 // Well before it touches: a spring that closes unseen would give back what it never took.
                 if gap <= reach + 4.0 * way {
                     springs.push(Spring { normal, gap, stiffness, area, ..Spring::default() }, &[End::node(node, 1.0)]);
@@ -120,5 +121,9 @@ where
 
     fn search_report(&self) -> Option<SearchReport> {
         self.contact.search_report()
+    }
+
+    fn overlaps(&self) -> Option<&Findings> {
+        self.contact.overlaps()
     }
 }

@@ -22,6 +22,7 @@ pub mod proof;
 pub mod segment;
 pub mod tied;
 pub mod obstacle;
+pub mod overlap;
 pub mod mirror;
 pub mod traces;
 
@@ -32,6 +33,7 @@ use crate::motion::Motion;
 use crate::rigid::Bodies;
 use crate::tensor::Dim;
 use forces::ContactForces;
+use overlap::{CAST, Findings, Overlap};
 use springs::{Answer, Answers, Springs, Totals};
 use std::any::Any;
 use std::ops::Range;
@@ -87,6 +89,11 @@ where
 
     /// What the global search did, if there is one.
     fn search_report(&self) -> Option<SearchReport> {
+        None
+    }
+
+    /// What was found of overlaps of the bodies, if they are looked at.
+    fn overlaps(&self) -> Option<&Findings> {
         None
     }
 }
@@ -285,6 +292,25 @@ where
         let mut sum = self.checked;
         sum += self.formulation.certificate();
         sum
+    }
+
+    /// What was found of overlaps of the bodies, if they are looked at.
+    #[must_use]
+    pub fn overlaps(&self) -> Option<&Findings> {
+        self.formulation.overlaps()
+    }
+
+    /// The deeper of the last evaluation's penetration and of the overlaps between bodies in the last look that have a net, m.
+    #[must_use]
+    pub fn depth(&self) -> f64 {
+        let deep = self.overlaps().map(|found| &found.now).filter(|now| now.ratio() > CAST);
+        deep.map_or(self.penetration, |now| self.penetration.max(now.depth))
+    }
+
+    /// An overlap that is deeper than the body there is thick: one has gone through the other.
+    #[must_use]
+    pub fn gone_through(&self) -> Option<&Overlap> {
+        self.overlaps()?.through.as_ref()
     }
 
     /// What the global search did, if there is one.

@@ -5,6 +5,7 @@
 //! gradient of its gap (`projection/node_facet.rs`), so resultant, momentum and angular momentum are exact, and what slides over an edge or a corner keeps its energy as far as half steps
 //! see the turn of the normal.
 
+mod ends;
 mod far;
 pub(super) mod groups;
 pub(super) mod passage;
@@ -14,6 +15,7 @@ pub mod tracker;
 use super::edge_edge::{self, Around, EdgeTouch, EdgeTracker};
 use super::initial::{is_ignored, kept};
 use super::node_segment::{Before, Closed, carried, is_stored};
+use super::overlap::{Findings, Judge};
 use super::projection::edge_edge::distance;
 use super::projection::node_facet::{Placed, Projection, Vector, unit};
 use super::proof::Proof;
@@ -27,7 +29,9 @@ use crate::archive::{Archive, Kept, keep_each};
 use crate::mesh::surface::{Corners, NONE};
 use crate::model;
 use crate::motion::{Motion, any_tangent};
-use crate::tensor::{Dim, cross, dot};
+use crate::tensor::{Dim, dot};
+pub use ends::ends;
+use ends::{ends_with, pushed};
 use std::any::Any;
 use tracker::{Memory, Touch, Tracker};
 
@@ -40,6 +44,8 @@ pub struct PassInput {
     pub per_modulus: Vec<f64>,
     /// κ behind each facet of the target, Pa/m: the softest of its part.
     pub moduli: Vec<f64>,
+    /// Depth beyond which the springs of each slave, and those on each facet of the target, stiffen, m; empty: never.
+    pub limits: [Vec<f64>; 2],
 }
 
 /// A slave node.
@@ -57,6 +63,17 @@ impl PassInput {
         let own = self.slaves[slave].stiffness;
         self.per_modulus.get(slave).map_or(own, |per| own.min(per * self.moduli[facet as usize]))
     }
+
+    /// The same where some facets meet.
+    fn softest(&self, slave: usize, facets: impl Iterator<Item = u32>) -> f64 {
+        facets.map(|facet| self.stiffness(slave, facet)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Depth beyond which springs stiffen there: the thinner body decides, m.
+    fn limit(&self, slave: usize, facets: impl Iterator<Item = u32>) -> f32 {
+        let at = |of: usize, at: usize| self.limits[of].get(at).copied().unwrap_or(f64::INFINITY);
+        facets.map(|facet| at(1, facet as usize)).fold(at(0, slave), f64::min) as f32
+    }
 }
 
 /// The formulation.
@@ -64,8 +81,10 @@ pub struct NodeFacet {
     tracker: Tracker,
     /// Edges against edges, if they meet.
     edges: Option<EdgeTracker>,
-    /// What proves that nothing was missed.
+    /// Sweeps pairs within each step.
     proof: Option<Proof>,
+    /// Looks at the bodies as they are.
+    judge: Option<Judge>,
     passes: Vec<PassInput>,
     /// Distance that the surfaces keep, m.
     thickness: f64,
@@ -88,6 +107,8 @@ pub struct NodeFacet {
     /// Nodes whose springs were closed after the last step, and those that edges stand for in this one: slave surface, node, and facet.
     closed_nodes: Vec<(usize, u32, u32)>,
     superseded: Vec<(usize, u32, u32)>,
+    /// Ends of a spring beyond those of its own facet, while it is made.
+    more: Vec<End<3>>,
 }
 
 impl NodeFacet {
@@ -98,6 +119,7 @@ impl NodeFacet {
             tracker,
             edges: None,
             proof: None,
+            judge: None,
             passes,
             thickness: interface.thickness,
             reach,
@@ -111,6 +133,7 @@ impl NodeFacet {
             used: Vec::new(),
             closed_nodes: Vec::new(),
             superseded: Vec::new(),
+            more: Vec::new(),
         }
     }
 
@@ -124,6 +147,12 @@ impl NodeFacet {
     #[must_use]
     pub fn with_proof(self, proof: Proof) -> Self {
         Self { proof: Some(proof), ..self }
+    }
+
+    /// The same with a judge of overlaps.
+    #[must_use]
+    pub fn with_judge(self, judge: Judge) -> Self {
+        Self { judge: Some(judge), ..self }
     }
 
     /// What follows the edges.
@@ -145,8 +174,10 @@ impl NodeFacet {
             return gap;
         }
         let placed = Placed { surface: self.tracker.target(touch.pass), positions: &self.initial };
-        let distance = placed.distance(self.initial[touch.node as usize], touch.projection.facet);
-        gap + (self.thickness + self.reach - 0.5 * distance.unwrap_or(0.0)).max(0.0)
+        let facets = placed.surface.sharing(touch.projection.facet, placed.rests_on(&touch.projection));
+        let distance =
+            facets.map(|facet| placed.distance(self.initial[touch.node as usize], facet).unwrap_or(0.0)).fold(f64::INFINITY, f64::min);
+        gap + (self.thickness + self.reach - 0.5 * distance).max(0.0)
     }
 
     /// Gap of edges less the thickness, as [`NodeFacet::gap`].
@@ -185,19 +216,20 @@ impl NodeFacet {
         let is_held = |of: usize, node: u32, facet: u32| closed_nodes.binary_search(&(sides[of], node, facet)).is_ok();
         // Both passes carry a node and a facet together: so do both sides the edges.
         let make = |touch: &EdgeTouch| {
-            let (mut stiffness, mut area) = (0.0, 0.0);
+            let (mut stiffness, mut area, mut limit) = (0.0, 0.0, f32::INFINITY);
             for of in 0..2 {
                 let (slave, target) = (&surfaces[sides[of]], &surfaces[sides[1 - of]]);
                 let pass = passes.iter().zip(0..).find(|(_, number)| tracker.slave(*number) == sides[of]);
-                let facet = target.edges[touch.edges[1 - of] as usize].facets[0];
+                let facets = target.edges[touch.edges[1 - of] as usize].facets.into_iter().filter(|&facet| facet != NONE);
                 for node in touch.nodes[of] {
                     if let (Some((pass, _)), Ok(rank)) = (pass, slave.nodes.binary_search(&node)) {
-                        stiffness += 0.5 * pass.stiffness(rank, facet);
+                        stiffness += 0.5 * pass.softest(rank, facets.clone());
                         area += 0.5 * pass.slaves[rank].area;
+                        limit = limit.min(pass.limit(rank, facets.clone()));
                     }
                 }
             }
-            [stiffness, area]
+            [stiffness, area, f64::from(limit)]
         };
         edges.track(&around, is_held, make);
     }
@@ -220,34 +252,52 @@ impl NodeFacet {
         self.superseded.sort_unstable();
     }
 
+    /// Whether edges stand for a node that touches.
+    fn is_superseded(&self, touch: &Touch, scene: &Scene<'_, 3>) -> bool {
+        let (surface, side) = (self.tracker.target(touch.pass), self.tracker.slave(touch.pass));
+        let rest = Placed { surface, positions: scene.sweep.new }.rests_on(&touch.projection);
+        surface.sharing(touch.projection.facet, rest).any(|facet| self.superseded.binary_search(&(side, touch.node, facet)).is_ok())
+    }
+
     /// The spring of a node that touches.
     fn push_node(&mut self, index: usize, scene: &Scene<'_, 3>, springs: &mut Springs<3>) {
         let touch = self.tracker.touches()[index];
         let memory = *self.tracker.kept(&touch);
         let (gap, offset) = self.beyond(self.gap(&touch), touch.own, &memory);
+        let mut more = std::mem::take(&mut self.more);
         let (pass, node, slave) = (&self.passes[touch.pass as usize], touch.node, touch.slave as usize);
         let Projection { normal, facet, weights, .. } = touch.projection;
-        let (stiffness, area, side) = (pass.stiffness(slave, facet), pass.slaves[slave].area, self.tracker.side(touch.pass));
-        let spring = Spring { normal, gap, stiffness, area, side, ..Spring::default() };
+        let target = self.tracker.target(touch.pass);
+        let rest = Placed { surface: target, positions: scene.sweep.new }.rests_on(&touch.projection);
+        let (stiffness, area) = (pass.softest(slave, target.sharing(facet, rest)), pass.slaves[slave].area);
+        let (limit, side) = (pass.limit(slave, target.sharing(facet, rest)), self.tracker.side(touch.pass));
+        let spring = Spring { normal, gap, stiffness, area, limit, side, ..Spring::default() };
         let before = Before { half: memory.half, normal: memory.normal, carried: memory.carried };
         let steadily = before.steadily(normal, gap, self.reach, self.has_begun);
-        let placed = Placed { surface: self.tracker.target(touch.pass), positions: scene.sweep.new };
         let carried = match steadily {
             // Nearly all, nearly always.
             Some(carried) if !self.slips && weights.iter().all(|weight| *weight >= 0.0) => {
                 let carried = if self.stores { carried } else { 0.0 };
-                let corners = placed.surface.facets[facet as usize].into_iter().zip(weights);
+                let corners = target.facets[facet as usize].into_iter().zip(weights);
                 let shares = corners.filter(|(_, weight)| *weight != 0.0).map(|(corner, weight)| (corner, -weight));
                 springs.push_plain(Spring { gap: gap + carried, ..spring }, std::iter::once((node, 1.0)).chain(shares));
                 carried
             }
-            _ => self.push_whole(&touch, &memory, spring, scene, springs),
+            _ => self.push_whole(&touch, &memory, (spring, rest), scene, (springs, &mut more)),
         };
-        *self.tracker.kept_mut(&touch) = Memory { offset, carried, normal, facet, stored: 0.0, ..memory };
+        self.more = more;
+        *self.tracker.kept_mut(&touch) = Memory { offset, carried, normal, facet, rest, stored: 0.0, ..memory };
     }
 
     /// The same with slip, rims and gaps that jump: by what its gap was moved, m.
-    fn push_whole(&self, touch: &Touch, memory: &Memory, spring: Spring<3>, scene: &Scene<'_, 3>, springs: &mut Springs<3>) -> f64 {
+    fn push_whole(
+        &self,
+        touch: &Touch,
+        memory: &Memory,
+        (spring, rest): (Spring<3>, [u32; 2]),
+        scene: &Scene<'_, 3>,
+        (springs, more): (&mut Springs<3>, &mut Vec<End<3>>),
+    ) -> f64 {
         let Projection { normal, facet, .. } = touch.projection;
         let placed = Placed { surface: self.tracker.target(touch.pass), positions: scene.sweep.new };
         if !self.slips {
@@ -256,11 +306,12 @@ impl NodeFacet {
             springs.push(Spring { gap: spring.gap + carried, ..spring }, &ends[..known]);
             return carried;
         }
-        let (ends, known) = ends(&placed, touch.node, &touch.projection);
+        let facets = placed.surface.sharing(facet, rest);
         let tangent = tangent(normal, first_edge(&placed, facet));
+        let (ends, known) = ends_with(&placed, (touch.node, &touch.projection), &tangent, facets.clone(), more);
         let carried = self.carried(memory, normal, spring.gap, &ends[..known], scene);
-        let slip = cone::carried(slip(&placed, memory, scene.sweep), Dim::<3>::tangents(normal, &tangent));
-        springs.push(Spring { gap: spring.gap + carried, slip, tangent, ..spring }, &ends[..known]);
+        let slip = cone::carried(slip(&placed, memory.slip, facets, scene.sweep), Dim::<3>::tangents(normal, &tangent));
+        springs.push_with(Spring { gap: spring.gap + carried, slip, tangent, ..spring }, ends[..known].iter().chain(&*more));
         carried
     }
 
@@ -270,7 +321,7 @@ impl NodeFacet {
         let touch = edges.touches()[at];
         let touch = &touch;
         let (pair, positions, normal) = (*edges.kept(touch), scene.sweep.new, touch.crossing.normal);
-        let side = if edges.sides()[0] == edges.sides()[1] { 0.0 } else { 1.0 };
+        let side = if edges.sides()[0] == edges.sides()[1] { 0.0f32 } else { 1.0 };
         let tangent = edge_edge::tangent(touch, positions);
         let ends = edge_edge::ends(touch, tangent, positions);
         let (gap, offset) = self.beyond(self.edge_gap(touch), touch.own, &pair.memory);
@@ -279,8 +330,8 @@ impl NodeFacet {
         let turn = || spin::turn(touch.nodes.iter().map(|nodes| &nodes[..]), scene.sweep);
         let slip = if pair.memory.slip == [0.0; 3] { [0.0; 3] } else { spin::turned(pair.memory.slip, turn()) };
         let slip = cone::carried(slip, Dim::<3>::tangents(normal, &tangent));
-        let (stiffness, area) = (pair.stiffness, pair.area);
-        springs.push(Spring { normal, gap: gap + carried, stiffness, area, side, slip, tangent, ..Spring::default() }, &ends);
+        let (stiffness, area, limit) = (pair.stiffness, pair.area, pair.limit as f32);
+        springs.push(Spring { normal, gap: gap + carried, stiffness, area, limit, side, slip, tangent, ..Spring::default() }, &ends);
         if let Some(edges) = &mut self.edges {
             edges.kept_mut(touch).memory = Memory { offset, carried, normal, facet: touch.edges[1], stored: 0.0, ..pair.memory };
         }
@@ -301,6 +352,10 @@ impl NodeFacet {
         if let Some(proof) = &mut self.proof {
             proof.look_at(&self.tracker, self.edges.as_ref(), scene.sweep);
         }
+        if let Some(judge) = &mut self.judge {
+            let sweep = if self.has_begun { scene.sweep } else { Sweep { old: scene.sweep.new, ..scene.sweep } };
+            judge.look(sweep, scene.time);
+        }
         self.find_superseded();
         let mut again = Closed::default();
         self.used.clear();
@@ -309,14 +364,13 @@ impl NodeFacet {
             if touch.pass == 0 && bound.get(touch.slave as usize).copied().unwrap_or(false) {
                 continue;
             }
-            let place = (self.tracker.slave(touch.pass), touch.node, touch.projection.facet);
             // Who stands for nothing presses on nothing.
             if self.passes[touch.pass as usize].slaves[touch.slave as usize].area == 0.0 {
                 continue;
             }
             let memory = *self.tracker.kept(&touch);
             let was_closed = memory.normal != [0.0; 3] && memory.half < self.reach;
-            if !self.superseded.is_empty() && !was_closed && self.superseded.binary_search(&place).is_ok() {
+            if !self.superseded.is_empty() && !was_closed && self.is_superseded(&touch, scene) {
                 continue;
             }
             again.add(memory.stored);
@@ -325,6 +379,9 @@ impl NodeFacet {
         }
         for at in 0..self.edges.as_ref().map_or(0, |edges| edges.touches().len()) {
             again.add(self.push_edges(at, scene, springs));
+        }
+        if let Some(judge) = &self.judge {
+            judge.nets().for_each(|(spring, ends)| springs.push(spring, &ends));
         }
         self.let_go = self.closed.less(&again);
         self.has_begun = true;
@@ -337,8 +394,12 @@ impl Formulation<3> for NodeFacet {
     }
 
     fn remember(&mut self, solved: Answers<'_, 3>) {
+        if let Some(judge) = &mut self.judge {
+            judge.weigh(&solved);
+        }
         self.closed = Closed::default();
-        let (nodes, edges) = (solved.clone().part(0, self.used.len()), solved.part(self.used.len(), usize::MAX));
+        let (nodes, count) = (self.used.len(), self.edges.as_ref().map_or(0, |edges| edges.touches().len()));
+        let (nodes, edges) = (solved.clone().part(0, nodes), solved.part(nodes, nodes + count));
         let (stores, slips, reach, closed) = (self.stores, self.slips, self.reach, &mut self.closed);
         let mut note = |memory: &mut Memory, answer: &Answer<'_, 3>| {
             if slips {
@@ -376,9 +437,11 @@ impl Formulation<3> for NodeFacet {
             used: _,
             closed_nodes: _,
             superseded: _,
+            more: _,
             tracker,
             edges,
             proof,
+            judge,
             has_begun,
             closed,
         } = self;
@@ -388,6 +451,9 @@ impl Formulation<3> for NodeFacet {
         }
         if let Some(edges) = edges {
             edges.keep(archive, tracker.surfaces())?;
+        }
+        if let Some(judge) = judge {
+            judge.keep(archive)?;
         }
         keep_each!(archive; has_begun, closed);
         Ok(())
@@ -403,12 +469,21 @@ impl Formulation<3> for NodeFacet {
             if let (Some(proof), Some(before)) = (&mut self.proof, &old.proof) {
                 proof.inherit(before, self.tracker.surfaces());
             }
+            if let (Some(judge), Some(before)) = (&mut self.judge, &old.judge) {
+                judge.inherit(before);
+            }
             self.has_begun = old.has_begun;
         }
     }
 
+    fn overlaps(&self) -> Option<&Findings> {
+        self.judge.as_ref().map(Judge::findings)
+    }
+
     fn certificate(&self) -> Certificate {
-        self.proof.as_ref().map(Proof::certificate).unwrap_or_default()
+        let mut sum = self.proof.as_ref().map(Proof::certificate).unwrap_or_default();
+        sum.unverified += self.judge.as_ref().map_or(0, |judge| judge.findings().unverified);
+        sum
     }
 
     fn let_go(&self) -> f64 {
@@ -435,7 +510,7 @@ pub fn edges_at_start(tracker: &Tracker, search: Box<dyn Search<3>>, positions: 
     let around = around(tracker, Sweep::between(positions, positions), true, [thickness, 0.0]);
     let mut edges = EdgeTracker::new(tracker.surfaces(), tracker.bodies(), search);
     edges.find(&around);
-    edges.track(&around, |_, _, _| false, |_| [0.0; 2]).to_vec()
+    edges.track(&around, |_, _, _| false, |_| [0.0, 0.0, f64::INFINITY]).to_vec()
 }
 
 /// A facet's first edge, m.
@@ -452,92 +527,12 @@ fn tangent(normal: Vector, direction: Vector) -> Vector {
     if dot(across, across) > 0.5 && dot(across, normal).abs() < 1e-6 { across } else { any_tangent(normal) }
 }
 
-/// The elastic slip of the step before, turned as the facet that it lay on turns in the step, whichever of its corners is the first.
-fn slip(placed: &Placed<'_>, memory: &Memory, sweep: Sweep<'_, 3>) -> Vector {
-    let Memory { slip, facet, .. } = *memory;
-    if facet == NONE || slip == [0.0; 3] {
+/// The elastic slip of the step before, turned as the facets together turn in the step on which it lies, whichever of their corners is the first.
+fn slip(placed: &Placed<'_>, slip: Vector, facets: impl Iterator<Item = u32>, sweep: Sweep<'_, 3>) -> Vector {
+    if slip == [0.0; 3] {
         return slip;
     }
-    spin::turned(slip, spin::turn([placed.surface.facets[facet as usize].corners()], sweep))
-}
-
-/// The ends of a spring that does not care for slip, between a node and where it projects, and how many there are: those of corners with a share.
-fn pushed(placed: &Placed<'_>, node: u32, projection: &Projection) -> ([End<3>; 5], usize) {
-    let (corners, mut ends, mut count) = (placed.surface.facets[projection.facet as usize], [End::node(node, 1.0); 5], 1);
-    for (corner, weight) in corners.into_iter().zip(projection.weights).filter(|(_, weight)| *weight != 0.0) {
-        // As in `ends`, what is pulled belongs to the target all the same.
-        let lean = projection.normal.map(|n| (-weight).max(0.0) * n);
-        ends[count] = End { lean, ..End::node(corner, -weight.max(0.0)) };
-        count += 1;
-    }
-    (ends, count)
-}
-
-/// The ends of a spring between a node and where it projects, and how many there are.
-///
-/// The slip rate is that of the node against the facet at the node's own distance, ṡ = t·(v − Σ w v_C − ω × r) with r = x − P and the spin ω of the triangle: ω = N × Ṅ + ½ N (N·∇ × v) is the
-/// body's own for every rigid motion, so ṡ does not see rotations of both together, and its transpose, the friction, keeps the angular momentum.
-#[must_use]
-pub fn ends(placed: &Placed<'_>, node: u32, projection: &Projection) -> ([End<3>; 5], usize) {
-    let Projection { facet, triangle, weights, foot, normal, .. } = *projection;
-    let corners = placed.surface.facets[facet as usize];
-    let count = corners.corners().len();
-    let x = placed.positions[node as usize];
-    let arm = [0, 1, 2].map(|d| x[d] - foot[d]);
-    let spins = spin_rows(placed, facet, triangle);
-    let tangents = Dim::<3>::tangents(normal, &tangent(normal, first_edge(placed, facet)));
-    let mut ends = [End::node(node, 1.0); 5];
-    for k in 0..count {
-        // t·(ω × r) = ω·(r × t)
-        let turn = tangents.map(|t| {
-            let pull = cross(arm, t);
-            // Of a row pair [a, b]: ω = a (b·v).
-            let mut row = [0.0; 3];
-            for [spin, by] in spins[k] {
-                let share = dot(pull, spin);
-                (0..3).for_each(|d| row[d] -= share * by[d]);
-            }
-            row
-        });
-        ends[k + 1] = End { turn, ..End::node(corners[k], -weights[k]) };
-        // Of a tied node beyond its facet: such a corner is pulled along, but belongs to the target all the same.
-        if weights[k] < 0.0 {
-            let beyond = -weights[k];
-            let turn = [0, 1].map(|a| [0, 1, 2].map(|d| turn[a][d] + beyond * tangents[a][d]));
-            ends[k + 1] = End { turn, lean: normal.map(|n| beyond * n), ..End::node(corners[k], 0.0) };
-        }
-    }
-    (ends, count + 1)
-}
-
-/// How a triangle of a facet spins with each corner: ω = Σ a (b·v), pairs [a, b] of each.
-fn spin_rows(placed: &Placed<'_>, facet: u32, triangle: usize) -> [[[Vector; 2]; 2]; 4] {
-    let x = placed.triangle(facet, triangle);
-    let minus = |a: Vector, b: Vector| [0, 1, 2].map(|d| a[d] - b[d]);
-    let area = cross(minus(x[1], x[0]), minus(x[2], x[0]));
-    let square = dot(area, area);
-    let mut rows = [[[[0.0; 3]; 2]; 2]; 4];
-    if !(square > 0.0) {
-        return rows;
-    }
-    let (twice, normal) = (square.sqrt(), unit(area));
-    let mut of = [[0.0; 3]; 3];
-    for (k, row) in of.iter_mut().enumerate() {
-        // N × ∇Φ_k = −e / 2A with the opposite edge e
-        *row = minus(x[(k + 2) % 3], x[(k + 1) % 3]).map(|e| -e / twice);
-    }
-    for corner in 0..4 {
-        let share = |k: usize| {
-            let mut unit = [0.0; 3];
-            unit[k] = 1.0;
-            placed.spread(facet, triangle, unit)[corner]
-        };
-        let whole = [0, 1, 2].map(|d| (0..3).map(|k| share(k) * of[k][d]).sum::<f64>());
-        // ω = −(N × ∇Φ)(N·v) + ½ N ((N × ∇Φ)·v)
-        rows[corner][0] = [whole.map(|c| -c), normal];
-        rows[corner][1] = [normal.map(|n| 0.5 * n), whole];
-    }
-    rows
+    spin::turned(slip, spin::turn(facets.map(|facet| placed.surface.facets[facet as usize].corners()), sweep))
 }
 
 #[cfg(test)]

@@ -2,6 +2,8 @@
 //!
 //! Where the nodes lie comes from the [`Tracker`]; friction and thickness are those of the slave node, the stiffness that of the softer side where they meet.
 
+mod fold;
+
 use super::formulation::{FormulationKind, Setup, both_passes, one_pass};
 use super::initial::{is_ignored, kept};
 use super::projection::node_segment::{Projection, Target};
@@ -14,6 +16,7 @@ use crate::model;
 use crate::motion::Motion;
 use crate::tensor::Dim;
 use crate::vector::dot;
+use fold::{other_at_node, turn_with_both};
 use std::any::Any;
 
 /// Registry entry.
@@ -44,6 +47,8 @@ pub struct NodeSegment {
     reach: f64,
     /// Whether springs store energy: multipliers do not.
     stores: bool,
+    /// Whether springs care for slip.
+    slips: bool,
     /// Whether gaps that are negative when the contact begins to act count as zero.
     ignores_start: bool,
     /// Initial positions, m: only where a surface meets itself at a distance.
@@ -166,6 +171,7 @@ impl NodeSegment {
             thickness: interface.thickness,
             reach,
             stores: is_stored(interface),
+            slips: interface.friction.is_some(),
             ignores_start: is_ignored(interface),
             initial: Vec::new(),
             has_begun: false,
@@ -235,7 +241,9 @@ impl NodeSegment {
             let Projection { normal, segment, .. } = touch.projection;
             let faces = self.faces(&touch, &memory, scene.sweep.new);
             let part = pass.part(slave, faces);
-            let (stiffness, area) = (pass.stiffness_of(slave, segment, part), part.length * pass.slaves[slave].area);
+            let other = other_at_node(touch.node, &touch.projection, target);
+            let stiffness = [Some(segment), other].into_iter().flatten().map(|segment| pass.stiffness_of(slave, segment, part));
+            let (stiffness, area) = (stiffness.fold(f64::INFINITY, f64::min), part.length * pass.slaves[slave].area);
             let (gap, offset) = self.beyond(&touch, &memory);
             if touch.slope != 0.0 {
                 lean(&mut ends, &touch, scene.sweep.new);
@@ -243,7 +251,11 @@ impl NodeSegment {
             let carried =
                 if self.stores { carried(&memory.before(), normal, gap, &ends, self.reach, scene.sweep, self.has_begun) } else { 0.0 };
             let (side, slip, gap) = (self.tracker.side(touch.pass), memory.slip, gap + carried);
-            springs.push(Spring { normal, gap, stiffness, area, side, slip: [slip], ..Spring::default() }, &ends);
+            let spring = Spring { normal, gap, stiffness, area, side, slip: [slip], ..Spring::default() };
+            match other.filter(|_| self.slips).map(|other| turn_with_both(&mut ends, &touch.projection, other, target, scene.sweep.new)) {
+                None => springs.push(spring, &ends),
+                Some(more) => springs.push_with(spring, ends.iter().chain([&more])),
+            }
             *self.tracker.kept_mut(&touch) = Memory { offset, faces, carried, normal, stored: 0.0, ..memory };
             self.used.push(index as u32);
         }
@@ -273,7 +285,7 @@ impl Formulation for NodeSegment {
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
         #[rustfmt::skip]
         let Self {
-            passes: _, thickness: _, reach: _, stores: _, ignores_start: _, initial: _, used: _, let_go: _,
+            passes: _, thickness: _, reach: _, stores: _, slips: _, ignores_start: _, initial: _, used: _, let_go: _,
             tracker, has_begun, closed,
         } = self;
         tracker.keep(archive)?;

@@ -41,7 +41,7 @@ pub struct Tied {
     strength: f64,
     /// Which terms ties follow.
     terms: usize,
-    side: f64,
+    side: f32,
     /// Ordinary contact, and which of its slave nodes are bound.
     loose: NodeSegment,
     bound: Vec<bool>,

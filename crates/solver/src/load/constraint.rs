@@ -153,8 +153,6 @@ struct Turn<const D: usize> {
     speed: Speed,
 }
 
-/// Nodes nearer to a symmetry line than this fraction of the model's size lie on it.
-const ON_LINE: f64 = 1e-9;
 /// At most so many contradictions of a condition are told one by one.
 const TOLD: usize = 20;
 
@@ -202,7 +200,7 @@ where
         let nodes = on_line(symmetry, normal, place.mesh);
         if nodes.is_empty() {
             let what = if D == 2 { "line" } else { "plane" };
-            let help = format!("move the {what} or the bodies; nodes must lie on it within 1e-9 of the model's size");
+            let help = format!("move the {what} or the bodies; nodes must lie on it within 1e-9 of the model's extent");
             faults.push(Fault::new(&OFF_SYMMETRY, &found.path, format!("no node lies on this symmetry {what}"), help));
         }
         for node in nodes {
@@ -470,10 +468,10 @@ where
     Dim<D>: World<D>,
 {
     let point = first(symmetry.point);
-    let size = mesh.positions.iter().flatten().chain(&point).fold(0.0f64, |size, x| size.max(x.abs()));
+    let tolerance = crate::mesh::tolerance(&mesh.positions);
     let near = |&node: &u32| {
         let x = mesh.positions[node as usize];
-        dot(minus(x, point), normal).abs() <= ON_LINE * size
+        dot(minus(x, point), normal).abs() <= tolerance
     };
     let parts = mesh.parts.iter().filter(|part| symmetry.parts.is_empty() || symmetry.parts.contains(&part.name));
     let mut nodes: Vec<u32> = parts.flat_map(|part| part.nodes.iter().copied()).filter(near).collect();

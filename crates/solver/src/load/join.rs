@@ -18,7 +18,7 @@ use crate::world::{Square, World, applied, axis, place, transposed, unit_matrix}
 /// A rotation.
 pub type Turn<const D: usize> = Square<D>;
 const NONE: u32 = u32::MAX;
-/// Distance at which nodes still coincide, fraction of the model's size.
+/// Distance at which nodes still coincide, fraction of the model's extent.
 const TOLERANCE: f64 = 1e-6;
 /// At most so many nodes without a partner are told one by one.
 const TOLD: usize = 20;
@@ -216,7 +216,7 @@ where
             (turn, Box::new(move |x| plus(centre, turned(turn, minus(x, centre)))))
         }
     };
-    let size = mesh.positions.iter().flatten().fold(0.0f64, |size, x| size.max(x.abs()));
+    let size = crate::mesh::extent(&mesh.positions);
     let tolerance = join.tolerance.unwrap_or(TOLERANCE * size);
     let place = |node: u32| mesh.positions[node as usize];
     let pairs = partners(first.iter().map(|&node| (node, image(place(node)))), second.iter().map(|&node| (node, place(node))), tolerance);

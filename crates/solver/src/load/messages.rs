@@ -140,6 +140,6 @@ pub(crate) static OFF_SYMMETRY: Message = Message {
     code: "E0514",
     title: "a symmetry line that no node lies on",
     example: Example::Model("[[symmetry]]\npoint = [\"-1 mm\", 0]\nnormal = [1, 0]\n"),
-    cause: "Nodes must lie on the line within 1e-9 of the model's size; so nothing would be held.",
+    cause: "Nodes must lie on the line within 1e-9 of the model's extent; so nothing would be held.",
     cure: "Move the line or the bodies.",
 };

@@ -15,6 +15,7 @@ pub(crate) static MESSAGES: &[&Message] = &[
     &BARS,
     &NEGATIVE_RADIUS,
     &DIMENSION,
+    &TINY_STEP,
 ];
 
 pub(crate) static SHAPE: Message = Message {
@@ -144,4 +145,16 @@ pub(crate) static DIMENSION: Message = Message {
     ),
     cause: "A model is of the plane, with forces per metre of depth, or of space. A part is a solid if its shape is one (`box`, `cylinder`, `tube`, `sphere`, a group of volumes of a mesh file), or by `extrude` or `revolve`.",
     cure: "Make all parts solids, or none.",
+};
+
+pub(crate) static TINY_STEP: Message = Message {
+    code: "W0201",
+    title: "an element with a far shorter stable step than the others of its part",
+    example: Example::Model(
+        "[run]\nend = \"1e-12 s\"\n\n[[part]]\nname = \"spike\"\nmaterial = \"steel\"\nvelocity = [\"10 m/s\", 0]\n\
+         polygon = { outline = [[\"40 mm\", 0], [\"50 mm\", 0], [\"45 mm\", \"1 nm\"], [\"40 mm\", \"10 mm\"]], size = \"2 mm\" }\n\n\
+         [[contact]]\nname = \"self\"\nbodies = \"all\"\n",
+    ),
+    cause: "All elements wait for the one with the shortest stable step, which goes with its smallest height: a corner or a node just beside an edge makes a sliver. Told from a factor of 1000 on.",
+    cure: "Mend the outline or the mesh at the place that the message names; or make such elements heavier with `run.mass_scaling`.",
 };

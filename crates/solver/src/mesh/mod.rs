@@ -22,6 +22,27 @@ use shapes::sweep::SweptMesh;
 use std::collections::BTreeMap;
 use surface::{Corners, Facet, Surface};
 
+/// Places of a model that are nearer to each other than this fraction of its extent are the same, and this one of its farthest coordinate: so much they round.
+const SAME_PLACE: f64 = 1e-9;
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// Distance below which places of a model are the same, m: wherever it is.
+#[must_use]
+pub fn tolerance<const D: usize>(positions: &[[f64; D]]) -> f64 {
+    let farthest = positions.iter().flatten().fold(0.0f64, |size, x| size.max(x.abs()));
+    SAME_PLACE * extent(positions) + ROUNDING * farthest
+}
+
+/// Longest side of the box around places, m.
+#[must_use]
+pub fn extent<const D: usize>(positions: &[[f64; D]]) -> f64 {
+    let along = |d: usize| {
+        let all = || positions.iter().map(move |x| x[d]).filter(|x| x.is_finite());
+        (all().fold(f64::NEG_INFINITY, f64::max) - all().fold(f64::INFINITY, f64::min)).max(0.0)
+    };
+    (0..D).map(along).fold(0.0, f64::max)
+}
+
 /// A part: its nodes. Its elements are in one or more [`ElementGroup`]s.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PartMesh {

@@ -137,7 +137,7 @@ pub struct Join {
     pub between: [String; 2],
     /// How the second set comes from the first.
     pub image: Image,
-    /// Distance within which nodes are partners, m; `None`: 1e-6 of the model's size.
+    /// Distance within which nodes are partners, m; `None`: 1e-6 of the model's extent.
     pub tolerance: Option<f64>,
 }
 

@@ -134,7 +134,7 @@ where
                 (None, None) => self.fastest_node().map_or(Suspect::default(), |node| self.suspect_node(node)),
             },
             Error::TooDeep { .. } => {
-                let contact = self.contacts.iter().position(|contact| contact.penetration > self.limits.penetration);
+                let contact = self.contacts.iter().position(|contact| self.is_too_deep(contact));
                 let deepest = contact.and_then(|contact| self.deepest(&self.contacts[contact]));
                 deepest.map_or(Suspect::default(), |(node, _)| Suspect { contact, ..self.suspect_node(node) })
             }

@@ -3,6 +3,7 @@
 use super::clock::Clock;
 use super::course::Course;
 use super::memory::Memory;
+use super::tiny;
 use super::{Control, Observer, ObserverError, Options, Overview, PartOverview, Progress, Shortest, State};
 use crate::build;
 use crate::contact::initial::{self, Inside, Penetration};
@@ -103,6 +104,7 @@ where
             system,
         };
         within_pool(simulation.pool.as_ref(), &mut simulation.system, System::start)?;
+        simulation.model_warnings.extend(tiny::warnings(&simulation.system));
         simulation.momentum = Momentum::new(&simulation.system);
         simulation.shortest.note(&simulation.system);
         simulation.check_obstacles(model)?;
@@ -131,7 +133,7 @@ where
     /// Nodes behind an obstacle at the start are faults.
     fn check_obstacles(&self, model: &Model) -> Result<(), Error> {
         let system = &self.system;
-        let tolerance = initial::TOLERANCE * initial::size(&system.positions);
+        let tolerance = crate::mesh::tolerance(&system.positions);
         let mut faults = Vec::new();
         for contact in &system.contacts {
             let Some(index) = model.obstacles.iter().position(|it| contact.kind != ContactKind::Contact && it.name == contact.name) else {

@@ -63,11 +63,13 @@ where
         }
         let unverified = self.certificate().unverified;
         if unverified > 0 {
-            let who = if D == 3 { "a node or an edge went into a body, or was let go in it," } else { "a node was inside a body" };
-            tell(
-                &MISSED,
-                format!("{unverified} time(s) {who} without being in contact with it: a contact was missed, or a body went through itself"),
-            );
+            let who = if D == 3 { "a node or an edge went into a body, or bodies overlapped," } else { "a node was inside a body" };
+            let mut text =
+                format!("{unverified} time(s) {who} without being held apart: a contact was missed, or a body went through itself");
+            for contact in &self.system.contacts {
+                text.extend(contact.overlaps().into_iter().flat_map(|found| self.system.overlaps_in_words(&contact.name, found)));
+            }
+            tell(&MISSED, text);
         }
         for contact in self.system.contacts.iter().filter(|contact| self.system.step > 0 && !contact.has_pressed) {
             tell(&NO_FORCE, format!("{} \"{}\" transmitted nothing in the whole run", contact.kind.name(), contact.name));

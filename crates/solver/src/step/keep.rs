@@ -59,7 +59,7 @@ where
             boundary: _, joins: _, level: _, team: _, of_revolution: _, slots: _, sums: _, groups: _, of_bodies: _, initial_penetrations: _,
             mass_added: _, blocks: _, contacts: _, traces: _, positions: _, positions_old: _, velocities: _, velocities_old: _, contact_forces: _,
             springs: _, erosion: _,
-            limits: Limits { end, safety: _, energy: _, step: _, largest: _, velocity: _, penetration: _ },
+            limits: Limits { end, safety: _, energy: _, step: _, largest: _, velocity: _, penetration: _, is_local: _ },
             bodies, curves, forces, step, time, time_step_old, time_step, governor, reports, ledger, penetration_max, speed, travel, relaxation,
         } = self;
         keep_each!(archive; step, time, time_step_old, time_step, governor, penetration_max, speed, travel);

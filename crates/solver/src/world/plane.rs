@@ -22,11 +22,9 @@ impl World<2> for Dim<2> {
         (0..cell.len()).map(|c| [cell[(c + 1) % cell.len()], cell[c]]).collect()
     }
     fn flatness(segment: [u32; 2], cell: &[u32], positions: &[[f64; 2]]) -> f64 {
-        let x = |corner: usize| positions[cell[corner % cell.len()] as usize];
-        let area = 0.5 * (0..cell.len()).map(|c| cross_plane(x(c), x(c + 1))).sum::<f64>();
         let [b, a] = segment.map(|node| positions[node as usize]);
         let side = minus(b, a);
-        dot(side, side).sqrt() / area
+        dot(side, side).sqrt() / size(cell, positions)
     }
     fn tractions(traces: &Traces<2>, forces: &ContactForces<2>, positions: &[[f64; 2]]) -> Vec<[f64; 2]> {
         traces.tractions(forces, positions)

@@ -2,6 +2,7 @@
 
 use crate::bodies::*;
 use crate::edge_edge::{Block, DEPTH, HALF, WIDTH, meet};
+use crate::patches::material;
 use embate_solver::model::{ImportedMesh, Interface, Model, Partners};
 use std::sync::Arc;
 
@@ -34,6 +35,16 @@ fn of_nodes(interface: Interface) -> Model {
     Block { size: [WIDTH; 3], cells: [2; 3], axes: tilted, middle: [0.011, 0.007, 0.122] }.add_to(&mut model, "upper", [9.0, 5.0, -20.0]);
     Block { size: [0.3, 0.25, 0.1], cells: [5, 4, 2], axes, middle: [0.0; 3] }.add_to(&mut model, "lower", [0.0; 3]);
     meet(&mut model, true, interface);
+    model
+}
+
+/// The same of rubber, which folds: nodes lie in the bottoms of folds, where no facet is nearest.
+fn of_folds(interface: Interface) -> Model {
+    let mut model = of_nodes(interface);
+    let mut rubber = material("neo_hookean", 0.45);
+    rubber.parameters.insert("density".into(), 1e3);
+    rubber.parameters.insert("young".into(), 4e6);
+    model.materials.values_mut().for_each(|it| *it = rubber.clone());
     model
 }
 
@@ -100,9 +111,27 @@ fn turned(model: &Model, angle: f64) -> Model {
     model
 }
 
-/// Places at the start and at the end of each node, turned back by an angle, m; and the deepest penetration.
-fn motion(model: &Model, angle: f64) -> (Vec<[Vector; 2]>, f64) {
-    let back = |x: &Vector| rotated(AXIS, -angle, *x);
+/// Mirrored at x = 0.
+fn mirrored(model: &Model) -> Model {
+    let flip = |[x, y, z]: Vector| [-x, y, z];
+    let mut model = remade(model, |mesh| {
+        mesh.positions.iter_mut().for_each(|x| *x = flip(*x));
+        for cell in &mut mesh.groups[0].cells {
+            *cell = [4, 5, 6, 7, 0, 1, 2, 3].iter().map(|&k| cell[k]).collect();
+        }
+    });
+    model.parts.iter_mut().for_each(|part| part.velocity = flip(part.velocity));
+    model
+}
+
+const WAY: Vector = [1.3, -0.7, 2.1];
+
+fn moved(model: &Model) -> Model {
+    remade(model, |mesh| mesh.positions.iter_mut().for_each(|x| (0..3).for_each(|d| x[d] += WAY[d])))
+}
+
+/// Places at the start and at the end of each node, taken back to where the model was, m; and the deepest penetration.
+fn motion(model: &Model, back: impl Fn(&Vector) -> Vector) -> (Vec<[Vector; 2]>, f64) {
     let start = simulation(model).frame();
     let (simulation, history) = run(model);
     assert!(simulation.ledger().stores.friction > 0.0);
@@ -124,20 +153,23 @@ fn apart(one: &[[Vector; 2]], other: &[[Vector; 2]]) -> f64 {
 #[test]
 fn friction_of_nodes_and_edges_hangs_on_no_numbering_and_on_no_direction() {
     let mut worst = Vec::new();
-    for (name, of) in [("nodes", of_nodes as fn(Interface) -> Model), ("edges", of_edges)] {
+    for (name, of) in [("nodes", of_nodes as fn(Interface) -> Model), ("edges", of_edges), ("folds", of_folds)] {
         for coefficient in [0.05, 0.6] {
             let model = of(rough(coefficient));
-            let (straight, deepest) = motion(&model, 0.0);
+            let (straight, deepest) = motion(&model, |x| *x);
             assert!(deepest > 1e-4, "{name}: {deepest}");
-            let cases = [
-                ("corners", with_other_corners(&model), 0.0),
-                ("nodes", with_other_nodes(&model), 0.0),
-                ("elements", with_other_elements(&model), 0.0),
-                ("parts", with_other_parts(&model), 0.0),
-                ("turned", turned(&model, 0.7), 0.7),
+            type Back = fn(&Vector) -> Vector;
+            let cases: [(&str, Model, Back); 7] = [
+                ("corners", with_other_corners(&model), |x| *x),
+                ("nodes", with_other_nodes(&model), |x| *x),
+                ("elements", with_other_elements(&model), |x| *x),
+                ("parts", with_other_parts(&model), |x| *x),
+                ("turned", turned(&model, 0.7), |x| rotated(AXIS, -0.7, *x)),
+                ("mirrored", mirrored(&model), |&[x, y, z]| [-x, y, z]),
+                ("moved", moved(&model), |x| [0, 1, 2].map(|d| x[d] - WAY[d])),
             ];
-            for (case, other, angle) in cases {
-                let by = apart(&straight, &motion(&other, angle).0);
+            for (case, other, back) in cases {
+                let by = apart(&straight, &motion(&other, back).0);
                 println!("{name} {coefficient}: other {case}: {by:.1e} m");
                 worst.push((name, coefficient, case, by));
             }

@@ -155,3 +155,23 @@ fn a_part_that_nothing_can_reach_is_told() {
     shared.parts[0].velocity = [1.0, 0.0, 0.0];
     assert_eq!(told(&shared), []);
 }
+
+#[test]
+fn a_corner_beside_an_edge_is_told_with_its_element_and_the_steps_that_it_takes() {
+    for (height, is_told) in [(0.05, false), (1e-17, true)] {
+        let mut model = block(with("elastic", &[]), [3, 3]);
+        let outline = vec![[0.0, 0.0], [1.0, 0.0], [0.5, height], [0.0, 1.0]];
+        model.parts[0].shape = Shape::Polygon(Polygon { outline, size: 0.1, ..Polygon::default() });
+        let found = told(&model);
+        assert_eq!(found.len(), usize::from(is_told), "{height}: {found:?}");
+        assert!(
+            !is_told || found[0].0 == "part[0]" && found[0].1.contains("of part \"block\"") && found[0].1.contains("times shorter"),
+            "{found:?}"
+        );
+    }
+    // A grading is no fault of the mesh.
+    let mut model = block(with("elastic", &[]), [3, 3]);
+    model.parts[0].shape =
+        Shape::Rectangle(Rectangle { size: [1.0, 1.0], elements: [60, 3], grading: [200.0, 1.0], ..Rectangle::default() });
+    assert_eq!(told(&model), []);
+}

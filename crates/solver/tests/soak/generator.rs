@@ -3,7 +3,7 @@
 use embate_solver::bench::{self, Random};
 use embate_solver::block::stress_state::STRESS_STATES;
 use embate_solver::contact::search;
-use embate_solver::element::ELEMENTS;
+use embate_solver::element::{ELEMENTS, ElementKind};
 use embate_solver::failure;
 use embate_solver::material;
 use embate_solver::model::{
@@ -21,24 +21,24 @@ impl Dice {
     }
 
     /// Between two numbers.
-    fn number(&mut self, low: f64, high: f64) -> f64 {
+    pub(crate) fn number(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.0.unit()
     }
 
     /// Between two positive numbers, each order of magnitude as often.
-    fn order(&mut self, low: f64, high: f64) -> f64 {
+    pub(crate) fn order(&mut self, low: f64, high: f64) -> f64 {
         self.number(low.ln(), high.ln()).exp()
     }
 
-    fn whole(&mut self, low: usize, high: usize) -> usize {
+    pub(crate) fn whole(&mut self, low: usize, high: usize) -> usize {
         low + self.0.below(high - low + 1)
     }
 
-    fn chance(&mut self, of: f64) -> bool {
+    pub(crate) fn chance(&mut self, of: f64) -> bool {
         self.number(0.0, 1.0) < of
     }
 
-    fn choice<T: Clone>(&mut self, from: &[T]) -> T {
+    pub(crate) fn choice<T: Clone>(&mut self, from: &[T]) -> T {
         from[self.whole(0, from.len() - 1)].clone()
     }
 }
@@ -74,8 +74,8 @@ pub(crate) fn model(seed: u64) -> Model {
         let mut part = Part {
             material: name.clone(),
             name,
-            element: dice.choice(&elements(4)),
-            element_triangles: dice.choice(&elements(3)),
+            element: dice.choice(&elements_of(ELEMENTS, 4)),
+            element_triangles: dice.choice(&elements_of(ELEMENTS, 3)),
             stress_state: state.into(),
             shape: shape(dice, centre),
             velocity: embate_solver::model::in_space(towards.map(|x| x * speed)),
@@ -105,8 +105,9 @@ pub(crate) fn model(seed: u64) -> Model {
     model
 }
 
-fn elements(nodes: usize) -> Vec<String> {
-    ELEMENTS.iter().filter(|kind| kind.nodes == nodes).map(|kind| kind.name.to_string()).collect()
+/// Names of the elements with so many nodes.
+pub(crate) fn elements_of(kinds: &[ElementKind], nodes: usize) -> Vec<String> {
+    kinds.iter().filter(|kind| kind.nodes == nodes).map(|kind| kind.name.to_string()).collect()
 }
 
 fn shape(dice: &mut Dice, centre: [f64; 2]) -> Shape {
@@ -128,23 +129,11 @@ fn shape(dice: &mut Dice, centre: [f64; 2]) -> Shape {
     }
 }
 
-/// A material of any law, with all its stresses times `softness`.
-fn material_of(dice: &mut Dice, softness: f64) -> Material {
+/// A material of any law, with all its stresses times `softness`; it may fail.
+pub(crate) fn material_of(dice: &mut Dice, softness: f64) -> Material {
     // A fluid needs an equation of state besides.
     let laws: Vec<_> = material::registry().into_iter().filter(|kind| kind.name != "null").collect();
-    let kind = dice.choice(&laws);
-    let mut material = bench::material(kind.name);
-    let known = |name: &String| kind.parameters.iter().find(|parameter| parameter.name == name);
-    for (name, value) in &mut material.parameters {
-        if known(name).is_some_and(|parameter| parameter.dimension == Dimension::PRESSURE) {
-            *value *= softness;
-        }
-    }
-    for (name, list) in &mut material.lists {
-        if known(name).is_some_and(|parameter| parameter.dimension == Dimension::PRESSURE) {
-            list.iter_mut().for_each(|value| *value *= softness);
-        }
-    }
+    let mut material = softened(dice.choice(&laws).name, softness);
     if dice.chance(0.1) {
         let limit = dice.choice(failure::CRITERIA);
         material.failure.insert(limit.limit.name.into(), dice.order(0.01, 1.0));
@@ -152,7 +141,30 @@ fn material_of(dice: &mut Dice, softness: f64) -> Material {
     material
 }
 
-fn interface(dice: &mut Dice) -> Interface {
+/// A material of this law, with all its stresses times `softness`.
+pub(crate) fn softened(law: &str, softness: f64) -> Material {
+    let registry = material::registry();
+    let kind = registry.iter().find(|kind| kind.name == law);
+    let is_stress = |name: &String| {
+        let parameter = kind.and_then(|kind| kind.parameters.iter().find(|parameter| parameter.name == name));
+        parameter.is_some_and(|parameter| parameter.dimension == Dimension::PRESSURE)
+    };
+    let mut material = bench::material(law);
+    material.parameters.iter_mut().filter(|(name, _)| is_stress(name)).for_each(|(_, value)| *value *= softness);
+    material
+        .lists
+        .iter_mut()
+        .filter(|(name, _)| is_stress(name))
+        .for_each(|(_, list)| list.iter_mut().for_each(|value| *value *= softness));
+    material
+}
+
+/// A contact of all bodies with each other and themselves.
+pub(crate) fn contact_of_all(interface: Interface) -> Contact {
+    Contact { name: "all".into(), partners: Partners::Bodies(Vec::new()), interface, ..Contact::default() }
+}
+
+pub(crate) fn interface(dice: &mut Dice) -> Interface {
     let law = match dice.whole(0, 7) {
         0 => ContactLaw::Multiplier,
         1 => ContactLaw::Penalty(Penalty::Automatic { source: PenaltySource::TimeStep, scale: 1.0 }),
@@ -174,9 +186,9 @@ fn contacts(dice: &mut Dice, model: &mut Model, is_round: bool) {
     let searches: Vec<&str> = search::registry::<2>().iter().map(|kind| kind.name).collect();
     let names: Vec<String> = model.parts.iter().map(|part| part.name.clone()).collect();
     if names.len() < 2 || dice.chance(0.6) {
-        let (partners, interface) = (Partners::Bodies(Vec::new()), interface(dice));
+        let contact = contact_of_all(interface(dice));
         let search = if dice.chance(0.7) { String::new() } else { dice.choice(&searches).into() };
-        model.contacts.push(Contact { name: "all".into(), partners, interface, search, ..Contact::default() });
+        model.contacts.push(Contact { search, ..contact });
         return;
     }
     for (i, first) in names.iter().enumerate() {

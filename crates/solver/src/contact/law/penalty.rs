@@ -1,5 +1,8 @@
 //! Penalty: a spring that only pushes. F = k_n |G| where the gap G is negative, eq. (11) of the paper; energy ½ k_n G².
 //!
+//! Beyond the depth ℓ, an eighth of the local thickness of the thinner body, it stiffens: V = ½ k d² + k S (d − ℓ)³ / 6ℓ with d = −G and S = 100, twice continuously differentiable and convex.
+//! A linear spring as stiff as the elements lets a heavy body through a soft one; this one bears 50 times as much at a quarter of the thickness. In sound contact d stays below ℓ.
+//!
 //! Stiffness of a slave node: given (the paper's k_n), a pressure per depth times the node's tributary length, or automatic: the stiffness
 //! κ of the elements under the surface times the tributary length, the softer of both bodies; half of it in a double pass, where both passes act. What κ is:
 //!
@@ -8,7 +11,7 @@
 //! - `time_step`: α m / (dt² A) with the node's mass m, its tributary length A, the first step dt and α = 0.1: a spring with k = α m / dt², for bodies whose moduli differ by
 //!   orders, or say nothing (the "soft constraint" of explicit codes, LS-DYNA Theory Manual, chapter on contact). With m ~ ρ A h / 2 and dt ~ 0.9 h / c it is about 0.06 (K + 4µ/3) A / h.
 
-use super::{ContactLawKind, Law, Node};
+use super::{ContactLawKind, Law, Node, fixed_point};
 use crate::contact::springs::{Closing, Patch};
 use crate::model;
 use crate::quantity::{Dimension, Parameter, Range};
@@ -29,6 +32,11 @@ pub const KIND: ContactLawKind = ContactLawKind {
         Parameter::new("penalty_scale", "s", Dimension::NONE, Range::Positive, "factor on the automatic stiffness").or(1.0),
     ],
 };
+
+/// How much stiffer it is at twice the limit than below it.
+const STIFFENING: f64 = 100.0;
+/// Fraction of the local thickness beyond which it stiffens.
+pub const LIMIT: f64 = 0.125;
 
 /// Fraction α of m / dt² that `penalty_from = "time_step"` takes.
 const OF_TIME_STEP: f64 = 0.1;
@@ -69,23 +77,43 @@ pub struct Penalty;
 
 impl Law for Penalty {
     fn force(&self, closing: &Closing<'_>, _: [f64; 2]) -> f64 {
-        force(closing.spring.stiffness, closing.old, closing.free, closing.compliance)
+        let Closing { spring, old, free, compliance } = *closing;
+        let linear = force(spring.stiffness, old, free, compliance);
+        if old >= -spring.limit && free + compliance * linear >= -spring.limit {
+            return linear;
+        }
+        fixed_point(|force| self.mean_force(spring, old, free + compliance * force))
     }
     fn stored(&self, spring: &Patch, gap: f64) -> f64 {
-        0.5 * spring.stiffness * gap.min(0.0) * gap.min(0.0)
+        let beyond = beyond(spring, gap);
+        let more = if beyond > 0.0 { STIFFENING / 6.0 * spring.stiffness * beyond * beyond * (beyond / spring.limit) } else { 0.0 };
+        0.5 * spring.stiffness * gap.min(0.0) * gap.min(0.0) + more
     }
-    fn stiffness(&self, spring: &Patch, _: f64) -> f64 {
-        spring.stiffness
+    fn stiffness(&self, spring: &Patch, gap: f64) -> f64 {
+        let beyond = beyond(spring, gap);
+        if beyond > 0.0 { spring.stiffness * (1.0 + STIFFENING * (beyond / spring.limit)) } else { spring.stiffness }
     }
     fn mean_force(&self, spring: &Patch, old: f64, new: f64) -> f64 {
         // The square of the deeper gap counts as far as it is closed.
         let (deep, high) = (old.min(new), old.max(new));
-        match (deep < 0.0, high < 0.0) {
+        let linear = match (deep < 0.0, high < 0.0) {
             (false, _) => 0.0,
             (true, true) => -0.5 * spring.stiffness * (old + new),
             (true, false) => 0.5 * spring.stiffness * deep * (deep / (high - deep)),
+        };
+        let (most, least) = (beyond(spring, deep), beyond(spring, high));
+        if most == 0.0 {
+            return linear;
         }
+        // The difference of cubes by the way, which is that of the depths as far as both are beyond.
+        let mean = if least > 0.0 { most * most + most * least + least * least } else { most * most * (most / (high - deep)) };
+        linear + STIFFENING / 6.0 * spring.stiffness * (mean / spring.limit)
     }
+}
+
+/// How far a gap is deeper than the limit, m.
+fn beyond(spring: &Patch, gap: f64) -> f64 {
+    (-gap - spring.limit).max(0.0)
 }
 
 /// The force F ≥ 0 with F (g₊ − g₋) = V(g₋) − V(g₊) and g₊ = `free` + `compliance` F; `old` is g₋.

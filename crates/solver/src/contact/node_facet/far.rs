@@ -36,7 +36,7 @@ impl Candidates<'_> {
         self.facets.iter().zip(&*self.clear).filter(move |(_, clear)| !is_far(**clear)).map(|(facet, _)| *facet)
     }
 
-    /// What is nearest to x among the facets that count, of equals that with the lowest number; `likely` is asked first.
+    /// What is nearest to x among the facets that count, see [`Placed::is_nearer`]; `likely` is asked first.
     pub(super) fn nearest(&mut self, placed: &Placed<'_>, x: Vector, likely: u32, counts: impl Fn(u32) -> bool) -> Option<Found> {
         let first = self.facets.iter().position(|&facet| facet == likely).unwrap_or(0);
         let mut best: Option<Found> = None;
@@ -48,9 +48,9 @@ impl Candidates<'_> {
             }
             let Some((found, triangle)) = placed.nearest(x, facet) else { continue };
             self.clear[k] = sleep::wake_at(found.square.sqrt(), self.travel);
-            let wins = |(best, of, _): Found| found.square < best.square || (found.square == best.square && facet < of);
-            if best.is_none_or(wins) {
-                best = Some((found, facet, triangle));
+            let found = (found, facet, triangle);
+            if best.is_none_or(|best| placed.is_nearer(x, &found, &best)) {
+                best = Some(found);
             }
         }
         best
@@ -107,8 +107,9 @@ mod tests {
                 true
             };
             let found = candidates.nearest(&placed, x, 5, counts).map(|(nearest, facet, k)| (nearest.square, facet, k));
-            let all = facets.iter().filter_map(|&facet| placed.nearest(x, facet).map(|(nearest, k)| (nearest.square, facet, k)));
-            assert_eq!(found, all.reduce(|a, b| if b.0 < a.0 { b } else { a }));
+            let all = facets.iter().filter_map(|&facet| placed.nearest(x, facet).map(|(nearest, k)| (nearest, facet, k)));
+            let best = all.reduce(|a, b| if placed.is_nearer(x, &b, &a) { b } else { a });
+            assert_eq!(found, best.map(|(nearest, facet, k)| (nearest.square, facet, k)));
             skipped += facets.len() - measured.get();
             let bound = candidates.bound(&placed, x, 1.0 + 2.0 * travel);
             for &facet in &facets {

@@ -11,6 +11,7 @@ use crate::contact::traces::Traces;
 use crate::contact::{Contact, ContactKind, Sweep};
 use crate::mesh::surface::{SpaceSurface, Surface};
 use crate::rigid::Bodies;
+use crate::tensor::cross;
 
 /// Nodes with masses (infinite: held) and springs between them, and a contact.
 struct World {
@@ -362,6 +363,7 @@ fn two_blocks_with_like_meshes_that_are_pressed_carry_the_pressure_of_their_dept
         per_modulus: areas(&surfaces[side]).iter().map(|area| 0.5 * area).collect(),
         // The lower one is softer.
         moduli: vec![if side == 0 { 0.5 * modulus } else { modulus }; surfaces[1 - side].facets.len()],
+        ..PassInput::default()
     });
     let inputs = inputs.collect();
     let tracker = Tracker::new(surfaces.clone(), BOTH, &of, (search::registry::<3>()[0].make)(), &positions);
@@ -371,9 +373,9 @@ fn two_blocks_with_like_meshes_that_are_pressed_carry_the_pressure_of_their_dept
     formulation.detect(&Scene { sweep: Sweep::between(&positions, &positions), bodies: &bodies, time: 0.0 }, &mut springs);
     let closed: Vec<_> = springs.list.iter().filter(|spring| spring.gap < -1e-4).collect();
     assert_eq!(closed.len(), 18);
-    let force: Vector = closed
-        .iter()
-        .fold([0.0; 3], |sum, spring| [0, 1, 2].map(|d| sum[d] - spring.side * spring.stiffness * spring.gap * spring.normal[d]));
+    let force: Vector = closed.iter().fold([0.0; 3], |sum, spring| {
+        [0, 1, 2].map(|d| sum[d] - f64::from(spring.side) * spring.stiffness * spring.gap * spring.normal[d])
+    });
     // Upper nodes feel half the softer modulus, lower ones half of theirs: the first meet the lower one.
     let expected = (0.25 + 0.5) * modulus * 1e-3;
     assert!((force[2] / expected - 1.0).abs() < 1e-10 && force[0].abs() + force[1].abs() < 1e-9, "{force:?} {expected}");

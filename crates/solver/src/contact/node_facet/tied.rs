@@ -28,7 +28,7 @@ pub struct TiedFacet {
     strength: f64,
     /// Which terms ties follow.
     terms: usize,
-    side: f64,
+    side: f32,
     /// Ordinary contact, and which of its slave nodes are bound.
     loose: NodeFacet,
     bound: Vec<bool>,

@@ -50,8 +50,10 @@ const SLACK: f64 = 1.001;
 pub struct Memory {
     /// Elastic slip at n + ½ as a vector, m.
     pub slip: Vector,
-    /// Facet with which it turns, or [`NONE`].
+    /// Facet on which it was, or [`NONE`], and the edge or node, see `Placed::rests_on`.
     pub facet: u32,
+    /// See `facet`.
+    pub rest: [u32; 2],
     /// Gap that counts as zero, m.
     pub offset: f64,
     /// Where the spring's gap was at n − ½, m.
@@ -71,11 +73,22 @@ pub struct Memory {
 impl Default for Memory {
     fn default() -> Self {
         let none = [0.0; 3];
-        Self { slip: none, facet: NONE, offset: 0.0, half: 0.0, normal: none, carried: 0.0, stored: 0.0, side: none, is_led: false }
+        Self {
+            slip: none,
+            facet: NONE,
+            rest: [NONE; 2],
+            offset: 0.0,
+            half: 0.0,
+            normal: none,
+            carried: 0.0,
+            stored: 0.0,
+            side: none,
+            is_led: false,
+        }
     }
 }
 
-keep_all!(Memory { slip, facet, offset, half, normal, carried, stored, side, is_led });
+keep_all!(Memory { slip, facet, rest, offset, half, normal, carried, stored, side, is_led });
 
 /// A slave node and a body of the target.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -232,9 +245,9 @@ impl Tracker {
 
     /// Whether the slaves of a pass are the first surface (1), the second (−1), or both in one (0).
     #[must_use]
-    pub fn side(&self, pass: u32) -> f64 {
+    pub fn side(&self, pass: u32) -> f32 {
         let Pass { slave, target, .. } = self.passes[pass as usize];
-        if slave == target { 0.0 } else { 1.0 - 2.0 * slave as f64 }
+        if slave == target { 0.0 } else { 1.0 - 2.0 * slave as f32 }
     }
 
     /// What the search cost so far.
@@ -255,13 +268,16 @@ impl Tracker {
         [START * self.skin, LOOK_AHEAD]
     }
 
-    /// Fills a list with the nodes whose springs were closed (gap below `open`, m) after the last step: slave surface, node, and facet, ascending.
+    /// Fills a list with the nodes whose springs were closed (gap below `open`, m) after the last step: slave surface, node, and each facet on which it lay, ascending.
     pub fn note_closed(&self, open: f64, closed: &mut Vec<(usize, u32, u32)>) {
         closed.clear();
         for pass in &self.passes {
             // A node that edges stand for touches without a spring.
             let is_closed = |group: &&Group| group.touches && group.memory.normal != [0.0; 3] && group.memory.half < open;
-            closed.extend(pass.groups.iter().filter(is_closed).map(|group| (pass.slave, group.node, group.memory.facet)));
+            let target = &self.surfaces[pass.target];
+            for Group { node, memory: Memory { facet, rest, .. }, .. } in pass.groups.iter().filter(is_closed) {
+                closed.extend(target.sharing(*facet, *rest).map(|facet| (pass.slave, *node, facet)));
+            }
         }
         closed.sort_unstable();
     }
@@ -519,12 +535,13 @@ impl Tracker {
             keep_each!(archive; &mut pass.groups, &mut pass.candidates, &mut pass.clear, &mut pass.wakes, &mut pass.band);
             let (groups, candidates) = (pass.groups.len(), pass.candidates.len());
             archive.check(pass.wakes.len() == groups && pass.clear.len() == candidates, "a contact knows distances of others")?;
-            let (slaves, facets) = (&self.surfaces[pass.slave].nodes, pass.bodies.len());
+            let (slaves, target, facets) = (&self.surfaces[pass.slave].nodes, &self.surfaces[pass.target].nodes, pass.bodies.len());
             let is_known = |group: &Group| {
                 slaves.get(group.slave as usize) == Some(&group.node)
                     && group.begin <= group.end
                     && group.end as usize <= pass.candidates.len()
                     && (group.memory.facet == NONE || (group.memory.facet as usize) < facets)
+                    && group.memory.rest.iter().all(|&node| node == NONE || target.binary_search(&node).is_ok())
             };
             let are_there = pass.candidates.iter().all(|&facet| (facet as usize) < facets);
             archive.check(are_there && pass.groups.iter().all(is_known), "a contact follows nodes or facets that are not there")?;
@@ -539,7 +556,7 @@ impl Tracker {
             let slaves = &self.surfaces[pass.slave].nodes;
             let known = before.groups.iter().filter(|group| group.touches).filter_map(|group| {
                 let slave = slaves.binary_search(&group.node).ok()? as u32;
-                let memory = Memory { facet: NONE, ..group.memory };
+                let memory = Memory { facet: NONE, rest: [NONE; 2], ..group.memory };
                 Some(Group { slave, begin: 0, end: 0, memory, ..*group })
             });
             pass.groups = known.collect();

@@ -18,7 +18,7 @@ use crate::motion::Motion;
 use crate::output::Outline;
 use crate::rigid::Bodies;
 use crate::tensor::Dim;
-use crate::vector::plus;
+use crate::vector::{bound_of, plus};
 use std::any::Any;
 
 /// Shape of an obstacle in the frame of its body.
@@ -196,7 +196,7 @@ impl Formulation for NodeObstacle {
                 continue;
             }
             // Well before it touches: a spring that closes unseen would give back what it never took.
-            if gap <= self.reach + 4.0 * (moved[0].abs() + moved[1].abs()) {
+            if gap <= self.reach + 4.0 * bound_of(moved) {
                 let Slave { stiffness, area, slip } = slave;
                 let ends = [End::node(node, 1.0), End { at, share: -1.0, point: x, ..End::default() }];
                 springs.push(

@@ -104,6 +104,15 @@ pub(in crate::contact) fn unit(v: Vector) -> Vector {
 const ROUNDING: f64 = 1e-12;
 /// Beyond the border of a surface that ends there a point counts by this fraction of a facet's size.
 const BORDER: f64 = 1e-6;
+/// Points of a surface that are nearer to each other than this fraction of a facet's size are one point, and a corner with a smaller share has none: rounding must not decide.
+const TIE: f64 = 1e-9;
+/// Squares of distances to one point differ by less than this fraction.
+const SAME_SQUARE: f64 = 1e-6;
+
+/// Square of the distance of a place from a triangle, m².
+pub(in crate::contact) fn square_to_triangle(x: Vector, triangle: [Vector; 3]) -> f64 {
+    nearest_of_triangle(x, triangle).square
+}
 
 /// Nearest point of the triangle a, b, c to x (Ericson 2005); weights that are zero are so exactly.
 fn nearest_of_triangle(x: Vector, [a, b, c]: [Vector; 3]) -> Nearest {
@@ -231,12 +240,15 @@ impl Placed<'_> {
         self.nearest(x, facet).map(|(nearest, triangle)| (nearest.square.sqrt(), triangle))
     }
 
-    /// Length by which what is small on a facet is measured, m.
+    /// Length by which what is small on a facet is measured, m: the root of the sum of the squares of the diagonals, of three nodes that of two edges in the mean, whichever comes first.
     #[must_use]
     pub fn size(&self, facet: u32) -> f64 {
-        let ([a, b, c, d], _) = self.corners(facet);
-        let (p, q) = (minus(c, a), minus(d, b));
-        (dot(p, p) + dot(q, q)).sqrt()
+        let ([a, b, c, d], count) = self.corners(facet);
+        let square = |p: Vector, q: Vector| dot(minus(q, p), minus(q, p));
+        if count == 3 {
+            return ((square(a, b) + square(b, c) + square(c, a)) * (2.0 / 3.0)).sqrt();
+        }
+        (square(a, c) + square(b, d)).sqrt()
     }
 
     /// What of a facet is nearest to x, m; nothing is said of inside or outside. `None` where that is no number.
@@ -246,11 +258,44 @@ impl Placed<'_> {
         let mut best: Option<(Nearest, usize)> = None;
         for k in 0..triangles {
             let found = nearest_of_triangle(x, [corners[k], corners[(k + 1) % 4], last]);
-            if found.square.is_finite() && best.is_none_or(|(best, _)| found.square < best.square) {
+            if found.square.is_finite() && best.is_none_or(|(best, of)| self.is_nearer(x, &(found, facet, k), &(best, facet, of))) {
                 best = Some((found, k));
             }
         }
         best
+    }
+
+    /// The ends of the edge on which the foot of a projection lies, or the node at which it lies and [`NONE`]; twice [`NONE`] over a facet, or beyond a rim. The same whichever of the facets
+    /// there the projection names.
+    pub(in crate::contact) fn rests_on(&self, Projection { facet, weights, .. }: &Projection) -> [u32; 2] {
+        let corners = self.surface.facets[*facet as usize];
+        let corners = corners.corners();
+        let mut with = (0..corners.len()).filter(|&k| weights[k] > TIE);
+        match (with.next(), with.next(), with.next()) {
+            _ if weights.iter().any(|&weight| weight < -TIE) => [NONE; 2],
+            (Some(node), None, _) => [corners[node], NONE],
+            (Some(a), Some(b), None) => [corners[a], corners[b]],
+            _ => [NONE; 2],
+        }
+    }
+
+    /// Whether one of two places on a surface is nearer to x than the other. Of one point of the surface that facet counts, and that triangle of it, in front of or behind which x is
+    /// farthest: which comes first says nothing.
+    pub(in crate::contact) fn is_nearer(&self, x: Vector, one: &Found, other: &Found) -> bool {
+        let ((a, _, _), (b, _, _)) = (one, other);
+        if (a.square - b.square).abs() <= SAME_SQUARE * a.square.max(b.square) {
+            let apart = minus(a.foot, b.foot);
+            let least = TIE * self.size(one.1);
+            if dot(apart, apart) <= least * least {
+                let height = |(nearest, facet, k): &Found| dot(minus(x, nearest.foot), self.normal(*facet, *k)).abs();
+                let heights = [height(one), height(other)];
+                // What is symmetric has none that is farther: there the first stays, step by step.
+                if (heights[0] - heights[1]).abs() > TIE * heights[0].max(heights[1]) {
+                    return heights[0] > heights[1];
+                }
+            }
+        }
+        a.square < b.square || (a.square == b.square && one.1 < other.1)
     }
 
     /// Distance of a point from a facet, m.
@@ -375,20 +420,21 @@ impl Placed<'_> {
         dot(minus(x, at), normal) >= -BORDER * size
     }
 
-    /// What of some facets is nearest, of the first of those that are equally near, and its triangle.
+    /// What of some facets is nearest, and its triangle; see [`Placed::is_nearer`].
     pub(in crate::contact) fn nearest_of(&self, x: Vector, facets: impl IntoIterator<Item = u32>) -> Option<Found> {
         let mut best: Option<Found> = None;
         for facet in facets {
-            if let Some((found, k)) = self.nearest(x, facet)
-                && best.is_none_or(|(best, ..)| found.square < best.square)
-            {
-                best = Some((found, facet, k));
+            if let Some((nearest, k)) = self.nearest(x, facet) {
+                let found = (nearest, facet, k);
+                if best.is_none_or(|best| self.is_nearer(x, &found, &best)) {
+                    best = Some(found);
+                }
             }
         }
         best
     }
 
-    /// Where x lies by the nearest of some facets: the first of those that are equally near. `None` where there is none, or the surface ends before x comes over it.
+    /// Where x lies by the nearest of some facets. `None` where there is none, or the surface ends before x comes over it.
     #[must_use]
     pub fn project(&self, x: Vector, facets: impl IntoIterator<Item = u32>) -> Option<Projection> {
         self.seen(x, self.nearest_of(x, facets)?)

@@ -109,7 +109,7 @@ where
         for end in self.ends() {
             let force = tangents.as_ref().map_or_else(|| end.push(spring, solved), |tangents| end.drag(spring, tangents, solved));
             if end.share > 0.0 {
-                totals.resultant.iter_mut().zip(force).for_each(|(sum, force)| *sum += spring.side * force);
+                totals.resultant.iter_mut().zip(force).for_each(|(sum, force)| *sum += f64::from(spring.side) * force);
             }
             if !forces.push(end.at, force) {
                 bodies.push_at(end.at as usize - forces.nodes(), force, end.point);

@@ -59,8 +59,10 @@ where
     pub stiffness: f64,
     /// Length of surface that it stands for, m.
     pub area: f64,
+    /// Depth beyond which it stiffens, m: a fraction of the local thickness; infinite: never.
+    pub limit: f32,
     /// 1 where the ends with positive shares belong to the first surface, −1 where to the second, 0 in a contact of bodies with themselves.
-    pub side: f64,
+    pub side: f32,
     /// Friction: elastic slip at n − ½ (memory of the contact), m. Tie: slip at n, m.
     pub slip: Along<D>,
     /// In space the first of the tangents along which the slip is; zero: any.
@@ -75,12 +77,13 @@ where
 {
     fn default() -> Self {
         let (slip, tangent) = Default::default();
-        Self { normal: [0.0; D], gap: 0.0, stiffness: 0.0, area: 0.0, side: 0.0, slip, tangent, first: 0, count: 0 }
+        let limit = f32::INFINITY;
+        Self { normal: [0.0; D], gap: 0.0, stiffness: 0.0, area: 0.0, limit, side: 0.0, slip, tangent, first: 0, count: 0 }
     }
 }
 
 /// What a spring stands for, as laws of the normal force see it.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Patch {
     /// g^n, m.
     pub gap: f64,
@@ -88,6 +91,14 @@ pub struct Patch {
     pub stiffness: f64,
     /// Area of surface, m (in space m²).
     pub area: f64,
+    /// Depth beyond which it stiffens, m.
+    pub limit: f64,
+}
+
+impl Default for Patch {
+    fn default() -> Self {
+        Self { gap: 0.0, stiffness: 0.0, area: 0.0, limit: f64::INFINITY }
+    }
 }
 
 impl<const D: usize> Spring<D>
@@ -98,7 +109,7 @@ where
     #[must_use]
     #[inline]
     pub fn patch(&self) -> Patch {
-        Patch { gap: self.gap, stiffness: self.stiffness, area: self.area }
+        Patch { gap: self.gap, stiffness: self.stiffness, area: self.area, limit: f64::from(self.limit) }
     }
 
     /// The directions along the surface.
@@ -394,6 +405,13 @@ where
         let first = self.ends.len();
         ends.iter().for_each(|end| self.ends.push(end));
         self.list.push(Spring { first, count: ends.len() as u32, ..spring });
+    }
+
+    /// The same with the ends one by one.
+    pub fn push_with<'a>(&mut self, spring: Spring<D>, ends: impl Iterator<Item = &'a End<D>>) {
+        let first = self.ends.len();
+        ends.for_each(|end| self.ends.push(end));
+        self.list.push(Spring { first, count: self.ends.len() - first, ..spring });
     }
 
     /// Adds a spring between nodes that have shares in its gap, and whose slip counts for nothing.

@@ -11,6 +11,7 @@ use super::sleep::{awake, wake_at};
 use super::steady::Stays;
 use super::{Certificate, Found, Memory, Touch};
 use crate::mesh::surface::NONE;
+use crate::vector::{bound_of, minus};
 use embate_lanes::{BATCH, Level};
 
 /// A node nearer than this fraction of the skin is on the surface, as far as rounding lets one tell.
@@ -259,10 +260,7 @@ impl<'a> View<'a> {
             [b[0] - a[0], b[1] - a[1]]
         };
         let own = way(node);
-        let against = |end: u32| {
-            let [x, y] = way(end);
-            (own[0] - x).abs() + (own[1] - y).abs()
-        };
+        let against = |end: u32| bound_of(minus(own, way(end)));
         let [a, b] = self.target.surface.segments[segment as usize];
         against(a).max(against(b))
     }

@@ -151,9 +151,9 @@ impl Tracker {
 
     /// Whether the slaves of a pass are the first surface (1), the second (−1), or both in one (0).
     #[must_use]
-    pub fn side(&self, pass: u32) -> f64 {
+    pub fn side(&self, pass: u32) -> f32 {
         let Pass { slave, target, .. } = self.passes[pass as usize];
-        if slave == target { 0.0 } else { 1.0 - 2.0 * slave as f64 }
+        if slave == target { 0.0 } else { 1.0 - 2.0 * slave as f32 }
     }
 
     /// What was checked so far, and whether something was missed.

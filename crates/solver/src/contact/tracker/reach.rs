@@ -5,6 +5,7 @@ use super::super::search::{Pair, Search};
 use super::super::{Sweep, length};
 use super::certificate::SearchReport;
 use crate::archive::{Archive, Keep, Kept, keep_each};
+use crate::vector::{bound_of, minus};
 
 /// Skin as a fraction of the mean segment length: how far bodies may move before the next global search.
 pub const SKIN: f64 = 0.25;
@@ -101,6 +102,5 @@ impl Reach {
 
 /// Bound of how far a node moves in the step, m.
 fn way(node: u32, sweep: Sweep<'_>) -> f64 {
-    let (a, b) = (sweep.old[node as usize], sweep.new[node as usize]);
-    (b[0] - a[0]).abs() + (b[1] - a[1]).abs()
+    bound_of(minus(sweep.new[node as usize], sweep.old[node as usize]))
 }

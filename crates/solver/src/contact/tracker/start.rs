@@ -5,6 +5,7 @@
 
 use super::super::projection::node_segment::{Projection, Target, Vector};
 use super::group::{Group, Pass};
+use crate::vector::{cross, minus};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Segments sorted into rows by y.
@@ -105,11 +106,14 @@ impl Pass {
     /// Bodies that their surface, with the segments on symmetry lines, goes around: as many segments begin as end at each node, and the area on their right is not that of a void.
     fn enclosed(&self, target: &Target, positions: &[Vector]) -> BTreeSet<u32> {
         let segments = target.surface.segments.iter().copied().zip(self.segment_bodies.iter().copied());
+        // Seen from one of their nodes: far from the origin no digits are lost, and what a chain encloses is the same from anywhere.
         let mut areas: BTreeMap<u32, f64> = BTreeMap::new();
+        let mut seen_from: BTreeMap<u32, Vector> = BTreeMap::new();
         let mut ends = Vec::new();
         for ([a, b], body) in segments.chain(self.lids.iter().copied()) {
-            let [[ax, ay], [bx, by]] = [a, b].map(|node| positions[node as usize]);
-            *areas.entry(body).or_insert(0.0) += ay * bx - ax * by;
+            let from = *seen_from.entry(body).or_insert(positions[a as usize]);
+            let [p, q] = [a, b].map(|node| minus(positions[node as usize], from));
+            *areas.entry(body).or_insert(0.0) -= cross(p, q);
             ends.extend([(body, a, 1), (body, b, -1)]);
         }
         ends.sort_unstable();
@@ -149,7 +153,8 @@ impl Rows {
         let heights: f64 = segments.clone().map(|(segment, ..)| ends(segment)).map(|[a, b]| (a[1] - b[1]).abs()).sum();
         let rows = (height * f64::from(count) / heights).clamp(1.0, f64::from(count).max(1.0));
         let inverse = if height > 0.0 { rows / height } else { 0.0 };
-        let rounding = 1e-9 * low.abs().max(high.abs());
+        // A fraction of what there is, and what coordinates so large round to.
+        let rounding = 1e-9 * height + 4.0 * f64::EPSILON * low.abs().max(high.abs());
         let mut rows = Self { low, inverse, entries: Vec::new(), lines: Vec::new(), rounding, begin: Vec::new() };
         for (segment, body, is_lid) in segments {
             let [a, b] = ends(segment);

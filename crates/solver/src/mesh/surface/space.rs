@@ -165,6 +165,13 @@ impl SpaceSurface {
         self.nodes.binary_search(&node).map_or(&[], |rank| self.around(rank))
     }
 
+    /// The facets that have both nodes, or with [`NONE`] as the second those that have the first, ascending; with twice [`NONE`] `facet` alone.
+    pub fn sharing(&self, facet: u32, [a, b]: [u32; 2]) -> impl Iterator<Item = u32> + Clone + use<'_> {
+        let around = if a == NONE { &[] } else { self.facets_at(a) };
+        let has = move |&other: &u32| b == NONE || self.facets[other as usize].contains(&b);
+        (a == NONE).then_some(facet).into_iter().chain(around.iter().copied().filter(has))
+    }
+
     /// The facet on the other side of the edge from corner `k` of a facet to the next one, or [`NONE`].
     #[must_use]
     pub fn across(&self, facet: u32, k: usize) -> u32 {

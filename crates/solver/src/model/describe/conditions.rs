@@ -188,7 +188,7 @@ pub(super) static JOIN: Section = Section {
         key(
             "tolerance",
             Quantity(Dimension::LENGTH, Positive),
-            Optional("1e-6 of the model's size"),
+            Optional("1e-6 of the model's extent"),
             "Distance within which nodes are partners.",
         ),
     ],

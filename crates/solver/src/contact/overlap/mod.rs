@@ -1,0 +1,480 @@
+//! Where bodies overlap in space, how deep, and whether something pushes them apart there: a judge of contact that shares no reasoning with the search, the trackers and the springs.
+//!
+//! It looks at the bodies as they are, not at pairs and their histories. `piercing` finds which edges pierce which triangles by exact predicates, `regions` closes the contours and finds what
+//! lies inside, the area vector N and the volume V; `thickness` gives the local thickness of the bodies. A region is *held* if
+//!
+//! 1. no sampled place in it (vertices, middles of the parts of edges that are inside) is deeper than a fifth of the local thickness τ, the lesser of both bodies';
+//! 2. its area vector has not turned by more than a right angle against the one with which it began, turned with the bodies since;
+//! 3. the forces of the springs at its nodes work against its volume, −Σ f·∂V/∂x > 0, or the volume falls, or it is shallower than τ/50.
+//!
+//! Else it counts as `unverified`. Depth is the distance to the other body's surface; once that exceeds 0.15 τ, to the side of entry: facets that look against the area vector of the region.
+//! The bodies are looked at before anything can have gone farther than an eighth of the least thickness (both bodies' ways together, by the travel ∑ dt max |v|). So nothing gets through a body
+//! between two looks, and on its way through it is deeper than a fifth at one of them.
+//!
+//! A region that is deeper than τ/8, or not held, gets a spring on its volume (`net`): the net under the springs of nodes and edges.
+//!
+//! Not covered: surfaces without an opposite skin, overlaps between facets that share a node, and what lies between the samples.
+
+mod net;
+mod piercing;
+mod predicates;
+mod regions;
+mod skin;
+mod thickness;
+mod tree;
+
+pub use skin::Bodies;
+
+use super::Sweep;
+use super::projection::node_facet::{Vector, square_to_triangle, unit};
+use super::spin;
+use super::springs::Answers;
+use crate::archive::{Archive, Kept, keep_all, keep_each};
+use crate::mesh::surface::NONE;
+use crate::tensor::{cross, dot};
+use crate::vector::{length, minus};
+use piercing::Piercing;
+use regions::{Region, Work};
+use skin::Skin;
+use thickness::Thickness;
+use tree::Tree;
+
+/// Deepest that a held region may be, as a fraction of the local thickness: less than half of the half.
+const DEEPEST: f64 = 0.2;
+/// From this fraction on, depth is measured to the side of entry.
+const SIDED: f64 = 0.15;
+/// Nothing inside a body is farther from its surface than this fraction of the thickness there: half of it, but for wedges.
+const INSIDE: f64 = 1.0;
+/// Of so many places, the deepest ones.
+const SIDED_MOST: usize = 16;
+/// How well a facet of the side of entry looks against the area vector.
+const FACES: f64 = 0.2;
+/// Way of both sides together between two looks, as a fraction of the least thickness.
+const BETWEEN_LOOKS: f64 = 0.125;
+/// Most steps between two looks.
+const MOST_STEPS: u32 = 16;
+/// A region whose area vector is less than this fraction of its area has no direction: a pin in a hole.
+const DIRECTED: f64 = 0.3;
+/// Shallower than this fraction of the thickness a region may be without a force.
+const SHALLOW: f64 = 0.02;
+/// Depth from which on a region gets a net and counts as penetration, as a fraction of the local thickness.
+pub const CAST: f64 = 0.125;
+
+/// A place in an overlap.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Overlap {
+    /// Where, m.
+    pub place: Vector,
+    /// Depth there, m.
+    pub depth: f64,
+    /// Local thickness, the lesser of both bodies', m.
+    pub thickness: f64,
+    /// A node of either body there.
+    pub nodes: [u32; 2],
+    /// When, s.
+    pub time: f64,
+}
+
+keep_all!(Overlap { place, depth, thickness, nodes, time });
+
+impl Overlap {
+    /// Depth as a fraction of the local thickness.
+    #[must_use]
+    pub fn ratio(&self) -> f64 {
+        if self.depth > 0.0 { self.depth / self.thickness } else { 0.0 }
+    }
+}
+
+/// What a judge found so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Findings {
+    /// Regions that were not held, over all looks.
+    pub unverified: u64,
+    /// Looks.
+    pub looks: u64,
+    /// The first region that was not held.
+    pub first: Option<Overlap>,
+    /// What was deepest against the local thickness in all looks.
+    pub worst: Overlap,
+    /// The deepest place of the last look between different bodies.
+    pub now: Overlap,
+    /// The same of a body in itself.
+    pub own: Overlap,
+    /// Where a body was deeper in another one in the last look than either is thick.
+    pub through: Option<Overlap>,
+}
+
+keep_all!(Findings { unverified, looks, first, worst, now, own, through });
+
+/// What is known of a region from look to look.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Known {
+    /// Both bodies, ascending.
+    bodies: [u32; 2],
+    /// Area vector with which it began, turned with the bodies since, m²; zero: it has no direction.
+    began: Vector,
+    /// Area of the first side in the last look, and in the one before, m².
+    size: f64,
+    size_before: f64,
+    /// V now and in the look before, m³.
+    volume: f64,
+    before: f64,
+    /// Depth against the thickness in the last look.
+    ratio: f64,
+    /// Local thickness at the deepest place then, m.
+    thickness: f64,
+    /// Depth when contact began to act, where that counts as none, m.
+    offset: f64,
+    /// Whether the forces do not hold it.
+    is_loose: bool,
+    /// Of the net: its depth (negative: it is open), m, area over which it spreads, m² (zero: there is no net), and depth beyond which it stiffens, m.
+    depth: f64,
+    area: f64,
+    limit: f64,
+}
+
+keep_all!(Known { bodies, began, size, size_before, volume, before, ratio, thickness, offset, is_loose, depth, area, limit });
+
+/// The judge of one contact.
+pub struct Judge {
+    skin: Skin,
+    tree: Tree,
+    thickness: Thickness,
+    /// The least, and the largest of each body, at the start, m.
+    least: f64,
+    thickest: Vec<f64>,
+    /// Pressure stiffness κ at each node of the skin, Pa/m; zero where the contact has none.
+    moduli: Vec<f64>,
+    /// Whether overlaps at the start count as none.
+    ignores_start: bool,
+    work: Work,
+    piercings: Vec<Piercing>,
+    /// Regions of the last look, and what is known of them.
+    regions: Vec<Region>,
+    known: Vec<Known>,
+    /// Region of the last look in which each triangle was.
+    owner: Vec<u32>,
+    /// Places of the last look.
+    places: Vec<Vector>,
+    /// Travel at which it looks again, of the last look, m, and steps since.
+    next: f64,
+    looked_at: f64,
+    steps: u32,
+    /// Whether this step was looked at, so that its forces are to be weighed.
+    has_looked: bool,
+    findings: Findings,
+}
+
+impl Judge {
+    /// For the bodies of a contact at their initial `positions`, m.
+    #[must_use]
+    pub fn new(bodies: &Bodies<'_>, positions: &[Vector], ignores_start: bool) -> Self {
+        let mut skin = Skin::new(bodies);
+        skin.place(positions);
+        let mut tree = Tree::new(&skin);
+        tree.refit(&skin);
+        let thickness = Thickness::new(&skin, &tree);
+        let (least, thickest) = (thickness.least(&skin), thickness.thickest(&skin));
+        let (owner, moduli) = (vec![NONE; skin.triangles.len()], vec![0.0; skin.nodes.len()]);
+        Self {
+            skin,
+            tree,
+            thickness,
+            least,
+            thickest,
+            moduli,
+            ignores_start,
+            work: Work::default(),
+            piercings: Vec::new(),
+            regions: Vec::new(),
+            known: Vec::new(),
+            owner,
+            places: Vec::new(),
+            next: f64::NEG_INFINITY,
+            looked_at: f64::NEG_INFINITY,
+            steps: 0,
+            has_looked: false,
+            findings: Findings::default(),
+        }
+    }
+
+    /// What was found so far.
+    #[must_use]
+    pub fn findings(&self) -> &Findings {
+        &self.findings
+    }
+
+    /// Takes the pressure stiffness of a node, Pa/m.
+    pub fn set_modulus(&mut self, node: u32, modulus: f64) {
+        if let Ok(vertex) = self.skin.nodes.binary_search(&node) {
+            self.moduli[vertex] = modulus;
+        }
+    }
+
+    /// Least thickness of the body at each node, in the order of `nodes` (ascending), m, at the places of the last look; infinite where nothing is opposite.
+    #[must_use]
+    pub fn thickness_at(&self, nodes: &[u32]) -> Vec<f64> {
+        let at = |node: &u32| {
+            let Ok(vertex) = self.skin.nodes.binary_search(node) else { return f64::INFINITY };
+            self.thickness_around(vertex as u32)
+        };
+        nodes.iter().map(at).collect()
+    }
+
+    /// The least of the facets at a vertex, m.
+    fn thickness_around(&self, vertex: u32) -> f64 {
+        let surface = self.skin.at_vertex.of(vertex as usize).iter().filter(|&&triangle| !self.skin.is_mirror(triangle));
+        surface.map(|&triangle| self.thickness.of(&self.skin, triangle)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Looks at the step, if it is time.
+    pub fn look(&mut self, sweep: Sweep<'_, 3>, time: f64) {
+        self.steps += 1;
+        self.has_looked = !(sweep.travel < self.next && self.steps < MOST_STEPS);
+        if !self.has_looked {
+            return;
+        }
+        self.steps = 0;
+        let is_first = self.findings.looks == 0;
+        self.findings.looks += 1;
+        std::mem::swap(&mut self.places, &mut self.skin.x);
+        if !self.skin.place(sweep.new) {
+            self.has_looked = false;
+            return;
+        }
+        self.tree.refit(&self.skin);
+        piercing::find(&self.skin, &self.tree, &mut self.piercings);
+        self.regions = self.work.find(&self.skin, &mut self.piercings);
+        self.inherit_known();
+        (self.findings.now, self.findings.own, self.findings.through) = (Overlap::default(), Overlap::default(), None);
+        for number in 0..self.regions.len() {
+            let mut deepest = Overlap { time, ..self.deepest(number) };
+            let known = &mut self.known[number];
+            if is_first && self.ignores_start {
+                known.offset = deepest.depth;
+            }
+            deepest.depth = (deepest.depth - known.offset).max(0.0);
+            (known.ratio, known.thickness) = (deepest.ratio(), deepest.thickness);
+            let is_own = known.bodies[0] == known.bodies[1];
+            let most = if is_own { &mut self.findings.own } else { &mut self.findings.now };
+            if known.ratio > most.ratio() {
+                *most = deepest;
+            }
+            if known.ratio > self.findings.worst.ratio() {
+                self.findings.worst = deepest;
+            }
+            if known.ratio > 1.0 && !is_own && !self.regions[number].is_open {
+                self.findings.through = Some(deepest);
+            }
+            self.cast(number, sweep.travel - self.looked_at);
+        }
+        self.looked_at = sweep.travel;
+        self.owner.fill(NONE);
+        for (number, region) in (0..).zip(&self.regions) {
+            region.triangles.iter().for_each(|&(triangle, _)| self.owner[triangle as usize] = number);
+        }
+        self.next = sweep.travel + 0.5 * BETWEEN_LOOKS * self.least;
+    }
+
+    /// What is known of the regions of the look before goes to those that share a triangle with them.
+    fn inherit_known(&mut self) {
+        let before = std::mem::take(&mut self.known);
+        let parents = |region: &Region| {
+            let owners = region.triangles.iter().map(|&(triangle, _)| self.owner[triangle as usize]);
+            let is_parent = |owner: &u32| *owner != NONE && before[*owner as usize].bodies == region.bodies;
+            let mut owners: Vec<u32> = owners.filter(is_parent).collect();
+            owners.sort_unstable();
+            owners.dedup();
+            owners
+        };
+        let parents: Vec<Vec<u32>> = self.regions.iter().map(parents).collect();
+        // Volume of all children of each.
+        let mut volumes = vec![0.0; before.len()];
+        for (region, parents) in self.regions.iter().zip(&parents) {
+            parents.iter().for_each(|&parent| volumes[parent as usize] += region.volume.abs());
+        }
+        let of = |(region, parents): (&Region, &Vec<u32>)| {
+            let direction = if length(region.area) > DIRECTED * region.size { region.area } else { [0.0; 3] };
+            let mut known = Known { bodies: region.bodies, began: direction, size: region.size, volume: region.volume, ..Known::default() };
+            let largest = parents.iter().map(|&parent| before[parent as usize]).reduce(|a, b| if b.size > a.size { b } else { a });
+            if let Some(parent) = largest {
+                known.offset = parent.offset;
+                known.ratio = parent.ratio;
+                if parent.began != [0.0; 3] {
+                    known.began = spin::turned(parent.began, self.turn(region));
+                }
+            }
+            for &parent in parents {
+                let (parent, whole) = (before[parent as usize], volumes[parent as usize]);
+                let share = if whole > 0.0 { region.volume.abs() / whole } else { 1.0 };
+                known.before += share * parent.volume;
+                known.size_before += share * parent.size;
+                known.depth += share * parent.area * parent.depth;
+                known.area += share * parent.area;
+                if parent.area > 0.0 {
+                    known.limit = if known.limit > 0.0 { known.limit.min(parent.limit) } else { parent.limit };
+                }
+                known.is_loose |= parent.is_loose;
+            }
+            known.depth = if known.area > 0.0 { known.depth / known.area } else { 0.0 };
+            known
+        };
+        self.known = self.regions.iter().zip(&parents).map(of).collect();
+    }
+
+    /// How the triangles of a region turned since the last look.
+    fn turn(&self, region: &Region) -> Vector {
+        let groups = region.triangles.iter().map(|&(triangle, _)| &self.skin.triangles[triangle as usize][..]);
+        spin::turn(groups, Sweep::between(&self.places, &self.skin.x))
+    }
+
+    /// The place of a region that is deepest against its thickness.
+    fn deepest(&self, number: usize) -> Overlap {
+        let (region, known) = (&self.regions[number], &self.known[number]);
+        let mut found = self.samples(region);
+        found.sort_by(|a, b| b.2.ratio().total_cmp(&a.2.ratio()));
+        let Some(&(_, _, most)) = found.first() else { return Overlap::default() };
+        if known.began == [0.0; 3] || most.ratio().max(known.ratio) <= SIDED {
+            return most;
+        }
+        // The first side comes along its area vector, and the second's side of entry looks against it.
+        let direction = unit(known.began);
+        let deepest = |most: Overlap, &(own, is_second, unsided): &(u32, bool, Overlap)| {
+            let faces = |triangle: u32| {
+                let [a, b, c] = self.skin.corners(triangle);
+                let along = dot(unit(cross(minus(b, a), minus(c, a))), direction);
+                if is_second { along > FACES } else { along < -FACES }
+            };
+            let farthest = 2.0 * unsided.thickness;
+            let found = self.depth(region, own, is_second, unsided.place, farthest * farthest, faces);
+            let found = found.map(|(depth, _)| Overlap { depth, ..unsided });
+            found.filter(|found| found.ratio() > most.ratio()).unwrap_or(most)
+        };
+        found.iter().take(SIDED_MOST).fold(most, deepest)
+    }
+
+    /// Depth of a place of a triangle's side of a region, by those triangles of the other side that count, and the nearest one; nothing where all are farther than the root of `square`, m².
+    fn depth(
+        &self,
+        region: &Region,
+        own: u32,
+        is_second: bool,
+        x: Vector,
+        square: f64,
+        counts: impl Fn(u32) -> bool,
+    ) -> Option<(f64, u32)> {
+        let (body, is_one) = (self.skin.body(own), region.bodies[0] == region.bodies[1]);
+        let other = if is_one { body } else { region.bodies[usize::from(body == region.bodies[0])] };
+        let may_be = |triangle: u32| !self.skin.is_mirror(triangle) && counts(triangle);
+        if is_one {
+            // Of its own body the other side of the region alone.
+            let others = region.triangles.iter().filter(|&&(triangle, side)| side != is_second && may_be(triangle));
+            let away = |&(triangle, _): &(u32, bool)| (square_to_triangle(x, self.skin.corners(triangle)), triangle);
+            let nearest = others.map(away).reduce(|a, b| if b.0 < a.0 { b } else { a });
+            return nearest.filter(|nearest| nearest.0 < square).map(|(square, foot)| (square.sqrt(), foot));
+        }
+        let (square, foot) = self.tree.nearest(&self.skin, other, x, square, may_be)?;
+        Some((square.sqrt(), foot))
+    }
+
+    /// Vertices and the middles of the parts of edges that are inside: a triangle there, whether it is of the second side, and how deep it is.
+    fn samples(&self, region: &Region) -> Vec<(u32, bool, Overlap)> {
+        let is_one = region.bodies[0] == region.bodies[1];
+        let look = |own: u32, place: Vector, behind: f64| {
+            let is_second = if is_one { region.side(own)? } else { self.skin.body(own) == region.bodies[1] };
+            let other = region.bodies[usize::from(!is_second)];
+            let farthest = INSIDE * self.thickest[other as usize];
+            let (depth, foot) = self.depth(region, own, is_second, place, farthest * farthest, |_| true)?;
+            let there = self.thickness.of(&self.skin, foot);
+            // Farther than that it is not inside: an element of the other body is inverted, and the flood went astray.
+            if depth > INSIDE * there {
+                return None;
+            }
+            let thickness = behind.min(there);
+            let nodes = [own, foot].map(|triangle| self.node_of(triangle));
+            Some((own, is_second, Overlap { place, depth, thickness, nodes, time: 0.0 }))
+        };
+        let of_vertex = |&vertex: &u32| {
+            let own = *self.skin.at_vertex.of(vertex as usize).first()?;
+            look(own, self.skin.x[vertex as usize], self.thickness_around(vertex))
+        };
+        let of_chord = |&(own, [from, to]): &(u32, [Vector; 2])| {
+            look(own, [0, 1, 2].map(|d| 0.5 * (from[d] + to[d])), self.thickness.of(&self.skin, own))
+        };
+        // Where the contour is open the flood can't be trusted.
+        let inside = if region.is_open { &[] } else { &region.inside[..] };
+        inside.iter().filter_map(of_vertex).chain(region.chords.iter().filter_map(of_chord)).collect()
+    }
+
+    /// A node of a triangle.
+    fn node_of(&self, triangle: u32) -> u32 {
+        let (carriers, _) = self.skin.shares(self.skin.triangles[triangle as usize][0]);
+        self.skin.nodes[carriers[0] as usize]
+    }
+
+    /// Weighs the forces of the step's springs, if it was looked at.
+    pub fn weigh(&mut self, solved: &Answers<'_, 3>) {
+        if !std::mem::take(&mut self.has_looked) || self.regions.is_empty() {
+            return;
+        }
+        let pushes = self.pushes(solved);
+        for (number, push) in pushes.into_iter().enumerate() {
+            let (region, known) = (&self.regions[number], &mut self.known[number]);
+            let has_direction = length(region.area) > DIRECTED * region.size && known.began != [0.0; 3];
+            let is_turned = has_direction && dot(known.began, region.area) < 0.0;
+            // What was found in this step gets its net in the next.
+            let was_loose = known.is_loose;
+            known.is_loose = known.ratio > SHALLOW && known.volume >= known.before && !(push > 0.0) && !region.is_open;
+            if known.ratio > DEEPEST || is_turned || (known.is_loose && was_loose) {
+                self.findings.unverified += 1;
+                let Findings { now, own, .. } = self.findings;
+                self.findings.first.get_or_insert(if own.ratio() > now.ratio() { own } else { now });
+            }
+        }
+        if self.known.iter().any(|known| known.area > 0.0 || (known.is_loose && known.bodies[0] != known.bodies[1])) {
+            self.next = f64::NEG_INFINITY;
+        }
+    }
+
+    /// How the forces of the springs on the nodes of each region work against its volume, −Σ f·∂V/∂x, N m².
+    fn pushes(&self, solved: &Answers<'_, 3>) -> Vec<f64> {
+        let mut rows: Vec<(u32, u32, Vector)> = Vec::new();
+        for (number, region) in (0..).zip(&self.regions) {
+            rows.extend(region.gradient.iter().map(|&(vertex, row)| (self.skin.nodes[vertex as usize], number, row)));
+        }
+        rows.sort_by_key(|row| (row.0, row.1));
+        let mut sums = vec![0.0; self.regions.len()];
+        for answer in solved.clone() {
+            for end in answer.ends() {
+                let begin = rows.partition_point(|row| row.0 < end.at);
+                for &(_, number, row) in rows[begin..].iter().take_while(|row| row.0 == end.at) {
+                    sums[number as usize] -= dot(end.force(answer.spring, answer.solved), row);
+                }
+            }
+        }
+        sums
+    }
+
+    /// Keeps what is known of the past.
+    pub(super) fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        let Self { known, owner, places, next, looked_at, steps, findings, .. } = self;
+        keep_each!(archive; known, places, next, looked_at, steps, findings);
+        crate::archive::Keep::keep(&mut owner[..], archive)?;
+        let are_there = owner.iter().all(|&owner| owner == NONE || (owner as usize) < known.len());
+        archive.check(are_there, "overlaps are known that are not there")?;
+        archive.check(places.is_empty() || places.len() == self.skin.x.len(), "overlaps were seen at other places")?;
+        // What was seen last becomes what was seen before.
+        if !places.is_empty() {
+            self.skin.x.clone_from(&self.places);
+        }
+        Ok(())
+    }
+
+    /// Goes on with the counts of another one whose surfaces were those before they changed; what is known of regions is forgotten.
+    pub(super) fn inherit(&mut self, old: &Self) {
+        self.findings = old.findings;
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,89 @@
+//! The net under the springs of nodes and edges: a spring on the volume of an overlap.
+//!
+//! Its depth grows by dV/A from zero, with the area A = |N| at which the net was cast; k = κ A with the pressure stiffness κ of the softer side. V is once continuously differentiable through all changes
+//! of nodes, edges and faces that touch, and its rows −(∂V/∂x)/A add up to nothing, so the net has no hand-over, needs no normal, and keeps both momenta. It begins without force, so it brings no
+//! energy, and resists whatever makes the overlap larger, combs of edges and folded nodes included. Regions that merge or part share A by their volumes, and the depth is the mean.
+
+use super::super::law::penalty::LIMIT;
+use super::super::projection::node_facet::unit;
+use super::super::springs::{End, Spring};
+use super::{CAST, DIRECTED, Judge, Vector};
+use crate::vector::length;
+
+/// Depth below which a region loses its net, as a fraction of the local thickness.
+const TAKEN_IN: f64 = 0.02;
+/// Least area of a net, as a fraction of that of the region.
+const SPREAD: f64 = 0.1;
+
+impl Judge {
+    /// Casts or takes in the net of a region; no node has gone farther than `way` since the last look, m.
+    pub(super) fn cast(&mut self, number: usize, way: f64) {
+        let (region, known) = (&self.regions[number], &mut self.known[number]);
+        // A volume grows by what its sides go. If by more, it is another one, and the net keeps its force.
+        let grown = region.volume - known.before;
+        let grown = if grown.abs() > 8.0 * way * region.size.min(known.size_before) { 0.0 } else { grown };
+        if region.is_open || region.bodies[0] == region.bodies[1] {
+            // Its volume says nothing; that of a body with itself jumps where the surface folds.
+            known.area = 0.0;
+        } else if known.area > 0.0 {
+            known.depth += grown / known.area;
+            // Where the region outgrows the net, that spreads and keeps its energy.
+            let least = SPREAD * region.size;
+            if known.area < least {
+                known.depth *= (known.area / least).sqrt();
+                known.area = least;
+            }
+            // What is open stores nothing: if it grows again it is resisted from here.
+            if known.depth < 0.0 && grown > 0.0 {
+                known.depth = 0.0;
+            }
+            if known.ratio < TAKEN_IN && known.depth <= 0.0 {
+                known.area = 0.0;
+            }
+        } else if known.ratio > CAST || known.is_loose {
+            (known.area, known.depth) = (length(region.area).max(DIRECTED * region.size), 0.0);
+            known.limit = LIMIT * known.thickness;
+        }
+    }
+
+    /// The springs of the nets in this step.
+    pub(in crate::contact) fn nets(&self) -> impl Iterator<Item = (Spring<3>, Vec<End<3>>)> + '_ {
+        let are_new = if self.has_looked { &self.known[..] } else { &[] };
+        let cast = self.regions.iter().zip(are_new).filter(|(_, known)| known.area > 0.0);
+        cast.filter_map(|(region, known)| {
+            let modulus = self.modulus(region)?;
+            let row = |&(vertex, row): &(u32, Vector)| {
+                let lean = row.map(|c| -c / known.area);
+                End { lean, ..End::node(self.skin.nodes[vertex as usize], 0.0) }
+            };
+            let spring = Spring {
+                normal: unit(region.area),
+                gap: -known.depth,
+                stiffness: modulus * known.area,
+                area: known.area,
+                limit: known.limit as f32,
+                ..Spring::default()
+            };
+            Some((spring, region.gradient.iter().map(row).collect()))
+        })
+    }
+
+    /// Pressure stiffness of the softer side of a region, the mean of its nodes there, Pa/m.
+    fn modulus(&self, region: &super::Region) -> Option<f64> {
+        let (mut sums, mut counts) = ([0.0; 2], [0.0; 2]);
+        for &(triangle, is_second) in &region.triangles {
+            for vertex in self.skin.triangles[triangle as usize] {
+                let modulus = self.moduli.get(vertex as usize).copied().unwrap_or(0.0);
+                if modulus > 0.0 {
+                    sums[usize::from(is_second)] += modulus;
+                    counts[usize::from(is_second)] += 1.0;
+                }
+            }
+        }
+        let mean = |of: usize| (counts[of] > 0.0).then(|| sums[of] / counts[of]);
+        match (mean(0), mean(1)) {
+            (Some(a), Some(b)) => Some(a.min(b)),
+            (one, other) => one.or(other),
+        }
+    }
+}

@@ -1,0 +1,146 @@
+//! Which edges pierce which triangles, and the contours along which the surfaces cut each other.
+//!
+//! Signs come from [`super::predicates`], so the set of piercings is exact for the places as they are. A pair of triangles meets along one straight piece with a piercing at either end: whatever
+//! has not two ends is a border of a surface, or an error, and is reported.
+
+use super::predicates::{Point, volume};
+use super::skin::{Facet, Skin};
+use super::tree::Tree;
+use crate::contact::projection::node_facet::Vector;
+use crate::mesh::surface::NONE;
+use crate::tensor::dot;
+use crate::vector::minus;
+
+/// An edge goes through a triangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Piercing {
+    pub(super) edge: u32,
+    pub(super) triangle: u32,
+    /// How far along the edge, 0 to 1.
+    pub(super) along: f64,
+    /// Whether from the triangle's front to its back, from the first end of the edge to the second.
+    pub(super) enters: bool,
+    /// Where, m.
+    pub(super) place: Vector,
+    /// Whether the edge lies in the triangle's plane: that it goes through follows from ties alone, and it does so anywhere there.
+    pub(super) is_flat: bool,
+}
+
+/// A straight piece of the rim of what of a triangle lies inside the other body, which is on its left seen from before the triangle.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Piece {
+    pub(super) triangle: u32,
+    pub(super) from: Vector,
+    pub(super) to: Vector,
+}
+
+/// All piercings.
+pub(super) fn find(skin: &Skin, tree: &Tree, found: &mut Vec<Piercing>) {
+    found.clear();
+    tree.pairs(skin, |a, b| {
+        let [a, b] = [a, b].map(|facet| &skin.facets[facet as usize]);
+        if are_near(skin, a.all(), b.all()) && skin.may_meet(a, b) {
+            of_edges(skin, a, b, found);
+            of_edges(skin, b, a, found);
+        }
+    });
+}
+
+/// Whether the boxes of vertices meet.
+fn are_near(skin: &Skin, a: &[u32], b: &[u32]) -> bool {
+    (0..3).all(|d| {
+        let range = |vertices: &[u32]| {
+            let values = vertices.iter().map(|&vertex| skin.x[vertex as usize][d]);
+            values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
+        };
+        let ([low, high], [bottom, top]) = (range(a), range(b));
+        low <= top && bottom <= high
+    })
+}
+
+/// Piercings of the edges of one facet through the triangles of another one.
+fn of_edges(skin: &Skin, own: &Facet, other: &Facet, found: &mut Vec<Piercing>) {
+    let point = |vertex: u32| -> Point { (vertex, skin.x[vertex as usize]) };
+    for triangle in other.triangles() {
+        let corners = skin.triangles[triangle as usize];
+        if !are_near(skin, own.all(), &corners) {
+            continue;
+        }
+        let [a, b, c] = corners.map(point);
+        let mut heights = [0.0; 5];
+        let (mut any_before, mut any_behind) = (false, false);
+        for (height, &vertex) in heights.iter_mut().zip(own.all()) {
+            *height = volume([a, b, c, point(vertex)]);
+            (any_before, any_behind) = (any_before || *height > 0.0, any_behind || *height < 0.0);
+        }
+        if !(any_before && any_behind) {
+            continue;
+        }
+        let height = |vertex: u32| own.vertices.iter().position(|other| *other == vertex).map_or(0.0, |k| heights[k]);
+        for number in own.edges() {
+            let ends = skin.edges[number as usize].ends;
+            let [from, to] = ends.map(height);
+            if (from > 0.0) == (to > 0.0) {
+                continue;
+            }
+            let [p, q] = ends.map(point);
+            let first = volume([p, q, a, b]) > 0.0;
+            if first != (volume([p, q, b, c]) > 0.0) || first != (volume([p, q, c, a]) > 0.0) {
+                continue;
+            }
+            // An edge in the triangle's plane meets it anywhere: where it passes its middle.
+            let is_flat = from.abs().max(to.abs()) <= f64::MIN_POSITIVE;
+            let along = if is_flat { beside([p.1, q.1], skin.corners(triangle)) } else { from / (from - to) };
+            let along = along.clamp(0.0, 1.0);
+            let place = [0, 1, 2].map(|d| (1.0 - along) * p.1[d] + along * q.1[d]);
+            found.push(Piercing { edge: number, triangle, along, enters: from > 0.0, place, is_flat });
+        }
+    }
+}
+
+/// Where along an edge the middle of a triangle is.
+fn beside([p, q]: [Vector; 2], [a, b, c]: [Vector; 3]) -> f64 {
+    let (way, away) = (minus(q, p), [0, 1, 2].map(|d| (a[d] + b[d] + c[d]) / 3.0 - p[d]));
+    dot(way, away) / dot(way, way).max(f64::MIN_POSITIVE)
+}
+
+/// One end of a piece of a contour.
+#[derive(Clone, Copy, Debug)]
+struct End {
+    /// The triangles, ascending.
+    pair: [u32; 2],
+    /// Whether the piece starts here, as the rim of the first triangle's part.
+    starts: bool,
+    place: Vector,
+}
+
+/// The pieces of the contours of some piercings, for the first and the second triangle of each pair, which are told too; pieces without two ends are those of triangles in `loose`.
+pub(super) fn contours(skin: &Skin, piercings: &[Piercing], pieces: &mut Vec<Piece>, pairs: &mut Vec<[u32; 2]>, loose: &mut Vec<u32>) {
+    let mut ends: Vec<End> = Vec::with_capacity(2 * piercings.len());
+    for &Piercing { edge, triangle, enters, place, .. } in piercings {
+        for own in skin.edges[edge as usize].triangles.into_iter().filter(|&own| own != NONE) {
+            // Along the rim of its own triangle, what is inside begins where the edge enters: there the contour ends.
+            let starts = enters != runs_with(skin, edge, own);
+            let pair = [own.min(triangle), own.max(triangle)];
+            ends.push(End { pair, starts: starts == (own < triangle), place });
+        }
+    }
+    ends.sort_by_key(|end| (end.pair, !end.starts));
+    for here in ends.chunk_by(|a, b| a.pair == b.pair) {
+        match here {
+            [from, to] if from.starts && !to.starts => {
+                let [first, second] = from.pair;
+                pieces.push(Piece { triangle: first, from: from.place, to: to.place });
+                pieces.push(Piece { triangle: second, from: to.place, to: from.place });
+                pairs.push(from.pair);
+            }
+            _ => loose.extend(here[0].pair),
+        }
+    }
+}
+
+/// Whether an edge runs as the rim of a triangle at it does, counter-clockwise.
+pub(super) fn runs_with(skin: &Skin, edge: u32, triangle: u32) -> bool {
+    let k = skin.edges_of[triangle as usize].iter().position(|other| *other == edge).unwrap_or(0);
+    skin.triangles[triangle as usize][k] == skin.edges[edge as usize].ends[0]
+}

@@ -1,0 +1,374 @@
+//! Regions where bodies overlap: what of each surface lies inside the other body, the volume between, and how that changes with each node.
+//!
+//! Contours come from [`super::piercing`]. On either surface the part beyond a contour is found by flood over edges that nothing pierces, from the ends that pierced edges have inside. With P_A, P_B
+//! those parts, n their outward normals and φ_a the shape functions of vertices,
+//!
+//! - N = ∫_{P_A} n dA = −∫_{P_B} n dA, the gradient of the volume for a shift of A;
+//! - V = ⅓ (∫_{P_A} x·n dA + ∫_{P_B} x·n dA), the volume of the overlap;
+//! - ∂V/∂x_a = ∫ φ_a n dA: the motion of the contour itself adds nothing, so V is once continuously differentiable whatever features come and go.
+//!
+//! Integrals over parts of triangles go along their rims (Green): Σ ½ n·((p − o) × (q − o)) over straight pieces from p to q, with any point o of the triangle's plane.
+
+use super::piercing::{Piece, Piercing, contours, runs_with};
+use super::skin::Skin;
+use crate::contact::projection::node_facet::Vector;
+use crate::mesh::surface::NONE;
+use crate::tensor::{cross, dot};
+use crate::vector::minus;
+
+/// An overlap of two bodies, or of two parts of one.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Region {
+    /// Both bodies, ascending.
+    pub(super) bodies: [u32; 2],
+    /// Triangles that lie in it as a whole or in part, ascending, and to which side each belongs.
+    pub(super) triangles: Vec<(u32, bool)>,
+    /// Vertices that are inside, ascending.
+    pub(super) inside: Vec<u32>,
+    /// Parts of pierced edges that are inside: a triangle at the edge, and both ends, m.
+    pub(super) chords: Vec<(u32, [Vector; 2])>,
+    /// N of the first side, m².
+    pub(super) area: Vector,
+    /// Area of the first side, m².
+    pub(super) size: f64,
+    /// V, m³.
+    pub(super) volume: f64,
+    /// ∂V/∂x of each node (its vertex, ascending), m².
+    pub(super) gradient: Vec<(u32, Vector)>,
+    /// Whether the contour is not closed, or the same place is inside and outside: at borders of surfaces, and where a surface folds onto itself.
+    pub(super) is_open: bool,
+}
+
+impl Region {
+    /// To which side a triangle of it belongs.
+    pub(super) fn side(&self, triangle: u32) -> Option<bool> {
+        let at = self.triangles.binary_search_by_key(&triangle, |&(triangle, _)| triangle);
+        at.ok().map(|at| self.triangles[at].1)
+    }
+}
+
+/// Piercings of an edge that are nearer to each other than this fraction of its length have no order.
+const SAME_PLACE: f64 = 1e-9;
+
+/// Memory of the search for regions.
+#[derive(Debug, Default)]
+pub(super) struct Work {
+    /// Per vertex, edge and triangle: the number of the pair of bodies for which it was last marked.
+    inside: Vec<u32>,
+    pierced: Vec<u32>,
+    listed: Vec<u32>,
+    /// Place of each listed triangle in the list of its pair.
+    slots: Vec<u32>,
+    pair: u32,
+}
+
+/// Disjoint sets.
+#[derive(Debug, Default)]
+struct Sets(Vec<u32>);
+
+impl Sets {
+    fn add(&mut self) {
+        self.0.push(self.0.len() as u32);
+    }
+
+    fn find(&mut self, mut at: u32) -> u32 {
+        while self.0[at as usize] != at {
+            let next = self.0[self.0[at as usize] as usize];
+            self.0[at as usize] = next;
+            at = next;
+        }
+        at
+    }
+
+    /// The lower root stays.
+    fn join(&mut self, a: u32, b: u32) {
+        let (a, b) = (self.find(a), self.find(b));
+        self.0[a.max(b) as usize] = a.min(b);
+    }
+}
+
+impl Work {
+    /// All regions, in the order of their bodies and first triangles.
+    pub(super) fn find(&mut self, skin: &Skin, piercings: &mut [Piercing]) -> Vec<Region> {
+        let bodies = |piercing: &Piercing| {
+            let [a, b] = [skin.edges[piercing.edge as usize].triangles[0], piercing.triangle].map(|triangle| skin.body(triangle));
+            [a.min(b), a.max(b)]
+        };
+        let key = |piercing: &Piercing| (bodies(piercing), piercing.edge);
+        piercings.sort_by(|a, b| key(a).cmp(&key(b)).then(a.along.total_cmp(&b.along)).then(a.triangle.cmp(&b.triangle)));
+        self.inside.resize(skin.x.len(), 0);
+        self.pierced.resize(skin.edges.len(), 0);
+        self.listed.resize(skin.triangles.len(), 0);
+        self.slots.resize(skin.triangles.len(), 0);
+        let mut regions = Vec::new();
+        for here in piercings.chunk_by(|a, b| bodies(a) == bodies(b)) {
+            self.pair += 1;
+            self.of_pair(skin, bodies(&here[0]), here, &mut regions);
+        }
+        regions
+    }
+
+    /// Marks what is inside; the inside vertices, and those that are seen from both sides.
+    fn flood(&mut self, skin: &Skin, piercings: &[Piercing]) -> (Vec<u32>, Vec<u32>) {
+        let (mut stack, mut outside) = (Vec::new(), Vec::new());
+        for here in piercings.chunk_by(|a, b| a.edge == b.edge) {
+            let [from, to] = skin.edges[here[0].edge as usize].ends;
+            self.pierced[here[0].edge as usize] = self.pair;
+            let (first, last) = (&here[0], &here[here.len() - 1]);
+            let entries = 2 * here.iter().filter(|piercing| piercing.enters).count();
+            // Where it goes in as often as out, the order says how; what lies at one place has none, and other edges tell.
+            let are_apart = here.windows(2).all(|two| two[1].along - two[0].along > SAME_PLACE);
+            let is_certain = entries != here.len() || (are_apart && !here.iter().any(|piercing| piercing.is_flat));
+            let begins_outside = if entries == here.len() { first.enters } else { entries > here.len() };
+            let ends_inside = if entries == here.len() { last.enters } else { entries > here.len() };
+            if is_certain {
+                if begins_outside {
+                    outside.push(from)
+                } else {
+                    stack.push(from)
+                }
+                if ends_inside { stack.push(to) } else { outside.push(to) }
+            }
+        }
+        let mut inside = Vec::new();
+        while let Some(vertex) = stack.pop() {
+            if std::mem::replace(&mut self.inside[vertex as usize], self.pair) == self.pair {
+                continue;
+            }
+            inside.push(vertex);
+            for &edge in skin.around.of(vertex as usize) {
+                if self.pierced[edge as usize] != self.pair {
+                    let [a, b] = skin.edges[edge as usize].ends;
+                    stack.push(if a == vertex { b } else { a });
+                }
+            }
+        }
+        inside.sort_unstable();
+        outside.retain(|vertex| self.inside[*vertex as usize] == self.pair);
+        (inside, outside)
+    }
+
+    fn is_inside(&self, edge: u32, skin: &Skin) -> bool {
+        self.pierced[edge as usize] != self.pair && skin.edges[edge as usize].ends.iter().all(|end| self.inside[*end as usize] == self.pair)
+    }
+
+    /// Puts a triangle on the list of the pair.
+    fn list(&mut self, triangle: u32, all: &mut Vec<u32>) {
+        if std::mem::replace(&mut self.listed[triangle as usize], self.pair) != self.pair {
+            self.slots[triangle as usize] = all.len() as u32;
+            all.push(triangle);
+        }
+    }
+
+    fn of_pair(&mut self, skin: &Skin, bodies: [u32; 2], piercings: &[Piercing], regions: &mut Vec<Region>) {
+        let (inside, torn) = self.flood(skin, piercings);
+        let (mut pieces, mut pairs, mut loose) = (Vec::new(), Vec::new(), Vec::new());
+        contours(skin, piercings, &mut pieces, &mut pairs, &mut loose);
+        let chords = self.chords(skin, piercings, &mut pieces);
+        // All triangles that are inside as a whole or in part; those in part have pieces.
+        let mut triangles = Vec::new();
+        let cut = pieces.iter().map(|piece| piece.triangle).chain(loose.iter().copied());
+        cut.for_each(|triangle| self.list(triangle, &mut triangles));
+        let parts = triangles.len();
+        for &vertex in &inside {
+            skin.at_vertex.of(vertex as usize).iter().for_each(|&triangle| self.list(triangle, &mut triangles));
+        }
+        for &triangle in &triangles[..parts] {
+            for (k, &edge) in skin.edges_of[triangle as usize].iter().enumerate() {
+                if self.is_inside(edge, skin) {
+                    let x = skin.corners(triangle);
+                    pieces.push(Piece { triangle, from: x[k], to: x[(k + 1) % 3] });
+                }
+            }
+        }
+        let (mut sides, mut whole) = (Sets::default(), Sets::default());
+        for _ in &triangles {
+            sides.add();
+            whole.add();
+        }
+        for &triangle in &triangles {
+            for &edge in &skin.edges_of[triangle as usize] {
+                let is_open = self.pierced[edge as usize] == self.pair || self.is_inside(edge, skin);
+                for other in skin.edges[edge as usize].triangles {
+                    if is_open && other != NONE && self.listed[other as usize] == self.pair {
+                        let [a, b] = [triangle, other].map(|triangle| self.slots[triangle as usize]);
+                        sides.join(a, b);
+                        whole.join(a, b);
+                    }
+                }
+            }
+        }
+        pairs.iter().for_each(|pair| {
+            let [a, b] = pair.map(|triangle| self.slots[triangle as usize]);
+            whole.join(a, b);
+        });
+        let colours = if bodies[0] == bodies[1] {
+            self.colours(&mut sides, &pairs, triangles.len())
+        } else {
+            triangles.iter().map(|&triangle| Some(skin.body(triangle) == bodies[1])).collect()
+        };
+        // Regions in the order of their first triangles.
+        let mut number = vec![NONE; triangles.len()];
+        let mut order: Vec<u32> = (0..triangles.len() as u32).collect();
+        order.sort_by_key(|&slot| triangles[slot as usize]);
+        let begin = regions.len();
+        for &slot in &order {
+            let root = whole.find(slot) as usize;
+            if number[root] == NONE {
+                number[root] = regions.len() as u32;
+                regions.push(Region { bodies, ..Region::default() });
+            }
+            let region = &mut regions[number[root] as usize];
+            region.is_open |= colours[slot as usize].is_none();
+            region.triangles.push((triangles[slot as usize], colours[slot as usize].unwrap_or(false)));
+        }
+        let mut region_of = |triangle: u32, listed: &[u32], slots: &[u32]| {
+            (listed[triangle as usize] == self.pair).then(|| number[whole.find(slots[triangle as usize]) as usize] as usize)
+        };
+        for triangle in loose.into_iter().chain(torn.iter().flat_map(|&vertex| skin.at_vertex.of(vertex as usize).iter().copied())) {
+            if let Some(region) = region_of(triangle, &self.listed, &self.slots) {
+                regions[region].is_open = true;
+            }
+        }
+        for &vertex in &inside {
+            let first = skin.at_vertex.of(vertex as usize).first();
+            if let Some(region) = first.and_then(|&triangle| region_of(triangle, &self.listed, &self.slots)) {
+                regions[region].inside.push(vertex);
+            }
+        }
+        for chord in chords {
+            if let Some(region) = region_of(chord.0, &self.listed, &self.slots) {
+                regions[region].chords.push(chord);
+            }
+        }
+        pieces.sort_by_key(|piece| piece.triangle);
+        regions[begin..].iter_mut().for_each(|region| integrate(skin, region, &pieces));
+    }
+
+    /// The parts of pierced edges that are inside, which are pieces of the rims of the triangles beside them.
+    fn chords(&self, skin: &Skin, piercings: &[Piercing], pieces: &mut Vec<Piece>) -> Vec<(u32, [Vector; 2])> {
+        let mut chords = Vec::new();
+        for here in piercings.chunk_by(|a, b| a.edge == b.edge) {
+            let edge = here[0].edge;
+            let ends = skin.edges[edge as usize].ends;
+            let [begin, end] = ends.map(|vertex| skin.x[vertex as usize]);
+            let mut add = |from: Vector, to: Vector| {
+                for triangle in skin.edges[edge as usize].triangles.into_iter().filter(|&triangle| triangle != NONE) {
+                    let (from, to) = if runs_with(skin, edge, triangle) { (from, to) } else { (to, from) };
+                    pieces.push(Piece { triangle, from, to });
+                }
+                if !here.iter().any(|piercing| piercing.is_flat) {
+                    chords.push((skin.edges[edge as usize].triangles[0], [from, to]));
+                }
+            };
+            // How many times it is inside.
+            let mut count = i32::from(self.inside[ends[0] as usize] == self.pair);
+            let mut since = begin;
+            for piercing in here {
+                let before = count;
+                count += if piercing.enters { 1 } else { -1 };
+                match (before > 0, count > 0) {
+                    (false, true) => since = piercing.place,
+                    (true, false) => add(since, piercing.place),
+                    _ => {}
+                }
+            }
+            if count > 0 {
+                add(since, end);
+            }
+        }
+        chords
+    }
+
+    /// To which side of its region each triangle of one body belongs: pairs that cut each other are on different ones. `None`: that can't be.
+    fn colours(&self, sides: &mut Sets, pairs: &[[u32; 2]], count: usize) -> Vec<Option<bool>> {
+        let mut links: Vec<[u32; 2]> = pairs.iter().map(|pair| pair.map(|triangle| sides.find(self.slots[triangle as usize]))).collect();
+        links.extend(links.clone().iter().map(|[a, b]| [*b, *a]));
+        links.sort_unstable();
+        links.dedup();
+        let mut of: Vec<Option<bool>> = vec![None; count];
+        let mut is_torn = vec![false; count];
+        for start in 0..count as u32 {
+            if sides.find(start) != start || of[start as usize].is_some() {
+                continue;
+            }
+            of[start as usize] = Some(false);
+            let (mut stack, mut met, mut torn) = (vec![start], vec![start], false);
+            while let Some(at) = stack.pop() {
+                let here = links.partition_point(|link| link[0] < at);
+                for &[_, other] in links[here..].iter().take_while(|link| link[0] == at) {
+                    match of[other as usize] {
+                        None => {
+                            of[other as usize] = of[at as usize].map(|colour| !colour);
+                            stack.push(other);
+                            met.push(other);
+                        }
+                        colour => torn |= colour == of[at as usize],
+                    }
+                }
+            }
+            met.iter().for_each(|&at| is_torn[at as usize] = torn);
+        }
+        (0..count as u32)
+            .map(|slot| {
+                let root = sides.find(slot) as usize;
+                if is_torn[root] { None } else { of[root] }
+            })
+            .collect()
+    }
+}
+
+/// N, V and its gradient.
+fn integrate(skin: &Skin, region: &mut Region, pieces: &[Piece]) {
+    let Some(&(first, _)) = region.triangles.first() else { return };
+    // A place of the region: what is flat then has no volume, however ties place the contour in its plane.
+    let own = pieces[pieces.partition_point(|piece| piece.triangle < first)..].first().filter(|piece| piece.triangle == first);
+    let origin = own.map_or(skin.corners(first)[0], |piece| piece.from);
+    let mut rows: Vec<(u32, Vector)> = Vec::new();
+    for &(triangle, second) in &region.triangles {
+        let x = skin.corners(triangle);
+        let (along, across) = (minus(x[1], x[0]), minus(x[2], x[0]));
+        let double = cross(along, across);
+        let square = dot(double, double);
+        if !(square > 0.0) {
+            continue;
+        }
+        let begin = pieces.partition_point(|piece| piece.triangle < triangle);
+        let own = pieces[begin..].iter().take_while(|piece| piece.triangle == triangle);
+        // Shares of the corners in the area, of the whole one as the unit.
+        let (mut shares, mut is_cut) = ([0.0; 3], false);
+        for piece in own {
+            is_cut = true;
+            let (p, q) = (minus(piece.from, x[0]), minus(piece.to, x[0]));
+            let part = dot(double, cross(p, q)) / square;
+            let of = |r: Vector| [dot(double, cross(r, across)) / square, dot(double, cross(along, r)) / square];
+            let ([p1, p2], [q1, q2]) = (of(p), of(q));
+            let (one, two) = ((p1 + q1) / 3.0, (p2 + q2) / 3.0);
+            shares[1] += part * one;
+            shares[2] += part * two;
+            shares[0] += part * (1.0 - one - two);
+        }
+        if !is_cut {
+            shares = [1.0 / 3.0; 3];
+        }
+        let covered = shares[0] + shares[1] + shares[2];
+        let area = double.map(|c| 0.5 * covered * c);
+        if !second && !skin.is_mirror(triangle) {
+            (0..3).for_each(|d| region.area[d] += area[d]);
+            region.size += 0.5 * covered * square.sqrt();
+        }
+        region.volume += dot(minus(x[0], origin), area) / 3.0;
+        for (vertex, share) in skin.triangles[triangle as usize].into_iter().zip(shares) {
+            let (carriers, count) = skin.shares(vertex);
+            let share = 0.5 * share / count as f64;
+            rows.extend(carriers[..count].iter().map(|&node| (node, double.map(|c| share * c))));
+        }
+    }
+    rows.sort_by_key(|row| row.0);
+    for row in rows {
+        match region.gradient.last_mut() {
+            Some(last) if last.0 == row.0 => (0..3).for_each(|d| last.1[d] += row.1[d]),
+            _ => region.gradient.push(row),
+        }
+    }
+}

@@ -1,0 +1,195 @@
+//! Regions against closed forms, differences and turned copies of themselves.
+
+use super::*;
+use crate::mesh::surface::SpaceSurface;
+use proptest::prelude::*;
+
+/// A block of n × n × n hexahedra between two corners, or six tetrahedra in each.
+fn block(low: Vector, high: Vector, counts: [usize; 3], is_tet: bool, nodes: &mut Vec<Vector>, cells: &mut Vec<Vec<u32>>) {
+    let first = nodes.len() as u32;
+    let [a, b, c] = counts;
+    for k in 0..=c {
+        for j in 0..=b {
+            for i in 0..=a {
+                let part = [i as f64 / a as f64, j as f64 / b as f64, k as f64 / c as f64];
+                nodes.push([0, 1, 2].map(|d| low[d] + part[d] * (high[d] - low[d])));
+            }
+        }
+    }
+    let at = |i: usize, j: usize, k: usize| first + (i + (a + 1) * (j + (b + 1) * k)) as u32;
+    for (i, j, k) in (0..c).flat_map(|k| (0..b).flat_map(move |j| (0..a).map(move |i| (i, j, k)))) {
+        let x = [
+            at(i, j, k),
+            at(i + 1, j, k),
+            at(i + 1, j + 1, k),
+            at(i, j + 1, k),
+            at(i, j, k + 1),
+            at(i + 1, j, k + 1),
+            at(i + 1, j + 1, k + 1),
+            at(i, j + 1, k + 1),
+        ];
+        if is_tet {
+            // Around the diagonal from 0 to 6.
+            for [p, q] in [[1, 2], [2, 3], [3, 7], [7, 4], [4, 5], [5, 1]] {
+                cells.push(vec![x[0], x[p], x[q], x[6]]);
+            }
+        } else {
+            cells.push(x.to_vec());
+        }
+    }
+}
+
+/// Two blocks: the first from the origin to `size`, the second from `low` to `high`, of so many elements.
+fn two(size: Vector, [low, high]: [Vector; 2], counts: [[usize; 3]; 2], are_tets: [bool; 2]) -> (Judge, Vec<Vector>) {
+    let (mut nodes, mut cells) = (Vec::new(), Vec::new());
+    block([0.0; 3], size, counts[0], are_tets[0], &mut nodes, &mut cells);
+    let second = nodes.len() as u32;
+    block(low, high, counts[1], are_tets[1], &mut nodes, &mut cells);
+    let surface = SpaceSurface::outside(cells.iter().map(|cell| &cell[..])).unwrap();
+    let body_of = |node: u32| u32::from(node >= second);
+    let bodies = Bodies { outside: &surface, is_mirror: &|_| false, body_of: &body_of, side_of: None };
+    (Judge::new(&bodies, &nodes, false), nodes)
+}
+
+fn look(judge: &mut Judge, nodes: &[Vector]) {
+    judge.look(Sweep::between(nodes, nodes), 0.0);
+}
+
+fn close(a: f64, b: f64, scale: f64) -> bool {
+    (a - b).abs() <= 1e-12 * scale
+}
+
+#[test]
+fn a_corner_an_edge_and_a_face_in_a_block_have_their_volumes_areas_and_depths() {
+    for are_tets in [[false, false], [true, false], [true, true]] {
+        for counts in [[[1; 3]; 2], [[3, 2, 4], [2, 3, 1]]] {
+            // Box, overlap of it with the unit cube, N of the cube's surface inside.
+            let cases = [
+                ([[0.9, 0.85, 0.8], [2.0, 2.1, 2.2]], [0.1, 0.15, 0.2], [0.03, 0.02, 0.015], 0.1),
+                ([[0.9, 0.85, -0.3], [2.0, 2.1, 1.3]], [0.1, 0.15, 1.0], [0.15, 0.1, 0.0], 0.1),
+                ([[0.9, -0.2, -0.3], [2.0, 1.1, 1.3]], [0.1, 1.0, 1.0], [1.0, 0.0, 0.0], 0.1),
+                ([[0.9, 0.2, 0.3], [2.0, 0.7, 0.6]], [0.1, 0.5, 0.3], [0.15, 0.0, 0.0], 0.1),
+            ];
+            for ([low, high], sizes, area, depth) in cases {
+                let (mut judge, nodes) = two([1.0; 3], [low, high], counts, are_tets);
+                look(&mut judge, &nodes);
+                let found: Vec<&Region> = judge.regions.iter().collect();
+                assert_eq!(found.len(), 1, "{low:?} {are_tets:?} {counts:?}");
+                let region = found[0];
+                assert!(!region.is_open);
+                assert!(close(region.volume, sizes[0] * sizes[1] * sizes[2], 1.0), "{low:?} {}", region.volume);
+                assert!((0..3).all(|d| close(region.area[d], area[d], 1.0)), "{low:?} {:?}", region.area);
+                // Vertices of one element alone need not be where it is deepest.
+                assert!(judge.findings.now.depth <= depth * (1.0 + 1e-12), "{:?}", judge.findings.now);
+                if low[1] > -0.1 {
+                    assert!(close(judge.findings.now.depth, depth, 1.0), "{low:?} {are_tets:?} {counts:?} {:?}", judge.findings.now);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_bar_through_a_bar_is_a_region_that_turns_round_and_what_only_touches_is_none() {
+    let (mut judge, nodes) = two([1.0; 3], [[-1.0, 0.3, 0.7], [2.0, 0.6, 0.8]], [[2; 3], [4, 1, 1]], [false; 2]);
+    look(&mut judge, &nodes);
+    let region = &judge.regions[0];
+    assert!(close(region.volume, 0.03, 1.0) && length(region.area) < 1e-12, "{region:?}");
+    assert!((judge.findings.now.depth - 0.3).abs() < 0.11 && close(judge.findings.now.thickness, 0.1, 1.0), "{:?}", judge.findings.now);
+    for low in [[1.0, 0.0, 0.0], [1.0, 0.5, 0.0], [1.0, 1.0, 1.0], [0.0, 0.0, 1.0]] {
+        let (mut judge, nodes) = two([1.0; 3], [low, low.map(|c| c + 1.0)], [[2; 3], [2; 3]], [false; 2]);
+        look(&mut judge, &nodes);
+        // Ties are broken one way or the other: nothing, or something without a volume.
+        assert!(judge.regions.iter().all(|region| region.volume.abs() < 1e-15), "{low:?}");
+        assert!(judge.findings.now.depth < 1e-15);
+    }
+}
+
+#[test]
+fn sides_that_are_flush_leave_no_hole_in_a_contour() {
+    for counts in [[[1; 3]; 2], [[2; 3]; 2], [[3, 2, 4], [2, 3, 1]]] {
+        for are_tets in [[false; 2], [true, false], [true; 2]] {
+            for (low, high) in
+                [([0.9, 0.0, 0.0], [2.0, 1.0, 1.0]), ([0.9, 0.25, 0.0], [2.0, 0.75, 1.0]), ([0.5, 0.5, 0.0], [2.0, 2.0, 0.5])]
+            {
+                let (mut judge, nodes) = two([1.0; 3], [low, high], counts, are_tets);
+                look(&mut judge, &nodes);
+                let expected = (1.0 - low[0]) * (high[1].min(1.0) - low[1]) * (high[2].min(1.0) - low[2]);
+                let found: f64 = judge.regions.iter().map(|region| region.volume).sum();
+                assert!((found - expected).abs() < 1e-12, "{low:?} {counts:?} {are_tets:?}: {found} {expected}");
+                assert!(judge.regions.iter().all(|region| !region.is_open), "{low:?} {counts:?} {are_tets:?}");
+                assert!(judge.findings.now.depth < 1.0 - low[0] + 1e-12, "{:?}", judge.findings.now);
+            }
+        }
+    }
+}
+
+#[test]
+fn thickness_is_that_of_the_body_and_follows_it() {
+    let (judge, mut nodes) = two([1.0, 2.0, 0.1], [[5.0; 3], [6.0; 3]], [[3, 3, 1], [2; 3]], [false, true]);
+    let mut judge = judge;
+    assert!(close(judge.least, 0.1, 1.0));
+    nodes.iter_mut().for_each(|x| x[2] *= 0.5);
+    look(&mut judge, &nodes);
+    assert!(close(judge.thickness.least(&judge.skin), 0.05, 1.0));
+}
+
+fn turn(v: Vector, by: Vector) -> Vector {
+    spin::turned(v, by)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 60, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// Blocks of any kind, turned and shifted so that they cut each other, with nodes that are off: contours close, N_A = −N_B, and ∂V/∂x is the difference of volumes.
+    #[test]
+    fn gradients_are_differences_of_volumes(
+        by in prop::array::uniform3(-2.0..2.0_f64), shift in prop::array::uniform3(0.2..0.9_f64), noise in 0.0..0.08_f64,
+        seed in 0..1000_u32, are_tets in prop::array::uniform2(any::<bool>()), counts in prop::array::uniform2(prop::array::uniform3(1..4_usize)),
+    ) {
+        let (mut judge, mut nodes) = two([1.0; 3], [[0.0; 3], [1.0, 1.2, 0.7]], counts, are_tets);
+        let second = counts[0].iter().map(|count| count + 1).product::<usize>();
+        let mut state = seed.wrapping_mul(2_654_435_761) | 1;
+        let mut random = || { state ^= state << 13; state ^= state >> 17; state ^= state << 5; f64::from(state) / f64::from(u32::MAX) - 0.5 };
+        for (number, x) in nodes.iter_mut().enumerate() {
+            if number >= second {
+                let turned = turn(*x, by);
+                *x = [0, 1, 2].map(|d| turned[d] + shift[d]);
+            }
+            *x = x.map(|c| c + noise * random());
+        }
+        look(&mut judge, &nodes);
+        prop_assert!(judge.regions.iter().all(|region| !region.is_open));
+        let volume = |judge: &Judge| judge.regions.iter().map(|region| region.volume).sum::<f64>();
+        let whole = volume(&judge);
+        prop_assert!(whole >= -1e-14);
+        let mut rows = vec![[0.0; 3]; nodes.len()];
+        for region in judge.regions.iter() {
+            let (mut sum, mut one) = ([0.0; 3], [0.0; 3]);
+            for &(vertex, row) in &region.gradient {
+                let node = judge.skin.nodes[vertex as usize] as usize;
+                (0..3).for_each(|d| {
+                    rows[node][d] += row[d];
+                    sum[d] += row[d];
+                    if node < second { one[d] += row[d] }
+                });
+            }
+            // N_A + N_B = 0, and the rows of A add up to N_A.
+            prop_assert!(length(sum) < 1e-13 && length(minus(one, region.area)) < 1e-13, "{sum:?} {one:?}");
+        }
+        let h = 1e-6;
+        let node = (seed as usize * 7) % nodes.len();
+        for d in 0..3 {
+            let mut at = [0.0; 2];
+            for (value, step) in at.iter_mut().zip([h, -h]) {
+                let mut moved = nodes.clone();
+                moved[node][d] += step;
+                let mut judge = two([1.0; 3], [[0.0; 3], [1.0, 1.2, 0.7]], counts, are_tets).0;
+                look(&mut judge, &moved);
+                *value = volume(&judge);
+            }
+            let difference = (at[0] - at[1]) / (2.0 * h);
+            prop_assert!((difference - rows[node][d]).abs() < 1e-8 + 3e-6 * rows[node][d].abs().max(0.01), "{node} {d}: {difference} {:?}", rows[node]);
+        }
+    }
+}

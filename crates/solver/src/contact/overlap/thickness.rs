@@ -1,0 +1,96 @@
+//! Local thickness of bodies: how far the surface opposite is, along the inward normal.
+//!
+//! For each facet the ray from its middle finds the opposite skin once, in the initial places; what lies there is followed as it moves, so that a crushed body is as thin as it is.
+
+use super::skin::Skin;
+use super::tree::Tree;
+use crate::contact::projection::node_facet::{Vector, unit};
+use crate::mesh::surface::NONE;
+use crate::tensor::{cross, dot};
+use crate::vector::{length, minus};
+
+/// Cosine between a normal and that of the opposite skin.
+const OPPOSITE: f64 = -0.5;
+/// How far beside a triangle a ray may pass and still meet it, as a share.
+const BESIDE: f64 = 1e-9;
+
+/// What is opposite of each facet: a triangle, or [`NONE`], and the shares of its corners. On a symmetry plane the body goes on as its image.
+#[derive(Debug, Default)]
+pub(super) struct Thickness(Vec<(u32, [f64; 3])>);
+
+impl Thickness {
+    /// Of the facets of a skin in its places.
+    pub(super) fn new(skin: &Skin, tree: &Tree) -> Self {
+        let of = |facet: &super::skin::Facet| {
+            let (from, normal) = middle(skin, facet.first);
+            let mut nearest = (f64::INFINITY, (NONE, [0.0; 3]));
+            let inward = normal.map(|n| -n);
+            tree.along(skin, facet.body, from, inward, |triangle| {
+                if let Some((away, shares)) = meets(from, inward, skin.corners(triangle))
+                    && away < nearest.0
+                    && !facet.triangles().contains(&triangle)
+                {
+                    nearest = (away, (triangle, shares));
+                }
+            });
+            nearest.1
+        };
+        Self(skin.facets.iter().map(of).collect())
+    }
+
+    /// Thickness of the body behind a triangle now, m; infinite where nothing is opposite.
+    pub(super) fn of(&self, skin: &Skin, triangle: u32) -> f64 {
+        let facet = skin.facet_of[triangle as usize] as usize;
+        let (opposite, shares) = self.0[facet];
+        if opposite == NONE {
+            return f64::INFINITY;
+        }
+        let x = skin.corners(opposite);
+        let foot = [0, 1, 2].map(|d| shares[0] * x[0][d] + shares[1] * x[1][d] + shares[2] * x[2][d]);
+        let way = length(minus(foot, middle(skin, skin.facets[facet].first).0));
+        if skin.is_mirror(opposite) { 2.0 * way } else { way }
+    }
+
+    /// The largest of each body, m.
+    pub(super) fn thickest(&self, skin: &Skin) -> Vec<f64> {
+        let mut thickest = vec![0.0; skin.bodies as usize];
+        for facet in skin.facets.iter().filter(|facet| !facet.is_mirror) {
+            let most: &mut f64 = &mut thickest[facet.body as usize];
+            *most = most.max(self.of(skin, facet.first));
+        }
+        // Bodies may grow thicker.
+        thickest.into_iter().map(|most: f64| 2.0 * most).collect()
+    }
+
+    /// The least of all, m.
+    pub(super) fn least(&self, skin: &Skin) -> f64 {
+        let surface = skin.facets.iter().filter(|facet| !facet.is_mirror);
+        surface.map(|facet| self.of(skin, facet.first)).fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// Middle and unit normal of the facet of a first triangle.
+fn middle(skin: &Skin, first: u32) -> (Vector, Vector) {
+    let facet = &skin.facets[skin.facet_of[first as usize] as usize];
+    let at = |k: usize| skin.x[facet.vertices[k] as usize];
+    if facet.count == 1 {
+        let [a, b, c] = [at(0), at(1), at(2)];
+        return ([0, 1, 2].map(|d| (a[d] + b[d] + c[d]) / 3.0), unit(cross(minus(b, a), minus(c, a))));
+    }
+    (at(4), unit(cross(minus(at(2), at(0)), minus(at(3), at(1)))))
+}
+
+/// Where a ray meets a triangle that it comes to from behind: how far, m, and the shares of the corners there.
+fn meets(from: Vector, direction: Vector, [a, b, c]: [Vector; 3]) -> Option<(f64, [f64; 3])> {
+    let double = cross(minus(b, a), minus(c, a));
+    let (square, falls) = (dot(double, double), dot(double, direction));
+    if !(falls > -OPPOSITE * square.sqrt()) {
+        return None;
+    }
+    let away = dot(minus(a, from), double) / falls;
+    let foot = [0, 1, 2].map(|d| from[d] + away * direction[d]);
+    let second = dot(double, cross(minus(foot, a), minus(c, a))) / square;
+    let third = dot(double, cross(minus(b, a), minus(foot, a))) / square;
+    let shares = [1.0 - second - third, second, third];
+    (away > 0.0 && shares.iter().all(|share| *share >= -BESIDE)).then_some((away, shares))
+}

@@ -1,0 +1,249 @@
+//! Boxes around facets in a binary tree: which facets may meet, and which triangle is nearest to a place.
+//!
+//! The tree is built once, by halves along the longest axis, a subtree for each body; boxes are taken anew for each look. It shares nothing with the searches of contact.
+
+use super::skin::Skin;
+use crate::contact::projection::node_facet::{Vector, square_to_triangle};
+
+/// Facets of a leaf.
+const LEAF: usize = 2;
+/// The side of what has both.
+const MIXED: u32 = u32::MAX;
+
+#[derive(Clone, Copy, Debug)]
+struct Node {
+    low: Vector,
+    high: Vector,
+    /// Children; of a leaf where its facets begin and end in the order, and `is_leaf`.
+    first: u32,
+    second: u32,
+    is_leaf: bool,
+    side: u32,
+}
+
+/// The tree.
+#[derive(Debug, Default)]
+pub(super) struct Tree {
+    nodes: Vec<Node>,
+    order: Vec<u32>,
+    /// Root of each body.
+    roots: Vec<u32>,
+    root: u32,
+}
+
+impl Tree {
+    /// Of the facets of a skin that has its places.
+    pub(super) fn new(skin: &Skin) -> Self {
+        let mut tree = Self { order: (0..skin.facets.len() as u32).collect(), ..Self::default() };
+        let centres: Vec<Vector> = skin.facets.iter().map(|facet| centre(skin, facet.all())).collect();
+        tree.order.sort_by_key(|&facet| skin.facets[facet as usize].body);
+        let mut begin = 0;
+        for body in 0..skin.bodies {
+            let count = tree.order[begin..].iter().take_while(|&&facet| skin.facets[facet as usize].body == body).count();
+            let root = tree.grow(skin, &centres, begin, begin + count);
+            tree.roots.push(root);
+            begin += count;
+        }
+        let mut tops: Vec<u32> = tree.roots.clone();
+        let middles = |tree: &Self, root: u32| {
+            let facets = tree.facets_below(root);
+            let mut sum = [0.0; 3];
+            for &facet in &facets {
+                (0..3).for_each(|d| sum[d] += centres[facet as usize][d] / facets.len() as f64);
+            }
+            sum
+        };
+        let at: Vec<Vector> = tops.iter().map(|&root| middles(&tree, root)).collect();
+        let mut numbers: Vec<usize> = (0..tops.len()).collect();
+        tree.root = if tops.is_empty() { 0 } else { tree.join(&mut tops, &at, &mut numbers) };
+        tree
+    }
+
+    fn facets_below(&self, node: u32) -> Vec<u32> {
+        let Node { first, second, is_leaf, .. } = self.nodes[node as usize];
+        if is_leaf {
+            return self.order[first as usize..second as usize].to_vec();
+        }
+        let mut all = self.facets_below(first);
+        all.extend(self.facets_below(second));
+        all
+    }
+
+    /// Joins the roots `numbers` of bodies at their middles.
+    fn join(&mut self, tops: &mut [u32], at: &[Vector], numbers: &mut [usize]) -> u32 {
+        if let [only] = numbers {
+            return tops[*only];
+        }
+        let axis = longest(numbers.iter().map(|&number| at[number]));
+        numbers.sort_by(|&a, &b| at[a][axis].total_cmp(&at[b][axis]));
+        let half = numbers.len() / 2;
+        let (low, high) = numbers.split_at_mut(half);
+        let first = self.join(tops, at, low);
+        let second = self.join(tops, at, high);
+        let side = self.common_side(first, second);
+        self.push(Node { low: [0.0; 3], high: [0.0; 3], first, second, is_leaf: false, side })
+    }
+
+    fn common_side(&self, first: u32, second: u32) -> u32 {
+        let [a, b] = [first, second].map(|node| self.nodes[node as usize].side);
+        if a == b { a } else { MIXED }
+    }
+
+    fn push(&mut self, node: Node) -> u32 {
+        self.nodes.push(node);
+        self.nodes.len() as u32 - 1
+    }
+
+    /// The subtree of the facets `order[begin..end]`, all of one body.
+    fn grow(&mut self, skin: &Skin, centres: &[Vector], begin: usize, end: usize) -> u32 {
+        let facets = &mut self.order[begin..end];
+        let zero = [0.0; 3];
+        if facets.len() <= LEAF {
+            let sides = facets.iter().map(|&facet| skin.facets[facet as usize].side);
+            let side = sides.reduce(|a, b| if a == b { a } else { MIXED }).unwrap_or(MIXED);
+            return self.push(Node { low: zero, high: zero, first: begin as u32, second: end as u32, is_leaf: true, side });
+        }
+        let axis = longest(facets.iter().map(|&facet| centres[facet as usize]));
+        let half = facets.len() / 2;
+        let key = |&facet: &u32| (centres[facet as usize][axis], facet);
+        facets.sort_by(|a, b| {
+            let ((x, a), (y, b)) = (key(a), key(b));
+            x.total_cmp(&y).then(a.cmp(&b))
+        });
+        let first = self.grow(skin, centres, begin, begin + half);
+        let second = self.grow(skin, centres, begin + half, end);
+        let side = self.common_side(first, second);
+        self.push(Node { low: zero, high: zero, first, second, is_leaf: false, side })
+    }
+
+    /// Takes the boxes anew. Children come before their parents.
+    pub(super) fn refit(&mut self, skin: &Skin) {
+        for number in 0..self.nodes.len() {
+            let node = self.nodes[number];
+            let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+            if node.is_leaf {
+                for &facet in &self.order[node.first as usize..node.second as usize] {
+                    for &vertex in skin.facets[facet as usize].all() {
+                        let x = skin.x[vertex as usize];
+                        (0..3).for_each(|d| (low[d], high[d]) = (low[d].min(x[d]), high[d].max(x[d])));
+                    }
+                }
+            } else {
+                let [a, b] = [node.first, node.second].map(|child| self.nodes[child as usize]);
+                (0..3).for_each(|d| (low[d], high[d]) = (a.low[d].min(b.low[d]), a.high[d].max(b.high[d])));
+            }
+            (self.nodes[number].low, self.nodes[number].high) = (low, high);
+        }
+    }
+
+    /// Facets that may meet by their leaves' boxes, each pair once.
+    pub(super) fn pairs(&self, skin: &Skin, mut meet: impl FnMut(u32, u32)) {
+        if self.nodes.is_empty() {
+            return;
+        }
+        let mut stack = vec![(self.root, self.root)];
+        while let Some((a, b)) = stack.pop() {
+            let (p, q) = (&self.nodes[a as usize], &self.nodes[b as usize]);
+            let is_one_side = !skin.meets_itself && p.side == q.side && p.side != MIXED;
+            if is_one_side || (0..3).any(|d| p.high[d] < q.low[d] || q.high[d] < p.low[d]) {
+                continue;
+            }
+            match (p.is_leaf, q.is_leaf) {
+                (true, true) => {
+                    for i in p.first..p.second {
+                        for j in if a == b { i + 1 } else { q.first }..q.second {
+                            meet(self.order[i as usize], self.order[j as usize]);
+                        }
+                    }
+                }
+                (false, _) if a == b => stack.extend([(p.first, p.first), (p.second, p.second), (p.first, p.second)]),
+                (false, true) => stack.extend([(p.first, b), (p.second, b)]),
+                (true, false) => stack.extend([(a, q.first), (a, q.second)]),
+                (false, false) => {
+                    stack.extend([(p.first, q.first), (p.first, q.second), (p.second, q.first), (p.second, q.second)]);
+                }
+            }
+        }
+    }
+
+    /// The triangle of a body that is nearest to a place, and the square of the distance, if that is less than `square` (m²).
+    pub(super) fn nearest(&self, skin: &Skin, body: u32, x: Vector, mut square: f64, counts: impl Fn(u32) -> bool) -> Option<(f64, u32)> {
+        let mut found = None;
+        let mut stack = vec![(self.roots[body as usize], 0.0)];
+        while let Some((number, away)) = stack.pop() {
+            if away >= square {
+                continue;
+            }
+            let node = &self.nodes[number as usize];
+            if node.is_leaf {
+                for &facet in &self.order[node.first as usize..node.second as usize] {
+                    for triangle in skin.facets[facet as usize].triangles().filter(|&triangle| counts(triangle)) {
+                        let away = square_to_triangle(x, skin.corners(triangle));
+                        if away < square {
+                            (square, found) = (away, Some((away, triangle)));
+                        }
+                    }
+                }
+                continue;
+            }
+            let [a, b] = [node.first, node.second].map(|child| (child, self.square_to_box(child, x)));
+            // The nearer one first: it is on top.
+            if a.1 < b.1 { stack.extend([b, a]) } else { stack.extend([a, b]) }
+        }
+        found
+    }
+
+    fn square_to_box(&self, node: u32, x: Vector) -> f64 {
+        let Node { low, high, .. } = &self.nodes[node as usize];
+        (0..3).map(|d| (low[d] - x[d]).max(x[d] - high[d]).max(0.0)).fold(0.0, |sum, off| sum + off * off)
+    }
+
+    /// Triangles of a body whose leaves' boxes a ray meets.
+    pub(super) fn along(&self, skin: &Skin, body: u32, from: Vector, direction: Vector, mut meet: impl FnMut(u32)) {
+        let mut stack = vec![self.roots[body as usize]];
+        while let Some(number) = stack.pop() {
+            let node = &self.nodes[number as usize];
+            let (mut begin, mut end) = (0.0, f64::INFINITY);
+            for d in 0..3 {
+                if direction[d] == 0.0 {
+                    if from[d] < node.low[d] || from[d] > node.high[d] {
+                        end = -1.0;
+                    }
+                    continue;
+                }
+                let [s, t] = [node.low[d], node.high[d]].map(|bound| (bound - from[d]) / direction[d]);
+                (begin, end) = (s.min(t).max(begin), s.max(t).min(end));
+            }
+            // A flat box counts, whatever rounds.
+            if begin > end * (1.0 + 1e-9) {
+                continue;
+            }
+            if node.is_leaf {
+                for &facet in &self.order[node.first as usize..node.second as usize] {
+                    skin.facets[facet as usize].triangles().for_each(&mut meet);
+                }
+            } else {
+                stack.extend([node.first, node.second]);
+            }
+        }
+    }
+}
+
+/// Mean of vertices, m.
+fn centre(skin: &Skin, vertices: &[u32]) -> Vector {
+    let mut sum = [0.0; 3];
+    for &vertex in vertices {
+        (0..3).for_each(|d| sum[d] += skin.x[vertex as usize][d] / vertices.len() as f64);
+    }
+    sum
+}
+
+/// The axis along which places spread most.
+fn longest(places: impl Iterator<Item = Vector>) -> usize {
+    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    for x in places {
+        (0..3).for_each(|d| (low[d], high[d]) = (low[d].min(x[d]), high[d].max(x[d])));
+    }
+    let size = |d: usize| high[d] - low[d];
+    (1..3).fold(0, |axis, d| if size(d) > size(axis) { d } else { axis })
+}

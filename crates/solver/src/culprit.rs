@@ -1,7 +1,7 @@
 //! Who is to blame: names elements, nodes and contacts with their places, for errors, progress and the summary. Called rarely.
 
 use crate::contact::Contact;
-use crate::contact::overlap::{Findings, Overlap};
+use crate::contact::findings::{Findings, Overlap};
 use crate::error::Error;
 use crate::step::{Governor, System};
 use crate::tensor::Dim;

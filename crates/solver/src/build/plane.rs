@@ -6,6 +6,7 @@ use crate::contact::formulation::{self, Setup, Side};
 use crate::contact::law;
 use crate::contact::messages::ON_SYMMETRY;
 use crate::contact::projection::node_segment::Target;
+use crate::contact::thickness::Thickness;
 use crate::contact::{self, Contact, ContactKind, Formulation};
 use crate::error::Fault;
 use crate::load::tributary::Depth;
@@ -67,8 +68,9 @@ impl Builder<'_, 2> {
     pub(crate) fn contacts(&mut self) -> Vec<Contact> {
         let mut contacts = Vec::new();
         let mut tied = BTreeMap::new();
+        let thickness = self.thickness();
         for (i, contact) in self.model.contacts.iter().enumerate() {
-            match self.contact(contact) {
+            match self.contact(contact, &thickness) {
                 Ok(made) => {
                     if let Some(ties) = made.ties() {
                         self.tied_once(&format!("contact[{i}].tied"), &contact.name, &ties.nodes, &mut tied);
@@ -85,13 +87,27 @@ impl Builder<'_, 2> {
     }
 
     /// A contact; faults have paths relative to it.
-    fn contact(&mut self, contact: &model::Contact) -> Result<Contact, Vec<Fault>> {
-        let (formulation, terms) = self.formulation(contact)?;
+    fn contact(&mut self, contact: &model::Contact, thickness: &Thickness) -> Result<Contact, Vec<Fault>> {
+        let (formulation, terms) = self.formulation(contact, thickness)?;
         Ok(Contact::new(contact.name.clone(), ContactKind::Contact, formulation, terms, contact.interface.active))
     }
 
-    /// What makes the springs of a contact, and the number of the terms that they follow.
-    pub(crate) fn formulation(&mut self, contact: &model::Contact) -> Result<(Box<dyn Formulation>, usize), Vec<Fault>> {
+    /// Local thickness of all bodies; nothing where no surfaces meet.
+    pub(crate) fn thickness(&self) -> Thickness {
+        if self.model.contacts.is_empty() {
+            return Thickness::default();
+        }
+        // Elements that overlap are told elsewhere.
+        let outside = self.mesh.outside(&[]).map(|surface| surface.segments).unwrap_or_default();
+        Thickness::new(&outside, |segment| self.constraints.is_mirror(segment), &self.body_of_node, &self.mesh.positions)
+    }
+
+    /// What makes the springs of a contact between bodies of this `thickness`, and the number of the terms that they follow.
+    pub(crate) fn formulation(
+        &mut self,
+        contact: &model::Contact,
+        thickness: &Thickness,
+    ) -> Result<(Box<dyn Formulation>, usize), Vec<Fault>> {
         let terms = self.add_terms(terms_of(&contact.interface));
         let tie_terms = if contact.tied.is_some() { self.add_terms(terms_of_ties(&contact.interface)) } else { terms };
         let sides: Vec<Side<'_>> = self.outlines_of(contact)?.into_iter().map(|outline| self.side(outline, &contact.interface)).collect();
@@ -113,6 +129,7 @@ impl Builder<'_, 2> {
             law: &|| law_of(&contact.interface),
             passes: (kind.passes)(contact),
             tie_terms,
+            thickness,
             search: &|| (search.make)(),
             again: self.again,
         };

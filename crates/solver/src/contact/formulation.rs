@@ -8,6 +8,7 @@ use super::law::Law;
 use super::node_segment::{Face, Slave};
 use super::projection::node_segment::Target;
 use super::search::Search;
+use super::thickness::{Depths, Thickness};
 use super::tracker::Tracker;
 use super::{Formulation, Tributary, Vector, law, node_segment, pinball, segment, tied};
 use crate::error::Fault;
@@ -106,6 +107,8 @@ pub struct Setup<'a> {
     pub tie_terms: usize,
     /// Makes a search of the kind that the contact names.
     pub search: &'a dyn Fn() -> Box<dyn Search<2>>,
+    /// Local thickness of all bodies.
+    pub thickness: &'a Thickness,
     /// Whether it will take over from one that has acted already, because surfaces have changed.
     pub again: bool,
 }
@@ -121,6 +124,12 @@ impl Setup<'_> {
     #[must_use]
     pub fn ignores_start(&self) -> bool {
         is_ignored(&self.contact.interface)
+    }
+
+    /// Sees how deep nodes are against the local thickness.
+    #[must_use]
+    pub fn depths(&self) -> Depths {
+        Depths::new(self.sides.iter().map(|side| self.thickness.of(&side.target.surface)).collect())
     }
 
     /// Follows the nodes of the passes.

@@ -3,7 +3,7 @@
 //! Lines or planes, and nodes, come from the builder; springs go to the same solution as those of the contact itself. By symmetry a node meets the image where it meets the line or plane, at half of the
 //! gap. Of the two passes of the pair, node against image and image against node, half belongs to the model: with the stiffness k of a pass its energy is 2 · ½ k (2g)² / 2 = ½ (4k) g².
 
-use super::overlap::Findings;
+use super::findings::Findings;
 use super::springs::{Answers, End, Spring, Springs};
 use super::tied::Ties;
 use super::tracker::{Certificate, SearchReport};

@@ -13,9 +13,10 @@ pub mod tied;
 pub mod tracker;
 
 use super::edge_edge::{self, Around, EdgeTouch, EdgeTracker};
+use super::findings::Findings;
 use super::initial::{is_ignored, kept};
 use super::node_segment::{Before, Closed, carried, is_stored};
-use super::overlap::{Findings, Judge};
+use super::overlap::Judge;
 use super::projection::edge_edge::distance;
 use super::projection::node_facet::{Placed, Projection, Vector, unit};
 use super::proof::Proof;

@@ -4,10 +4,12 @@
 
 mod fold;
 
+use super::findings::Findings;
 use super::formulation::{FormulationKind, Setup, both_passes, one_pass};
 use super::initial::{is_ignored, kept};
 use super::projection::node_segment::{Projection, Target};
 use super::springs::{Answers, End, Spring, Springs, tangent};
+use super::thickness::Depths;
 use super::tracker::{Certificate, Memory, SearchReport, Touch, Tracker, is_facing};
 use super::{Formulation, Scene, Sweep, Vector};
 use crate::archive::{Archive, Kept, keep_all, keep_each};
@@ -59,6 +61,8 @@ pub struct NodeSegment {
     /// Energy of the springs of the last step, and of those that were not found again, J/m.
     closed: Closed,
     let_go: f64,
+    /// How deep nodes are against the local thickness.
+    depths: Depths,
 }
 
 /// How many springs are closed, and their energy, J/m.
@@ -158,7 +162,8 @@ impl NodeSegment {
         let inputs = passes.iter().map(pass).collect();
         let (interface, reach) = (&setup.contact.interface, (setup.law)().reach());
         let initial = if interface.thickness + reach > 0.0 { setup.positions.to_vec() } else { Vec::new() };
-        Self { passes: inputs, initial, ..Self::new(setup.tracker(), Vec::new(), interface, reach) }
+        let depths = setup.depths();
+        Self { passes: inputs, initial, depths, ..Self::new(setup.tracker(), Vec::new(), interface, reach) }
     }
 
     /// For the passes of `tracker` with slaves whose stiffness is known; `reach` of the law, m.
@@ -178,6 +183,7 @@ impl NodeSegment {
             used: Vec::new(),
             closed: Closed::default(),
             let_go: 0.0,
+            depths: Depths::default(),
         }
     }
 
@@ -226,6 +232,7 @@ impl NodeSegment {
     pub(super) fn detect_free(&mut self, bound: &[bool], scene: &Scene<'_>, springs: &mut Springs) {
         let count = self.tracker.track(scene.sweep, self.thickness + self.reach).len();
         self.used.clear();
+        self.depths.begin();
         let mut again = Closed::default();
         for index in 0..count {
             let touch = self.tracker.touches()[index];
@@ -245,13 +252,15 @@ impl NodeSegment {
             let stiffness = [Some(segment), other].into_iter().flatten().map(|segment| pass.stiffness_of(slave, segment, part));
             let (stiffness, area) = (stiffness.fold(f64::INFINITY, f64::min), part.length * pass.slaves[slave].area);
             let (gap, offset) = self.beyond(&touch, &memory);
+            let limit = self.depths.limit(self.tracker.around(&touch));
+            self.depths.see(&self.tracker, &touch, offset - touch.projection.gap, limit, scene);
             if touch.slope != 0.0 {
                 lean(&mut ends, &touch, scene.sweep.new);
             }
             let carried =
                 if self.stores { carried(&memory.before(), normal, gap, &ends, self.reach, scene.sweep, self.has_begun) } else { 0.0 };
             let (side, slip, gap) = (self.tracker.side(touch.pass), memory.slip, gap + carried);
-            let spring = Spring { normal, gap, stiffness, area, side, slip: [slip], ..Spring::default() };
+            let spring = Spring { normal, gap, stiffness, area, limit, side, slip: [slip], ..Spring::default() };
             match other.filter(|_| self.slips).map(|other| turn_with_both(&mut ends, &touch.projection, other, target, scene.sweep.new)) {
                 None => springs.push(spring, &ends),
                 Some(more) => springs.push_with(spring, ends.iter().chain([&more])),
@@ -259,6 +268,7 @@ impl NodeSegment {
             *self.tracker.kept_mut(&touch) = Memory { offset, faces, carried, normal, stored: 0.0, ..memory };
             self.used.push(index as u32);
         }
+        self.depths.end();
         self.let_go = self.closed.less(&again);
         self.has_begun = true;
     }
@@ -286,11 +296,11 @@ impl Formulation for NodeSegment {
         #[rustfmt::skip]
         let Self {
             passes: _, thickness: _, reach: _, stores: _, slips: _, ignores_start: _, initial: _, used: _, let_go: _,
-            tracker, has_begun, closed,
+            tracker, has_begun, closed, depths,
         } = self;
         tracker.keep(archive)?;
         keep_each!(archive; has_begun, closed);
-        Ok(())
+        depths.keep(archive)
     }
 
     fn inherit(&mut self, old: Box<dyn Any>) {
@@ -298,6 +308,7 @@ impl Formulation for NodeSegment {
             // What is not found again went with its surface.
             self.tracker.inherit(&old.tracker);
             self.has_begun = old.has_begun;
+            self.depths.inherit(&old.depths);
         }
     }
 
@@ -306,7 +317,13 @@ impl Formulation for NodeSegment {
     }
 
     fn certificate(&self) -> Certificate {
-        self.tracker.certificate()
+        let mut sum = self.tracker.certificate();
+        sum.unverified += self.depths.findings().unverified;
+        sum
+    }
+
+    fn overlaps(&self) -> Option<&Findings> {
+        Some(self.depths.findings())
     }
 
     fn search_report(&self) -> Option<SearchReport> {

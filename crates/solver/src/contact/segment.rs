@@ -13,10 +13,12 @@
 
 mod common;
 
+use super::findings::Findings;
 use super::formulation::{FormulationKind, Setup, both_passes};
 use super::initial::kept;
 use super::law::{Law, penalty};
 use super::springs::{Answers, Patch, Spring, Springs};
+use super::thickness::Depths;
 use super::tracker::{Certificate, SearchReport, Tracker};
 use super::{Formulation, Scene, Sweep, Vector};
 use crate::archive::{Archive, Kept, keep_all, keep_each};
@@ -82,6 +84,8 @@ pub struct Segment {
     before: Vec<Facing>,
     /// Energy of springs that were not found again, J/m.
     let_go: f64,
+    /// How deep nodes are against the local thickness.
+    depths: Depths,
 }
 
 /// What is known of the beginning.
@@ -164,9 +168,10 @@ impl Segment {
             bodies: if at_a_distance { setup.bodies.to_vec() } else { Vec::new() },
             has_begun: false,
         };
-        let tracker = setup.tracker();
+        let (depths, tracker) = (setup.depths(), setup.tracker());
         Self {
             tracker,
+            depths,
             chains,
             law,
             penalty,
@@ -207,7 +212,10 @@ impl Segment {
             }
         }
         self.tracker.track(scene.sweep, self.thickness + self.reach);
+        self.depths.begin();
         for touch in self.tracker.touches() {
+            let limit = self.depths.limit(self.tracker.around(touch));
+            self.depths.see(&self.tracker, touch, -touch.projection.gap, limit, scene);
             let side = self.tracker.side(touch.pass);
             let [slave, target] = if side > 0.0 { [0, 1] } else { [self.chains.len() - 1, 0] };
             let chain = &mut self.chains[slave];
@@ -224,6 +232,7 @@ impl Segment {
                 }
             }
         }
+        self.depths.end();
         self.pairs.sort_unstable();
         self.pairs.dedup();
     }
@@ -312,6 +321,8 @@ impl Segment {
         let least = self.least[at as usize];
         let (mut facing, is_new) = self.kept(pair, common.length);
         let begun = self.start.has_begun;
+        let surfaces = self.surfaces();
+        let limit = self.depths.limit([0, 1].map(|k| (surfaces[k], pair[k])));
         let at_once =
             is_new && begun && self.law.is_elastic() && Common::new(common.nodes, sweep.old).is_some_and(|before| before.is_long());
         let moved = if at_once { common.moved(sweep) } else { 0.0 };
@@ -337,7 +348,7 @@ impl Segment {
             let (normal, area) = (common.normal, weight * common.area * around);
             let side = if self.chains.len() == 1 { 0.0 } else { 1.0 };
             let (stiffness, slip) = (pressure * area, facing.slips[k]);
-            springs.push(Spring { normal, gap, stiffness, area, side, slip: [slip], ..Spring::default() }, &ends);
+            springs.push(Spring { normal, gap, stiffness, area, limit, side, slip: [slip], ..Spring::default() }, &ends);
         }
         self.facing.push(facing);
     }
@@ -437,9 +448,10 @@ impl Formulation for Segment {
         #[rustfmt::skip]
         let Self {
             chains: _, law: _, penalty: _, rule: _, depth: _, thickness: _, reach: _, pairs: _, commons: _, tree: _, least: _, free_ends: _, owners: _, before: _, let_go: _,
-            tracker, start: Start { ignored: _, positions: _, bodies: _, has_begun }, facing,
+            tracker, start: Start { ignored: _, positions: _, bodies: _, has_begun }, facing, depths,
         } = self;
         tracker.keep(archive)?;
+        depths.keep(archive)?;
         keep_each!(archive; has_begun, facing);
         let segments = self.surfaces().map(|surface| self.tracker.targets()[surface].surface.segments.len());
         let is_there = |facing: &Facing| (0..2).all(|k| (facing.pair[k] as usize) < segments[k]);
@@ -450,6 +462,7 @@ impl Formulation for Segment {
         let Ok(old) = old.downcast::<Self>() else { return };
         self.tracker.inherit(&old.tracker);
         self.start.has_begun = old.start.has_begun;
+        self.depths.inherit(&old.depths);
         let (surfaces, before) = (self.surfaces(), &old.facing);
         let by_nodes = surfaces.map(|surface| {
             let mut list: Vec<([u32; 2], u32)> = self.tracker.targets()[surface].surface.segments.iter().copied().zip(0..).collect();
@@ -479,7 +492,13 @@ impl Formulation for Segment {
     }
 
     fn certificate(&self) -> Certificate {
-        self.tracker.certificate()
+        let mut sum = self.tracker.certificate();
+        sum.unverified += self.depths.findings().unverified;
+        sum
+    }
+
+    fn overlaps(&self) -> Option<&Findings> {
+        Some(self.depths.findings())
     }
 
     fn search_report(&self) -> Option<SearchReport> {

@@ -26,6 +26,7 @@ mod tree;
 pub use skin::Bodies;
 
 use super::Sweep;
+use super::findings::{CAST, DEEPEST, Findings, Overlap};
 use super::projection::node_facet::{Vector, square_to_triangle, unit};
 use super::spin;
 use super::springs::Answers;
@@ -39,8 +40,6 @@ use skin::Skin;
 use thickness::Thickness;
 use tree::Tree;
 
-/// Deepest that a held region may be, as a fraction of the local thickness: less than half of the half.
-const DEEPEST: f64 = 0.2;
 /// From this fraction on, depth is measured to the side of entry.
 const SIDED: f64 = 0.15;
 /// Nothing inside a body is farther from its surface than this fraction of the thickness there: half of it, but for wedges.
@@ -57,54 +56,6 @@ const MOST_STEPS: u32 = 16;
 const DIRECTED: f64 = 0.3;
 /// Shallower than this fraction of the thickness a region may be without a force.
 const SHALLOW: f64 = 0.02;
-/// Depth from which on a region gets a net and counts as penetration, as a fraction of the local thickness.
-pub const CAST: f64 = 0.125;
-
-/// A place in an overlap.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Overlap {
-    /// Where, m.
-    pub place: Vector,
-    /// Depth there, m.
-    pub depth: f64,
-    /// Local thickness, the lesser of both bodies', m.
-    pub thickness: f64,
-    /// A node of either body there.
-    pub nodes: [u32; 2],
-    /// When, s.
-    pub time: f64,
-}
-
-keep_all!(Overlap { place, depth, thickness, nodes, time });
-
-impl Overlap {
-    /// Depth as a fraction of the local thickness.
-    #[must_use]
-    pub fn ratio(&self) -> f64 {
-        if self.depth > 0.0 { self.depth / self.thickness } else { 0.0 }
-    }
-}
-
-/// What a judge found so far.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Findings {
-    /// Regions that were not held, over all looks.
-    pub unverified: u64,
-    /// Looks.
-    pub looks: u64,
-    /// The first region that was not held.
-    pub first: Option<Overlap>,
-    /// What was deepest against the local thickness in all looks.
-    pub worst: Overlap,
-    /// The deepest place of the last look between different bodies.
-    pub now: Overlap,
-    /// The same of a body in itself.
-    pub own: Overlap,
-    /// Where a body was deeper in another one in the last look than either is thick.
-    pub through: Option<Overlap>,
-}
-
-keep_all!(Findings { unverified, looks, first, worst, now, own, through });
 
 /// What is known of a region from look to look.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -256,13 +207,7 @@ impl Judge {
             deepest.depth = (deepest.depth - known.offset).max(0.0);
             (known.ratio, known.thickness) = (deepest.ratio(), deepest.thickness);
             let is_own = known.bodies[0] == known.bodies[1];
-            let most = if is_own { &mut self.findings.own } else { &mut self.findings.now };
-            if known.ratio > most.ratio() {
-                *most = deepest;
-            }
-            if known.ratio > self.findings.worst.ratio() {
-                self.findings.worst = deepest;
-            }
+            self.findings.see(deepest, is_own);
             if known.ratio > 1.0 && !is_own && !self.regions[number].is_open {
                 self.findings.through = Some(deepest);
             }
@@ -426,9 +371,7 @@ impl Judge {
             let was_loose = known.is_loose;
             known.is_loose = known.ratio > SHALLOW && known.volume >= known.before && !(push > 0.0) && !region.is_open;
             if known.ratio > DEEPEST || is_turned || (known.is_loose && was_loose) {
-                self.findings.unverified += 1;
-                let Findings { now, own, .. } = self.findings;
-                self.findings.first.get_or_insert(if own.ratio() > now.ratio() { own } else { now });
+                self.findings.miss();
             }
         }
         if self.known.iter().any(|known| known.area > 0.0 || (known.is_loose && known.bodies[0] != known.bodies[1])) {

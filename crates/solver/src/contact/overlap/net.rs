@@ -22,8 +22,8 @@ impl Judge {
         // A volume grows by what its sides go. If by more, it is another one, and the net keeps its force.
         let grown = region.volume - known.before;
         let grown = if grown.abs() > 8.0 * way * region.size.min(known.size_before) { 0.0 } else { grown };
-        if region.is_open || region.bodies[0] == region.bodies[1] {
-            // Its volume says nothing; that of a body with itself jumps where the surface folds.
+        if region.is_open || !region.is_closed || region.bodies[0] == region.bodies[1] {
+            // Its volume says nothing, or its forces would not add up to nothing; that of a body with itself jumps where the surface folds.
             known.area = 0.0;
         } else if known.area > 0.0 {
             known.depth += grown / known.area;

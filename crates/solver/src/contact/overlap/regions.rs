@@ -14,7 +14,7 @@ use super::skin::Skin;
 use crate::contact::projection::node_facet::Vector;
 use crate::mesh::surface::NONE;
 use crate::tensor::{cross, dot};
-use crate::vector::minus;
+use crate::vector::{length, minus};
 
 /// An overlap of two bodies, or of two parts of one.
 #[derive(Clone, Debug, Default)]
@@ -37,6 +37,8 @@ pub(super) struct Region {
     pub(super) gradient: Vec<(u32, Vector)>,
     /// Whether the contour is not closed, or the same place is inside and outside: at borders of surfaces, and where a surface folds onto itself.
     pub(super) is_open: bool,
+    /// Whether its surface is: no translation and no rotation changes V. Where a body overlaps itself, what lies in another one has no closed surface.
+    pub(super) is_closed: bool,
 }
 
 impl Region {
@@ -46,6 +48,9 @@ impl Region {
         at.ok().map(|at| self.triangles[at].1)
     }
 }
+
+/// What ∂V/∂x of all nodes adds up to at most, force and moment, where the surface is closed, as a fraction of their sizes. What is so small that it is all rounding is not.
+const CLOSED: f64 = 1e-9;
 
 /// Piercings of an edge that are nearer to each other than this fraction of its length have no order.
 const SAME_PLACE: f64 = 1e-9;
@@ -364,6 +369,7 @@ fn integrate(skin: &Skin, region: &mut Region, pieces: &[Piece]) {
             rows.extend(carriers[..count].iter().map(|&node| (node, double.map(|c| share * c))));
         }
     }
+    region.is_closed = is_closed(skin, &rows, origin);
     rows.sort_by_key(|row| row.0);
     for row in rows {
         match region.gradient.last_mut() {
@@ -371,4 +377,20 @@ fn integrate(skin: &Skin, region: &mut Region, pieces: &[Piece]) {
             _ => region.gradient.push(row),
         }
     }
+}
+
+/// Whether the rows ∂V/∂x are those of a closed surface: their sum and their moment vanish.
+fn is_closed(skin: &Skin, rows: &[(u32, Vector)], origin: Vector) -> bool {
+    let (mut sum, mut moment, mut size, mut arm_size) = ([0.0; 3], [0.0; 3], 0.0, 0.0);
+    for &(node, row) in rows {
+        let arm = minus(skin.x[node as usize], origin);
+        let turned = cross(arm, row);
+        (0..3).for_each(|d| {
+            sum[d] += row[d];
+            moment[d] += turned[d];
+        });
+        size += length(row);
+        arm_size += length(arm) * length(row);
+    }
+    length(sum) <= CLOSED * size && length(moment) <= CLOSED * arm_size
 }

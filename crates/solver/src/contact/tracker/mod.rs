@@ -137,6 +137,14 @@ impl Tracker {
         (pass.ends.around.get(touch.slave as usize).copied().unwrap_or([NONE; 2]), &self.targets[pass.slave])
     }
 
+    /// The segments where a node touches, each with its surface: of the target, and those that end and begin at the node, [`crate::mesh::surface::NONE`] where there is none.
+    #[must_use]
+    pub fn around(&self, touch: &Touch) -> [(usize, u32); 3] {
+        let pass = &self.passes[touch.pass as usize];
+        let ([before, after], _) = self.segments_at(touch);
+        [(pass.target, touch.projection.segment), (pass.slave, before), (pass.slave, after)]
+    }
+
     /// The surfaces.
     #[must_use]
     pub fn targets(&self) -> &[Target] {

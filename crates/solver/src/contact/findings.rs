@@ -1,0 +1,84 @@
+//! How deep bodies are in each other against their local thickness: what was found, deepest, first and now.
+
+use crate::archive::keep_all;
+
+/// Deepest that what is held may be, as a fraction of the local thickness: less than half of the half.
+pub const DEEPEST: f64 = 0.2;
+/// Depth from which on an overlap gets a net and counts as penetration, as a fraction of the local thickness.
+pub const CAST: f64 = 0.125;
+
+/// A place in an overlap.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Overlap {
+    /// Where, m; in the plane the last is 0.
+    pub place: [f64; 3],
+    /// Depth there, m.
+    pub depth: f64,
+    /// Local thickness, the lesser of both bodies', m.
+    pub thickness: f64,
+    /// A node of either body there.
+    pub nodes: [u32; 2],
+    /// When, s.
+    pub time: f64,
+}
+
+keep_all!(Overlap { place, depth, thickness, nodes, time });
+
+impl Overlap {
+    /// Depth as a fraction of the local thickness.
+    #[must_use]
+    pub fn ratio(&self) -> f64 {
+        if self.depth > 0.0 { self.depth / self.thickness } else { 0.0 }
+    }
+}
+
+/// What was found so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Findings {
+    /// What was not held, over all looks: in space regions, in the plane steps.
+    pub unverified: u64,
+    /// Looks.
+    pub looks: u64,
+    /// The first that was not held.
+    pub first: Option<Overlap>,
+    /// What was deepest against the local thickness in all looks.
+    pub worst: Overlap,
+    /// The deepest place of the last look between different bodies.
+    pub now: Overlap,
+    /// The same of a body in itself.
+    pub own: Overlap,
+    /// Where a body was deeper in another one in the last look than either is thick.
+    pub through: Option<Overlap>,
+}
+
+keep_all!(Findings { unverified, looks, first, worst, now, own, through });
+
+impl Findings {
+    /// Takes a place of this look, of a body in itself (`is_own`) or of two.
+    pub(super) fn see(&mut self, place: Overlap, is_own: bool) {
+        let most = if is_own { &mut self.own } else { &mut self.now };
+        if place.ratio() > most.ratio() {
+            *most = place;
+        }
+        if place.ratio() > self.worst.ratio() {
+            self.worst = place;
+        }
+    }
+
+    /// Counts a look in which something was so deep against the thickness.
+    pub(super) fn count(&mut self, deepest: f64) {
+        if self.now.ratio() > 1.0 {
+            self.through = Some(self.now);
+        }
+        if deepest > DEEPEST {
+            self.miss();
+        }
+    }
+
+    /// Counts something of this look that was not held.
+    pub(super) fn miss(&mut self) {
+        self.unverified += 1;
+        let Self { now, own, .. } = *self;
+        self.first.get_or_insert(if own.ratio() > now.ratio() { own } else { now });
+    }
+}

@@ -161,7 +161,7 @@ macro_rules! numbers {
     )*};
 }
 
-numbers!(u8, u32, u64, i32, f32, f64);
+numbers!(u8, u16, u32, u64, i32, f32, f64);
 
 impl Keep for usize {
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {

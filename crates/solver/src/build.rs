@@ -312,7 +312,9 @@ where
     fn measure_stiffness(&mut self, blocks: &mut [Box<dyn Block<D>>], level: Level) {
         self.moduli = blocks.iter().map(|block| [block.wave_modulus(), block.bulk_modulus()]).collect();
         let interfaces = self.model.contacts.iter().map(|c| &c.interface).chain(self.model.obstacles.iter().map(|o| &o.interface));
-        if interfaces.into_iter().any(|interface| source_of(interface) == PenaltySource::TimeStep) {
+        let is_asked = interfaces.into_iter().any(|interface| source_of(interface) == PenaltySource::TimeStep);
+        // Springs between bodies stiffen by it, too.
+        if is_asked || !self.model.contacts.is_empty() {
             let velocities = vec![[0.0; D]; self.mesh.positions.len()];
             let motion = Motion { positions: &self.mesh.positions, velocities: &velocities, time_step: 0.0 };
             let stable = |(block, group): (&mut Box<dyn Block<D>>, &ElementGroup)| {
@@ -325,7 +327,7 @@ where
             let elements =
                 self.model.run.safety * blocks.iter_mut().zip(&self.mesh.groups).map(stable).fold(f64::INFINITY, f64::min).sqrt();
             self.time_step = elements.min(self.model.run.time_step.unwrap_or(f64::INFINITY));
-            if self.time_step == f64::INFINITY {
+            if is_asked && self.time_step == f64::INFINITY {
                 self.faults.push(Fault::new(
                     &NO_STEP,
                     "run.time_step",

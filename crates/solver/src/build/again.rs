@@ -76,9 +76,9 @@ impl Builder<'_, 2> {
     pub(crate) fn renew(&mut self, contacts: &mut [Contact]) {
         // Contacts come first, then obstacles, both in model order.
         let (between, obstacles) = contacts.split_at_mut(self.model.contacts.len());
-        let thickness = self.thickness();
+        let outlines = self.outlines();
         for (model, contact) in self.model.contacts.iter().zip(between) {
-            match self.formulation(model, &thickness) {
+            match self.formulation(model, &outlines) {
                 Ok((formulation, _)) => contact.renew(formulation),
                 Err(_) => contact.end(),
             }

@@ -39,7 +39,7 @@ impl Met {
     fn point(&self, obstacle: &Obstacle) -> Slave {
         let own = self.mean;
         let here = law::Node { own, other: own.stiffness, share: 1.0 };
-        Slave { stiffness: stiffness_of(&obstacle.interface, here, 1), area: own.area, slip: 0.0 }
+        Slave { stiffness: stiffness_of(&obstacle.interface, here, 1), area: own.area, slip: 0.0, of_mass: 0.0 }
     }
 }
 
@@ -77,7 +77,7 @@ impl Builder<'_, 2> {
         let Side { target, lids, nodes: own, .. } = self.side(self.outline_met(obstacle)?, &obstacle.interface);
         let count = own.len().max(1) as f64;
         let mean = |of: fn(&Tributary) -> f64| own.iter().map(of).fold(0.0, |sum, it| sum + it) / count;
-        let mean = Tributary { area: mean(|it| it.area), length: mean(|it| it.length), stiffness: mean(|it| it.stiffness) };
+        let mean = Tributary { area: mean(|it| it.area), length: mean(|it| it.length), stiffness: mean(|it| it.stiffness), of_mass: 0.0 };
         let longest = target.surface.segments.iter().map(|&segment| length(segment, &self.mesh.positions)).fold(0.0, f64::max);
         Ok(Met { outline: Outlined { target, lids }, own, mean, longest, reach })
     }
@@ -171,7 +171,7 @@ impl Builder<'_, 2> {
         let passes = if lines.iter().sum::<f64>() <= lines.len() as f64 * met.mean.length { 2 } else { 1 };
         let slave = |own: Tributary, share: f64| {
             let here = law::Node { own, other: own.stiffness, share };
-            Slave { stiffness: stiffness_of(&obstacle.interface, here, passes), area: own.area / passes as f64, slip: 0.0 }
+            Slave { stiffness: stiffness_of(&obstacle.interface, here, passes), area: own.area / passes as f64, slip: 0.0, of_mass: 0.0 }
         };
         let of_parts = met.outline.target.surface.nodes.iter().zip(&met.own).map(|(&node, &own)| slave(own, self.constraints.share(node)));
         let of_corners = contact::tributaries(&surface, &vec![met.mean.stiffness; lines.len()], &self.positions, Depth::of(self.model));
@@ -225,7 +225,8 @@ impl Builder<'_, 2> {
     ) -> NodeObstacle {
         let slave = |(&node, &own): (&u32, &Tributary)| {
             let here = law::Node { own, other: own.stiffness, share: self.constraints.share(node) };
-            (!left_out(node)).then(|| (node, Slave { stiffness: stiffness_of(&obstacle.interface, here, 1), area: own.area, slip: 0.0 }))
+            (!left_out(node))
+                .then(|| (node, Slave { stiffness: stiffness_of(&obstacle.interface, here, 1), area: own.area, slip: 0.0, of_mass: 0.0 }))
         };
         let nodes = met.outline.target.surface.nodes.iter().zip(&met.own).filter_map(slave).collect();
         NodeObstacle::new(shape, body, nodes, SKIN * met.mean.length + met.reach, initial::is_ignored(&obstacle.interface))

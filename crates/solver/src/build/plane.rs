@@ -5,8 +5,8 @@ use super::{Builder, law_of, search_by_name, source_of, terms_of, terms_of_ties}
 use crate::contact::formulation::{self, Setup, Side};
 use crate::contact::law;
 use crate::contact::messages::ON_SYMMETRY;
+use crate::contact::outline::Outlines;
 use crate::contact::projection::node_segment::Target;
-use crate::contact::thickness::Thickness;
 use crate::contact::{self, Contact, ContactKind, Formulation};
 use crate::error::Fault;
 use crate::load::tributary::Depth;
@@ -48,10 +48,11 @@ impl Builder<'_, 2> {
         let modulus = |under: Under| self.moduli[under.group][usize::from(source == PenaltySource::BulkModulus)] * under.flatness;
         let mut segments: Vec<f64> = surface.segments.iter().map(|&segment| self.under(segment).map_or(0.0, modulus)).collect();
         let mut nodes = contact::tributaries(surface, &segments, positions, Depth::of(self.model));
+        for (&node, own) in surface.nodes.iter().zip(&mut nodes) {
+            own.of_mass = law::penalty::of_time_step(self.mass[node as usize], self.time_step, own.area);
+        }
         if source == PenaltySource::TimeStep {
-            for (&node, own) in surface.nodes.iter().zip(&mut nodes) {
-                own.stiffness = law::penalty::of_time_step(self.mass[node as usize], self.time_step, own.area);
-            }
+            nodes.iter_mut().for_each(|own| own.stiffness = own.of_mass);
             let of = |node: u32| surface.nodes.binary_search(&node).map_or(0.0, |at| nodes[at].stiffness);
             segments = surface.segments.iter().map(|&[a, b]| 0.5 * (of(a) + of(b))).collect();
         }
@@ -68,9 +69,9 @@ impl Builder<'_, 2> {
     pub(crate) fn contacts(&mut self) -> Vec<Contact> {
         let mut contacts = Vec::new();
         let mut tied = BTreeMap::new();
-        let thickness = self.thickness();
+        let outlines = self.outlines();
         for (i, contact) in self.model.contacts.iter().enumerate() {
-            match self.contact(contact, &thickness) {
+            match self.contact(contact, &outlines) {
                 Ok(made) => {
                     if let Some(ties) = made.ties() {
                         self.tied_once(&format!("contact[{i}].tied"), &contact.name, &ties.nodes, &mut tied);
@@ -87,26 +88,26 @@ impl Builder<'_, 2> {
     }
 
     /// A contact; faults have paths relative to it.
-    fn contact(&mut self, contact: &model::Contact, thickness: &Thickness) -> Result<Contact, Vec<Fault>> {
-        let (formulation, terms) = self.formulation(contact, thickness)?;
+    fn contact(&mut self, contact: &model::Contact, outlines: &Outlines) -> Result<Contact, Vec<Fault>> {
+        let (formulation, terms) = self.formulation(contact, outlines)?;
         Ok(Contact::new(contact.name.clone(), ContactKind::Contact, formulation, terms, contact.interface.active))
     }
 
-    /// Local thickness of all bodies; nothing where no surfaces meet.
-    pub(crate) fn thickness(&self) -> Thickness {
+    /// Outlines of all bodies; nothing where no surfaces meet.
+    pub(crate) fn outlines(&self) -> Outlines {
         if self.model.contacts.is_empty() {
-            return Thickness::default();
+            return Outlines::default();
         }
         // Elements that overlap are told elsewhere.
         let outside = self.mesh.outside(&[]).map(|surface| surface.segments).unwrap_or_default();
-        Thickness::new(&outside, |segment| self.constraints.is_mirror(segment), &self.body_of_node, &self.mesh.positions)
+        Outlines::new(&outside, |segment| self.constraints.is_mirror(segment), &self.body_of_node, &self.mesh.positions)
     }
 
-    /// What makes the springs of a contact between bodies of this `thickness`, and the number of the terms that they follow.
+    /// What makes the springs of a contact between bodies with these `outlines`, and the number of the terms that they follow.
     pub(crate) fn formulation(
         &mut self,
         contact: &model::Contact,
-        thickness: &Thickness,
+        outlines: &Outlines,
     ) -> Result<(Box<dyn Formulation>, usize), Vec<Fault>> {
         let terms = self.add_terms(terms_of(&contact.interface));
         let tie_terms = if contact.tied.is_some() { self.add_terms(terms_of_ties(&contact.interface)) } else { terms };
@@ -129,7 +130,7 @@ impl Builder<'_, 2> {
             law: &|| law_of(&contact.interface),
             passes: (kind.passes)(contact),
             tie_terms,
-            thickness,
+            outlines,
             search: &|| (search.make)(),
             again: self.again,
         };

@@ -125,7 +125,7 @@ impl Builder<'_, 3> {
             pressed
                 .binary_search(&node)
                 .is_ok()
-                .then(|| (node, Slave { stiffness: stiffness_of(&obstacle.interface, here, 1), area: own.area }))
+                .then(|| (node, Slave { stiffness: stiffness_of(&obstacle.interface, here, 1), area: own.area, of_mass: 0.0 }))
         };
         let nodes = outside.nodes.iter().zip(&own).filter_map(slave).collect();
         let body = match self.made.get(&obstacle.name) {
@@ -238,11 +238,10 @@ impl Builder<'_, 3> {
         let mut inputs = inputs;
         let thickness: Vec<Vec<f64>> = tracker.surfaces().iter().map(|surface| judge.thickness_at(&surface.nodes)).collect();
         for (input, &(slave, target)) in inputs.iter_mut().zip(passes) {
-            let limit = |thickness: f64| law::penalty::LIMIT * thickness;
             let surface = &tracker.surfaces()[target];
             let at = |node: &u32| surface.nodes.binary_search(node).map_or(f64::INFINITY, |rank| thickness[target][rank]);
-            let facets = surface.facets.iter().map(|facet| limit(facet.iter().map(at).fold(f64::INFINITY, f64::min)));
-            input.limits = [thickness[slave].iter().map(|&thickness| limit(thickness)).collect(), facets.collect()];
+            let facets = surface.facets.iter().map(|facet| facet.iter().map(at).fold(f64::INFINITY, f64::min));
+            input.thickness = [thickness[slave].clone(), facets.collect()];
         }
         let judge = with_edges.then(|| moduli(judge, tracker.surfaces(), passes, &inputs));
         let made = NodeFacet::new(tracker, inputs, &contact.interface, reach, &self.mesh.positions).with_proof(proof);
@@ -362,8 +361,9 @@ impl Builder<'_, 3> {
         for (&node, own) in surface.nodes.iter().zip(&mut nodes) {
             own.stiffness /= own.area;
             own.length = own.area;
+            own.of_mass = law::penalty::of_time_step(self.mass[node as usize], self.time_step, own.area);
             if source == PenaltySource::TimeStep {
-                own.stiffness = law::penalty::of_time_step(self.mass[node as usize], self.time_step, own.area);
+                own.stiffness = own.of_mass;
             }
         }
         let mut moduli: Vec<f64> = behind.into_iter().map(|part| softest[part]).collect();
@@ -381,7 +381,8 @@ impl Builder<'_, 3> {
 fn moduli(mut judge: Judge, surfaces: &[SpaceSurface], passes: Passes, inputs: &[PassInput]) -> Judge {
     for (&(slave, _), input) in passes.iter().zip(inputs) {
         for (&node, own) in surfaces[slave].nodes.iter().zip(&input.slaves) {
-            judge.set_modulus(node, if own.area > 0.0 { own.stiffness / own.area } else { 0.0 });
+            let [stiffness, of_mass] = [own.stiffness, own.of_mass].map(|sum| if own.area > 0.0 { sum / own.area } else { 0.0 });
+            judge.set_modulus(node, stiffness, of_mass);
         }
     }
     judge
@@ -405,7 +406,11 @@ impl Sided {
         let penalty = if let ContactLaw::Penalty(penalty) = interface.law { penalty } else { Penalty::default() };
         let slave = |(&own, &share): (&Tributary, &f64)| {
             let node = Node { own, other: f64::INFINITY, share };
-            Slave { stiffness: law::penalty::stiffness(penalty, node, passes), area: own.area / passes as f64 }
+            Slave {
+                stiffness: law::penalty::stiffness(penalty, node, passes),
+                area: own.area / passes as f64,
+                of_mass: own.of_mass * own.area / passes as f64,
+            }
         };
         let per_modulus = match penalty {
             Penalty::Automatic { scale, .. } => self.nodes.iter().map(|own| scale * own.area / passes as f64).collect(),

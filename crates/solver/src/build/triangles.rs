@@ -102,7 +102,7 @@ impl Builder<'_, 3> {
             } else {
                 area.min(mean)
             };
-            Tributary { area, length: area, stiffness: f64::INFINITY }
+            Tributary { area, length: area, stiffness: f64::INFINITY, of_mass: 0.0 }
         };
         (areas.into_iter().zip(counts).map(of).collect(), passes)
     }

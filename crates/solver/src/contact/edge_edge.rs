@@ -19,7 +19,7 @@ use super::node_facet::tracker::Memory;
 use super::projection::edge_edge::{Crossing, Ridge, crossing, distance, point};
 use super::projection::node_facet::{Placed, Vector, unit};
 use super::search::{Pair, Query, Search};
-use super::springs::End;
+use super::springs::{End, Stiffening};
 use crate::archive::{Archive, Kept, keep_all};
 use crate::mesh::surface::SpaceSurface;
 use crate::motion::Motion;
@@ -58,12 +58,12 @@ pub struct EdgePair {
     /// See `stiffness`.
     pub area: f64,
     /// Depth beyond which the spring stiffens, m.
-    pub limit: f64,
+    pub stiffening: Stiffening,
     /// What is kept of the spring.
     pub memory: Memory,
 }
 
-keep_all!(EdgePair { edges, own, touches, stiffness, area, limit, memory });
+keep_all!(EdgePair { edges, own, touches, stiffness, area, stiffening, memory });
 
 /// Edges that are inside each other, or near it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -253,7 +253,7 @@ impl EdgeTracker {
         &mut self,
         around: &Around<'_>,
         is_held: impl Fn(usize, u32, u32) -> bool,
-        make: impl Fn(&EdgeTouch) -> [f64; 3],
+        make: impl Fn(&EdgeTouch) -> (f64, f64, Stiffening),
     ) -> &[EdgeTouch] {
         let springs = self.pairs.iter().filter(|pair| pair.touches);
         self.deepest =
@@ -282,18 +282,18 @@ impl EdgeTracker {
                 continue;
             }
             if touch.is_new {
-                let [stiffness, area, limit] = make(touch);
+                let (stiffness, area, stiffening) = make(touch);
                 let pair = &mut self.pairs[touch.pair as usize];
-                (pair.stiffness, pair.area, pair.limit, pair.memory) = (stiffness, area, limit, Memory::default());
+                (pair.stiffness, pair.area, pair.stiffening, pair.memory) = (stiffness, area, stiffening, Memory::default());
                 // A spring that went over the end of another edge goes on: of several that which pushed most nearly along this normal.
                 let others = self.beside(touch, around).chain(self.come_from(touch.edges, around));
                 let cosine = |other: usize| dot(self.pairs[other].memory.normal, touch.crossing.normal);
                 let better = |a: usize, b: usize| if cosine(b) > cosine(a) { b } else { a };
                 let left = others.filter(|&other| self.goes_over(other, touch, &taken)).reduce(better);
                 if let Some(left) = left {
-                    let EdgePair { stiffness, area, limit, memory, .. } = self.pairs[left];
+                    let EdgePair { stiffness, area, stiffening, memory, .. } = self.pairs[left];
                     self.pairs[left].touches = false;
-                    self.pairs[touch.pair as usize] = EdgePair { stiffness, area, limit, memory, ..self.pairs[touch.pair as usize] };
+                    self.pairs[touch.pair as usize] = EdgePair { stiffness, area, stiffening, memory, ..self.pairs[touch.pair as usize] };
                 }
             }
         }

@@ -3,17 +3,19 @@
 //! The builder fills a [`Setup`] with plain numbers (contact knows nothing of elements); the formulation that the model names makes itself from it.
 //! One formulation a file, one line in [`FORMULATIONS`].
 
+use super::depths::Depths;
 use super::initial::is_ignored;
 use super::law::Law;
 use super::node_segment::{Face, Slave};
+use super::outline::{Outline, Outlines};
 use super::projection::node_segment::Target;
 use super::search::Search;
-use super::thickness::{Depths, Thickness};
 use super::tracker::Tracker;
 use super::{Formulation, Tributary, Vector, law, node_segment, pinball, segment, tied};
 use crate::error::Fault;
 use crate::load::tributary::Depth;
 use crate::model::{self, ContactLaw, Partners, Penalty, PenaltySource};
+use std::collections::BTreeSet;
 
 /// A formulation as the registry describes it.
 #[derive(Clone, Copy)]
@@ -107,8 +109,8 @@ pub struct Setup<'a> {
     pub tie_terms: usize,
     /// Makes a search of the kind that the contact names.
     pub search: &'a dyn Fn() -> Box<dyn Search<2>>,
-    /// Local thickness of all bodies.
-    pub thickness: &'a Thickness,
+    /// Outlines of all bodies.
+    pub outlines: &'a Outlines,
     /// Whether it will take over from one that has acted already, because surfaces have changed.
     pub again: bool,
 }
@@ -126,10 +128,19 @@ impl Setup<'_> {
         is_ignored(&self.contact.interface)
     }
 
-    /// Sees how deep nodes are against the local thickness.
+    /// Sees how deep nodes are against the local thickness; where nodes of both surfaces meet the other one, and nothing overlaps at the start, bodies are judged as they are.
     #[must_use]
     pub fn depths(&self) -> Depths {
-        Depths::new(self.sides.iter().map(|side| self.thickness.of(&side.target.surface)).collect())
+        let depths = Depths::new(self.sides.iter().map(|side| self.outlines.opposite(&side.target.surface)).collect());
+        let is_whole = matches!(self.contact.partners, Partners::Bodies(_)) || self.passes.len() > 1;
+        if !is_whole || self.ignores_start() || self.contact.tied.is_some() {
+            return depths;
+        }
+        let body = |segment: &[u32; 2]| self.bodies.get(segment[0] as usize).copied().unwrap_or(0);
+        let sides: Vec<BTreeSet<u32>> = self.sides.iter().map(|side| side.target.surface.segments.iter().map(body).collect()).collect();
+        let last = sides.len() - 1;
+        let on = |outline: &Outline| u8::from(sides[0].contains(&outline.body)) + 2 * u8::from(sides[last].contains(&outline.body));
+        depths.judging(self.outlines.0.iter().map(|outline| (outline.clone(), on(outline))).filter(|(_, on)| *on > 0).collect())
     }
 
     /// Follows the nodes of the passes.
@@ -147,7 +158,12 @@ impl Setup<'_> {
             let on_line = mirrors.binary_search_by_key(node, |&(node, _)| node).is_ok();
             let node = law::Node { own, other: f64::INFINITY, share: if on_line { 0.5 } else { 1.0 } };
             // In a double pass each side carries half of the pressure.
-            Slave { stiffness: law::penalty::stiffness(self.penalty(), node, passes), area: own.area / passes as f64, slip: 0.0 }
+            Slave {
+                stiffness: law::penalty::stiffness(self.penalty(), node, passes),
+                area: own.area / passes as f64,
+                slip: 0.0,
+                of_mass: own.of_mass * own.area / passes as f64,
+            }
         };
         self.sides[side].nodes.iter().zip(&surface.nodes).map(of).collect()
     }

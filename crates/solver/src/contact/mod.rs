@@ -24,7 +24,8 @@ pub mod tied;
 pub mod obstacle;
 pub mod findings;
 pub mod overlap;
-pub mod thickness;
+pub mod depths;
+pub mod outline;
 pub mod mirror;
 pub mod traces;
 
@@ -382,6 +383,8 @@ pub struct Tributary {
     pub length: f64,
     /// Mean pressure stiffness κ of the elements behind it, Pa/m.
     pub stiffness: f64,
+    /// α m / (dt² A) by its mass and the first step, Pa/m; zero: not known.
+    pub of_mass: f64,
 }
 
 /// What each node of a surface stands for, in the order of its nodes.

@@ -15,6 +15,7 @@ pub mod tracker;
 use super::edge_edge::{self, Around, EdgeTouch, EdgeTracker};
 use super::findings::Findings;
 use super::initial::{is_ignored, kept};
+use super::law::penalty::stiffening;
 use super::node_segment::{Before, Closed, carried, is_stored};
 use super::overlap::Judge;
 use super::projection::edge_edge::distance;
@@ -23,7 +24,7 @@ use super::proof::Proof;
 use super::search::Search;
 use super::spin;
 use super::springs::friction::cone;
-use super::springs::{Answer, Answers, End, Spring, Springs};
+use super::springs::{Answer, Answers, End, Spring, Springs, Stiffening};
 use super::tracker::{Certificate, SearchReport};
 use super::{Formulation, Scene, Sweep};
 use crate::archive::{Archive, Kept, keep_each};
@@ -45,8 +46,8 @@ pub struct PassInput {
     pub per_modulus: Vec<f64>,
     /// κ behind each facet of the target, Pa/m: the softest of its part.
     pub moduli: Vec<f64>,
-    /// Depth beyond which the springs of each slave, and those on each facet of the target, stiffen, m; empty: never.
-    pub limits: [Vec<f64>; 2],
+    /// Local thickness at each slave and behind each facet of the target, m; empty: not known.
+    pub thickness: [Vec<f64>; 2],
 }
 
 /// A slave node.
@@ -56,6 +57,8 @@ pub struct Slave {
     pub stiffness: f64,
     /// Area of surface that it stands for, m²: its own, half of that where both surfaces are slaves.
     pub area: f64,
+    /// Stiffness α m / dt² by its mass and the first step, N/m; zero: not known.
+    pub of_mass: f64,
 }
 
 impl PassInput {
@@ -70,10 +73,10 @@ impl PassInput {
         facets.map(|facet| self.stiffness(slave, facet)).fold(f64::INFINITY, f64::min)
     }
 
-    /// Depth beyond which springs stiffen there: the thinner body decides, m.
-    fn limit(&self, slave: usize, facets: impl Iterator<Item = u32>) -> f32 {
-        let at = |of: usize, at: usize| self.limits[of].get(at).copied().unwrap_or(f64::INFINITY);
-        facets.map(|facet| at(1, facet as usize)).fold(at(0, slave), f64::min) as f32
+    /// Thickness of the thinner body there, m.
+    fn thickness(&self, slave: usize, facets: impl Iterator<Item = u32>) -> f64 {
+        let at = |of: usize, at: usize| self.thickness[of].get(at).copied().unwrap_or(f64::INFINITY);
+        facets.map(|facet| at(1, facet as usize)).fold(at(0, slave), f64::min)
     }
 }
 
@@ -217,7 +220,7 @@ impl NodeFacet {
         let is_held = |of: usize, node: u32, facet: u32| closed_nodes.binary_search(&(sides[of], node, facet)).is_ok();
         // Both passes carry a node and a facet together: so do both sides the edges.
         let make = |touch: &EdgeTouch| {
-            let (mut stiffness, mut area, mut limit) = (0.0, 0.0, f32::INFINITY);
+            let (mut stiffness, mut area, mut of_mass, mut thickness) = (0.0, 0.0, 0.0, f64::INFINITY);
             for of in 0..2 {
                 let (slave, target) = (&surfaces[sides[of]], &surfaces[sides[1 - of]]);
                 let pass = passes.iter().zip(0..).find(|(_, number)| tracker.slave(*number) == sides[of]);
@@ -226,11 +229,12 @@ impl NodeFacet {
                     if let (Some((pass, _)), Ok(rank)) = (pass, slave.nodes.binary_search(&node)) {
                         stiffness += 0.5 * pass.softest(rank, facets.clone());
                         area += 0.5 * pass.slaves[rank].area;
-                        limit = limit.min(pass.limit(rank, facets.clone()));
+                        of_mass += 0.5 * pass.slaves[rank].of_mass;
+                        thickness = thickness.min(pass.thickness(rank, facets.clone()));
                     }
                 }
             }
-            [stiffness, area, f64::from(limit)]
+            (stiffness, area, stiffening(thickness, stiffness, of_mass))
         };
         edges.track(&around, is_held, make);
     }
@@ -271,8 +275,9 @@ impl NodeFacet {
         let target = self.tracker.target(touch.pass);
         let rest = Placed { surface: target, positions: scene.sweep.new }.rests_on(&touch.projection);
         let (stiffness, area) = (pass.softest(slave, target.sharing(facet, rest)), pass.slaves[slave].area);
-        let (limit, side) = (pass.limit(slave, target.sharing(facet, rest)), self.tracker.side(touch.pass));
-        let spring = Spring { normal, gap, stiffness, area, limit, side, ..Spring::default() };
+        let thickness = pass.thickness(slave, target.sharing(facet, rest));
+        let (stiffening, side) = (stiffening(thickness, stiffness, pass.slaves[slave].of_mass), self.tracker.side(touch.pass));
+        let spring = Spring { normal, gap, stiffness, area, stiffening, side, ..Spring::default() };
         let before = Before { half: memory.half, normal: memory.normal, carried: memory.carried };
         let steadily = before.steadily(normal, gap, self.reach, self.has_begun);
         let carried = match steadily {
@@ -331,8 +336,8 @@ impl NodeFacet {
         let turn = || spin::turn(touch.nodes.iter().map(|nodes| &nodes[..]), scene.sweep);
         let slip = if pair.memory.slip == [0.0; 3] { [0.0; 3] } else { spin::turned(pair.memory.slip, turn()) };
         let slip = cone::carried(slip, Dim::<3>::tangents(normal, &tangent));
-        let (stiffness, area, limit) = (pair.stiffness, pair.area, pair.limit as f32);
-        springs.push(Spring { normal, gap: gap + carried, stiffness, area, limit, side, slip, tangent, ..Spring::default() }, &ends);
+        let (stiffness, area, stiffening) = (pair.stiffness, pair.area, pair.stiffening);
+        springs.push(Spring { normal, gap: gap + carried, stiffness, area, stiffening, side, slip, tangent, ..Spring::default() }, &ends);
         if let Some(edges) = &mut self.edges {
             edges.kept_mut(touch).memory = Memory { offset, carried, normal, facet: touch.edges[1], stored: 0.0, ..pair.memory };
         }
@@ -511,7 +516,7 @@ pub fn edges_at_start(tracker: &Tracker, search: Box<dyn Search<3>>, positions: 
     let around = around(tracker, Sweep::between(positions, positions), true, [thickness, 0.0]);
     let mut edges = EdgeTracker::new(tracker.surfaces(), tracker.bodies(), search);
     edges.find(&around);
-    edges.track(&around, |_, _, _| false, |_| [0.0, 0.0, f64::INFINITY]).to_vec()
+    edges.track(&around, |_, _, _| false, |_| (0.0, 0.0, Stiffening::default())).to_vec()
 }
 
 /// A facet's first edge, m.

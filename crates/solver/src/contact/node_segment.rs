@@ -4,12 +4,13 @@
 
 mod fold;
 
+use super::depths::Depths;
 use super::findings::Findings;
 use super::formulation::{FormulationKind, Setup, both_passes, one_pass};
 use super::initial::{is_ignored, kept};
+use super::law::penalty::stiffening;
 use super::projection::node_segment::{Projection, Target};
 use super::springs::{Answers, End, Spring, Springs, tangent};
-use super::thickness::Depths;
 use super::tracker::{Certificate, Memory, SearchReport, Touch, Tracker, is_facing};
 use super::{Formulation, Scene, Sweep, Vector};
 use crate::archive::{Archive, Kept, keep_all, keep_each};
@@ -144,6 +145,8 @@ pub struct Slave {
     pub area: f64,
     /// Elastic slip at n − ½, m.
     pub slip: f64,
+    /// Stiffness α m / dt² by its mass and the first step, N/m per metre of depth; zero: not known.
+    pub of_mass: f64,
 }
 
 impl NodeSegment {
@@ -232,7 +235,7 @@ impl NodeSegment {
     pub(super) fn detect_free(&mut self, bound: &[bool], scene: &Scene<'_>, springs: &mut Springs) {
         let count = self.tracker.track(scene.sweep, self.thickness + self.reach).len();
         self.used.clear();
-        self.depths.begin();
+        self.depths.begin(scene);
         let mut again = Closed::default();
         for index in 0..count {
             let touch = self.tracker.touches()[index];
@@ -252,15 +255,16 @@ impl NodeSegment {
             let stiffness = [Some(segment), other].into_iter().flatten().map(|segment| pass.stiffness_of(slave, segment, part));
             let (stiffness, area) = (stiffness.fold(f64::INFINITY, f64::min), part.length * pass.slaves[slave].area);
             let (gap, offset) = self.beyond(&touch, &memory);
-            let limit = self.depths.limit(self.tracker.around(&touch));
-            self.depths.see(&self.tracker, &touch, offset - touch.projection.gap, limit, scene);
+            let thickness = self.depths.thickness(self.tracker.around(&touch));
+            self.depths.see(&self.tracker, &touch, offset - touch.projection.gap, thickness, scene);
+            let stiffening = stiffening(thickness, stiffness, pass.slaves[slave].of_mass);
             if touch.slope != 0.0 {
                 lean(&mut ends, &touch, scene.sweep.new);
             }
             let carried =
                 if self.stores { carried(&memory.before(), normal, gap, &ends, self.reach, scene.sweep, self.has_begun) } else { 0.0 };
             let (side, slip, gap) = (self.tracker.side(touch.pass), memory.slip, gap + carried);
-            let spring = Spring { normal, gap, stiffness, area, limit, side, slip: [slip], ..Spring::default() };
+            let spring = Spring { normal, gap, stiffness, area, stiffening, side, slip: [slip], ..Spring::default() };
             match other.filter(|_| self.slips).map(|other| turn_with_both(&mut ends, &touch.projection, other, target, scene.sweep.new)) {
                 None => springs.push(spring, &ends),
                 Some(more) => springs.push_with(spring, ends.iter().chain([&more])),

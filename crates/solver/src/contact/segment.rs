@@ -13,12 +13,12 @@
 
 mod common;
 
+use super::depths::Depths;
 use super::findings::Findings;
-use super::formulation::{FormulationKind, Setup, both_passes};
+use super::formulation::{FormulationKind, Setup, Side, both_passes};
 use super::initial::kept;
 use super::law::{Law, penalty};
 use super::springs::{Answers, Patch, Spring, Springs};
-use super::thickness::Depths;
 use super::tracker::{Certificate, SearchReport, Tracker};
 use super::{Formulation, Scene, Sweep, Vector};
 use crate::archive::{Archive, Kept, keep_all, keep_each};
@@ -113,6 +113,8 @@ struct Meeting {
 struct Chain {
     /// κ behind each segment, Pa/m.
     stiffness: Vec<f64>,
+    /// The same α m / (dt² A) by the mass of its nodes and the first step, Pa/m.
+    of_mass: Vec<f64>,
     /// Indices of each segment's nodes among the surface's nodes.
     local: Vec<[u32; 2]>,
     /// Segments at each node.
@@ -139,7 +141,7 @@ struct Facing {
 keep_all!(Facing { pair, length, slips, offsets, stored });
 
 impl Chain {
-    fn new(surface: &Surface, stiffness: Vec<f64>) -> Self {
+    fn new(surface: &Surface, stiffness: Vec<f64>, of_mass: &[f64]) -> Self {
         // Nodes of segments are nodes of the surface.
         let local: Vec<[u32; 2]> = surface
             .segments
@@ -149,7 +151,9 @@ impl Chain {
         let ends = (0..).zip(&local).flat_map(|(segment, nodes)| nodes.map(|node| (node, segment)));
         let around = Rows::new(surface.nodes.len(), ends);
         let depth = vec![f64::NEG_INFINITY; surface.nodes.len()];
-        Self { stiffness, local, around, depth, deep: Vec::new() }
+        let at = |[a, b]: &[u32; 2]| 0.5 * [a, b].into_iter().map(|&node| of_mass.get(node as usize).copied().unwrap_or(0.0)).sum::<f64>();
+        let of_mass = local.iter().map(at).collect();
+        Self { stiffness, of_mass, local, around, depth, deep: Vec::new() }
     }
 }
 
@@ -159,7 +163,11 @@ impl Segment {
         let rule = if matches!(setup.contact.interface.law, ContactLaw::Multiplier) { ONE } else { TWO };
         let law = (setup.law)();
         let (penalty, thickness, reach, depth) = (setup.penalty(), setup.contact.interface.thickness, law.reach(), setup.depth);
-        let chains: Vec<Chain> = setup.sides.iter().map(|side| Chain::new(&side.target.surface, side.segments.clone())).collect();
+        let chain = |side: &Side<'_>| {
+            let of_mass: Vec<f64> = side.nodes.iter().map(|node| node.of_mass).collect();
+            Chain::new(&side.target.surface, side.segments.clone(), &of_mass)
+        };
+        let chains: Vec<Chain> = setup.sides.iter().map(chain).collect();
         let count = chains.iter().map(|chain| chain.depth.len()).sum();
         let at_a_distance = thickness + reach > 0.0;
         let start = Start {
@@ -212,10 +220,10 @@ impl Segment {
             }
         }
         self.tracker.track(scene.sweep, self.thickness + self.reach);
-        self.depths.begin();
+        self.depths.begin(scene);
         for touch in self.tracker.touches() {
-            let limit = self.depths.limit(self.tracker.around(touch));
-            self.depths.see(&self.tracker, touch, -touch.projection.gap, limit, scene);
+            let thickness = self.depths.thickness(self.tracker.around(touch));
+            self.depths.see(&self.tracker, touch, -touch.projection.gap, thickness, scene);
             let side = self.tracker.side(touch.pass);
             let [slave, target] = if side > 0.0 { [0, 1] } else { [self.chains.len() - 1, 0] };
             let chain = &mut self.chains[slave];
@@ -322,7 +330,8 @@ impl Segment {
         let (mut facing, is_new) = self.kept(pair, common.length);
         let begun = self.start.has_begun;
         let surfaces = self.surfaces();
-        let limit = self.depths.limit([0, 1].map(|k| (surfaces[k], pair[k])));
+        let thickness = self.depths.thickness([0, 1].map(|k| (surfaces[k], pair[k])));
+        let of_mass = [0, 1].map(|k| self.chains[surfaces[k]].of_mass[pair[k] as usize]);
         let at_once =
             is_new && begun && self.law.is_elastic() && Common::new(common.nodes, sweep.old).is_some_and(|before| before.is_long());
         let moved = if at_once { common.moved(sweep) } else { 0.0 };
@@ -348,7 +357,8 @@ impl Segment {
             let (normal, area) = (common.normal, weight * common.area * around);
             let side = if self.chains.len() == 1 { 0.0 } else { 1.0 };
             let (stiffness, slip) = (pressure * area, facing.slips[k]);
-            springs.push(Spring { normal, gap, stiffness, area, limit, side, slip: [slip], ..Spring::default() }, &ends);
+            let stiffening = penalty::stiffening(thickness, stiffness, of_mass[0].max(of_mass[1]) * area);
+            springs.push(Spring { normal, gap, stiffness, area, stiffening, side, slip: [slip], ..Spring::default() }, &ends);
         }
         self.facing.push(facing);
     }

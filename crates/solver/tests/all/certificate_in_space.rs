@@ -93,7 +93,7 @@ impl Pairing {
         let is_blind = Arc::new(AtomicBool::new(is_blind));
         let search = || Box::new(Eye { is_blind: is_blind.clone(), search: (registry::<3>()[0].make)() });
         let slaves = |&(slave, _): &(usize, usize)| PassInput {
-            slaves: vec![Slave { stiffness: 1.0, area: 1.0 }; surfaces[slave].nodes.len()],
+            slaves: vec![Slave { stiffness: 1.0, area: 1.0, of_mass: 0.0 }; surfaces[slave].nodes.len()],
             ..PassInput::default()
         };
         let inputs = BOTH.iter().map(slaves).collect();

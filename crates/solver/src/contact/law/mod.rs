@@ -149,7 +149,7 @@ mod tests {
 
     #[test]
     fn a_mean_force_is_the_difference_of_energies_by_the_way() {
-        let spring = Patch { stiffness: 3.0, area: 1.5, limit: 1.1, ..Patch::default() };
+        let spring = Patch { stiffness: 3.0, area: 1.5, limit: 1.1, more: 100.0, ..Patch::default() };
         let laws: [Box<dyn Law>; 3] = [
             Box::new(penalty::Penalty),
             Box::new(tie::Tie { rigid: false }),

@@ -1,7 +1,8 @@
 //! Penalty: a spring that only pushes. F = k_n |G| where the gap G is negative, eq. (11) of the paper; energy ½ k_n G².
 //!
-//! Beyond the depth ℓ, an eighth of the local thickness of the thinner body, it stiffens: V = ½ k d² + k S (d − ℓ)³ / 6ℓ with d = −G and S = 100, twice continuously differentiable and convex.
-//! A linear spring as stiff as the elements lets a heavy body through a soft one; this one bears 50 times as much at a quarter of the thickness. In sound contact d stays below ℓ.
+//! Beyond the depth ℓ, an eighth of the local thickness of the thinner body, it stiffens: V = ½ k d² + k S (d − ℓ)³ / 6ℓ with d = −G, twice continuously differentiable and convex.
+//! A linear spring as stiff as the elements lets a heavy body through a soft one. S is 100, or α m / (k dt²) with the mass m of the slave node, α = 0.1 and the first step dt, where that is more:
+//! so stiff a spring stops a node within a few steps whatever the elements are. In sound contact d stays below ℓ.
 //!
 //! Stiffness of a slave node: given (the paper's k_n), a pressure per depth times the node's tributary length, or automatic: the stiffness
 //! κ of the elements under the surface times the tributary length, the softer of both bodies; half of it in a double pass, where both passes act. What κ is:
@@ -12,7 +13,7 @@
 //!   orders, or say nothing (the "soft constraint" of explicit codes, LS-DYNA Theory Manual, chapter on contact). With m ~ ρ A h / 2 and dt ~ 0.9 h / c it is about 0.06 (K + 4µ/3) A / h.
 
 use super::{ContactLawKind, Law, Node, fixed_point};
-use crate::contact::springs::{Closing, Patch};
+use crate::contact::springs::{Closing, Patch, Stiffening};
 use crate::model;
 use crate::quantity::{Dimension, Parameter, Range};
 
@@ -33,7 +34,7 @@ pub const KIND: ContactLawKind = ContactLawKind {
     ],
 };
 
-/// How much stiffer it is at twice the limit than below it.
+/// How much stiffer it is at least at twice the limit than below it.
 const STIFFENING: f64 = 100.0;
 /// Fraction of the local thickness beyond which it stiffens.
 pub const LIMIT: f64 = 0.125;
@@ -45,6 +46,12 @@ const OF_TIME_STEP: f64 = 0.1;
 #[must_use]
 pub fn of_time_step(mass: f64, time_step: f64, area: f64) -> f64 {
     OF_TIME_STEP * mass / (time_step * time_step * area)
+}
+
+/// Where a spring of a stiffness stiffens: beyond a fraction of the local `thickness` (m), so that it is as stiff as `of_mass` (the unit of the stiffness) at twice that.
+#[must_use]
+pub fn stiffening(thickness: f64, stiffness: f64, of_mass: f64) -> Stiffening {
+    Stiffening::new(LIMIT * thickness, if stiffness > 0.0 { STIFFENING.max(of_mass / stiffness) } else { STIFFENING })
 }
 
 /// Spring stiffness of a slave node, N/m per metre of depth (in space N/m); `passes` 1 or 2.
@@ -86,12 +93,12 @@ impl Law for Penalty {
     }
     fn stored(&self, spring: &Patch, gap: f64) -> f64 {
         let beyond = beyond(spring, gap);
-        let more = if beyond > 0.0 { STIFFENING / 6.0 * spring.stiffness * beyond * beyond * (beyond / spring.limit) } else { 0.0 };
+        let more = if beyond > 0.0 { spring.more / 6.0 * spring.stiffness * beyond * beyond * (beyond / spring.limit) } else { 0.0 };
         0.5 * spring.stiffness * gap.min(0.0) * gap.min(0.0) + more
     }
     fn stiffness(&self, spring: &Patch, gap: f64) -> f64 {
         let beyond = beyond(spring, gap);
-        if beyond > 0.0 { spring.stiffness * (1.0 + STIFFENING * (beyond / spring.limit)) } else { spring.stiffness }
+        if beyond > 0.0 { spring.stiffness * (1.0 + spring.more * (beyond / spring.limit)) } else { spring.stiffness }
     }
     fn mean_force(&self, spring: &Patch, old: f64, new: f64) -> f64 {
         // The square of the deeper gap counts as far as it is closed.
@@ -107,7 +114,7 @@ impl Law for Penalty {
         }
         // The difference of cubes by the way, which is that of the depths as far as both are beyond.
         let mean = if least > 0.0 { most * most + most * least + least * least } else { most * most * (most / (high - deep)) };
-        linear + STIFFENING / 6.0 * spring.stiffness * (mean / spring.limit)
+        linear + spring.more / 6.0 * spring.stiffness * (mean / spring.limit)
     }
 }
 

@@ -184,7 +184,7 @@ fn world(bodies: [&Blocks; 2], recipe: Recipe, velocity: Vector) -> World {
     let surfaces = vec![bodies[0].surface(0), bodies[1].surface(first as u32)];
     let of: Vec<u32> = (0..positions.len()).map(|k| u32::from(k >= first)).collect();
     let slaves = |&(slave, _): &(usize, usize)| PassInput {
-        slaves: vec![Slave { stiffness, area: 1.0 }; surfaces[slave].nodes.len()],
+        slaves: vec![Slave { stiffness, area: 1.0, of_mass: 0.0 }; surfaces[slave].nodes.len()],
         ..PassInput::default()
     };
     let inputs = passes.iter().map(slaves).collect();
@@ -359,7 +359,10 @@ fn two_blocks_with_like_meshes_that_are_pressed_carry_the_pressure_of_their_dept
     };
     let of: Vec<u32> = (0..positions.len()).map(|k| u32::from(k >= upper.positions.len())).collect();
     let inputs = (0..2).map(|side| PassInput {
-        slaves: areas(&surfaces[side]).iter().map(|area| Slave { stiffness: 0.5 * modulus * area, area: 0.5 * area }).collect(),
+        slaves: areas(&surfaces[side])
+            .iter()
+            .map(|area| Slave { stiffness: 0.5 * modulus * area, area: 0.5 * area, of_mass: 0.0 })
+            .collect(),
         per_modulus: areas(&surfaces[side]).iter().map(|area| 0.5 * area).collect(),
         // The lower one is softer.
         moduli: vec![if side == 0 { 0.5 * modulus } else { modulus }; surfaces[1 - side].facets.len()],
@@ -413,7 +416,7 @@ fn a_body_does_not_meet_itself_where_it_is_whole_and_does_where_it_folds() {
         (search::registry::<3>()[0].make)(),
         &clamp.positions,
     );
-    let input = PassInput { slaves: vec![Slave { stiffness: 1.0, area: 1.0 }; surface.nodes.len()], ..PassInput::default() };
+    let input = PassInput { slaves: vec![Slave { stiffness: 1.0, area: 1.0, of_mass: 0.0 }; surface.nodes.len()], ..PassInput::default() };
     let mut formulation = NodeFacet::new(tracker, vec![input], &model::Interface::default(), 0.0, &clamp.positions);
     let bodies = Bodies::default();
     let mut positions = clamp.positions.clone();

@@ -197,7 +197,7 @@ impl Formulation for NodeObstacle {
             }
             // Well before it touches: a spring that closes unseen would give back what it never took.
             if gap <= self.reach + 4.0 * bound_of(moved) {
-                let Slave { stiffness, area, slip } = slave;
+                let Slave { stiffness, area, slip, .. } = slave;
                 let ends = [End::node(node, 1.0), End { at, share: -1.0, point: x, ..End::default() }];
                 springs.push(
                     Spring { normal: body.to_global(normal), gap, stiffness, area, side: 1.0, slip: [slip], ..Spring::default() },

@@ -134,7 +134,7 @@ impl Formulation<3> for NodeSolid {
             }
             // Well before it touches: a spring that closes unseen would give back what it never took.
             if gap <= self.reach + 4.0 * dot(moved, moved).sqrt() {
-                let Slave { stiffness, area } = slave;
+                let Slave { stiffness, area, .. } = slave;
                 let normal = body.to_global(normal);
                 let tangent = any_tangent(normal);
                 let slip = cone::carried(body.to_global(memory.slip), Dim::<3>::tangents(normal, &tangent));
@@ -238,7 +238,7 @@ mod tests {
         let tangential = if friction > 0.0 { Tangential::Friction(law) } else { Tangential::Free };
         let terms = Terms { law: Box::new(Penalty), tangential, damping: 0.0 };
         let mut springs = Springs::<3>::new(x.len(), 1, vec![terms]);
-        let nodes = (0..x.len() as u32).map(|node| (node, Slave { stiffness, area: 1.0 })).collect();
+        let nodes = (0..x.len() as u32).map(|node| (node, Slave { stiffness, area: 1.0, of_mass: 0.0 })).collect();
         let formulation = NodeSolid::new(solid, 0, nodes, 0.01, false);
         let mut contact = Contact::new("obstacle".into(), ContactKind::Obstacle(0), Box::new(formulation), 0, [0.0, f64::INFINITY]);
         let (mut old, mut lost, mut traces) = (x.clone(), 0.0, Traces::default());

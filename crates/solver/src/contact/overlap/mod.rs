@@ -78,13 +78,13 @@ struct Known {
     offset: f64,
     /// Whether the forces do not hold it.
     is_loose: bool,
-    /// Of the net: its depth (negative: it is open), m, area over which it spreads, m² (zero: there is no net), and depth beyond which it stiffens, m.
+    /// Of the net: its depth (negative: it is open), m, area over which it spreads, m² (zero: there is no net), and local thickness when it was cast, m.
     depth: f64,
     area: f64,
-    limit: f64,
+    thick: f64,
 }
 
-keep_all!(Known { bodies, began, size, size_before, volume, before, ratio, thickness, offset, is_loose, depth, area, limit });
+keep_all!(Known { bodies, began, size, size_before, volume, before, ratio, thickness, offset, is_loose, depth, area, thick });
 
 /// The judge of one contact.
 pub struct Judge {
@@ -94,8 +94,8 @@ pub struct Judge {
     /// The least, and the largest of each body, at the start, m.
     least: f64,
     thickest: Vec<f64>,
-    /// Pressure stiffness κ at each node of the skin, Pa/m; zero where the contact has none.
-    moduli: Vec<f64>,
+    /// Pressure stiffness at each node of the skin, κ and that by its mass, Pa/m; zero where the contact has none.
+    moduli: Vec<[f64; 2]>,
     /// Whether overlaps at the start count as none.
     ignores_start: bool,
     work: Work,
@@ -126,7 +126,7 @@ impl Judge {
         tree.refit(&skin);
         let thickness = Thickness::new(&skin, &tree);
         let (least, thickest) = (thickness.least(&skin), thickness.thickest(&skin));
-        let (owner, moduli) = (vec![NONE; skin.triangles.len()], vec![0.0; skin.nodes.len()]);
+        let (owner, moduli) = (vec![NONE; skin.triangles.len()], vec![[0.0; 2]; skin.nodes.len()]);
         Self {
             skin,
             tree,
@@ -155,10 +155,10 @@ impl Judge {
         &self.findings
     }
 
-    /// Takes the pressure stiffness of a node, Pa/m.
-    pub fn set_modulus(&mut self, node: u32, modulus: f64) {
+    /// Takes the pressure stiffness of a node, and that by its mass, Pa/m.
+    pub fn set_modulus(&mut self, node: u32, modulus: f64, of_mass: f64) {
         if let Ok(vertex) = self.skin.nodes.binary_search(&node) {
-            self.moduli[vertex] = modulus;
+            self.moduli[vertex] = [modulus, of_mass];
         }
     }
 
@@ -257,7 +257,7 @@ impl Judge {
                 known.depth += share * parent.area * parent.depth;
                 known.area += share * parent.area;
                 if parent.area > 0.0 {
-                    known.limit = if known.limit > 0.0 { known.limit.min(parent.limit) } else { parent.limit };
+                    known.thick = if known.thick > 0.0 { known.thick.min(parent.thick) } else { parent.thick };
                 }
                 known.is_loose |= parent.is_loose;
             }

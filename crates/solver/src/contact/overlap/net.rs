@@ -4,7 +4,7 @@
 //! of nodes, edges and faces that touch, and its rows −(∂V/∂x)/A add up to nothing, so the net has no hand-over, needs no normal, and keeps both momenta. It begins without force, so it brings no
 //! energy, and resists whatever makes the overlap larger, combs of edges and folded nodes included. Regions that merge or part share A by their volumes, and the depth is the mean.
 
-use super::super::law::penalty::LIMIT;
+use super::super::law::penalty::stiffening;
 use super::super::projection::node_facet::unit;
 use super::super::springs::{End, Spring};
 use super::{CAST, DIRECTED, Judge, Vector};
@@ -42,7 +42,7 @@ impl Judge {
             }
         } else if known.ratio > CAST || known.is_loose {
             (known.area, known.depth) = (length(region.area).max(DIRECTED * region.size), 0.0);
-            known.limit = LIMIT * known.thickness;
+            known.thick = known.thickness;
         }
     }
 
@@ -51,7 +51,7 @@ impl Judge {
         let are_new = if self.has_looked { &self.known[..] } else { &[] };
         let cast = self.regions.iter().zip(are_new).filter(|(_, known)| known.area > 0.0);
         cast.filter_map(|(region, known)| {
-            let modulus = self.modulus(region)?;
+            let [modulus, of_mass] = self.modulus(region)?;
             let row = |&(vertex, row): &(u32, Vector)| {
                 let lean = row.map(|c| -c / known.area);
                 End { lean, ..End::node(self.skin.nodes[vertex as usize], 0.0) }
@@ -61,28 +61,29 @@ impl Judge {
                 gap: -known.depth,
                 stiffness: modulus * known.area,
                 area: known.area,
-                limit: known.limit as f32,
+                stiffening: stiffening(known.thick, modulus, of_mass),
                 ..Spring::default()
             };
             Some((spring, region.gradient.iter().map(row).collect()))
         })
     }
 
-    /// Pressure stiffness of the softer side of a region, the mean of its nodes there, Pa/m.
-    fn modulus(&self, region: &super::Region) -> Option<f64> {
-        let (mut sums, mut counts) = ([0.0; 2], [0.0; 2]);
+    /// Pressure stiffness of the softer side of a region, of its elements and by its mass, the mean of its nodes there, Pa/m.
+    fn modulus(&self, region: &super::Region) -> Option<[f64; 2]> {
+        let (mut sums, mut counts) = ([[0.0; 2]; 2], [0.0; 2]);
         for &(triangle, is_second) in &region.triangles {
             for vertex in self.skin.triangles[triangle as usize] {
-                let modulus = self.moduli.get(vertex as usize).copied().unwrap_or(0.0);
+                let [modulus, of_mass] = self.moduli.get(vertex as usize).copied().unwrap_or_default();
                 if modulus > 0.0 {
-                    sums[usize::from(is_second)] += modulus;
+                    let sum: &mut [f64; 2] = &mut sums[usize::from(is_second)];
+                    *sum = [sum[0] + modulus, sum[1] + of_mass];
                     counts[usize::from(is_second)] += 1.0;
                 }
             }
         }
-        let mean = |of: usize| (counts[of] > 0.0).then(|| sums[of] / counts[of]);
+        let mean = |of: usize| (counts[of] > 0.0).then(|| sums[of].map(|sum| sum / counts[of]));
         match (mean(0), mean(1)) {
-            (Some(a), Some(b)) => Some(a.min(b)),
+            (Some(a), Some(b)) => Some([a[0].min(b[0]), a[1].min(b[1])]),
             (one, other) => one.or(other),
         }
     }

@@ -198,7 +198,7 @@ proptest! {
         shift in prop::array::uniform3(0.2..0.9_f64), noise in 0.0..1.5_f64, seed in 0..1000_u32, are_tets in prop::array::uniform2(any::<bool>()),
     ) {
         let (mut judge, mut nodes) = two([1.0; 3], [[0.0; 3], [1.0, 1.2, 0.7]], [[3, 2, 2], [2; 3]], are_tets);
-        (0..nodes.len() as u32).for_each(|node| judge.set_modulus(node, 1.0));
+        (0..nodes.len() as u32).for_each(|node| judge.set_modulus(node, 1.0, 0.0));
         let mut state = seed.wrapping_mul(2_654_435_761) | 1;
         let mut random = || { state ^= state << 13; state ^= state >> 17; state ^= state << 5; f64::from(state) / f64::from(u32::MAX) - 0.5 };
         for (number, x) in nodes.iter_mut().enumerate() {

@@ -1,9 +1,9 @@
 use super::*;
 use crate::contact::formulation::Side;
+use crate::contact::outline::Outlines;
 use crate::contact::projection::node_segment::Target;
 use crate::contact::search;
 use crate::contact::springs::End;
-use crate::contact::thickness::Thickness;
 use crate::contact::{Sweep, law};
 use crate::model;
 use crate::rigid::Bodies;
@@ -66,7 +66,7 @@ fn formulation_of(model: &Facing2, penalty: Penalty, depth: Depth) -> Box<dyn Fo
         positions: &model.positions,
         depth,
         law: &law,
-        thickness: &Thickness::default(),
+        outlines: &Outlines::default(),
         tie_terms: 0,
         again: false,
         search: &search,

@@ -56,9 +56,13 @@ where
     Dim<D>: Motion<D>,
 {
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
-        let Self { spring: Spring { normal, gap, stiffness, area, limit, side, slip, tangent, first: _, count: _ }, terms, ends, solved } =
-            self;
-        keep_each!(archive; normal, gap, stiffness, area, limit, side, slip, tangent, terms, ends, solved);
+        let Self {
+            spring: Spring { normal, gap, stiffness, area, stiffening, side, slip, tangent, first: _, count: _ },
+            terms,
+            ends,
+            solved,
+        } = self;
+        keep_each!(archive; normal, gap, stiffness, area, stiffening, side, slip, tangent, terms, ends, solved);
         Ok(())
     }
 }

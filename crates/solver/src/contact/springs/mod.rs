@@ -34,6 +34,7 @@ mod solve;
 pub use answers::{Answer, Answers};
 
 use super::law::Law;
+use crate::archive::keep_all;
 use crate::motion::Motion;
 use crate::rigid::Bodies;
 use crate::tensor::Dim;
@@ -59,8 +60,8 @@ where
     pub stiffness: f64,
     /// Length of surface that it stands for, m.
     pub area: f64,
-    /// Depth beyond which it stiffens, m: a fraction of the local thickness; infinite: never.
-    pub limit: f32,
+    /// Where it stiffens, and how much.
+    pub stiffening: Stiffening,
     /// 1 where the ends with positive shares belong to the first surface, −1 where to the second, 0 in a contact of bodies with themselves.
     pub side: f32,
     /// Friction: elastic slip at n − ½ (memory of the contact), m. Tie: slip at n, m.
@@ -77,8 +78,48 @@ where
 {
     fn default() -> Self {
         let (slip, tangent) = Default::default();
-        let limit = f32::INFINITY;
-        Self { normal: [0.0; D], gap: 0.0, stiffness: 0.0, area: 0.0, limit, side: 0.0, slip, tangent, first: 0, count: 0 }
+        let stiffening = Stiffening::default();
+        Self { normal: [0.0; D], gap: 0.0, stiffness: 0.0, area: 0.0, stiffening, side: 0.0, slip, tangent, first: 0, count: 0 }
+    }
+}
+
+/// Where a spring of a law with a stiffness stiffens: the depth beyond which it does, m, and how much stiffer it is at twice that depth, each to two digits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stiffening {
+    // The upper halves of numbers of four bytes.
+    depth: u16,
+    factor: u16,
+}
+
+impl Default for Stiffening {
+    /// Never.
+    fn default() -> Self {
+        Self::new(f64::INFINITY, 0.0)
+    }
+}
+
+keep_all!(Stiffening { depth, factor });
+
+impl Stiffening {
+    /// Beyond a depth, m, by a factor.
+    #[must_use]
+    pub fn new(depth: f64, factor: f64) -> Self {
+        let [depth, factor] = [depth, factor].map(|number| ((number as f32).to_bits() >> 16) as u16);
+        Self { depth, factor }
+    }
+
+    /// Depth beyond which it stiffens, m; infinite: never.
+    #[must_use]
+    #[inline]
+    pub fn depth(self) -> f64 {
+        f64::from(f32::from_bits(u32::from(self.depth) << 16))
+    }
+
+    /// How much stiffer it is at twice that depth, as a fraction.
+    #[must_use]
+    #[inline]
+    pub fn factor(self) -> f64 {
+        f64::from(f32::from_bits(u32::from(self.factor) << 16))
     }
 }
 
@@ -93,11 +134,13 @@ pub struct Patch {
     pub area: f64,
     /// Depth beyond which it stiffens, m.
     pub limit: f64,
+    /// How much stiffer it is at twice that depth, as a fraction.
+    pub more: f64,
 }
 
 impl Default for Patch {
     fn default() -> Self {
-        Self { gap: 0.0, stiffness: 0.0, area: 0.0, limit: f64::INFINITY }
+        Self { gap: 0.0, stiffness: 0.0, area: 0.0, limit: f64::INFINITY, more: 0.0 }
     }
 }
 
@@ -109,7 +152,7 @@ where
     #[must_use]
     #[inline]
     pub fn patch(&self) -> Patch {
-        Patch { gap: self.gap, stiffness: self.stiffness, area: self.area, limit: f64::from(self.limit) }
+        Patch { gap: self.gap, stiffness: self.stiffness, area: self.area, limit: self.stiffening.depth(), more: self.stiffening.factor() }
     }
 
     /// The directions along the surface.

@@ -146,9 +146,10 @@ fn formulation(bodies: [&Blocks; 2]) -> (NodeFacet, Vec<Vector>) {
     let positions = [&bodies[0].positions[..], &bodies[1].positions[..]].concat();
     let surfaces = vec![bodies[0].surface(0), bodies[1].surface(first as u32)];
     let of: Vec<u32> = (0..positions.len()).map(|k| u32::from(k >= first)).collect();
-    let inputs = surfaces
-        .iter()
-        .map(|surface| PassInput { slaves: vec![Slave { stiffness: 1.0, area: 1.0 }; surface.nodes.len()], ..PassInput::default() });
+    let inputs = surfaces.iter().map(|surface| PassInput {
+        slaves: vec![Slave { stiffness: 1.0, area: 1.0, of_mass: 0.0 }; surface.nodes.len()],
+        ..PassInput::default()
+    });
     let inputs = inputs.collect();
     let search = || (search::registry::<3>()[0].make)();
     let tracker = Tracker::new(surfaces, BOTH, &of, search(), &positions);

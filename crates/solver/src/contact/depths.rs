@@ -1,0 +1,163 @@
+//! How deep bodies of the plane are in each other against their local thickness: by the springs of each step, and by a judge that looks at the bodies as they are.
+//!
+//! The judge shares nothing with the search and what it remembers. Nodes of an outline that are inside another one by their winding number, and three places on each part of a segment that is inside,
+//! are as deep as the other surface is far away. It looks before anything can have gone farther than an eighth of the least thickness, both bodies together, and at least every sixteenth step.
+//! Bodies are judged against others, not against themselves.
+
+use super::findings::{Findings, Overlap};
+use super::outline::{Opposite, Outline, Side, boxes_meet};
+use super::tracker::{Touch, Tracker};
+use super::{Scene, Vector};
+use crate::archive::{Archive, Kept, keep_each};
+
+/// Depths of a contact of the plane against the local thickness, the lesser of both bodies'.
+#[derive(Debug, Default)]
+pub struct Depths {
+    /// What is opposite of the segments of each surface.
+    surfaces: Vec<Vec<Opposite>>,
+    findings: Findings,
+    /// Deepest of the step against its thickness.
+    deepest: f64,
+    judge: Judge,
+}
+
+/// Way of both bodies together between two looks, as a fraction of the least thickness, and most steps.
+const BETWEEN_LOOKS: f64 = 0.125;
+const MOST_STEPS: u32 = 16;
+
+/// Looks at the bodies as they are.
+#[derive(Debug, Default)]
+struct Judge {
+    outlines: Vec<Outline>,
+    /// On which sides of the contact each is.
+    sides: Vec<u8>,
+    /// Travel at which it looks again, m, and steps since the last look.
+    next: f64,
+    steps: u32,
+}
+
+/// Fraction of the thickness at the start from which on a depth is looked at: a body may be crushed to a sixteenth.
+const SEEN: f64 = 0.0125;
+
+impl Depths {
+    /// For surfaces with what is opposite of their segments.
+    #[must_use]
+    pub fn new(surfaces: Vec<Vec<Opposite>>) -> Self {
+        Self { surfaces, ..Self::default() }
+    }
+
+    /// With a judge of these bodies, each on the first (1) or the second side (2) of the contact, or on both (3): what meets is of different sides.
+    #[must_use]
+    pub(super) fn judging(self, outlines: Vec<(Outline, u8)>) -> Self {
+        let (outlines, sides) = outlines.into_iter().unzip();
+        Self { judge: Judge { outlines, sides, next: f64::NEG_INFINITY, steps: 0 }, ..self }
+    }
+
+    /// What was found.
+    #[must_use]
+    pub fn findings(&self) -> &Findings {
+        &self.findings
+    }
+
+    /// Least thickness at the start behind segments (of their surfaces), m.
+    #[must_use]
+    pub fn thickness(&self, around: impl IntoIterator<Item = (usize, u32)>) -> f64 {
+        let initial = |(surface, segment): (usize, u32)| Some(self.surfaces.get(surface)?.get(segment as usize)?.initial);
+        around.into_iter().filter_map(initial).fold(f64::INFINITY, f64::min)
+    }
+
+    /// A new step begins.
+    pub fn begin(&mut self, scene: &Scene<'_>) {
+        self.deepest = 0.0;
+        let Findings { looks, now, own, through, .. } = &mut self.findings;
+        *looks += 1;
+        (*now, *own, *through) = (Overlap::default(), Overlap::default(), None);
+        self.judge.steps += 1;
+        if !self.judge.outlines.is_empty() && (scene.sweep.travel >= self.judge.next || self.judge.steps >= MOST_STEPS) {
+            self.look(scene);
+        }
+    }
+
+    /// Judges the bodies as they are.
+    fn look(&mut self, scene: &Scene<'_>) {
+        let positions = scene.sweep.new;
+        let judge = &mut self.judge;
+        judge.outlines.iter_mut().for_each(|outline| outline.refit(positions));
+        let sides = judge.outlines.iter().flat_map(|outline| &outline.sides).filter(|side| !side.is_mirror);
+        let least = sides.map(|side| side.opposite.now(side.segment, positions)).fold(f64::INFINITY, f64::min);
+        (judge.next, judge.steps) = (scene.sweep.travel + 0.5 * BETWEEN_LOOKS * least, 0);
+        let (findings, deepest) = (&mut self.findings, &mut self.deepest);
+        judge.meeting(|own, other| {
+            own.inside(other, positions, |x, side| {
+                if let Some(found) = deep(x, side, other, scene) {
+                    findings.see(found, false);
+                    *deepest = deepest.max(found.ratio());
+                }
+            });
+        });
+    }
+
+    /// Takes a node that is so deep inside, m, where bodies were `initial` thick at the start, m.
+    pub fn see(&mut self, tracker: &Tracker, touch: &Touch, depth: f64, initial: f64, scene: &Scene<'_>) {
+        if !(depth > SEEN * initial) {
+            return;
+        }
+        let around = tracker.around(touch);
+        let positions = scene.sweep.new;
+        let thickness = |(surface, segment): (usize, u32)| {
+            let opposite = self.surfaces.get(surface)?.get(segment as usize)?;
+            Some(opposite.now(tracker.targets()[surface].surface.segments[segment as usize], positions))
+        };
+        let thickness = around.into_iter().filter_map(thickness).fold(f64::INFINITY, f64::min);
+        let [(surface, segment), _, _] = around;
+        let other = tracker.targets()[surface].surface.segments[segment as usize][0];
+        let [x, y] = positions[touch.node as usize];
+        let place = Overlap { place: [x, y, 0.0], depth, thickness, nodes: [touch.node, other], time: scene.time };
+        self.findings.see(place, touch.own);
+        self.deepest = self.deepest.max(place.ratio());
+    }
+
+    /// The step has been seen: what is too deep counts.
+    pub fn end(&mut self) {
+        self.findings.count(self.deepest);
+    }
+
+    /// Keeps what was found.
+    pub fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        keep_each!(archive; &mut self.findings, &mut self.judge.next, &mut self.judge.steps);
+        Ok(())
+    }
+
+    /// Goes on with the counts of another one whose surfaces were those before they changed.
+    pub fn inherit(&mut self, old: &Self) {
+        self.findings = old.findings;
+    }
+}
+
+impl Judge {
+    /// Shows all pairs of bodies whose boxes meet, either way round.
+    fn meeting(&self, mut see: impl FnMut(&Outline, &Outline)) {
+        let boxes: Vec<[Vector; 2]> = self.outlines.iter().map(Outline::around).collect();
+        let mut order: Vec<usize> = (0..boxes.len()).collect();
+        order.sort_by(|&a, &b| boxes[a][0][0].total_cmp(&boxes[b][0][0]).then(a.cmp(&b)));
+        for (at, &i) in order.iter().enumerate() {
+            for &j in order[at + 1..].iter().take_while(|&&j| boxes[j][0][0] <= boxes[i][1][0]) {
+                let [a, b] = [self.sides[i], self.sides[j]];
+                let may_meet = (a & 1 != 0 && b & 2 != 0) || (a & 2 != 0 && b & 1 != 0);
+                if may_meet && boxes_meet(&boxes[i], &boxes[j]) {
+                    see(&self.outlines[i], &self.outlines[j]);
+                    see(&self.outlines[j], &self.outlines[i]);
+                }
+            }
+        }
+    }
+}
+
+/// How deep a place of a segment is in another body.
+fn deep(x: Vector, side: &Side, other: &Outline, scene: &Scene<'_>) -> Option<Overlap> {
+    let positions = scene.sweep.new;
+    let (square, nearest) = other.nearest(x, positions)?;
+    let thickness = [side, &nearest].map(|side| side.opposite.now(side.segment, positions));
+    let nodes = [side.segment[0], nearest.segment[0]];
+    Some(Overlap { place: [x[0], x[1], 0.0], depth: square.sqrt(), thickness: thickness[0].min(thickness[1]), nodes, time: scene.time })
+}

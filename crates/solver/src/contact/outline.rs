@@ -1,0 +1,462 @@
+//! Outlines of the bodies of the plane: what is opposite of each segment, and what is inside.
+//!
+//! Local thickness is how far the surface is on the other side, along the inward normal. The ray from the middle of a segment finds the opposite segment once, at the start; what lies there is
+//! followed as both move, so that a crushed body is as thin as it is. On a symmetry line the body goes on as its image. Nothing is thicker than 4 A / P with the area A and the perimeter P of the
+//! body, which is twice the radius of the inscribed circle for polygons that have one, and more for other convex ones. That is taken, too, where the ray leaves the body at less than 30 degrees to
+//! the surface there, as beside a corner.
+
+use super::Vector;
+use crate::mesh::surface::{NONE, Surface};
+use crate::vector::{dot, minus};
+use robust::{Coord, orient2d};
+use std::collections::BTreeMap;
+
+/// Cosine between the normals of a segment and of the opposite one.
+const OPPOSITE: f64 = -0.5;
+/// How far beside a segment a ray may pass and still meet it, as a share.
+const BESIDE: f64 = 1e-9;
+/// Places on a part of a segment that is inside.
+const PLACES: [f64; 3] = [0.25, 0.5, 0.75];
+/// Segments of a leaf of the tree.
+const LEAF: usize = 4;
+
+/// What is opposite of a segment.
+#[derive(Clone, Copy, Debug)]
+pub struct Opposite {
+    /// Its nodes, [`NONE`] where there is nothing, and the place between them.
+    nodes: [u32; 2],
+    share: f64,
+    /// Whether it lies on a symmetry line.
+    is_mirror: bool,
+    /// Thickness at the start, m, and the most that it can be; infinite: unknown.
+    pub(super) initial: f64,
+    most: f64,
+}
+
+impl Default for Opposite {
+    fn default() -> Self {
+        Self { nodes: [NONE; 2], share: 0.0, is_mirror: false, initial: f64::INFINITY, most: f64::INFINITY }
+    }
+}
+
+impl Opposite {
+    /// Thickness now, m.
+    pub(super) fn now(&self, [a, b]: [u32; 2], positions: &[Vector]) -> f64 {
+        if self.nodes[0] == NONE {
+            return self.most;
+        }
+        let [a, b, p, q] = [a, b, self.nodes[0], self.nodes[1]].map(|node| positions[node as usize]);
+        let away = [0, 1].map(|d| (1.0 - self.share) * p[d] + self.share * q[d] - 0.5 * (a[d] + b[d]));
+        let way = dot(away, away).sqrt();
+        if self.is_mirror { 2.0 * way } else { way }.min(self.most)
+    }
+}
+
+/// All bodies of a mesh of the plane.
+#[derive(Clone, Debug, Default)]
+pub struct Outlines(pub(super) Vec<Outline>);
+
+impl Outlines {
+    /// Of an outside, with the segments on symmetry lines (`is_mirror`), of bodies at their initial `positions`, m.
+    #[must_use]
+    pub fn new(outside: &[[u32; 2]], is_mirror: impl Fn([u32; 2]) -> bool, body_of: &[u32], positions: &[Vector]) -> Self {
+        let body = |segment: &[u32; 2]| body_of.get(segment[0] as usize).copied().unwrap_or(0);
+        let mut of_body: BTreeMap<u32, Vec<[u32; 2]>> = BTreeMap::new();
+        outside.iter().for_each(|segment| of_body.entry(body(segment)).or_default().push(*segment));
+        Self(of_body.into_iter().map(|(body, segments)| Outline::new(body, segments, &is_mirror, positions)).collect())
+    }
+
+    /// What is opposite of the segments of a surface.
+    #[must_use]
+    pub fn opposite(&self, surface: &Surface) -> Vec<Opposite> {
+        let mut all = BTreeMap::new();
+        for outline in &self.0 {
+            all.extend(outline.sides.iter().map(|side| (side.segment, side.opposite)));
+        }
+        surface.segments.iter().map(|segment| all.get(segment).copied().unwrap_or_default()).collect()
+    }
+}
+
+/// A segment of an outline.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Side {
+    pub(super) segment: [u32; 2],
+    pub(super) opposite: Opposite,
+    /// Whether it lies on a symmetry line: it closes the body and is no surface of it.
+    pub(super) is_mirror: bool,
+}
+
+/// The outline of a body: its segments in the order of a binary tree of boxes, by halves along the longer axis of their middles.
+#[derive(Clone, Debug)]
+pub(super) struct Outline {
+    pub(super) body: u32,
+    pub(super) sides: Vec<Side>,
+    boxes: Vec<[Vector; 2]>,
+}
+
+impl Outline {
+    fn new(body: u32, segments: Vec<[u32; 2]>, is_mirror: &impl Fn([u32; 2]) -> bool, positions: &[Vector]) -> Self {
+        let (mut double, mut perimeter) = (0.0, 0.0);
+        let origin = positions[segments[0][0] as usize];
+        for &segment in &segments {
+            let [a, b] = segment.map(|node| minus(positions[node as usize], origin));
+            double += a[1] * b[0] - a[0] * b[1];
+            perimeter += if is_mirror(segment) { 0.0 } else { dot(minus(b, a), minus(b, a)).sqrt() };
+        }
+        let most = if double > 0.0 && perimeter > 0.0 { 2.0 * double / perimeter } else { f64::INFINITY };
+        let opposite = Opposite { initial: most, most, ..Opposite::default() };
+        let side = |segment: [u32; 2]| Side { segment, opposite, is_mirror: is_mirror(segment) };
+        let mut made = Self { body, sides: segments.into_iter().map(side).collect(), boxes: Vec::new() };
+        sort(&mut made.sides, positions);
+        made.refit(positions);
+        let found: Vec<Option<Opposite>> = made.sides.iter().map(|side| made.opposite(side, positions)).collect();
+        for (side, found) in made.sides.iter_mut().zip(found) {
+            side.opposite = found.unwrap_or(opposite);
+        }
+        made
+    }
+
+    /// Takes the boxes anew.
+    pub(super) fn refit(&mut self, positions: &[Vector]) {
+        let mut boxes = std::mem::take(&mut self.boxes);
+        boxes.clear();
+        fit(&self.sides, positions, &mut boxes);
+        self.boxes = boxes;
+    }
+
+    /// The box around all of it.
+    pub(super) fn around(&self) -> [Vector; 2] {
+        self.boxes[0]
+    }
+
+    /// Shows the segments of leaves whose boxes count, and those below boxes that do.
+    fn visit(&self, mut counts: impl FnMut(&[Vector; 2]) -> bool, mut see: impl FnMut(&Side)) {
+        let mut stack = vec![(0, 0, self.sides.len())];
+        while let Some((number, begin, end)) = stack.pop() {
+            if !counts(&self.boxes[number]) {
+                continue;
+            }
+            if end - begin > LEAF {
+                let half = begin + (end - begin) / 2;
+                stack.extend([(number + boxes_of(half - begin) + 1, half, end), (number + 1, begin, half)]);
+            } else {
+                self.sides[begin..end].iter().for_each(&mut see);
+            }
+        }
+    }
+
+    /// Where the ray from the middle of a segment inwards first leaves the body, if the surface there looks the other way.
+    fn opposite(&self, side: &Side, positions: &[Vector]) -> Option<Opposite> {
+        let [a, b] = side.segment.map(|node| positions[node as usize]);
+        let along = minus(b, a);
+        let size = dot(along, along).sqrt();
+        // The body is on the right.
+        let (from, inward) = ([0, 1].map(|d| 0.5 * (a[d] + b[d])), [along[1] / size, -along[0] / size]);
+        let far = std::cell::Cell::new(f64::INFINITY);
+        let mut nearest = None;
+        self.visit(
+            |around| meets_box(from, inward, *around, far.get()),
+            |other| {
+                let [p, q] = other.segment.map(|node| positions[node as usize]);
+                let met = if other.segment == side.segment { None } else { meets(from, inward, p, q) };
+                if let Some((away, share, cosine)) = met.filter(|met| met.0 < far.get()) {
+                    far.set(away);
+                    let found = Opposite { nodes: other.segment, share, is_mirror: other.is_mirror, ..side.opposite };
+                    nearest = (cosine > -OPPOSITE).then_some(found);
+                }
+            },
+        );
+        nearest.map(|found| Opposite { initial: found.now(side.segment, positions), ..found })
+    }
+
+    /// Whether a place is inside, by its winding number.
+    pub(super) fn is_inside(&self, x: Vector, positions: &[Vector]) -> bool {
+        let mut winding = 0;
+        self.visit(
+            |[low, high]| low[1] <= x[1] && x[1] <= high[1] && x[0] <= high[0],
+            |side| {
+                let [a, b] = side.segment.map(|node| positions[node as usize]);
+                let rises = b[1] > x[1];
+                if (a[1] > x[1]) != rises && (turn(a, b, x) > 0.0) == rises {
+                    winding += if rises { 1 } else { -1 };
+                }
+            },
+        );
+        winding != 0
+    }
+
+    /// The segment that is nearest to a place, and the square of the distance, m².
+    pub(super) fn nearest(&self, x: Vector, positions: &[Vector]) -> Option<(f64, Side)> {
+        let square = std::cell::Cell::new(f64::INFINITY);
+        let mut found = None;
+        self.visit(
+            |[low, high]| (0..2).map(|d| (low[d] - x[d]).max(x[d] - high[d]).max(0.0)).map(|off| off * off).sum::<f64>() < square.get(),
+            |side| {
+                let [a, b] = side.segment.map(|node| positions[node as usize]);
+                let (along, off) = (minus(b, a), minus(x, a));
+                let share = (dot(off, along) / dot(along, along)).clamp(0.0, 1.0);
+                let away = [0, 1].map(|d| off[d] - share * along[d]);
+                if !side.is_mirror && dot(away, away) < square.get() {
+                    square.set(dot(away, away));
+                    found = Some((dot(away, away), *side));
+                }
+            },
+        );
+        found
+    }
+
+    /// Adds where along the way from p to q (0 to 1) the outline is crossed.
+    pub(super) fn cross(&self, [p, q]: [Vector; 2], positions: &[Vector], places: &mut Vec<f64>) {
+        let (low, high) = ([0, 1].map(|d| p[d].min(q[d])), [0, 1].map(|d| p[d].max(q[d])));
+        self.visit(
+            |around| boxes_meet(around, &[low, high]),
+            |side| {
+                let [a, b] = side.segment.map(|node| positions[node as usize]);
+                let (from, to) = (turn(a, b, p), turn(a, b, q));
+                if (from > 0.0) != (to > 0.0) && (turn(p, q, a) > 0.0) != (turn(p, q, b) > 0.0) {
+                    places.push(from / (from - to));
+                }
+            },
+        );
+    }
+}
+
+impl Outline {
+    /// Shows nodes of this outline that are inside another one, and three places on each part of its segments that is.
+    pub(super) fn inside(&self, other: &Self, positions: &[Vector], mut see: impl FnMut(Vector, &Side)) {
+        let mut cuts = Vec::new();
+        for side in self.sides.iter().filter(|side| !side.is_mirror) {
+            let ends = side.segment.map(|node| positions[node as usize]);
+            if !boxes_meet(&box_of(std::slice::from_ref(side), positions), &other.around()) {
+                continue;
+            }
+            let at = |share: f64| [0, 1].map(|d| (1.0 - share) * ends[0][d] + share * ends[1][d]);
+            if other.is_inside(ends[0], positions) {
+                see(ends[0], side);
+            }
+            cuts.clear();
+            cuts.extend([0.0, 1.0]);
+            other.cross(ends, positions, &mut cuts);
+            cuts.sort_by(f64::total_cmp);
+            for part in cuts.windows(2) {
+                let between = |share: f64| at(part[0] + share * (part[1] - part[0]));
+                if other.is_inside(between(0.5), positions) {
+                    PLACES.into_iter().for_each(|share| see(between(share), side));
+                }
+            }
+        }
+    }
+}
+
+/// Whether two boxes meet.
+pub(super) fn boxes_meet(a: &[Vector; 2], b: &[Vector; 2]) -> bool {
+    (0..2).all(|d| a[0][d] <= b[1][d] && b[0][d] <= a[1][d])
+}
+
+/// Twice the area of the triangle a, b, c, with the right sign: positive where c is on the left of a → b.
+fn turn(a: Vector, b: Vector, c: Vector) -> f64 {
+    let [a, b, c] = [a, b, c].map(|[x, y]| Coord { x, y });
+    orient2d(a, b, c)
+}
+
+/// How many boxes so many segments have.
+fn boxes_of(segments: usize) -> usize {
+    if segments > LEAF { 1 + boxes_of(segments / 2) + boxes_of(segments - segments / 2) } else { 1 }
+}
+
+/// Sorts segments so that halves of them, of those and so on are apart.
+fn sort(sides: &mut [Side], positions: &[Vector]) {
+    if sides.len() <= LEAF {
+        return;
+    }
+    let [low, high] = box_of(sides, positions);
+    let axis = usize::from(high[1] - low[1] > high[0] - low[0]);
+    let middle = |Side { segment: [a, b], .. }: &Side| positions[*a as usize][axis] + positions[*b as usize][axis];
+    sides.sort_by(|a, b| middle(a).total_cmp(&middle(b)).then(a.segment.cmp(&b.segment)));
+    let (first, second) = sides.split_at_mut(sides.len() / 2);
+    sort(first, positions);
+    sort(second, positions);
+}
+
+/// Adds the box of segments, then those of both halves; the first.
+fn fit(sides: &[Side], positions: &[Vector], boxes: &mut Vec<[Vector; 2]>) -> [Vector; 2] {
+    let at = boxes.len();
+    boxes.push([[0.0; 2]; 2]);
+    boxes[at] = if sides.len() > LEAF {
+        let (first, second) = sides.split_at(sides.len() / 2);
+        let [a, b] = [fit(first, positions, boxes), fit(second, positions, boxes)];
+        [[0, 1].map(|d| a[0][d].min(b[0][d])), [0, 1].map(|d| a[1][d].max(b[1][d]))]
+    } else {
+        box_of(sides, positions)
+    };
+    boxes[at]
+}
+
+fn box_of(sides: &[Side], positions: &[Vector]) -> [Vector; 2] {
+    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    for x in sides.iter().flat_map(|side| side.segment).map(|node| positions[node as usize]) {
+        (0..2).for_each(|d| (low[d], high[d]) = (low[d].min(x[d]), high[d].max(x[d])));
+    }
+    [low, high]
+}
+
+/// Whether a ray meets a box before it has gone so far.
+fn meets_box(from: Vector, direction: Vector, [low, high]: [Vector; 2], far: f64) -> bool {
+    let (mut begin, mut end) = (0.0, far);
+    for d in 0..2 {
+        if direction[d] == 0.0 {
+            if from[d] < low[d] || from[d] > high[d] {
+                return false;
+            }
+            continue;
+        }
+        let [s, t] = [low[d], high[d]].map(|bound| (bound - from[d]) / direction[d]);
+        (begin, end) = (s.min(t).max(begin), s.max(t).min(end));
+    }
+    // A flat box counts, whatever rounds.
+    begin <= end * (1.0 + BESIDE)
+}
+
+/// Where a ray meets a segment from p to q that it comes to from inside: how far, m, the share of q there, and the cosine between its direction and the normal.
+fn meets(from: Vector, direction: Vector, p: Vector, q: Vector) -> Option<(f64, f64, f64)> {
+    let along = minus(q, p);
+    // The body is on the right: the normal looks to the left.
+    let falls = direction[1] * along[0] - direction[0] * along[1];
+    if !(falls > 0.0) {
+        return None;
+    }
+    let off = minus(p, from);
+    let away = (off[1] * along[0] - off[0] * along[1]) / falls;
+    let share = (off[1] * direction[0] - off[0] * direction[1]) / falls;
+    (away > 0.0 && (-BESIDE..=1.0 + BESIDE).contains(&share)).then(|| (away, share, falls / dot(along, along).sqrt()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A closed outline, counter-clockwise, as segments with the body on their right.
+    fn outline(points: &[Vector], parts: usize) -> (Vec<[u32; 2]>, Vec<Vector>) {
+        let side = |k: usize| {
+            let (a, b) = (points[k], points[(k + 1) % points.len()]);
+            (0..parts).map(move |i| [0, 1].map(|d| a[d] + i as f64 / parts as f64 * (b[d] - a[d])))
+        };
+        let places: Vec<Vector> = (0..points.len()).flat_map(side).collect();
+        let count = places.len() as u32;
+        ((0..count).map(|k| [(k + 1) % count, k]).collect(), places)
+    }
+
+    fn of(points: &[Vector], parts: usize) -> Vec<f64> {
+        let (segments, places) = outline(points, parts);
+        let made = Outlines::new(&segments, |_| false, &vec![0; places.len()], &places);
+        segments.iter().map(|segment| of_segment(&made, *segment).initial).collect()
+    }
+
+    fn of_segment(made: &Outlines, segment: [u32; 2]) -> Opposite {
+        made.0[0].sides.iter().find(|side| side.segment == segment).unwrap().opposite
+    }
+
+    #[test]
+    fn a_rectangle_is_as_thick_as_its_sides_are_apart_wherever_and_however_it_lies() {
+        for (angle, shift) in [(0.0_f64, 0.0), (0.3, 0.0), (2.5, 1e6), (-1.0, -3.0)] {
+            let (sin, cos) = angle.sin_cos();
+            let corners =
+                [[0.0, 0.0], [3.0, 0.0], [3.0, 0.5], [0.0, 0.5]].map(|[x, y]: Vector| [cos * x - sin * y + shift, sin * x + cos * y]);
+            for parts in [1, 2, 7] {
+                let found = of(&corners, parts);
+                for (k, thickness) in found.iter().enumerate() {
+                    let expected = if (k / parts) % 2 == 0 { 0.5 } else { 3.0 };
+                    assert!((thickness - expected).abs() < 1e-9 * (1.0 + shift.abs()), "{angle} {parts} {k}: {thickness}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_triangle_is_as_thick_as_the_circle_in_it_and_a_disk_as_its_diameter() {
+        let corner = |k: usize, n: usize| {
+            let angle = 2.0 * std::f64::consts::PI * k as f64 / n as f64;
+            [angle.cos(), angle.sin()]
+        };
+        let triangle: Vec<Vector> = (0..3).map(|k| corner(k, 3)).collect();
+        // One element a side: the rays meet corners; the radius of the circle in it is a half.
+        assert!(of(&triangle, 3).iter().all(|thickness| (thickness - 1.0).abs() < 1e-12 || *thickness > 0.5), "{:?}", of(&triangle, 3));
+        let disk: Vec<Vector> = (0..64).map(|k| corner(k, 64)).collect();
+        assert!(of(&disk, 1).iter().all(|thickness| (thickness - 2.0).abs() < 0.005), "{:?}", of(&disk, 1));
+    }
+
+    #[test]
+    fn a_half_on_a_symmetry_line_is_as_thick_as_the_whole_and_what_is_crushed_is_thin() {
+        let (segments, mut places) = outline(&[[0.0, 0.0], [3.0, 0.0], [3.0, 0.5], [0.0, 0.5]], 4);
+        let is_mirror = |segment: [u32; 2]| segment.iter().all(|&node| node <= 4);
+        let made = Outlines::new(&segments, is_mirror, &[0; 16], &places);
+        let top = segments.iter().copied().filter(|segment| segment.iter().all(|&node| (8..=12).contains(&node)));
+        let top: Vec<[u32; 2]> = top.collect();
+        assert_eq!(top.len(), 4);
+        assert!(top.iter().all(|segment| (of_segment(&made, *segment).initial - 1.0).abs() < 1e-12));
+        places.iter_mut().for_each(|x| x[1] *= 0.25);
+        assert!(top.iter().all(|segment| (of_segment(&made, *segment).now(*segment, &places) - 0.25).abs() < 1e-12));
+    }
+
+    /// Two rectangles, each turned and shifted.
+    fn two(angle: f64, shift: Vector, parts: usize) -> (Outlines, Vec<Vector>) {
+        let (mut segments, mut places) = outline(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]], parts);
+        let (other, more) = outline(&[[0.0, 0.0], [3.0, 0.0], [3.0, 0.2], [0.0, 0.2]], parts);
+        let first = places.len() as u32;
+        segments.extend(other.iter().map(|segment| segment.map(|node| node + first)));
+        let (sin, cos) = angle.sin_cos();
+        places.extend(more.iter().map(|x| [cos * x[0] - sin * x[1] + shift[0], sin * x[0] + cos * x[1] + shift[1]]));
+        let bodies: Vec<u32> = (0..places.len() as u32).map(|node| u32::from(node >= first)).collect();
+        (Outlines::new(&segments, |_| false, &bodies, &places), places)
+    }
+
+    fn deepest(made: &Outlines, places: &[Vector]) -> f64 {
+        let mut deepest: f64 = 0.0;
+        for [own, other] in [[0, 1], [1, 0]] {
+            made.0[own].inside(&made.0[other], places, |x, _| deepest = deepest.max(made.0[other].nearest(x, places).unwrap().0.sqrt()));
+        }
+        deepest
+    }
+
+    #[test]
+    fn what_is_inside_is_found_also_where_no_node_is() {
+        for parts in [1, 3, 8] {
+            // A bar through the middle of a square: no node of either is in the other, and its sides are 0.4 and 0.2 from the nearest sides.
+            let (made, places) = two(0.0, [-1.0, 0.4], parts);
+            assert!((deepest(&made, &places) - 0.4).abs() < 0.11, "{parts}: {}", deepest(&made, &places));
+            // Its end in the square, by 0.1 from the left.
+            let (made, places) = two(0.0, [-2.9, 0.4], parts);
+            assert!((deepest(&made, &places) - 0.1).abs() < 1e-12, "{parts}: {}", deepest(&made, &places));
+            // Beside it, and flush with it.
+            for shift in [[1.5, 0.4], [1.0, 0.0], [0.0, 1.0], [-1.0, -0.2], [-3.0, 0.4]] {
+                let (made, places) = two(0.0, shift, parts);
+                assert!(deepest(&made, &places) < 1e-15, "{parts} {shift:?}: {}", deepest(&made, &places));
+            }
+            // All inside.
+            let (made, places) = two(0.0, [0.1, 0.4], parts);
+            assert!(deepest(&made, &places) > 0.09);
+        }
+    }
+
+    #[test]
+    fn winding_numbers_agree_with_a_closed_form_for_turned_bars() {
+        let mut state = 12345_u32;
+        let mut random = || {
+            state ^= state << 13;
+            state ^= state >> 17;
+            state ^= state << 5;
+            f64::from(state) / f64::from(u32::MAX)
+        };
+        for _ in 0..200 {
+            let (angle, shift) = (6.3 * random(), [random(), random()]);
+            let (made, places) = two(angle, shift, 5);
+            for _ in 0..20 {
+                let x = [4.0 * random() - 1.5, 4.0 * random() - 1.5];
+                let off = minus(x, shift);
+                let own = [angle.cos() * off[0] + angle.sin() * off[1], angle.cos() * off[1] - angle.sin() * off[0]];
+                let expected = (0.0..=3.0).contains(&own[0]) && (0.0..=0.2).contains(&own[1]);
+                assert_eq!(made.0[1].is_inside(x, &places), expected, "{angle} {shift:?} {x:?}");
+            }
+        }
+    }
+}

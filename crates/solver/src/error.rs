@@ -68,7 +68,7 @@ static TOO_DEEP: Message = Message {
     example: Example::Model(
         "[[contact]]\nname = \"hit\"\nbetween = [\"block.right\", \"wall.left\"]\npenalty_scale = 1e-9\n\n[run]\nend = \"2 ms\"\n",
     ),
-    cause: "A surface is deeper inside another than the longest segment, or between solids than the thinner body there is thick (or than `run.penetration_limit`): the contact is far too soft for what presses on it, or began to act when the bodies were already inside each other.",
+    cause: "A surface is deeper inside another than the longest segment, or than the thinner body there is thick (or than `run.penetration_limit`): the contact is far too soft for what presses on it, or began to act when the bodies were already inside each other.",
     cure: "Raise `penalty_scale` or `penalty` of the contact, or take the law `multiplier`; raise `run.penetration_limit` where so much depth is meant.",
 };
 

@@ -409,7 +409,7 @@ impl Sided {
             Slave {
                 stiffness: law::penalty::stiffness(penalty, node, passes),
                 area: own.area / passes as f64,
-                of_mass: own.of_mass * own.area / passes as f64,
+                of_mass: law::penalty::share_of_mass(penalty) * own.of_mass * own.area / passes as f64,
             }
         };
         let per_modulus = match penalty {

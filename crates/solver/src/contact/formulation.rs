@@ -154,6 +154,7 @@ impl Setup<'_> {
     #[must_use]
     pub fn slaves(&self, side: usize, passes: usize) -> Vec<Slave> {
         let Target { surface, mirrors } = &self.sides[side].target;
+        let share = law::penalty::share_of_mass(self.penalty());
         let of = |(&own, node): (&Tributary, &u32)| {
             let on_line = mirrors.binary_search_by_key(node, |&(node, _)| node).is_ok();
             let node = law::Node { own, other: f64::INFINITY, share: if on_line { 0.5 } else { 1.0 } };
@@ -162,7 +163,7 @@ impl Setup<'_> {
                 stiffness: law::penalty::stiffness(self.penalty(), node, passes),
                 area: own.area / passes as f64,
                 slip: 0.0,
-                of_mass: own.of_mass * own.area / passes as f64,
+                of_mass: share * own.of_mass * own.area / passes as f64,
             }
         };
         self.sides[side].nodes.iter().zip(&surface.nodes).map(of).collect()

@@ -164,7 +164,7 @@ impl Segment {
         let law = (setup.law)();
         let (penalty, thickness, reach, depth) = (setup.penalty(), setup.contact.interface.thickness, law.reach(), setup.depth);
         let chain = |side: &Side<'_>| {
-            let of_mass: Vec<f64> = side.nodes.iter().map(|node| node.of_mass).collect();
+            let of_mass: Vec<f64> = side.nodes.iter().map(|node| penalty::share_of_mass(penalty) * node.of_mass).collect();
             Chain::new(&side.target.surface, side.segments.clone(), &of_mass)
         };
         let chains: Vec<Chain> = setup.sides.iter().map(chain).collect();

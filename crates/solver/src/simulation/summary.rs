@@ -63,9 +63,11 @@ where
         }
         let unverified = self.certificate().unverified;
         if unverified > 0 {
-            let who = if D == 3 { "a node or an edge went into a body, or bodies overlapped," } else { "a node was inside a body" };
-            let mut text =
-                format!("{unverified} time(s) {who} without being held apart: a contact was missed, or a body went through itself");
+            let who = if D == 3 { "a node or an edge went into a body" } else { "a node was inside a body" };
+            let mut text = format!(
+                "{unverified} time(s) {who} without being held apart, or bodies overlapped by more than a fifth of their thickness: \
+                 a contact was missed or is too soft, or a body went through itself"
+            );
             for contact in &self.system.contacts {
                 text.extend(contact.overlaps().into_iter().flat_map(|found| self.system.overlaps_in_words(&contact.name, found)));
             }

@@ -2,7 +2,7 @@
 //!
 //! Beyond the depth ℓ, an eighth of the local thickness of the thinner body, it stiffens: V = ½ k d² + k S (d − ℓ)³ / 6ℓ with d = −G, twice continuously differentiable and convex.
 //! A linear spring as stiff as the elements lets a heavy body through a soft one. S is 100, or α m / (k dt²) with the mass m of the slave node, α = 0.1 and the first step dt, where that is more:
-//! so stiff a spring stops a node within a few steps whatever the elements are. In sound contact d stays below ℓ.
+//! so stiff a spring stops a node within a few steps whatever the elements are. Where the stiffness is given S is 100, and a `penalty_scale` below 1 scales that by mass, too. In sound contact d stays below ℓ.
 //!
 //! Stiffness of a slave node: given (the paper's k_n), a pressure per depth times the node's tributary length, or automatic: the stiffness
 //! κ of the elements under the surface times the tributary length, the softer of both bodies; half of it in a double pass, where both passes act. What κ is:
@@ -52,6 +52,15 @@ pub fn of_time_step(mass: f64, time_step: f64, area: f64) -> f64 {
 #[must_use]
 pub fn stiffening(thickness: f64, stiffness: f64, of_mass: f64) -> Stiffening {
     Stiffening::new(LIMIT * thickness, if stiffness > 0.0 { STIFFENING.max(of_mass / stiffness) } else { STIFFENING })
+}
+
+/// Share of the stiffness by mass that springs may stiffen to: none where a stiffness is given, and less where the automatic one is made softer.
+#[must_use]
+pub fn share_of_mass(penalty: model::Penalty) -> f64 {
+    match penalty {
+        model::Penalty::Automatic { scale, .. } => scale.min(1.0),
+        model::Penalty::PerNode(_) | model::Penalty::Pressure(_) => 0.0,
+    }
 }
 
 /// Spring stiffness of a slave node, N/m per metre of depth (in space N/m); `passes` 1 or 2.

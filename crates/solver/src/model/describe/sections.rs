@@ -79,7 +79,7 @@ static RUN: Section = Section {
         key(
             "penetration_limit",
             Quantity(Dimension::LENGTH, Positive),
-            Optional("the longest segment of the surfaces; between solids also the local thickness of the thinner body"),
+            Optional("the longest segment of the surfaces, and the local thickness of the thinner body"),
             "Depth of a contact at which the run stops.",
         ),
         key(

@@ -320,7 +320,7 @@ const fn fields(forms: &Forms) -> [FieldKind; 18] {
             &[],
             "m",
             Needs::Contact,
-            "distance from what is opposite, negative where it penetrates; not a number where nothing is near",
+            "distance from what is opposite, negative where it penetrates (inside a body where no node holds it: minus the distance to its surface when the bodies were last looked at); not a number where nothing is near",
         ),
         at_nodes("contact_slip", &[], "m", Needs::Contact, "distance that the surfaces have slid on each other"),
         at_nodes("contact_status", &[], "", Needs::Contact, "0 open, 1 stick, 2 slip (closed without friction counts as slip)"),

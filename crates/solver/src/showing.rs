@@ -78,7 +78,9 @@ where
             self.tractions.get_or_init(of).get(node).copied().unwrap_or_default()
         };
         let state = |node: usize| {
-            let of = || Traces::states(&system.springs, system.mesh.user_nodes.len());
+            let of = || {
+                Traces::states(&system.springs, system.mesh.user_nodes.len(), system.contacts.iter().flat_map(|contact| contact.inside()))
+            };
             self.states.get_or_init(of).get(node).copied().unwrap_or(State::OPEN)
         };
         match name {

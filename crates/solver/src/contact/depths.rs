@@ -1,7 +1,7 @@
 //! How deep bodies of the plane are in each other against their local thickness: by the springs of each step, and by a judge that looks at the bodies as they are.
 //!
 //! The judge shares nothing with the search and what it remembers. Nodes of an outline that are inside another one by their winding number, and three places on each part of a segment that is inside,
-//! are as deep as the other surface is far away. It looks before anything can have gone farther than an eighth of the least thickness, both bodies together, and at least every sixteenth step.
+//! are as deep as the other surface is far away. It looks before anything can have gone farther than a quarter of the least thickness, both bodies together, and at least every sixteenth step.
 //! Bodies are judged against others, not against themselves.
 
 use super::findings::{Findings, Overlap};
@@ -16,13 +16,14 @@ pub struct Depths {
     /// What is opposite of the segments of each surface.
     surfaces: Vec<Vec<Opposite>>,
     findings: Findings,
-    /// Deepest of the step against its thickness.
-    deepest: f64,
+    /// Travel at this step, and what nodes went since the one before at most, m.
+    travel: f64,
+    way: f64,
     judge: Judge,
 }
 
 /// Way of both bodies together between two looks, as a fraction of the least thickness, and most steps.
-const BETWEEN_LOOKS: f64 = 0.125;
+const BETWEEN_LOOKS: f64 = 0.25;
 const MOST_STEPS: u32 = 16;
 
 /// Looks at the bodies as they are.
@@ -34,6 +35,8 @@ struct Judge {
     /// Travel at which it looks again, m, and steps since the last look.
     next: f64,
     steps: u32,
+    /// Nodes that were inside another body in the last look, and how deep, m.
+    inside: Vec<(u32, f64)>,
 }
 
 /// Fraction of the thickness at the start from which on a depth is looked at: a body may be crushed to a sixteenth.
@@ -46,11 +49,17 @@ impl Depths {
         Self { surfaces, ..Self::default() }
     }
 
+    /// Nodes that were inside another body in the last look of the judge, and how deep, m.
+    #[must_use]
+    pub fn inside(&self) -> &[(u32, f64)] {
+        &self.judge.inside
+    }
+
     /// With a judge of these bodies, each on the first (1) or the second side (2) of the contact, or on both (3): what meets is of different sides.
     #[must_use]
     pub(super) fn judging(self, outlines: Vec<(Outline, u8)>) -> Self {
         let (outlines, sides) = outlines.into_iter().unzip();
-        Self { judge: Judge { outlines, sides, next: f64::NEG_INFINITY, steps: 0 }, ..self }
+        Self { judge: Judge { outlines, sides, next: f64::NEG_INFINITY, steps: 0, inside: Vec::new() }, ..self }
     }
 
     /// What was found.
@@ -68,7 +77,8 @@ impl Depths {
 
     /// A new step begins.
     pub fn begin(&mut self, scene: &Scene<'_>) {
-        self.deepest = 0.0;
+        let way = scene.sweep.travel - self.travel;
+        (self.travel, self.way) = (scene.sweep.travel, if way.is_finite() { way } else { 0.0 });
         let Findings { looks, now, own, through, .. } = &mut self.findings;
         *looks += 1;
         (*now, *own, *through) = (Overlap::default(), Overlap::default(), None);
@@ -86,15 +96,20 @@ impl Depths {
         let sides = judge.outlines.iter().flat_map(|outline| &outline.sides).filter(|side| !side.is_mirror);
         let least = sides.map(|side| side.opposite.now(side.segment, positions)).fold(f64::INFINITY, f64::min);
         (judge.next, judge.steps) = (scene.sweep.travel + 0.5 * BETWEEN_LOOKS * least, 0);
-        let (findings, deepest) = (&mut self.findings, &mut self.deepest);
+        let findings = &mut self.findings;
+        let mut nodes = std::mem::take(&mut judge.inside);
+        nodes.clear();
         judge.meeting(|own, other| {
-            own.inside(other, positions, |x, side| {
+            own.inside(other, positions, |x, side, is_node| {
                 if let Some(found) = deep(x, side, other, scene) {
+                    if is_node {
+                        nodes.push((side.segment[0], found.depth));
+                    }
                     findings.see(found, false);
-                    *deepest = deepest.max(found.ratio());
                 }
             });
         });
+        judge.inside = nodes;
     }
 
     /// Takes a node that is so deep inside, m, where bodies were `initial` thick at the start, m.
@@ -114,17 +129,16 @@ impl Depths {
         let [x, y] = positions[touch.node as usize];
         let place = Overlap { place: [x, y, 0.0], depth, thickness, nodes: [touch.node, other], time: scene.time };
         self.findings.see(place, touch.own);
-        self.deepest = self.deepest.max(place.ratio());
     }
 
     /// The step has been seen: what is too deep counts.
     pub fn end(&mut self) {
-        self.findings.count(self.deepest);
+        self.findings.count(self.way);
     }
 
     /// Keeps what was found.
     pub fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
-        keep_each!(archive; &mut self.findings, &mut self.judge.next, &mut self.judge.steps);
+        keep_each!(archive; &mut self.findings, &mut self.travel, &mut self.judge.next, &mut self.judge.steps, &mut self.judge.inside);
         Ok(())
     }
 

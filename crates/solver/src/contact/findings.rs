@@ -2,8 +2,10 @@
 
 use crate::archive::keep_all;
 
-/// Deepest that what is held may be, as a fraction of the local thickness: less than half of the half.
+/// Deepest that what is held may be in space, as a fraction of the local thickness: less than half of the half.
 pub const DEEPEST: f64 = 0.2;
+/// The same in the plane, where each step is seen.
+pub const DEEPEST_IN_PLANE: f64 = 0.25;
 /// Depth from which on an overlap gets a net and counts as penetration, as a fraction of the local thickness.
 pub const CAST: f64 = 0.125;
 
@@ -65,12 +67,14 @@ impl Findings {
         }
     }
 
-    /// Counts a look in which something was so deep against the thickness.
-    pub(super) fn count(&mut self, deepest: f64) {
-        if self.now.ratio() > 1.0 {
+    /// Counts a step of the plane. What comes in within a step is as deep as both sides go in it, `way` (m) each: that is not too deep yet.
+    pub(super) fn count(&mut self, way: f64) {
+        let ratio = |place: Overlap| Overlap { depth: place.depth - 2.0 * way, ..place }.ratio();
+        let [now, own] = [self.now, self.own].map(ratio);
+        if now > 1.0 {
             self.through = Some(self.now);
         }
-        if deepest > DEEPEST {
+        if now.max(own) > DEEPEST_IN_PLANE {
             self.miss();
         }
     }

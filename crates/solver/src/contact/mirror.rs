@@ -126,4 +126,8 @@ where
     fn overlaps(&self) -> Option<&Findings> {
         self.contact.overlaps()
     }
+
+    fn inside(&self) -> &[(u32, f64)] {
+        self.contact.inside()
+    }
 }

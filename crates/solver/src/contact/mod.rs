@@ -99,6 +99,11 @@ where
     fn overlaps(&self) -> Option<&Findings> {
         None
     }
+
+    /// Nodes that were inside another body when the bodies were last looked at, and how deep, m.
+    fn inside(&self) -> &[(u32, f64)] {
+        &[]
+    }
 }
 
 /// What a step shows to contacts.
@@ -301,6 +306,12 @@ where
     #[must_use]
     pub fn overlaps(&self) -> Option<&Findings> {
         self.formulation.overlaps()
+    }
+
+    /// Nodes that were inside another body when the bodies were last looked at, and how deep, m.
+    #[must_use]
+    pub fn inside(&self) -> &[(u32, f64)] {
+        self.formulation.inside()
     }
 
     /// The deeper of the last evaluation's penetration and of the overlaps between bodies in the last look that have a net, m.

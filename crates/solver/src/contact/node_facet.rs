@@ -486,6 +486,10 @@ impl Formulation<3> for NodeFacet {
         self.judge.as_ref().map(Judge::findings)
     }
 
+    fn inside(&self) -> &[(u32, f64)] {
+        self.judge.as_ref().map_or(&[], Judge::inside)
+    }
+
     fn certificate(&self) -> Certificate {
         let mut sum = self.proof.as_ref().map(Proof::certificate).unwrap_or_default();
         sum.unverified += self.judge.as_ref().map_or(0, |judge| judge.findings().unverified);

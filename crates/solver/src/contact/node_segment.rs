@@ -330,6 +330,10 @@ impl Formulation for NodeSegment {
         Some(self.depths.findings())
     }
 
+    fn inside(&self) -> &[(u32, f64)] {
+        self.depths.inside()
+    }
+
     fn search_report(&self) -> Option<SearchReport> {
         Some(self.tracker.search_report())
     }

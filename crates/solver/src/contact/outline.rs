@@ -15,6 +15,8 @@ use std::collections::BTreeMap;
 const OPPOSITE: f64 = -0.5;
 /// How far beside a segment a ray may pass and still meet it, as a share.
 const BESIDE: f64 = 1e-9;
+/// Depth of the tree of a large outline, and a branch at each.
+const DEPTH: usize = 64;
 /// Places on a part of a segment that is inside.
 const PLACES: [f64; 3] = [0.25, 0.5, 0.75];
 /// Segments of a leaf of the tree.
@@ -91,7 +93,8 @@ pub(super) struct Side {
 pub(super) struct Outline {
     pub(super) body: u32,
     pub(super) sides: Vec<Side>,
-    boxes: Vec<[Vector; 2]>,
+    /// The box around each half, and where that of its second half is; the first follows.
+    boxes: Vec<([Vector; 2], u32)>,
 }
 
 impl Outline {
@@ -126,19 +129,21 @@ impl Outline {
 
     /// The box around all of it.
     pub(super) fn around(&self) -> [Vector; 2] {
-        self.boxes[0]
+        self.boxes[0].0
     }
 
     /// Shows the segments of leaves whose boxes count, and those below boxes that do.
     fn visit(&self, mut counts: impl FnMut(&[Vector; 2]) -> bool, mut see: impl FnMut(&Side)) {
-        let mut stack = vec![(0, 0, self.sides.len())];
+        let mut stack = Vec::with_capacity(DEPTH);
+        stack.push((0, 0, self.sides.len()));
         while let Some((number, begin, end)) = stack.pop() {
-            if !counts(&self.boxes[number]) {
+            let (around, second) = &self.boxes[number];
+            if !counts(around) {
                 continue;
             }
             if end - begin > LEAF {
                 let half = begin + (end - begin) / 2;
-                stack.extend([(number + boxes_of(half - begin) + 1, half, end), (number + 1, begin, half)]);
+                stack.extend([(*second as usize, half, end), (number + 1, begin, half)]);
             } else {
                 self.sides[begin..end].iter().for_each(&mut see);
             }
@@ -222,29 +227,45 @@ impl Outline {
 }
 
 impl Outline {
-    /// Shows nodes of this outline that are inside another one, and three places on each part of its segments that is.
-    pub(super) fn inside(&self, other: &Self, positions: &[Vector], mut see: impl FnMut(Vector, &Side)) {
+    /// Shows nodes of this outline that are inside another one, and three places on each part of its segments that is, and whether a place is the first node of its segment.
+    pub(super) fn inside(&self, other: &Self, positions: &[Vector], mut see: impl FnMut(Vector, &Side, bool)) {
+        let near: Vec<&Side> = self.near(other, positions).collect();
         let mut cuts = Vec::new();
-        for side in self.sides.iter().filter(|side| !side.is_mirror) {
+        let mut begin = vec![0];
+        for side in &near {
+            other.cross(side.segment.map(|node| positions[node as usize]), positions, &mut cuts);
+            begin.push(cuts.len());
+        }
+        // Outlines that do not cut each other are apart, or one is all inside.
+        let first = near.first().map(|side| positions[side.segment[0] as usize]);
+        if cuts.is_empty() && !first.is_some_and(|x| other.is_inside(x, positions)) {
+            return;
+        }
+        for (side, range) in near.into_iter().zip(begin.windows(2)) {
             let ends = side.segment.map(|node| positions[node as usize]);
-            if !boxes_meet(&box_of(std::slice::from_ref(side), positions), &other.around()) {
-                continue;
-            }
             let at = |share: f64| [0, 1].map(|d| (1.0 - share) * ends[0][d] + share * ends[1][d]);
-            if other.is_inside(ends[0], positions) {
-                see(ends[0], side);
+            let begins_inside = other.is_inside(ends[0], positions);
+            if begins_inside {
+                see(ends[0], side, true);
             }
-            cuts.clear();
-            cuts.extend([0.0, 1.0]);
-            other.cross(ends, positions, &mut cuts);
-            cuts.sort_by(f64::total_cmp);
-            for part in cuts.windows(2) {
-                let between = |share: f64| at(part[0] + share * (part[1] - part[0]));
-                if other.is_inside(between(0.5), positions) {
-                    PLACES.into_iter().for_each(|share| see(between(share), side));
+            let own = &mut cuts[range[0]..range[1]];
+            own.sort_by(f64::total_cmp);
+            for part in 0..=own.len() {
+                let from = if part == 0 { 0.0 } else { own[part - 1] };
+                let to = own.get(part).copied().unwrap_or(1.0);
+                let between = |share: f64| at(from + share * (to - from));
+                if if own.is_empty() { begins_inside } else { other.is_inside(between(0.5), positions) } {
+                    PLACES.into_iter().for_each(|share| see(between(share), side, false));
                 }
             }
         }
+    }
+
+    /// Its segments near another outline.
+    fn near<'a>(&'a self, other: &'a Self, positions: &'a [Vector]) -> impl Iterator<Item = &'a Side> {
+        let around = other.around();
+        let is_near = move |side: &&Side| !side.is_mirror && boxes_meet(&box_of(std::slice::from_ref(*side), positions), &around);
+        self.sides.iter().filter(is_near)
     }
 }
 
@@ -257,11 +278,6 @@ pub(super) fn boxes_meet(a: &[Vector; 2], b: &[Vector; 2]) -> bool {
 fn turn(a: Vector, b: Vector, c: Vector) -> f64 {
     let [a, b, c] = [a, b, c].map(|[x, y]| Coord { x, y });
     orient2d(a, b, c)
-}
-
-/// How many boxes so many segments have.
-fn boxes_of(segments: usize) -> usize {
-    if segments > LEAF { 1 + boxes_of(segments / 2) + boxes_of(segments - segments / 2) } else { 1 }
 }
 
 /// Sorts segments so that halves of them, of those and so on are apart.
@@ -279,17 +295,19 @@ fn sort(sides: &mut [Side], positions: &[Vector]) {
 }
 
 /// Adds the box of segments, then those of both halves; the first.
-fn fit(sides: &[Side], positions: &[Vector], boxes: &mut Vec<[Vector; 2]>) -> [Vector; 2] {
+fn fit(sides: &[Side], positions: &[Vector], boxes: &mut Vec<([Vector; 2], u32)>) -> [Vector; 2] {
     let at = boxes.len();
-    boxes.push([[0.0; 2]; 2]);
-    boxes[at] = if sides.len() > LEAF {
+    boxes.push(([[0.0; 2]; 2], 0));
+    if sides.len() > LEAF {
         let (first, second) = sides.split_at(sides.len() / 2);
-        let [a, b] = [fit(first, positions, boxes), fit(second, positions, boxes)];
-        [[0, 1].map(|d| a[0][d].min(b[0][d])), [0, 1].map(|d| a[1][d].max(b[1][d]))]
+        let a = fit(first, positions, boxes);
+        boxes[at].1 = boxes.len() as u32;
+        let b = fit(second, positions, boxes);
+        boxes[at].0 = [[0, 1].map(|d| a[0][d].min(b[0][d])), [0, 1].map(|d| a[1][d].max(b[1][d]))];
     } else {
-        box_of(sides, positions)
-    };
-    boxes[at]
+        boxes[at].0 = box_of(sides, positions);
+    }
+    boxes[at].0
 }
 
 fn box_of(sides: &[Side], positions: &[Vector]) -> [Vector; 2] {
@@ -365,7 +383,8 @@ mod tests {
             for parts in [1, 2, 7] {
                 let found = of(&corners, parts);
                 for (k, thickness) in found.iter().enumerate() {
-                    let expected = if (k / parts) % 2 == 0 { 0.5 } else { 3.0 };
+                    // The ends are three apart, and nothing is thicker than 4 A / P.
+                    let expected = if (k / parts) % 2 == 0 { 0.5 } else { 6.0 / 7.0 };
                     assert!((thickness - expected).abs() < 1e-9 * (1.0 + shift.abs()), "{angle} {parts} {k}: {thickness}");
                 }
             }
@@ -379,8 +398,8 @@ mod tests {
             [angle.cos(), angle.sin()]
         };
         let triangle: Vec<Vector> = (0..3).map(|k| corner(k, 3)).collect();
-        // One element a side: the rays meet corners; the radius of the circle in it is a half.
-        assert!(of(&triangle, 3).iter().all(|thickness| (thickness - 1.0).abs() < 1e-12 || *thickness > 0.5), "{:?}", of(&triangle, 3));
+        // Beside corners the rays are short; the radius of the circle in it is a half.
+        assert!(of(&triangle, 3).iter().all(|thickness| (thickness - 1.0).abs() < 1e-12 || *thickness > 0.499), "{:?}", of(&triangle, 3));
         let disk: Vec<Vector> = (0..64).map(|k| corner(k, 64)).collect();
         assert!(of(&disk, 1).iter().all(|thickness| (thickness - 2.0).abs() < 0.005), "{:?}", of(&disk, 1));
     }
@@ -413,7 +432,7 @@ mod tests {
     fn deepest(made: &Outlines, places: &[Vector]) -> f64 {
         let mut deepest: f64 = 0.0;
         for [own, other] in [[0, 1], [1, 0]] {
-            made.0[own].inside(&made.0[other], places, |x, _| deepest = deepest.max(made.0[other].nearest(x, places).unwrap().0.sqrt()));
+            made.0[own].inside(&made.0[other], places, |x, _, _| deepest = deepest.max(made.0[other].nearest(x, places).unwrap().0.sqrt()));
         }
         deepest
     }

@@ -15,7 +15,7 @@ mod common;
 
 use super::depths::Depths;
 use super::findings::Findings;
-use super::formulation::{FormulationKind, Setup, Side, both_passes};
+use super::formulation::{FormulationKind, Setup, both_passes};
 use super::initial::kept;
 use super::law::{Law, penalty};
 use super::springs::{Answers, Patch, Spring, Springs};
@@ -113,8 +113,6 @@ struct Meeting {
 struct Chain {
     /// κ behind each segment, Pa/m.
     stiffness: Vec<f64>,
-    /// The same α m / (dt² A) by the mass of its nodes and the first step, Pa/m.
-    of_mass: Vec<f64>,
     /// Indices of each segment's nodes among the surface's nodes.
     local: Vec<[u32; 2]>,
     /// Segments at each node.
@@ -141,7 +139,7 @@ struct Facing {
 keep_all!(Facing { pair, length, slips, offsets, stored });
 
 impl Chain {
-    fn new(surface: &Surface, stiffness: Vec<f64>, of_mass: &[f64]) -> Self {
+    fn new(surface: &Surface, stiffness: Vec<f64>) -> Self {
         // Nodes of segments are nodes of the surface.
         let local: Vec<[u32; 2]> = surface
             .segments
@@ -151,9 +149,7 @@ impl Chain {
         let ends = (0..).zip(&local).flat_map(|(segment, nodes)| nodes.map(|node| (node, segment)));
         let around = Rows::new(surface.nodes.len(), ends);
         let depth = vec![f64::NEG_INFINITY; surface.nodes.len()];
-        let at = |[a, b]: &[u32; 2]| 0.5 * [a, b].into_iter().map(|&node| of_mass.get(node as usize).copied().unwrap_or(0.0)).sum::<f64>();
-        let of_mass = local.iter().map(at).collect();
-        Self { stiffness, of_mass, local, around, depth, deep: Vec::new() }
+        Self { stiffness, local, around, depth, deep: Vec::new() }
     }
 }
 
@@ -163,11 +159,7 @@ impl Segment {
         let rule = if matches!(setup.contact.interface.law, ContactLaw::Multiplier) { ONE } else { TWO };
         let law = (setup.law)();
         let (penalty, thickness, reach, depth) = (setup.penalty(), setup.contact.interface.thickness, law.reach(), setup.depth);
-        let chain = |side: &Side<'_>| {
-            let of_mass: Vec<f64> = side.nodes.iter().map(|node| penalty::share_of_mass(penalty) * node.of_mass).collect();
-            Chain::new(&side.target.surface, side.segments.clone(), &of_mass)
-        };
-        let chains: Vec<Chain> = setup.sides.iter().map(chain).collect();
+        let chains: Vec<Chain> = setup.sides.iter().map(|side| Chain::new(&side.target.surface, side.segments.clone())).collect();
         let count = chains.iter().map(|chain| chain.depth.len()).sum();
         let at_a_distance = thickness + reach > 0.0;
         let start = Start {
@@ -329,9 +321,6 @@ impl Segment {
         let least = self.least[at as usize];
         let (mut facing, is_new) = self.kept(pair, common.length);
         let begun = self.start.has_begun;
-        let surfaces = self.surfaces();
-        let thickness = self.depths.thickness([0, 1].map(|k| (surfaces[k], pair[k])));
-        let of_mass = [0, 1].map(|k| self.chains[surfaces[k]].of_mass[pair[k] as usize]);
         let at_once =
             is_new && begun && self.law.is_elastic() && Common::new(common.nodes, sweep.old).is_some_and(|before| before.is_long());
         let moved = if at_once { common.moved(sweep) } else { 0.0 };
@@ -357,8 +346,7 @@ impl Segment {
             let (normal, area) = (common.normal, weight * common.area * around);
             let side = if self.chains.len() == 1 { 0.0 } else { 1.0 };
             let (stiffness, slip) = (pressure * area, facing.slips[k]);
-            let stiffening = penalty::stiffening(thickness, stiffness, of_mass[0].max(of_mass[1]) * area);
-            springs.push(Spring { normal, gap, stiffness, area, stiffening, side, slip: [slip], ..Spring::default() }, &ends);
+            springs.push(Spring { normal, gap, stiffness, area, side, slip: [slip], ..Spring::default() }, &ends);
         }
         self.facing.push(facing);
     }
@@ -509,6 +497,10 @@ impl Formulation for Segment {
 
     fn overlaps(&self) -> Option<&Findings> {
         Some(self.depths.findings())
+    }
+
+    fn inside(&self) -> &[(u32, f64)] {
+        self.depths.inside()
     }
 
     fn search_report(&self) -> Option<SearchReport> {

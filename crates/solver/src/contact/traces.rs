@@ -34,7 +34,8 @@ impl State {
 /// State of the surface at a node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State {
-    /// Mean gap of the springs at the node by their shares, m; NaN where there is none.
+    /// Mean gap of the springs at the node by their shares, m; NaN where there is none. Of a node that is inside a body without a closed spring: minus its distance to the body's surface when the
+    /// bodies were last looked at.
     pub gap: f64,
     /// 0 open, 1 stick, 2 slip (also without friction).
     pub status: f64,
@@ -174,9 +175,9 @@ where
         self.outside.nodes().last().map_or(0, |&node| node as usize + 1)
     }
 
-    /// State of nodes from the solved springs of the step, as far as any of the first `nodes` has one: those beyond are open.
+    /// State of nodes from the solved springs of the step, as far as any of the first `nodes` has one, and of nodes that are `inside` a body by so much, m: those beyond are open.
     #[must_use]
-    pub fn states(springs: &Springs<D>, nodes: usize) -> Vec<State> {
+    pub fn states<'a>(springs: &Springs<D>, nodes: usize, inside: impl Iterator<Item = &'a (u32, f64)>) -> Vec<State> {
         let ends = || springs.list.iter().flat_map(|spring| springs.ends(spring)).map(|end| end.at as usize);
         let mut sums = vec![(0.0, 0.0, 0.0f64); ends().filter(|&at| at < nodes).max().map_or(0, |last| last + 1)];
         for Answer { spring, solved, .. } in springs.answers(0..springs.list.len()) {
@@ -191,6 +192,17 @@ where
                 }
             }
         }
-        sums.into_iter().map(|(gap, share, status)| State { gap: if share > 0.0 { gap / share } else { f64::NAN }, status }).collect()
+        let state = |(gap, share, status)| State { gap: if share > 0.0 { gap / share } else { f64::NAN }, status };
+        let mut states: Vec<State> = sums.into_iter().map(state).collect();
+        for &(node, depth) in inside {
+            let node = node as usize;
+            if node >= states.len() && node < nodes {
+                states.resize(node + 1, State::OPEN);
+            }
+            if let Some(state) = states.get_mut(node).filter(|state| !(state.gap < 0.0)) {
+                state.gap = -depth;
+            }
+        }
+        states
     }
 }

@@ -63,9 +63,10 @@ where
         }
         let unverified = self.certificate().unverified;
         if unverified > 0 {
-            let who = if D == 3 { "a node or an edge went into a body" } else { "a node was inside a body" };
+            let (who, much) =
+                if D == 3 { ("a node or an edge went into a body", "fifth") } else { ("a node was inside a body", "quarter") };
             let mut text = format!(
-                "{unverified} time(s) {who} without being held apart, or bodies overlapped by more than a fifth of their thickness: \
+                "{unverified} time(s) {who} without being held apart, or bodies overlapped by more than a {much} of their thickness: \
                  a contact was missed or is too soft, or a body went through itself"
             );
             for contact in &self.system.contacts {

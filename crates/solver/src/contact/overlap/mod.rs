@@ -114,6 +114,18 @@ pub struct Judge {
     /// Whether this step was looked at, so that its forces are to be weighed.
     has_looked: bool,
     findings: Findings,
+    /// Nodes that were inside another body in the last look, and how deep, m.
+    inside: Vec<(u32, f64)>,
+}
+
+/// A place of a region.
+struct Sample {
+    /// A triangle there, and whether it is of the second side.
+    own: u32,
+    is_second: bool,
+    /// The node that it is, if it is one.
+    node: Option<u32>,
+    overlap: Overlap,
 }
 
 impl Judge {
@@ -146,6 +158,7 @@ impl Judge {
             steps: 0,
             has_looked: false,
             findings: Findings::default(),
+            inside: Vec::new(),
         }
     }
 
@@ -153,6 +166,12 @@ impl Judge {
     #[must_use]
     pub fn findings(&self) -> &Findings {
         &self.findings
+    }
+
+    /// Nodes that were inside another body in the last look, and how deep, m.
+    #[must_use]
+    pub fn inside(&self) -> &[(u32, f64)] {
+        &self.inside
     }
 
     /// Takes the pressure stiffness of a node, and that by its mass, Pa/m.
@@ -198,8 +217,12 @@ impl Judge {
         self.regions = self.work.find(&self.skin, &mut self.piercings);
         self.inherit_known();
         (self.findings.now, self.findings.own, self.findings.through) = (Overlap::default(), Overlap::default(), None);
+        self.inside.clear();
         for number in 0..self.regions.len() {
-            let mut deepest = Overlap { time, ..self.deepest(number) };
+            let samples = self.samples(&self.regions[number]);
+            let nodes = samples.iter().filter_map(|sample| Some((sample.node?, sample.overlap.depth)));
+            self.inside.extend(nodes.filter(|_| self.known[number].bodies[0] != self.known[number].bodies[1]));
+            let mut deepest = Overlap { time, ..self.deepest(number, samples) };
             let known = &mut self.known[number];
             if is_first && self.ignores_start {
                 known.offset = deepest.depth;
@@ -274,17 +297,16 @@ impl Judge {
     }
 
     /// The place of a region that is deepest against its thickness.
-    fn deepest(&self, number: usize) -> Overlap {
+    fn deepest(&self, number: usize, mut found: Vec<Sample>) -> Overlap {
         let (region, known) = (&self.regions[number], &self.known[number]);
-        let mut found = self.samples(region);
-        found.sort_by(|a, b| b.2.ratio().total_cmp(&a.2.ratio()));
-        let Some(&(_, _, most)) = found.first() else { return Overlap::default() };
+        found.sort_by(|a, b| b.overlap.ratio().total_cmp(&a.overlap.ratio()));
+        let Some(&Sample { overlap: most, .. }) = found.first() else { return Overlap::default() };
         if known.began == [0.0; 3] || most.ratio().max(known.ratio) <= SIDED {
             return most;
         }
         // The first side comes along its area vector, and the second's side of entry looks against it.
         let direction = unit(known.began);
-        let deepest = |most: Overlap, &(own, is_second, unsided): &(u32, bool, Overlap)| {
+        let deepest = |most: Overlap, &Sample { own, is_second, overlap: unsided, .. }: &Sample| {
             let faces = |triangle: u32| {
                 let [a, b, c] = self.skin.corners(triangle);
                 let along = dot(unit(cross(minus(b, a), minus(c, a))), direction);
@@ -322,10 +344,10 @@ impl Judge {
         Some((square.sqrt(), foot))
     }
 
-    /// Vertices and the middles of the parts of edges that are inside: a triangle there, whether it is of the second side, and how deep it is.
-    fn samples(&self, region: &Region) -> Vec<(u32, bool, Overlap)> {
+    /// Vertices and the middles of the parts of edges that are inside.
+    fn samples(&self, region: &Region) -> Vec<Sample> {
         let is_one = region.bodies[0] == region.bodies[1];
-        let look = |own: u32, place: Vector, behind: f64| {
+        let look = |own: u32, node: Option<u32>, place: Vector, behind: f64| {
             let is_second = if is_one { region.side(own)? } else { self.skin.body(own) == region.bodies[1] };
             let other = region.bodies[usize::from(!is_second)];
             let farthest = INSIDE * self.thickest[other as usize];
@@ -337,14 +359,15 @@ impl Judge {
             }
             let thickness = behind.min(there);
             let nodes = [own, foot].map(|triangle| self.node_of(triangle));
-            Some((own, is_second, Overlap { place, depth, thickness, nodes, time: 0.0 }))
+            Some(Sample { own, is_second, node, overlap: Overlap { place, depth, thickness, nodes, time: 0.0 } })
         };
         let of_vertex = |&vertex: &u32| {
             let own = *self.skin.at_vertex.of(vertex as usize).first()?;
-            look(own, self.skin.x[vertex as usize], self.thickness_around(vertex))
+            let node = self.skin.nodes.get(vertex as usize).copied();
+            look(own, node, self.skin.x[vertex as usize], self.thickness_around(vertex))
         };
         let of_chord = |&(own, [from, to]): &(u32, [Vector; 2])| {
-            look(own, [0, 1, 2].map(|d| 0.5 * (from[d] + to[d])), self.thickness.of(&self.skin, own))
+            look(own, None, [0, 1, 2].map(|d| 0.5 * (from[d] + to[d])), self.thickness.of(&self.skin, own))
         };
         // Where the contour is open the flood can't be trusted.
         let inside = if region.is_open { &[] } else { &region.inside[..] };
@@ -400,8 +423,8 @@ impl Judge {
 
     /// Keeps what is known of the past.
     pub(super) fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
-        let Self { known, owner, places, next, looked_at, steps, findings, .. } = self;
-        keep_each!(archive; known, places, next, looked_at, steps, findings);
+        let Self { known, owner, places, next, looked_at, steps, findings, inside, .. } = self;
+        keep_each!(archive; known, places, next, looked_at, steps, findings, inside);
         crate::archive::Keep::keep(&mut owner[..], archive)?;
         let are_there = owner.iter().all(|&owner| owner == NONE || (owner as usize) < known.len());
         archive.check(are_there, "overlaps are known that are not there")?;

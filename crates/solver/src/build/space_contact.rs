@@ -372,8 +372,10 @@ impl Builder<'_, 3> {
             moduli = surface.facets.iter().map(|facet| facet.iter().map(of).fold(f64::INFINITY, f64::min)).collect();
             facets.clone_from(&moduli);
         }
+        let lightest = |node: &u32| surface.nodes.binary_search(node).map_or(0.0, |at| nodes[at].of_mass);
+        let of_mass = surface.facets.iter().map(|facet| facet.iter().map(lightest).fold(f64::INFINITY, f64::min)).collect();
         let shares = surface.nodes.iter().map(|&node| self.constraints.share(node)).collect();
-        Sided { nodes, shares, moduli, facets }
+        Sided { of_mass, nodes, shares, moduli, facets }
     }
 }
 
@@ -398,6 +400,8 @@ pub(super) struct Sided {
     pub(super) moduli: Vec<f64>,
     /// The same of the element itself.
     pub(super) facets: Vec<f64>,
+    /// α m / (dt² A) of the lightest node of each facet, Pa/m.
+    pub(super) of_mass: Vec<f64>,
 }
 
 impl Sided {
@@ -417,7 +421,9 @@ impl Sided {
             Penalty::PerNode(_) | Penalty::Pressure(_) => Vec::new(),
         };
         let slaves = self.nodes.iter().zip(&self.shares).map(slave).collect();
-        PassInput { slaves, per_modulus, moduli: target.moduli.clone(), ..PassInput::default() }
+        let share = law::penalty::share_of_mass(penalty);
+        let of_mass = target.of_mass.iter().map(|of_mass| share * of_mass).collect();
+        PassInput { slaves, per_modulus, moduli: target.moduli.clone(), of_mass, ..PassInput::default() }
     }
 }
 

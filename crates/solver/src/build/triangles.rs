@@ -42,6 +42,7 @@ impl Builder<'_, 3> {
         let count = own.facets.len();
         // Nothing of it gives way.
         let rigid = Sided {
+            of_mass: Vec::new(),
             shares: vec![1.0; points.len()],
             nodes: points,
             moduli: vec![f64::INFINITY; count],

@@ -25,6 +25,8 @@ pub struct Depths {
 /// Way of both bodies together between two looks, as a fraction of the least thickness, and most steps.
 const BETWEEN_LOOKS: f64 = 0.25;
 const MOST_STEPS: u32 = 16;
+/// Depth against the thickness from which on a place is looked at once more.
+const CERTAIN: f64 = 0.02;
 
 /// Looks at the bodies as they are.
 #[derive(Debug, Default)]
@@ -101,7 +103,9 @@ impl Depths {
         nodes.clear();
         judge.meeting(|own, other| {
             own.inside(other, positions, |x, side, is_node| {
-                if let Some(found) = deep(x, side, other, scene) {
+                // Flush sides are cut anywhere: a place that counts is inside for certain.
+                let found = deep(x, side, other, scene).filter(|found| found.ratio() < CERTAIN || other.is_inside(x, positions));
+                if let Some(found) = found {
                     if is_node {
                         nodes.push((side.segment[0], found.depth));
                     }

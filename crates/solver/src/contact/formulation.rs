@@ -169,6 +169,15 @@ impl Setup<'_> {
         self.sides[side].nodes.iter().zip(&surface.nodes).map(of).collect()
     }
 
+    /// α m / (dt² A) of the lighter node of each segment of a side, Pa/m.
+    #[must_use]
+    pub fn of_mass(&self, side: usize) -> Vec<f64> {
+        let Side { target: Target { surface, .. }, nodes, .. } = &self.sides[side];
+        let share = law::penalty::share_of_mass(self.penalty());
+        let at = |node: u32| surface.nodes.binary_search(&node).ok().and_then(|at| nodes.get(at)).map_or(0.0, |own| share * own.of_mass);
+        surface.segments.iter().map(|&[a, b]| at(a).min(at(b))).collect()
+    }
+
     /// What each of the segments at the nodes of a side has of the node's tributary length and of its stiffness: [that which ends there, that which begins there].
     #[must_use]
     pub fn faces(&self, side: usize) -> Vec<[Face; 2]> {

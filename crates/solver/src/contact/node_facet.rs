@@ -46,6 +46,8 @@ pub struct PassInput {
     pub per_modulus: Vec<f64>,
     /// κ behind each facet of the target, Pa/m: the softest of its part.
     pub moduli: Vec<f64>,
+    /// The same α m / (dt² A) by the mass of its nodes and the first step, Pa/m; empty: not known.
+    pub of_mass: Vec<f64>,
     /// Local thickness at each slave and behind each facet of the target, m; empty: not known.
     pub thickness: [Vec<f64>; 2],
 }
@@ -71,6 +73,12 @@ impl PassInput {
     /// The same where some facets meet.
     fn softest(&self, slave: usize, facets: impl Iterator<Item = u32>) -> f64 {
         facets.map(|facet| self.stiffness(slave, facet)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Stiffness by mass and step, of the lighter side, N/m.
+    fn of_mass(&self, slave: usize, facets: impl Iterator<Item = u32>) -> f64 {
+        let Slave { of_mass, area, .. } = self.slaves[slave];
+        facets.map(|facet| self.of_mass.get(facet as usize).map_or(0.0, |other| other * area)).fold(of_mass, f64::min)
     }
 
     /// Thickness of the thinner body there, m.
@@ -229,7 +237,7 @@ impl NodeFacet {
                     if let (Some((pass, _)), Ok(rank)) = (pass, slave.nodes.binary_search(&node)) {
                         stiffness += 0.5 * pass.softest(rank, facets.clone());
                         area += 0.5 * pass.slaves[rank].area;
-                        of_mass += 0.5 * pass.slaves[rank].of_mass;
+                        of_mass += 0.5 * pass.of_mass(rank, facets.clone());
                         thickness = thickness.min(pass.thickness(rank, facets.clone()));
                     }
                 }
@@ -276,7 +284,8 @@ impl NodeFacet {
         let rest = Placed { surface: target, positions: scene.sweep.new }.rests_on(&touch.projection);
         let (stiffness, area) = (pass.softest(slave, target.sharing(facet, rest)), pass.slaves[slave].area);
         let thickness = pass.thickness(slave, target.sharing(facet, rest));
-        let (stiffening, side) = (stiffening(thickness, stiffness, pass.slaves[slave].of_mass), self.tracker.side(touch.pass));
+        let of_mass = pass.of_mass(slave, target.sharing(facet, rest));
+        let (stiffening, side) = (stiffening(thickness, stiffness, of_mass), self.tracker.side(touch.pass));
         let spring = Spring { normal, gap, stiffness, area, stiffening, side, ..Spring::default() };
         let before = Before { half: memory.half, normal: memory.normal, carried: memory.carried };
         let steadily = before.steadily(normal, gap, self.reach, self.has_begun);

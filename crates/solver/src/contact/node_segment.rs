@@ -99,6 +99,8 @@ pub struct PassInput {
     pub per_modulus: Vec<f64>,
     /// Smallest κ of the part behind each segment of the target, Pa/m.
     pub moduli: Vec<f64>,
+    /// The same α m / (dt² A) by the mass of its nodes and the first step, Pa/m; empty: not known.
+    pub of_mass: Vec<f64>,
     /// What the segments at each slave stand for, [that which ends there, that which begins there]; empty: slaves count whole.
     pub faces: Vec<[Face; 2]>,
 }
@@ -124,6 +126,12 @@ impl PassInput {
     fn stiffness_of(&self, slave: usize, segment: u32, part: Face) -> f64 {
         let own = part.stiffness * self.slaves[slave].stiffness;
         self.per_modulus.get(slave).map_or(own, |per| own.min(part.length * per * self.moduli[segment as usize]))
+    }
+
+    /// Stiffness by mass and step, of the lighter side, N/m per metre of depth.
+    fn of_mass(&self, slave: usize, segment: u32) -> f64 {
+        let Slave { of_mass, area, .. } = self.slaves[slave];
+        self.of_mass.get(segment as usize).map_or(0.0, |other| of_mass.min(other * area))
     }
 
     /// What counts of a slave.
@@ -160,6 +168,7 @@ impl NodeSegment {
             slaves: setup.slaves(slave, sides),
             per_modulus: setup.per_modulus(slave, sides),
             moduli: setup.sides[target].softest(),
+            of_mass: setup.of_mass(target),
             faces: setup.faces(slave),
         };
         let inputs = passes.iter().map(pass).collect();
@@ -257,7 +266,7 @@ impl NodeSegment {
             let (gap, offset) = self.beyond(&touch, &memory);
             let thickness = self.depths.thickness(self.tracker.around(&touch));
             self.depths.see(&self.tracker, &touch, offset - touch.projection.gap, thickness, scene);
-            let stiffening = stiffening(thickness, stiffness, pass.slaves[slave].of_mass);
+            let stiffening = stiffening(thickness, stiffness, pass.of_mass(slave, segment));
             if touch.slope != 0.0 {
                 lean(&mut ends, &touch, scene.sweep.new);
             }

@@ -237,24 +237,26 @@ impl Outline {
             begin.push(cuts.len());
         }
         // Outlines that do not cut each other are apart, or one is all inside.
-        let first = near.first().map(|side| positions[side.segment[0] as usize]);
-        if cuts.is_empty() && !first.is_some_and(|x| other.is_inside(x, positions)) {
+        let middle = |side: &Side| {
+            let [a, b] = side.segment.map(|node| positions[node as usize]);
+            [0, 1].map(|d| 0.5 * (a[d] + b[d]))
+        };
+        if cuts.is_empty() && !near.first().is_some_and(|side| other.is_inside(middle(side), positions)) {
             return;
         }
         for (side, range) in near.into_iter().zip(begin.windows(2)) {
             let ends = side.segment.map(|node| positions[node as usize]);
             let at = |share: f64| [0, 1].map(|d| (1.0 - share) * ends[0][d] + share * ends[1][d]);
-            let begins_inside = other.is_inside(ends[0], positions);
-            if begins_inside {
-                see(ends[0], side, true);
-            }
             let own = &mut cuts[range[0]..range[1]];
             own.sort_by(f64::total_cmp);
             for part in 0..=own.len() {
                 let from = if part == 0 { 0.0 } else { own[part - 1] };
                 let to = own.get(part).copied().unwrap_or(1.0);
                 let between = |share: f64| at(from + share * (to - from));
-                if if own.is_empty() { begins_inside } else { other.is_inside(between(0.5), positions) } {
+                if other.is_inside(between(0.5), positions) {
+                    if part == 0 {
+                        see(ends[0], side, true);
+                    }
                     PLACES.into_iter().for_each(|share| see(between(share), side, false));
                 }
             }
@@ -432,7 +434,11 @@ mod tests {
     fn deepest(made: &Outlines, places: &[Vector]) -> f64 {
         let mut deepest: f64 = 0.0;
         for [own, other] in [[0, 1], [1, 0]] {
-            made.0[own].inside(&made.0[other], places, |x, _, _| deepest = deepest.max(made.0[other].nearest(x, places).unwrap().0.sqrt()));
+            made.0[own].inside(&made.0[other], places, |x, _, _| {
+                if made.0[other].is_inside(x, places) {
+                    deepest = deepest.max(made.0[other].nearest(x, places).unwrap().0.sqrt());
+                }
+            });
         }
         deepest
     }

@@ -214,8 +214,6 @@ impl Segment {
         self.tracker.track(scene.sweep, self.thickness + self.reach);
         self.depths.begin(scene);
         for touch in self.tracker.touches() {
-            let thickness = self.depths.thickness(self.tracker.around(touch));
-            self.depths.see(&self.tracker, touch, -touch.projection.gap, thickness, scene);
             let side = self.tracker.side(touch.pass);
             let [slave, target] = if side > 0.0 { [0, 1] } else { [self.chains.len() - 1, 0] };
             let chain = &mut self.chains[slave];

@@ -81,7 +81,7 @@ impl Tied {
         let nodes = setup.sides[slave].target.surface.nodes.clone();
         // The element that a node is bound to counts, not the softest of its part.
         let moduli = setup.sides[master].segments.clone();
-        let input = PassInput { slaves: setup.slaves(slave, 1), per_modulus: setup.per_modulus(slave, 1), moduli, faces: Vec::new() };
+        let input = PassInput { slaves: setup.slaves(slave, 1), per_modulus: setup.per_modulus(slave, 1), moduli, ..PassInput::default() };
         let interface = &setup.contact.interface;
         let birth = interface.active[0];
         let unborn = Unborn { search: (setup.search)(), nodes, input, thickness: interface.thickness };

@@ -1,7 +1,7 @@
 //! Penalty: a spring that only pushes. F = k_n |G| where the gap G is negative, eq. (11) of the paper; energy ½ k_n G².
 //!
-//! Beyond the depth ℓ, an eighth of the local thickness of the thinner body, it stiffens: V = ½ k d² + k S (d − ℓ)³ / 6ℓ with d = −G, twice continuously differentiable and convex.
-//! A linear spring as stiff as the elements lets a heavy body through a soft one. S is 100, or α m / (k dt²) with the mass m of the slave node, α = 0.1 and the first step dt, where that is more:
+//! Beyond the depth ℓ, an eighth of the local thickness of the thinner body, it stiffens: V = ½ k d² + k S (d − ℓ)³ / 6ℓ with d = −G up to 2ℓ, and goes on with the stiffness k (1 + S) that it has there: twice continuously differentiable and convex.
+//! A linear spring as stiff as the elements lets a heavy body through a soft one. S is 100, or α m / (k dt²) with the mass m of the lighter side's nodes, α = 0.1 and the first step dt, where that is more:
 //! so stiff a spring stops a node within a few steps whatever the elements are. Where the stiffness is given S is 100, and a `penalty_scale` below 1 scales that by mass, too. In sound contact d stays below ℓ.
 //!
 //! Stiffness of a slave node: given (the paper's k_n), a pressure per depth times the node's tributary length, or automatic: the stiffness
@@ -102,12 +102,12 @@ impl Law for Penalty {
     }
     fn stored(&self, spring: &Patch, gap: f64) -> f64 {
         let beyond = beyond(spring, gap);
-        let more = if beyond > 0.0 { spring.more / 6.0 * spring.stiffness * beyond * beyond * (beyond / spring.limit) } else { 0.0 };
+        let more = if beyond > 0.0 { spring.more * spring.stiffness * beyond * mean_depth(beyond, 0.0, spring.limit) } else { 0.0 };
         0.5 * spring.stiffness * gap.min(0.0) * gap.min(0.0) + more
     }
     fn stiffness(&self, spring: &Patch, gap: f64) -> f64 {
         let beyond = beyond(spring, gap);
-        if beyond > 0.0 { spring.stiffness * (1.0 + spring.more * (beyond / spring.limit)) } else { spring.stiffness }
+        if beyond > 0.0 { spring.stiffness * (1.0 + spring.more * (beyond / spring.limit).min(1.0)) } else { spring.stiffness }
     }
     fn mean_force(&self, spring: &Patch, old: f64, new: f64) -> f64 {
         // The square of the deeper gap counts as far as it is closed.
@@ -121,9 +121,22 @@ impl Law for Penalty {
         if most == 0.0 {
             return linear;
         }
-        // The difference of cubes by the way, which is that of the depths as far as both are beyond.
-        let mean = if least > 0.0 { most * most + most * least + least * least } else { most * most * (most / (high - deep)) };
-        linear + spring.more / 6.0 * spring.stiffness * (mean / spring.limit)
+        let share = if least > 0.0 { 1.0 } else { most / (high - deep) };
+        linear + spring.more * spring.stiffness * share * mean_depth(most, least, spring.limit)
+    }
+}
+
+/// Mean of what stiffening adds to the depth between `most` and `least` beyond the limit ℓ, m: b² / 2ℓ up to ℓ, then b − ℓ/2.
+fn mean_depth(most: f64, least: f64, limit: f64) -> f64 {
+    // Of differences of cubes and squares by the way.
+    let curved = |most: f64, least: f64| (most * most + most * least + least * least) / (6.0 * limit);
+    let straight = |most: f64, least: f64| 0.5 * (most + least - limit);
+    if most <= limit {
+        curved(most, least)
+    } else if least >= limit {
+        straight(most, least)
+    } else {
+        ((limit - least) * curved(limit, least) + (most - limit) * straight(most, limit)) / (most - least)
     }
 }
 

@@ -19,6 +19,8 @@ pub struct Depths {
     /// Travel at this step, and what nodes went since the one before at most, m.
     travel: f64,
     way: f64,
+    /// Whether the step before was too deep.
+    was_deep: bool,
     judge: Judge,
 }
 
@@ -85,7 +87,9 @@ impl Depths {
         *looks += 1;
         (*now, *own, *through) = (Overlap::default(), Overlap::default(), None);
         self.judge.steps += 1;
-        if !self.judge.outlines.is_empty() && (scene.sweep.travel >= self.judge.next || self.judge.steps >= MOST_STEPS) {
+        // What was too deep is looked at in each step: its springs alone may not see it.
+        let is_due = self.was_deep || scene.sweep.travel >= self.judge.next || self.judge.steps >= MOST_STEPS;
+        if !self.judge.outlines.is_empty() && is_due {
             self.look(scene);
         }
     }
@@ -137,12 +141,12 @@ impl Depths {
 
     /// The step has been seen: what is too deep counts.
     pub fn end(&mut self) {
-        self.findings.count(self.way);
+        self.was_deep = self.findings.count(self.way, self.was_deep);
     }
 
     /// Keeps what was found.
     pub fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
-        keep_each!(archive; &mut self.findings, &mut self.travel, &mut self.judge.next, &mut self.judge.steps, &mut self.judge.inside);
+        keep_each!(archive; &mut self.findings, &mut self.travel, &mut self.was_deep, &mut self.judge.next, &mut self.judge.steps, &mut self.judge.inside);
         Ok(())
     }
 

@@ -67,16 +67,16 @@ impl Findings {
         }
     }
 
-    /// Counts a step of the plane. What comes in within a step is as deep as both sides go in it, `way` (m) each: that is not too deep yet.
-    pub(super) fn count(&mut self, way: f64) {
-        let ratio = |place: Overlap| Overlap { depth: place.depth - 2.0 * way, ..place }.ratio();
-        let [now, own] = [self.now, self.own].map(ratio);
-        if now > 1.0 {
+    /// Counts a step of the plane that is too deep, if the one before was, `was_deep`: what comes in within a step may be as deep as both sides go in it, `way` (m) each. Whether this one is.
+    pub(super) fn count(&mut self, way: f64, was_deep: bool) -> bool {
+        if (Overlap { depth: self.now.depth - 2.0 * way, ..self.now }).ratio() > 1.0 {
             self.through = Some(self.now);
         }
-        if now.max(own) > DEEPEST_IN_PLANE {
+        let is_deep = self.now.ratio().max(self.own.ratio()) > DEEPEST_IN_PLANE;
+        if is_deep && was_deep {
             self.miss();
         }
+        is_deep
     }
 
     /// Counts something of this look that was not held.

@@ -1,7 +1,8 @@
 //! How deep bodies of the plane are in each other against their local thickness: by the springs of each step, and by a judge that looks at the bodies as they are.
 //!
 //! The judge shares nothing with the search and what it remembers. Nodes of an outline that are inside another one by their winding number, and three places on each part of a segment that is inside,
-//! are as deep as the other surface is far away. It looks before anything can have gone farther than a quarter of the least thickness, both bodies together, and at least every sixteenth step.
+//! are as deep as the other surface is far away. It looks when things may have gone a quarter of the least thickness, both bodies together, but not more often than every eighth step, and at least
+//! every thirty-second; where many segments are near each other less often, so that it goes through 32 of them a step in the mean.
 //! Bodies are judged against others, not against themselves.
 
 use super::findings::{Findings, Overlap};
@@ -24,9 +25,12 @@ pub struct Depths {
     judge: Judge,
 }
 
-/// Way of both bodies together between two looks, as a fraction of the least thickness, and most steps.
+/// Way of both bodies together between two looks, as a fraction of the least thickness, and least and most steps.
 const BETWEEN_LOOKS: f64 = 0.25;
-const MOST_STEPS: u32 = 16;
+const LEAST_STEPS: u32 = 8;
+const MOST_STEPS: u32 = 32;
+/// So many segments are looked at a step, in the mean: what presses along long sides is looked at less often.
+const PER_STEP: u32 = 32;
 /// Depth against the thickness from which on a place is looked at once more.
 const CERTAIN: f64 = 0.02;
 
@@ -39,6 +43,8 @@ struct Judge {
     /// Travel at which it looks again, m, and steps since the last look.
     next: f64,
     steps: u32,
+    /// Segments that the last look went through.
+    looked: u32,
     /// Nodes that were inside another body in the last look, and how deep, m.
     inside: Vec<(u32, f64)>,
 }
@@ -63,7 +69,7 @@ impl Depths {
     #[must_use]
     pub(super) fn judging(self, outlines: Vec<(Outline, u8)>) -> Self {
         let (outlines, sides) = outlines.into_iter().unzip();
-        Self { judge: Judge { outlines, sides, next: f64::NEG_INFINITY, steps: 0, inside: Vec::new() }, ..self }
+        Self { judge: Judge { outlines, sides, next: f64::NEG_INFINITY, steps: 0, looked: 0, inside: Vec::new() }, ..self }
     }
 
     /// What was found.
@@ -88,7 +94,8 @@ impl Depths {
         (*now, *own, *through) = (Overlap::default(), Overlap::default(), None);
         self.judge.steps += 1;
         // What was too deep is looked at in each step: its springs alone may not see it.
-        let is_due = self.was_deep || scene.sweep.travel >= self.judge.next || self.judge.steps >= MOST_STEPS;
+        let least = if scene.sweep.travel >= self.judge.next { LEAST_STEPS } else { MOST_STEPS }.max(self.judge.looked / PER_STEP);
+        let is_due = self.was_deep || self.judge.steps >= least;
         if !self.judge.outlines.is_empty() && is_due {
             self.look(scene);
         }
@@ -105,8 +112,9 @@ impl Depths {
         let findings = &mut self.findings;
         let mut nodes = std::mem::take(&mut judge.inside);
         nodes.clear();
+        let mut looked = 0;
         judge.meeting(|own, other| {
-            own.inside(other, positions, |x, side, is_node| {
+            looked += own.inside(other, positions, |x, side, is_node| {
                 // Flush sides are cut anywhere: a place that counts is inside for certain.
                 let found = deep(x, side, other, scene).filter(|found| found.ratio() < CERTAIN || other.is_inside(x, positions));
                 if let Some(found) = found {
@@ -117,7 +125,7 @@ impl Depths {
                 }
             });
         });
-        judge.inside = nodes;
+        (judge.inside, judge.looked) = (nodes, looked as u32);
     }
 
     /// Takes a node that is so deep inside, m, where bodies were `initial` thick at the start, m.
@@ -146,7 +154,7 @@ impl Depths {
 
     /// Keeps what was found.
     pub fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
-        keep_each!(archive; &mut self.findings, &mut self.travel, &mut self.was_deep, &mut self.judge.next, &mut self.judge.steps, &mut self.judge.inside);
+        keep_each!(archive; &mut self.findings, &mut self.travel, &mut self.was_deep, &mut self.judge.next, &mut self.judge.steps, &mut self.judge.looked, &mut self.judge.inside);
         Ok(())
     }
 

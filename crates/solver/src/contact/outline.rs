@@ -176,11 +176,19 @@ impl Outline {
 
     /// Whether a place is inside, by its winding number.
     pub(super) fn is_inside(&self, x: Vector, positions: &[Vector]) -> bool {
+        // Across the longer extent a ray meets few segments.
+        let [low, high] = self.around();
+        let is_wide = high[0] - low[0] > high[1] - low[1];
+        let turned = |[x, y]: Vector| if is_wide { [y, x] } else { [x, y] };
+        let x = turned(x);
         let mut winding = 0;
         self.visit(
-            |[low, high]| low[1] <= x[1] && x[1] <= high[1] && x[0] <= high[0],
+            |around| {
+                let [low, high] = around.map(turned);
+                low[1] <= x[1] && x[1] <= high[1] && x[0] <= high[0]
+            },
             |side| {
-                let [a, b] = side.segment.map(|node| positions[node as usize]);
+                let [a, b] = side.segment.map(|node| turned(positions[node as usize]));
                 let rises = b[1] > x[1];
                 if (a[1] > x[1]) != rises && (turn(a, b, x) > 0.0) == rises {
                     winding += if rises { 1 } else { -1 };
@@ -228,8 +236,10 @@ impl Outline {
 
 impl Outline {
     /// Shows nodes of this outline that are inside another one, and three places on each part of its segments that is, and whether a place is the first node of its segment.
-    pub(super) fn inside(&self, other: &Self, positions: &[Vector], mut see: impl FnMut(Vector, &Side, bool)) {
+    /// Returns how many segments it looked at.
+    pub(super) fn inside(&self, other: &Self, positions: &[Vector], mut see: impl FnMut(Vector, &Side, bool)) -> usize {
         let near: Vec<&Side> = self.near(other, positions).collect();
+        let looked = near.len();
         let mut cuts = Vec::new();
         let mut begin = vec![0];
         for side in &near {
@@ -242,7 +252,7 @@ impl Outline {
             [0, 1].map(|d| 0.5 * (a[d] + b[d]))
         };
         if cuts.is_empty() && !near.first().is_some_and(|side| other.is_inside(middle(side), positions)) {
-            return;
+            return looked;
         }
         for (side, range) in near.into_iter().zip(begin.windows(2)) {
             let ends = side.segment.map(|node| positions[node as usize]);
@@ -261,6 +271,7 @@ impl Outline {
                 }
             }
         }
+        looked
     }
 
     /// Its segments near another outline.

@@ -313,8 +313,9 @@ where
         self.moduli = blocks.iter().map(|block| [block.wave_modulus(), block.bulk_modulus()]).collect();
         let interfaces = self.model.contacts.iter().map(|c| &c.interface).chain(self.model.obstacles.iter().map(|o| &o.interface));
         let is_asked = interfaces.into_iter().any(|interface| source_of(interface) == PenaltySource::TimeStep);
-        // Springs between bodies stiffen by it, too.
-        if is_asked || !self.model.contacts.is_empty() {
+        // Springs of the automatic penalty between bodies stiffen by it, too.
+        let stiffens = |contact: &model::Contact| matches!(contact.interface.law, ContactLaw::Penalty(Penalty::Automatic { .. }));
+        if is_asked || self.model.contacts.iter().any(stiffens) {
             let velocities = vec![[0.0; D]; self.mesh.positions.len()];
             let motion = Motion { positions: &self.mesh.positions, velocities: &velocities, time_step: 0.0 };
             let stable = |(block, group): (&mut Box<dyn Block<D>>, &ElementGroup)| {
@@ -336,6 +337,11 @@ where
                 ));
             }
         }
+    }
+
+    /// Stiffness of a node by its mass and the first step, of the area that it stands for, Pa/m; zero where the step was not asked for.
+    fn of_mass(&self, node: u32, area: f64) -> f64 {
+        if self.time_step > 0.0 { law::penalty::of_time_step(self.mass[node as usize], self.time_step, area) } else { 0.0 }
     }
 
     /// Forces on nodes, and boundaries that reflect nothing.

@@ -1,6 +1,7 @@
 //! Connections: how many there are at a time, and how long each may keep the server waiting.
 //!
-//! Who opens a connection and sends half a request, or takes no answer, or is gone without a word, holds a socket and memory of the program, which may be running a simulation. Each such wait has an
+//! Who opens a connection and sends half a request, or takes no answer, or is gone without a word, holds a socket and memory of the
+//! program, which may be running a simulation. Each such wait has an
 //! end ([`Patience`]), and beyond [`Patience::most`] connections new ones wait until others are closed.
 
 use crate::server::over;

@@ -43,7 +43,7 @@ impl Results {
         self.is_sound_but(0, drift);
     }
 
-    /// The same where so many steps are told in which something is deep against its thickness.
+    /// The same with at most so many steps in which something is deep against its thickness.
     fn is_sound_but(&self, told: u64, drift: f64) {
         assert_eq!(self.summary["status"], "done");
         assert!(self.summary["contact"]["unverified"].as_u64().unwrap() <= told, "{}", self.summary);

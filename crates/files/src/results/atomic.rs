@@ -1,4 +1,5 @@
-//! Whole files or none: everything is written as `NAME.part` and renamed when it is complete. This is the only place where such files are made, and none is made through a link ([`plain`]).
+//! Whole files or none: everything is written as `NAME.part` and renamed when it is complete. This is the only place where such files are
+//! made, and none is made through a link ([`plain`]).
 //!
 //! [`write_whole`] takes the bytes of a file at once, `write_whole_in_pieces` writes it from one end to the other; [`PartFile`] grows while a run goes on.
 
@@ -42,7 +43,8 @@ pub(super) fn write_whole_in_pieces(path: &Path, write: impl FnOnce(&mut BufWrit
     .map_err(|error| in_use_or("write", path, error))
 }
 
-/// What all files that are written at once come to: `write` gets the new `.part` file and gives it back complete; it takes the place of what has the name, also of a link.
+/// What all files that are written at once come to: `write` gets the new `.part` file and gives it back complete; it takes the place of
+/// what has the name, also of a link.
 ///
 /// # Errors
 /// What `write` or the system says, and what is no plain file under the name of the `.part` file; nothing of the new file is left.

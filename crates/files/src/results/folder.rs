@@ -82,7 +82,8 @@ impl ResultFolder {
         Ok(Self { path: path.to_path_buf(), _lock: Arc::new(FolderLock::take(path)?) })
     }
 
-    /// Results that go on from a checkpoint of `step`, with so many `frames`, and with `hashes` or not: what came later is removed, and what only a run that has ended has.
+    /// Results that go on from a checkpoint of `step`, with so many `frames`, and with `hashes` or not: what came later is removed, and
+    /// what only a run that has ended has.
     ///
     /// # Errors
     /// What the system says.

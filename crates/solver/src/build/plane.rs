@@ -3,7 +3,6 @@
 use super::fans::Under;
 use super::{Builder, law_of, search_by_name, source_of, terms_of, terms_of_ties};
 use crate::contact::formulation::{self, Setup, Side};
-use crate::contact::law;
 use crate::contact::messages::ON_SYMMETRY;
 use crate::contact::outline::Outlines;
 use crate::contact::projection::node_segment::Target;
@@ -49,7 +48,7 @@ impl Builder<'_, 2> {
         let mut segments: Vec<f64> = surface.segments.iter().map(|&segment| self.under(segment).map_or(0.0, modulus)).collect();
         let mut nodes = contact::tributaries(surface, &segments, positions, Depth::of(self.model));
         for (&node, own) in surface.nodes.iter().zip(&mut nodes) {
-            own.of_mass = law::penalty::of_time_step(self.mass[node as usize], self.time_step, own.area);
+            own.of_mass = self.of_mass(node, own.area);
         }
         if source == PenaltySource::TimeStep {
             nodes.iter_mut().for_each(|own| own.stiffness = own.of_mass);

@@ -361,7 +361,7 @@ impl Builder<'_, 3> {
         for (&node, own) in surface.nodes.iter().zip(&mut nodes) {
             own.stiffness /= own.area;
             own.length = own.area;
-            own.of_mass = law::penalty::of_time_step(self.mass[node as usize], self.time_step, own.area);
+            own.of_mass = self.of_mass(node, own.area);
             if source == PenaltySource::TimeStep {
                 own.stiffness = own.of_mass;
             }

@@ -1,7 +1,10 @@
-//! How deep bodies of the plane are in each other against their local thickness: by the springs of each step, and by a judge that looks at the bodies as they are.
+//! How deep bodies in the plane are in each other against their local thickness: by the springs of each step, and by a judge that looks at
+//! the bodies as they are.
 //!
-//! The judge shares nothing with the search and what it remembers. Nodes of an outline that are inside another one by their winding number, and three places on each part of a segment that is inside,
-//! are as deep as the other surface is far away. It looks when things may have gone a quarter of the least thickness, both bodies together, but not more often than every eighth step, and at least
+//! The judge shares nothing with the search and what it remembers. Nodes of an outline that are inside another one by their winding number,
+//! and three places on each part of a segment that is inside,
+//! are as deep as the other surface is far away. It looks when things may have gone a quarter of the least thickness, both bodies together,
+//! but not more often than every eighth step, and at least
 //! every thirty-second; where many segments are near each other less often, so that it goes through 32 of them a step in the mean.
 //! Bodies are judged against others, not against themselves.
 
@@ -11,7 +14,7 @@ use super::tracker::{Touch, Tracker};
 use super::{Scene, Vector};
 use crate::archive::{Archive, Kept, keep_each};
 
-/// Depths of a contact of the plane against the local thickness, the lesser of both bodies'.
+/// Depths of a contact in the plane against the local thickness, the lesser of both bodies'.
 #[derive(Debug, Default)]
 pub struct Depths {
     /// What is opposite of the segments of each surface.
@@ -158,9 +161,9 @@ impl Depths {
         Ok(())
     }
 
-    /// Goes on with the counts of another one whose surfaces were those before they changed.
+    /// Goes on with what another one knew, whose surfaces were those before they changed; the bodies are looked at anew.
     pub fn inherit(&mut self, old: &Self) {
-        self.findings = old.findings;
+        (self.findings, self.travel, self.was_deep) = (old.findings, old.travel, old.was_deep);
     }
 }
 

@@ -262,7 +262,8 @@ impl EdgeTracker {
         for number in 0..self.pairs.len() {
             found.extend(self.look_at(number, around, &is_held));
         }
-        // What had a spring comes first; then one spring for each place at which two lines of edges cross; then what had one beyond an end. The deepest first: numbers say nothing.
+        // What had a spring comes first; then one spring for each place at which two lines of edges cross; then what had one beyond an end.
+        // The deepest first: numbers say nothing.
         let mut order: Vec<usize> = (0..found.len()).collect();
         order.sort_by(|&a, &b| found[a].crossing.gap.total_cmp(&found[b].crossing.gap).then(a.cmp(&b)));
         let mut taken: Vec<bool> = vec![false; self.pairs.len()];

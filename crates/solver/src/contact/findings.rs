@@ -67,7 +67,8 @@ impl Findings {
         }
     }
 
-    /// Counts a step of the plane that is too deep, if the one before was, `was_deep`: what comes in within a step may be as deep as both sides go in it, `way` (m) each. Whether this one is.
+    /// Counts a step in the plane that is too deep, if the one before was, `was_deep`: what comes in within a step may be as deep as both
+    /// sides go in it, `way` (m) each. Whether this one is.
     pub(super) fn count(&mut self, way: f64, was_deep: bool) -> bool {
         if (Overlap { depth: self.now.depth - 2.0 * way, ..self.now }).ratio() > 1.0 {
             self.through = Some(self.now);

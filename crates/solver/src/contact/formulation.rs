@@ -128,7 +128,8 @@ impl Setup<'_> {
         is_ignored(&self.contact.interface)
     }
 
-    /// Sees how deep nodes are against the local thickness; where nodes of both surfaces meet the other one, and nothing overlaps at the start, bodies are judged as they are.
+    /// Sees how deep nodes are against the local thickness; where nodes of both surfaces meet the other one, and nothing overlaps at the
+    /// start, bodies are judged as they are.
     #[must_use]
     pub fn depths(&self) -> Depths {
         let depths = Depths::new(self.sides.iter().map(|side| self.outlines.opposite(&side.target.surface)).collect());
@@ -140,7 +141,7 @@ impl Setup<'_> {
         let sides: Vec<BTreeSet<u32>> = self.sides.iter().map(|side| side.target.surface.segments.iter().map(body).collect()).collect();
         let last = sides.len() - 1;
         let on = |outline: &Outline| u8::from(sides[0].contains(&outline.body)) + 2 * u8::from(sides[last].contains(&outline.body));
-        depths.judging(self.outlines.0.iter().map(|outline| (outline.clone(), on(outline))).filter(|(_, on)| *on > 0).collect())
+        depths.judging(self.outlines.bodies.iter().map(|outline| (outline.clone(), on(outline))).filter(|(_, on)| *on > 0).collect())
     }
 
     /// Follows the nodes of the passes.

@@ -85,7 +85,7 @@ where
         None
     }
 
-    /// What was checked so far, and whether a contact was missed.
+    /// What was checked so far, and whether a contact was missed; without [`Formulation::overlaps`].
     fn certificate(&self) -> Certificate {
         Certificate::default()
     }
@@ -271,7 +271,7 @@ where
 
     /// Acts no more: one of its surfaces is gone.
     pub fn end(&mut self) {
-        self.checked += self.formulation.certificate();
+        self.checked = self.certificate();
         self.formulation = Box::new(Nothing);
     }
 
@@ -299,6 +299,7 @@ where
     pub fn certificate(&self) -> Certificate {
         let mut sum = self.checked;
         sum += self.formulation.certificate();
+        sum.unverified += self.overlaps().map_or(0, |found| found.unverified);
         sum
     }
 

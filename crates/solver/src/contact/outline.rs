@@ -1,8 +1,11 @@
-//! Outlines of the bodies of the plane: what is opposite of each segment, and what is inside.
+//! Outlines of bodies in the plane: what is opposite of each segment, and what is inside.
 //!
-//! Local thickness is how far the surface is on the other side, along the inward normal. The ray from the middle of a segment finds the opposite segment once, at the start; what lies there is
-//! followed as both move, so that a crushed body is as thin as it is. On a symmetry line the body goes on as its image. Nothing is thicker than 4 A / P with the area A and the perimeter P of the
-//! body, which is twice the radius of the inscribed circle for polygons that have one, and more for other convex ones. That is taken, too, where the ray leaves the body at less than 30 degrees to
+//! Local thickness is how far the surface is on the other side, along the inward normal. The ray from the middle of a segment finds the
+//! opposite segment once, at the start; what lies there is
+//! followed as both move, so that a crushed body is as thin as it is. On a symmetry line the body goes on as its image. Nothing is thicker
+//! than 4 A / P with the area A and the perimeter P of the
+//! body, which is twice the radius of the inscribed circle for polygons that have one, and more for other convex ones. That is taken, too,
+//! where the ray leaves the body at less than 30 degrees to
 //! the surface there, as beside a corner.
 
 use super::Vector;
@@ -15,8 +18,6 @@ use std::collections::BTreeMap;
 const OPPOSITE: f64 = -0.5;
 /// How far beside a segment a ray may pass and still meet it, as a share.
 const BESIDE: f64 = 1e-9;
-/// Depth of the tree of a large outline, and a branch at each.
-const DEPTH: usize = 64;
 /// Places on a part of a segment that is inside.
 const PLACES: [f64; 3] = [0.25, 0.5, 0.75];
 /// Segments of a leaf of the tree.
@@ -54,9 +55,13 @@ impl Opposite {
     }
 }
 
-/// All bodies of a mesh of the plane.
+/// All bodies of a plane mesh.
 #[derive(Clone, Debug, Default)]
-pub struct Outlines(pub(super) Vec<Outline>);
+pub struct Outlines {
+    pub(super) bodies: Vec<Outline>,
+    /// What is opposite of each segment.
+    opposite: BTreeMap<[u32; 2], Opposite>,
+}
 
 impl Outlines {
     /// Of an outside, with the segments on symmetry lines (`is_mirror`), of bodies at their initial `positions`, m.
@@ -65,17 +70,16 @@ impl Outlines {
         let body = |segment: &[u32; 2]| body_of.get(segment[0] as usize).copied().unwrap_or(0);
         let mut of_body: BTreeMap<u32, Vec<[u32; 2]>> = BTreeMap::new();
         outside.iter().for_each(|segment| of_body.entry(body(segment)).or_default().push(*segment));
-        Self(of_body.into_iter().map(|(body, segments)| Outline::new(body, segments, &is_mirror, positions)).collect())
+        let bodies: Vec<Outline> =
+            of_body.into_iter().map(|(body, segments)| Outline::new(body, segments, &is_mirror, positions)).collect();
+        let opposite = bodies.iter().flat_map(|outline| &outline.sides).map(|side| (side.segment, side.opposite)).collect();
+        Self { bodies, opposite }
     }
 
     /// What is opposite of the segments of a surface.
     #[must_use]
     pub fn opposite(&self, surface: &Surface) -> Vec<Opposite> {
-        let mut all = BTreeMap::new();
-        for outline in &self.0 {
-            all.extend(outline.sides.iter().map(|side| (side.segment, side.opposite)));
-        }
-        surface.segments.iter().map(|segment| all.get(segment).copied().unwrap_or_default()).collect()
+        surface.segments.iter().map(|segment| self.opposite.get(segment).copied().unwrap_or_default()).collect()
     }
 }
 
@@ -132,22 +136,22 @@ impl Outline {
         self.boxes[0].0
     }
 
-    /// Shows the segments of leaves whose boxes count, and those below boxes that do.
+    /// Shows the segments of leaves whose boxes count, and those of all boxes around them.
     fn visit(&self, mut counts: impl FnMut(&[Vector; 2]) -> bool, mut see: impl FnMut(&Side)) {
-        let mut stack = Vec::with_capacity(DEPTH);
-        stack.push((0, 0, self.sides.len()));
-        while let Some((number, begin, end)) = stack.pop() {
-            let (around, second) = &self.boxes[number];
-            if !counts(around) {
-                continue;
-            }
-            if end - begin > LEAF {
-                let half = begin + (end - begin) / 2;
-                stack.extend([(*second as usize, half, end), (number + 1, begin, half)]);
-            } else {
-                self.sides[begin..end].iter().for_each(&mut see);
-            }
+        self.visit_below(0, &self.sides, &mut counts, &mut see);
+    }
+
+    fn visit_below(&self, number: usize, sides: &[Side], counts: &mut impl FnMut(&[Vector; 2]) -> bool, see: &mut impl FnMut(&Side)) {
+        let (around, second) = &self.boxes[number];
+        if !counts(around) {
+            return;
         }
+        if sides.len() <= LEAF {
+            return sides.iter().for_each(see);
+        }
+        let (first, last) = sides.split_at(sides.len() / 2);
+        self.visit_below(number + 1, first, counts, see);
+        self.visit_below(*second as usize, last, counts, see);
     }
 
     /// Where the ray from the middle of a segment inwards first leaves the body, if the surface there looks the other way.
@@ -232,10 +236,9 @@ impl Outline {
             },
         );
     }
-}
 
-impl Outline {
-    /// Shows nodes of this outline that are inside another one, and three places on each part of its segments that is, and whether a place is the first node of its segment.
+    /// Shows nodes of this outline that are inside another one, and three places on each part of its segments that is, and whether a place
+    /// is the first node of its segment.
     /// Returns how many segments it looked at.
     pub(super) fn inside(&self, other: &Self, positions: &[Vector], mut see: impl FnMut(Vector, &Side, bool)) -> usize {
         let near: Vec<&Side> = self.near(other, positions).collect();
@@ -384,7 +387,7 @@ mod tests {
     }
 
     fn of_segment(made: &Outlines, segment: [u32; 2]) -> Opposite {
-        made.0[0].sides.iter().find(|side| side.segment == segment).unwrap().opposite
+        made.bodies[0].sides.iter().find(|side| side.segment == segment).unwrap().opposite
     }
 
     #[test]
@@ -445,9 +448,9 @@ mod tests {
     fn deepest(made: &Outlines, places: &[Vector]) -> f64 {
         let mut deepest: f64 = 0.0;
         for [own, other] in [[0, 1], [1, 0]] {
-            made.0[own].inside(&made.0[other], places, |x, _, _| {
-                if made.0[other].is_inside(x, places) {
-                    deepest = deepest.max(made.0[other].nearest(x, places).unwrap().0.sqrt());
+            made.bodies[own].inside(&made.bodies[other], places, |x, _, _| {
+                if made.bodies[other].is_inside(x, places) {
+                    deepest = deepest.max(made.bodies[other].nearest(x, places).unwrap().0.sqrt());
                 }
             });
         }
@@ -491,7 +494,7 @@ mod tests {
                 let off = minus(x, shift);
                 let own = [angle.cos() * off[0] + angle.sin() * off[1], angle.cos() * off[1] - angle.sin() * off[0]];
                 let expected = (0.0..=3.0).contains(&own[0]) && (0.0..=0.2).contains(&own[1]);
-                assert_eq!(made.0[1].is_inside(x, &places), expected, "{angle} {shift:?} {x:?}");
+                assert_eq!(made.bodies[1].is_inside(x, &places), expected, "{angle} {shift:?} {x:?}");
             }
         }
     }

@@ -7,6 +7,7 @@
 //! Where √(⟨−F⟩² + T²) / area exceeds the strength the tie is gone for good; pressing does not break it. What was stored in pulling and in slip is lost, and told to the ledger.
 //! Nodes that are free, and those whose ties are gone, are in ordinary contact with the same surface.
 
+use super::findings::Findings;
 use super::formulation::{FormulationKind, Setup, one_pass};
 use super::node_segment::{NodeSegment, PassInput, ends};
 use super::projection::node_segment::{Projection, Target};
@@ -237,6 +238,14 @@ impl Formulation for Tied {
 
     fn certificate(&self) -> Certificate {
         self.loose.certificate()
+    }
+
+    fn overlaps(&self) -> Option<&Findings> {
+        self.loose.overlaps()
+    }
+
+    fn inside(&self) -> &[(u32, f64)] {
+        self.loose.inside()
     }
 
     fn search_report(&self) -> Option<SearchReport> {

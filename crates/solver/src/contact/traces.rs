@@ -34,7 +34,8 @@ impl State {
 /// State of the surface at a node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State {
-    /// Mean gap of the springs at the node by their shares, m; NaN where there is none. Of a node that is inside a body without a closed spring: minus its distance to the body's surface when the
+    /// Mean gap of the springs at the node by their shares, m; NaN where there is none. Of a node that is inside a body without a closed
+    /// spring: minus its distance to the body's surface when the
     /// bodies were last looked at.
     pub gap: f64,
     /// 0 open, 1 stick, 2 slip (also without friction).
@@ -175,7 +176,8 @@ where
         self.outside.nodes().last().map_or(0, |&node| node as usize + 1)
     }
 
-    /// State of nodes from the solved springs of the step, as far as any of the first `nodes` has one, and of nodes that are `inside` a body by so much, m: those beyond are open.
+    /// State of nodes from the solved springs of the step, as far as any of the first `nodes` has one, and of nodes that are `inside` a
+    /// body by so much, m: those beyond are open.
     #[must_use]
     pub fn states<'a>(springs: &Springs<D>, nodes: usize, inside: impl Iterator<Item = &'a (u32, f64)>) -> Vec<State> {
         let ends = || springs.list.iter().flat_map(|spring| springs.ends(spring)).map(|end| end.at as usize);

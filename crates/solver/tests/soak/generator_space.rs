@@ -1,4 +1,5 @@
-//! Random models in space: bodies of any shape, element and law in cells, and scenes in which contact is hard: crossed bars, wires, sheets of one element, chains of
+//! Random models in space: bodies of any shape, element and law in cells, and scenes in which contact is hard: crossed bars, wires, sheets
+//! of one element, chains of
 //! rings, coils, tetrahedra, thin bodies under thick ones. The same seed gives the same model.
 
 use crate::generator::{Dice, contact_of_all, elements_of, interface, material_of, softened};
@@ -115,7 +116,8 @@ struct Solid {
 }
 
 impl Solid {
-    /// A grid of so many cells, its node at the parts (u, v, w) of its edges at `place(u, v, w)`; with `closed` its last axis is a ring. `place` keeps the hand.
+    /// A grid of so many cells, its node at the parts (u, v, w) of its edges at `place(u, v, w)`; with `closed` its last axis is a ring.
+    /// `place` keeps the hand.
     fn grid(dice: &mut Dice, counts: [usize; 3], closed: bool, place: impl Fn(Vector) -> Vector) -> Self {
         let kind = dice.choice(&KINDS);
         let [nx, ny, nz] = counts;

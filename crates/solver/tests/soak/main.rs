@@ -1,7 +1,9 @@
 //! Soak: random models one after the other, without a panic, a leak, or a drift of energy or momentum that nothing explains.
 //!
-//! `cargo test --release -p embate-solver --test embate-soak -- --seconds 7200 --first 1` (a minute from model 1 if nothing is said; `--count 1 --first N` for one model). Odd numbers are models of
-//! the plane, even ones of space; `--dimension 2` or `3` for one of them alone. Two of sixteen models run again with scalar lanes and two threads and must end with the same state hash.
+//! `cargo test --release -p embate-solver --test embate-soak -- --seconds 7200 --first 1` (a minute from model 1 if nothing is said;
+//! `--count 1 --first N` for one model). Odd numbers are models of
+//! the plane, even ones of space; `--dimension 2` or `3` for one of them alone. Two of sixteen models run again with scalar lanes and two
+//! threads and must end with the same state hash.
 //! What is found is told with the number of the model.
 //!
 //! A drift of energy that at most half is left of with a quarter of the step is an error of the steps: of springs that are stiff against theirs, or of elements that collapse within a few. Those are counted.

@@ -1,8 +1,11 @@
 //! Penalty: a spring that only pushes. F = k_n |G| where the gap G is negative, eq. (11) of the paper; energy ½ k_n G².
 //!
-//! Beyond the depth ℓ, an eighth of the local thickness of the thinner body, it stiffens: V = ½ k d² + k S (d − ℓ)³ / 6ℓ with d = −G up to 2ℓ, and goes on with the stiffness k (1 + S) that it has there: twice continuously differentiable and convex.
-//! A linear spring as stiff as the elements lets a heavy body through a soft one. S is 100, or α m / (k dt²) with the mass m of the lighter side's nodes, α = 0.1 and the first step dt, where that is more:
-//! so stiff a spring stops a node within a few steps whatever the elements are. Where the stiffness is given S is 100, and a `penalty_scale` below 1 scales that by mass, too. In sound contact d stays below ℓ.
+//! Beyond the depth ℓ, an eighth of the local thickness of the thinner body, it stiffens: V = ½ k d² + k S (d − ℓ)³ / 6ℓ with d = −G up to
+//! 2ℓ, and goes on with the stiffness k (1 + S) that it has there: twice continuously differentiable and convex.
+//! A linear spring as stiff as the elements lets a heavy body through a soft one. S is 100, or α m / (k dt²) with the mass m of the lighter
+//! side's nodes, α = 0.1 and the first step dt, where that is more:
+//! so stiff a spring stops a node within a few steps whatever the elements are. Where the stiffness is given S is 100, and a
+//! `penalty_scale` below 1 scales that by mass, too. In sound contact d stays below ℓ.
 //!
 //! Stiffness of a slave node: given (the paper's k_n), a pressure per depth times the node's tributary length, or automatic: the stiffness
 //! κ of the elements under the surface times the tributary length, the softer of both bodies; half of it in a double pass, where both passes act. What κ is:
@@ -48,7 +51,8 @@ pub fn of_time_step(mass: f64, time_step: f64, area: f64) -> f64 {
     OF_TIME_STEP * mass / (time_step * time_step * area)
 }
 
-/// Where a spring of a stiffness stiffens: beyond a fraction of the local `thickness` (m), so that it is as stiff as `of_mass` (the unit of the stiffness) at twice that.
+/// Where a spring of a stiffness stiffens: beyond a fraction of the local `thickness` (m), so that it is as stiff as `of_mass` (the unit of
+/// the stiffness) at twice that.
 #[must_use]
 pub fn stiffening(thickness: f64, stiffness: f64, of_mass: f64) -> Stiffening {
     Stiffening::new(LIMIT * thickness, if stiffness > 0.0 { STIFFENING.max(of_mass / stiffness) } else { STIFFENING })

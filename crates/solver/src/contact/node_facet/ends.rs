@@ -1,7 +1,9 @@
 //! Ends of the springs between nodes and facets: who has which share of the gap, and what makes the slip rate blind to rotations.
 //!
-//! Projections come from the tracker, springs go to the formulation. The slip rate is that of the node against the surface at the node's own distance, ṡ = t·(v − Σ w v_C − ω × r) with r = x − P
-//! and the spin ω of what is there: ω = N × Ṅ + ½ N (N·∇ × v) is the body's own for every rigid motion, so ṡ does not see rotations of both together, and its transpose, the friction, keeps the
+//! Projections come from the tracker, springs go to the formulation. The slip rate is that of the node against the surface at the node's
+//! own distance, ṡ = t·(v − Σ w v_C − ω × r) with r = x − P
+//! and the spin ω of what is there: ω = N × Ṅ + ½ N (N·∇ × v) is the body's own for every rigid motion, so ṡ does not see rotations of both
+//! together, and its transpose, the friction, keeps the
 //! angular momentum. At an edge or a node no facet is the nearest one, rounding would choose it: ω is the mean over those that meet there.
 
 use super::first_edge;
@@ -154,7 +156,8 @@ mod tests {
     use crate::mesh::surface::{NONE, SpaceSurface};
     use std::collections::BTreeMap;
 
-    /// An L of three crooked hexahedra with a corner near the origin and the bottom of its fold from node 7 to node 10, as grids of 3 × 2 × 3 nodes number them; then a node.
+    /// An L of three crooked hexahedra with a corner near the origin and the bottom of its fold from node 7 to node 10, as grids of 3 × 2 ×
+    /// 3 nodes number them; then a node.
     fn fold(x: impl Fn(Vector, Vector) -> Vector) -> (SpaceSurface, Vec<Vector>) {
         let node = |i: u32, j: u32, k: u32| 3 * (2 * k + j) + i;
         let cell = |i: u32, k: u32| {

@@ -268,7 +268,8 @@ impl Tracker {
         [START * self.skin, LOOK_AHEAD]
     }
 
-    /// Fills a list with the nodes whose springs were closed (gap below `open`, m) after the last step: slave surface, node, and each facet on which it lay, ascending.
+    /// Fills a list with the nodes whose springs were closed (gap below `open`, m) after the last step: slave surface, node, and each facet
+    /// on which it lay, ascending.
     pub fn note_closed(&self, open: f64, closed: &mut Vec<(usize, u32, u32)>) {
         closed.clear();
         for pass in &self.passes {

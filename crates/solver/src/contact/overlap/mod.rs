@@ -1,14 +1,19 @@
-//! Where bodies overlap in space, how deep, and whether something pushes them apart there: a judge of contact that shares no reasoning with the search, the trackers and the springs.
+//! Where bodies overlap in space, how deep, and whether something pushes them apart there: a judge of contact that shares no reasoning with
+//! the search, the trackers and the springs.
 //!
-//! It looks at the bodies as they are, not at pairs and their histories. `piercing` finds which edges pierce which triangles by exact predicates, `regions` closes the contours and finds what
+//! It looks at the bodies as they are, not at pairs and their histories. `piercing` finds which edges pierce which triangles by exact
+//! predicates, `regions` closes the contours and finds what
 //! lies inside, the area vector N and the volume V; `thickness` gives the local thickness of the bodies. A region is *held* if
 //!
-//! 1. no sampled place in it (vertices, middles of the parts of edges that are inside) is deeper than a fifth of the local thickness τ, the lesser of both bodies';
+//! 1. no sampled place in it (vertices, middles of the parts of edges that are inside) is deeper than a fifth of the local thickness τ,
+//!    the lesser of both bodies';
 //! 2. its area vector has not turned by more than a right angle against the one with which it began, turned with the bodies since;
 //! 3. the forces of the springs at its nodes work against its volume, −Σ f·∂V/∂x > 0, or the volume falls, or it is shallower than τ/50.
 //!
-//! Else it counts as `unverified`. Depth is the distance to the other body's surface; once that exceeds 0.15 τ, to the side of entry: facets that look against the area vector of the region.
-//! The bodies are looked at before anything can have gone farther than an eighth of the least thickness (both bodies' ways together, by the travel ∑ dt max |v|). So nothing gets through a body
+//! Else it counts as `unverified`. Depth is the distance to the other body's surface; once that exceeds 0.15 τ, to the side of entry:
+//! facets that look against the area vector of the region.
+//! The bodies are looked at before anything can have gone farther than an eighth of the least thickness (both bodies' ways together, by the
+//! travel ∑ dt max |v|). So nothing gets through a body
 //! between two looks, and on its way through it is deeper than a fifth at one of them.
 //!
 //! A region that is deeper than τ/8, or not held, gets a spring on its volume (`net`): the net under the springs of nodes and edges.
@@ -320,7 +325,8 @@ impl Judge {
         found.iter().take(SIDED_MOST).fold(most, deepest)
     }
 
-    /// Depth of a place of a triangle's side of a region, by those triangles of the other side that count, and the nearest one; nothing where all are farther than the root of `square`, m².
+    /// Depth of a place of a triangle's side of a region, by those triangles of the other side that count, and the nearest one; nothing
+    /// where all are farther than the root of `square`, m².
     fn depth(
         &self,
         region: &Region,

@@ -1,8 +1,11 @@
 //! The net under the springs of nodes and edges: a spring on the volume of an overlap.
 //!
-//! Its depth grows by dV/A from zero, with the area A = |N| at which the net was cast; k = κ A with the pressure stiffness κ of the softer side. V is once continuously differentiable through all changes
-//! of nodes, edges and faces that touch, and its rows −(∂V/∂x)/A add up to nothing, so the net has no hand-over, needs no normal, and keeps both momenta. It begins without force, so it brings no
-//! energy, and resists whatever makes the overlap larger, combs of edges and folded nodes included. Regions that merge or part share A by their volumes, and the depth is the mean.
+//! Its depth grows by dV/A from zero, with the area A = |N| at which the net was cast; k = κ A with the pressure stiffness κ of the softer
+//! side. V is once continuously differentiable through all changes
+//! of nodes, edges and faces that touch, and its rows −(∂V/∂x)/A add up to nothing, so the net has no hand-over, needs no normal, and keeps
+//! both momenta. It begins without force, so it brings no
+//! energy, and resists whatever makes the overlap larger, combs of edges and folded nodes included. Regions that merge or part share A by
+//! their volumes, and the depth is the mean.
 
 use super::super::law::penalty::stiffening;
 use super::super::projection::node_facet::unit;

@@ -1,6 +1,7 @@
 //! Which edges pierce which triangles, and the contours along which the surfaces cut each other.
 //!
-//! Signs come from [`super::predicates`], so the set of piercings is exact for the places as they are. A pair of triangles meets along one straight piece with a piercing at either end: whatever
+//! Signs come from [`super::predicates`], so the set of piercings is exact for the places as they are. A pair of triangles meets along one
+//! straight piece with a piercing at either end: whatever
 //! has not two ends is a border of a surface, or an error, and is reported.
 
 use super::predicates::{Point, volume};
@@ -114,7 +115,8 @@ struct End {
     place: Vector,
 }
 
-/// The pieces of the contours of some piercings, for the first and the second triangle of each pair, which are told too; pieces without two ends are those of triangles in `loose`.
+/// The pieces of the contours of some piercings, for the first and the second triangle of each pair, which are told too; pieces without two
+/// ends are those of triangles in `loose`.
 pub(super) fn contours(skin: &Skin, piercings: &[Piercing], pieces: &mut Vec<Piece>, pairs: &mut Vec<[u32; 2]>, loose: &mut Vec<u32>) {
     let mut ends: Vec<End> = Vec::with_capacity(2 * piercings.len());
     for &Piercing { edge, triangle, enters, place, .. } in piercings {

@@ -1,7 +1,9 @@
 //! On which side of a plane a point lies, exactly, and never "on it": the signs from which everything else in this folder follows.
 //!
-//! The determinant is Shewchuk's adaptive one (Discrete Comput. Geom. 18 (1997) 305-363, crate `robust`). Where it vanishes, points are moved by infinitely small amounts that depend on their
-//! numbers alone: simulation of simplicity (Edelsbrunner and Mücke, ACM Trans. Graph. 9 (1990) 66-104). So all answers about the same points agree with each other, and a closed surface is
+//! The determinant is Shewchuk's adaptive one (Discrete Comput. Geom. 18 (1997) 305-363, crate `robust`). Where it vanishes, points are
+//! moved by infinitely small amounts that depend on their
+//! numbers alone: simulation of simplicity (Edelsbrunner and Mücke, ACM Trans. Graph. 9 (1990) 66-104). So all answers about the same
+//! points agree with each other, and a closed surface is
 //! never left or entered through a gap between two of its triangles.
 
 use robust::{Coord, Coord3D, orient2d, orient3d};
@@ -11,7 +13,8 @@ type Vector = [f64; 3];
 /// A point, and the number by which ties are broken.
 pub(super) type Point = (u32, Vector);
 
-/// Six times the volume of the tetrahedron (a, b, c, d), (b − a) × (c − a)·(d − a), m³, as its sign is exactly; where it is zero the smallest number with the sign of the perturbed volume.
+/// Six times the volume of the tetrahedron (a, b, c, d), (b − a) × (c − a)·(d − a), m³, as its sign is exactly; where it is zero the
+/// smallest number with the sign of the perturbed volume.
 /// Positive: d is before the triangle a, b, c, from where that is counter-clockwise. All four numbers differ.
 pub(super) fn volume([a, b, c, d]: [Point; 4]) -> f64 {
     let of = |(_, [x, y, z]): Point| Coord3D { x, y, z };
@@ -32,7 +35,8 @@ fn perturbed(mut points: [Point; 4]) -> f64 {
             }
         }
     }
-    // The volume is minus the determinant of the rows (x, y, z, 1). Its terms in powers of ε, the largest first: products of perturbations in rows and columns that all differ.
+    // The volume is minus the determinant of the rows (x, y, z, 1). Its terms in powers of ε, the largest first: products of perturbations
+    // in rows and columns that all differ.
     for mask in 1..1u32 << 12 {
         let columns = [0, 1, 2, 3].map(|row| mask >> (3 * row) & 7);
         let used: u32 = columns.iter().fold(0, |used, column| used | column);

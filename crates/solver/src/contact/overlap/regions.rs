@@ -1,13 +1,15 @@
 //! Regions where bodies overlap: what of each surface lies inside the other body, the volume between, and how that changes with each node.
 //!
-//! Contours come from [`super::piercing`]. On either surface the part beyond a contour is found by flood over edges that nothing pierces, from the ends that pierced edges have inside. With P_A, P_B
+//! Contours come from [`super::piercing`]. On either surface the part beyond a contour is found by flood over edges that nothing pierces,
+//! from the ends that pierced edges have inside. With P_A, P_B
 //! those parts, n their outward normals and φ_a the shape functions of vertices,
 //!
 //! - N = ∫_{P_A} n dA = −∫_{P_B} n dA, the gradient of the volume for a shift of A;
 //! - V = ⅓ (∫_{P_A} x·n dA + ∫_{P_B} x·n dA), the volume of the overlap;
 //! - ∂V/∂x_a = ∫ φ_a n dA: the motion of the contour itself adds nothing, so V is once continuously differentiable whatever features come and go.
 //!
-//! Integrals over parts of triangles go along their rims (Green): Σ ½ n·((p − o) × (q − o)) over straight pieces from p to q, with any point o of the triangle's plane.
+//! Integrals over parts of triangles go along their rims (Green): Σ ½ n·((p − o) × (q − o)) over straight pieces from p to q, with any
+//! point o of the triangle's plane.
 
 use super::piercing::{Piece, Piercing, contours, runs_with};
 use super::skin::Skin;
@@ -49,7 +51,8 @@ impl Region {
     }
 }
 
-/// What ∂V/∂x of all nodes adds up to at most, force and moment, where the surface is closed, as a fraction of their sizes. What is so small that it is all rounding is not.
+/// What ∂V/∂x of all nodes adds up to at most, force and moment, where the surface is closed, as a fraction of their sizes. What is so
+/// small that it is all rounding is not.
 const CLOSED: f64 = 1e-9;
 
 /// Piercings of an edge that are nearer to each other than this fraction of its length have no order.

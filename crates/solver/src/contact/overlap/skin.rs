@@ -1,4 +1,5 @@
-//! The surfaces of a contact as triangles: the flat pieces that contact itself projects on, four around the middle of a facet of four nodes, with their edges and bodies.
+//! The surfaces of a contact as triangles: the flat pieces that contact itself projects on, four around the middle of a facet of four
+//! nodes, with their edges and bodies.
 //!
 //! Topology is fixed, places are taken anew for each look. Vertices are the surfaces' nodes, ascending, then the middles of facets of four nodes.
 

@@ -141,7 +141,8 @@ fn turn(v: Vector, by: Vector) -> Vector {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 60, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Blocks of any kind, turned and shifted so that they cut each other, with nodes that are off: contours close, N_A = −N_B, and ∂V/∂x is the difference of volumes.
+    /// Blocks of any kind, turned and shifted so that they cut each other, with nodes that are off: contours close, N_A = −N_B, and ∂V/∂x
+    /// is the difference of volumes.
     #[test]
     fn gradients_are_differences_of_volumes(
         by in prop::array::uniform3(-2.0..2.0_f64), shift in prop::array::uniform3(0.2..0.9_f64), noise in 0.0..0.08_f64,

@@ -1,6 +1,7 @@
 //! Local thickness of bodies: how far the surface opposite is, along the inward normal.
 //!
-//! For each facet the ray from its middle finds the opposite skin once, in the initial places; what lies there is followed as it moves, so that a crushed body is as thin as it is.
+//! For each facet the ray from its middle finds the opposite skin once, in the initial places; what lies there is followed as it moves, so
+//! that a crushed body is as thin as it is.
 
 use super::skin::Skin;
 use super::tree::Tree;

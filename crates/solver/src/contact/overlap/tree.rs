@@ -1,6 +1,7 @@
 //! Boxes around facets in a binary tree: which facets may meet, and which triangle is nearest to a place.
 //!
-//! The tree is built once, by halves along the longest axis, a subtree for each body; boxes are taken anew for each look. It shares nothing with the searches of contact.
+//! The tree is built once, by halves along the longest axis, a subtree for each body; boxes are taken anew for each look. It shares nothing
+//! with the searches of contact.
 
 use super::skin::Skin;
 use crate::contact::projection::node_facet::{Vector, square_to_triangle};

@@ -104,7 +104,8 @@ pub(in crate::contact) fn unit(v: Vector) -> Vector {
 const ROUNDING: f64 = 1e-12;
 /// Beyond the border of a surface that ends there a point counts by this fraction of a facet's size.
 const BORDER: f64 = 1e-6;
-/// Points of a surface that are nearer to each other than this fraction of a facet's size are one point, and a corner with a smaller share has none: rounding must not decide.
+/// Points of a surface that are nearer to each other than this fraction of a facet's size are one point, and a corner with a smaller share
+/// has none: rounding must not decide.
 const TIE: f64 = 1e-9;
 /// Squares of distances to one point differ by less than this fraction.
 const SAME_SQUARE: f64 = 1e-6;
@@ -240,7 +241,8 @@ impl Placed<'_> {
         self.nearest(x, facet).map(|(nearest, triangle)| (nearest.square.sqrt(), triangle))
     }
 
-    /// Length by which what is small on a facet is measured, m: the root of the sum of the squares of the diagonals, of three nodes that of two edges in the mean, whichever comes first.
+    /// Length by which what is small on a facet is measured, m: the root of the sum of the squares of the diagonals, of three nodes that of
+    /// two edges in the mean, whichever comes first.
     #[must_use]
     pub fn size(&self, facet: u32) -> f64 {
         let ([a, b, c, d], count) = self.corners(facet);
@@ -265,7 +267,8 @@ impl Placed<'_> {
         best
     }
 
-    /// The ends of the edge on which the foot of a projection lies, or the node at which it lies and [`NONE`]; twice [`NONE`] over a facet, or beyond a rim. The same whichever of the facets
+    /// The ends of the edge on which the foot of a projection lies, or the node at which it lies and [`NONE`]; twice [`NONE`] over a facet,
+    /// or beyond a rim. The same whichever of the facets
     /// there the projection names.
     pub(in crate::contact) fn rests_on(&self, Projection { facet, weights, .. }: &Projection) -> [u32; 2] {
         let corners = self.surface.facets[*facet as usize];
@@ -279,7 +282,8 @@ impl Placed<'_> {
         }
     }
 
-    /// Whether one of two places on a surface is nearer to x than the other. Of one point of the surface that facet counts, and that triangle of it, in front of or behind which x is
+    /// Whether one of two places on a surface is nearer to x than the other. Of one point of the surface that facet counts, and that
+    /// triangle of it, in front of or behind which x is
     /// farthest: which comes first says nothing.
     pub(in crate::contact) fn is_nearer(&self, x: Vector, one: &Found, other: &Found) -> bool {
         let ((a, _, _), (b, _, _)) = (one, other);

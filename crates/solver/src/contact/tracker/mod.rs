@@ -137,7 +137,8 @@ impl Tracker {
         (pass.ends.around.get(touch.slave as usize).copied().unwrap_or([NONE; 2]), &self.targets[pass.slave])
     }
 
-    /// The segments where a node touches, each with its surface: of the target, and those that end and begin at the node, [`crate::mesh::surface::NONE`] where there is none.
+    /// The segments where a node touches, each with its surface: of the target, and those that end and begin at the node,
+    /// [`crate::mesh::surface::NONE`] where there is none.
     #[must_use]
     pub fn around(&self, touch: &Touch) -> [(usize, u32); 3] {
         let pass = &self.passes[touch.pass as usize];

@@ -2,10 +2,9 @@
 //! the bodies as they are.
 //!
 //! The judge shares nothing with the search and what it remembers. Nodes of an outline that are inside another one by their winding number,
-//! and three places on each part of a segment that is inside,
-//! are as deep as the other surface is far away. It looks when things may have gone a quarter of the least thickness, both bodies together,
-//! but not more often than every eighth step, and at least
-//! every thirty-second; where many segments are near each other less often, so that it goes through 32 of them a step in the mean.
+//! and three places on each part of a segment that is inside, are as deep as the other surface is far away. It looks when things may have
+//! gone a quarter of the least thickness, both bodies together, and at least every thirty-second step; where many segments are near each
+//! other less often, so that it goes through 16 of them a step in the mean.
 //! Bodies are judged against others, not against themselves.
 
 use super::findings::{Findings, Overlap};
@@ -28,12 +27,11 @@ pub struct Depths {
     judge: Judge,
 }
 
-/// Way of both bodies together between two looks, as a fraction of the least thickness, and least and most steps.
+/// Way of both bodies together between two looks, as a fraction of the least thickness, and most steps.
 const BETWEEN_LOOKS: f64 = 0.25;
-const LEAST_STEPS: u32 = 8;
 const MOST_STEPS: u32 = 32;
 /// So many segments are looked at a step, in the mean: what presses along long sides is looked at less often.
-const PER_STEP: u32 = 32;
+const PER_STEP: u32 = 16;
 /// Depth against the thickness from which on a place is looked at once more.
 const CERTAIN: f64 = 0.02;
 
@@ -97,7 +95,7 @@ impl Depths {
         (*now, *own, *through) = (Overlap::default(), Overlap::default(), None);
         self.judge.steps += 1;
         // What was too deep is looked at in each step: its springs alone may not see it.
-        let least = if scene.sweep.travel >= self.judge.next { LEAST_STEPS } else { MOST_STEPS }.max(self.judge.looked / PER_STEP);
+        let least = if scene.sweep.travel >= self.judge.next { 1 } else { MOST_STEPS }.max(self.judge.looked / PER_STEP);
         let is_due = self.was_deep || self.judge.steps >= least;
         if !self.judge.outlines.is_empty() && is_due {
             self.look(scene);

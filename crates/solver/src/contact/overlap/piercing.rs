@@ -6,7 +6,7 @@
 
 use super::predicates::{Point, volume};
 use super::skin::{Facet, Skin};
-use super::tree::Tree;
+use super::tree::{Tree, bounds, do_meet};
 use crate::contact::projection::node_facet::Vector;
 use crate::mesh::surface::NONE;
 use crate::tensor::dot;
@@ -38,33 +38,21 @@ pub(super) struct Piece {
 /// All piercings.
 pub(super) fn find(skin: &Skin, tree: &Tree, found: &mut Vec<Piercing>) {
     found.clear();
-    tree.pairs(skin, |a, b| {
-        let [a, b] = [a, b].map(|facet| &skin.facets[facet as usize]);
-        if are_near(skin, a.all(), b.all()) && skin.may_meet(a, b) {
-            of_edges(skin, a, b, found);
-            of_edges(skin, b, a, found);
+    tree.pairs(skin, |first, second| {
+        let [a, b] = [first, second].map(|facet| &skin.facets[facet as usize]);
+        if skin.may_meet(a, b) {
+            of_edges(skin, a, tree.facet_box(first), b, found);
+            of_edges(skin, b, tree.facet_box(second), a, found);
         }
     });
 }
 
-/// Whether the boxes of vertices meet.
-fn are_near(skin: &Skin, a: &[u32], b: &[u32]) -> bool {
-    (0..3).all(|d| {
-        let range = |vertices: &[u32]| {
-            let values = vertices.iter().map(|&vertex| skin.x[vertex as usize][d]);
-            values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
-        };
-        let ([low, high], [bottom, top]) = (range(a), range(b));
-        low <= top && bottom <= high
-    })
-}
-
-/// Piercings of the edges of one facet through the triangles of another one.
-fn of_edges(skin: &Skin, own: &Facet, other: &Facet, found: &mut Vec<Piercing>) {
+/// Piercings of the edges of one facet, in its box, through the triangles of another one.
+fn of_edges(skin: &Skin, own: &Facet, own_box: [Vector; 2], other: &Facet, found: &mut Vec<Piercing>) {
     let point = |vertex: u32| -> Point { (vertex, skin.x[vertex as usize]) };
     for triangle in other.triangles() {
         let corners = skin.triangles[triangle as usize];
-        if !are_near(skin, own.all(), &corners) {
+        if !do_meet(own_box, bounds(skin, &corners)) {
             continue;
         }
         let [a, b, c] = corners.map(point);

@@ -30,6 +30,8 @@ pub(super) struct Tree {
     /// Root of each body.
     roots: Vec<u32>,
     root: u32,
+    /// Box of each facet, low and high corner, m.
+    boxes: Vec<[Vector; 2]>,
 }
 
 impl Tree {
@@ -119,15 +121,15 @@ impl Tree {
 
     /// Takes the boxes anew. Children come before their parents.
     pub(super) fn refit(&mut self, skin: &Skin) {
+        self.boxes.clear();
+        self.boxes.extend(skin.facets.iter().map(|facet| bounds(skin, facet.all())));
         for number in 0..self.nodes.len() {
             let node = self.nodes[number];
             let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
             if node.is_leaf {
                 for &facet in &self.order[node.first as usize..node.second as usize] {
-                    for &vertex in skin.facets[facet as usize].all() {
-                        let x = skin.x[vertex as usize];
-                        (0..3).for_each(|d| (low[d], high[d]) = (low[d].min(x[d]), high[d].max(x[d])));
-                    }
+                    let [bottom, top] = self.boxes[facet as usize];
+                    (0..3).for_each(|d| (low[d], high[d]) = (low[d].min(bottom[d]), high[d].max(top[d])));
                 }
             } else {
                 let [a, b] = [node.first, node.second].map(|child| self.nodes[child as usize]);
@@ -137,7 +139,12 @@ impl Tree {
         }
     }
 
-    /// Facets that may meet by their leaves' boxes, each pair once.
+    /// Box of a facet at the last look, m.
+    pub(super) fn facet_box(&self, facet: u32) -> [Vector; 2] {
+        self.boxes[facet as usize]
+    }
+
+    /// Facets whose boxes meet, each pair once.
     pub(super) fn pairs(&self, skin: &Skin, mut meet: impl FnMut(u32, u32)) {
         if self.nodes.is_empty() {
             return;
@@ -146,14 +153,17 @@ impl Tree {
         while let Some((a, b)) = stack.pop() {
             let (p, q) = (&self.nodes[a as usize], &self.nodes[b as usize]);
             let is_one_side = !skin.meets_itself && p.side == q.side && p.side != MIXED;
-            if is_one_side || (0..3).any(|d| p.high[d] < q.low[d] || q.high[d] < p.low[d]) {
+            if is_one_side || !do_meet([p.low, p.high], [q.low, q.high]) {
                 continue;
             }
             match (p.is_leaf, q.is_leaf) {
                 (true, true) => {
                     for i in p.first..p.second {
                         for j in if a == b { i + 1 } else { q.first }..q.second {
-                            meet(self.order[i as usize], self.order[j as usize]);
+                            let [i, j] = [i, j].map(|at| self.order[at as usize]);
+                            if do_meet(self.boxes[i as usize], self.boxes[j as usize]) {
+                                meet(i, j);
+                            }
                         }
                     }
                 }
@@ -228,6 +238,21 @@ impl Tree {
             }
         }
     }
+}
+
+/// Box of vertices, low and high corner, m.
+pub(super) fn bounds(skin: &Skin, vertices: &[u32]) -> [Vector; 2] {
+    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    for &vertex in vertices {
+        let x = skin.x[vertex as usize];
+        (0..3).for_each(|d| (low[d], high[d]) = (low[d].min(x[d]), high[d].max(x[d])));
+    }
+    [low, high]
+}
+
+/// Whether boxes have a point in common.
+pub(super) fn do_meet([low, high]: [Vector; 2], [bottom, top]: [Vector; 2]) -> bool {
+    (0..3).all(|d| low[d] <= top[d] && bottom[d] <= high[d])
 }
 
 /// Mean of vertices, m.

@@ -7,8 +7,9 @@
 //! other less often, so that it goes through 16 of them a step in the mean.
 //! Bodies are judged against others, not against themselves.
 
+use super::boxes::{Aabb, do_meet};
 use super::findings::{Findings, Overlap};
-use super::outline::{Opposite, Outline, Side, boxes_meet};
+use super::outline::{Opposite, Outline, Side};
 use super::tracker::{Touch, Tracker};
 use super::{Scene, Vector};
 use crate::archive::{Archive, Kept, keep_each};
@@ -168,14 +169,14 @@ impl Depths {
 impl Judge {
     /// Shows all pairs of bodies whose boxes meet, either way round.
     fn meeting(&self, mut see: impl FnMut(&Outline, &Outline)) {
-        let boxes: Vec<[Vector; 2]> = self.outlines.iter().map(Outline::around).collect();
+        let boxes: Vec<Aabb<2>> = self.outlines.iter().map(Outline::around).collect();
         let mut order: Vec<usize> = (0..boxes.len()).collect();
         order.sort_by(|&a, &b| boxes[a][0][0].total_cmp(&boxes[b][0][0]).then(a.cmp(&b)));
         for (at, &i) in order.iter().enumerate() {
             for &j in order[at + 1..].iter().take_while(|&&j| boxes[j][0][0] <= boxes[i][1][0]) {
                 let [a, b] = [self.sides[i], self.sides[j]];
                 let may_meet = (a & 1 != 0 && b & 2 != 0) || (a & 2 != 0 && b & 1 != 0);
-                if may_meet && boxes_meet(&boxes[i], &boxes[j]) {
+                if may_meet && do_meet(&boxes[i], &boxes[j]) {
                     see(&self.outlines[i], &self.outlines[j]);
                     see(&self.outlines[j], &self.outlines[i]);
                 }

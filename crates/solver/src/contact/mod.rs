@@ -23,6 +23,7 @@ pub mod segment;
 pub mod tied;
 pub mod obstacle;
 pub mod findings;
+mod boxes;
 pub mod overlap;
 pub mod depths;
 pub mod outline;

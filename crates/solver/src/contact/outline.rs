@@ -9,6 +9,7 @@
 //! the surface there, as beside a corner.
 
 use super::Vector;
+use super::boxes::{Aabb, around, do_meet, joined, longest, meets_ray, square_away};
 use crate::mesh::surface::{NONE, Surface};
 use crate::vector::{dot, minus};
 use robust::{Coord, orient2d};
@@ -98,7 +99,7 @@ pub(super) struct Outline {
     pub(super) body: u32,
     pub(super) sides: Vec<Side>,
     /// The box around each half, and where that of its second half is; the first follows.
-    boxes: Vec<([Vector; 2], u32)>,
+    boxes: Vec<(Aabb<2>, u32)>,
 }
 
 impl Outline {
@@ -132,16 +133,16 @@ impl Outline {
     }
 
     /// The box around all of it.
-    pub(super) fn around(&self) -> [Vector; 2] {
+    pub(super) fn around(&self) -> Aabb<2> {
         self.boxes[0].0
     }
 
     /// Shows the segments of leaves whose boxes count, and those of all boxes around them.
-    fn visit(&self, mut counts: impl FnMut(&[Vector; 2]) -> bool, mut see: impl FnMut(&Side)) {
+    fn visit(&self, mut counts: impl FnMut(&Aabb<2>) -> bool, mut see: impl FnMut(&Side)) {
         self.visit_below(0, &self.sides, &mut counts, &mut see);
     }
 
-    fn visit_below(&self, number: usize, sides: &[Side], counts: &mut impl FnMut(&[Vector; 2]) -> bool, see: &mut impl FnMut(&Side)) {
+    fn visit_below(&self, number: usize, sides: &[Side], counts: &mut impl FnMut(&Aabb<2>) -> bool, see: &mut impl FnMut(&Side)) {
         let (around, second) = &self.boxes[number];
         if !counts(around) {
             return;
@@ -164,7 +165,7 @@ impl Outline {
         let far = std::cell::Cell::new(f64::INFINITY);
         let mut nearest = None;
         self.visit(
-            |around| meets_box(from, inward, *around, far.get()),
+            |around| meets_ray(around, from, inward, far.get()),
             |other| {
                 let [p, q] = other.segment.map(|node| positions[node as usize]);
                 let met = if other.segment == side.segment { None } else { meets(from, inward, p, q) };
@@ -207,7 +208,7 @@ impl Outline {
         let square = std::cell::Cell::new(f64::INFINITY);
         let mut found = None;
         self.visit(
-            |[low, high]| (0..2).map(|d| (low[d] - x[d]).max(x[d] - high[d]).max(0.0)).map(|off| off * off).sum::<f64>() < square.get(),
+            |around| square_away(around, x) < square.get(),
             |side| {
                 let [a, b] = side.segment.map(|node| positions[node as usize]);
                 let (along, off) = (minus(b, a), minus(x, a));
@@ -224,9 +225,9 @@ impl Outline {
 
     /// Adds where along the way from p to q (0 to 1) the outline is crossed.
     pub(super) fn cross(&self, [p, q]: [Vector; 2], positions: &[Vector], places: &mut Vec<f64>) {
-        let (low, high) = ([0, 1].map(|d| p[d].min(q[d])), [0, 1].map(|d| p[d].max(q[d])));
+        let way = around([p, q]);
         self.visit(
-            |around| boxes_meet(around, &[low, high]),
+            |around| do_meet(around, &way),
             |side| {
                 let [a, b] = side.segment.map(|node| positions[node as usize]);
                 let (from, to) = (turn(a, b, p), turn(a, b, q));
@@ -280,14 +281,9 @@ impl Outline {
     /// Its segments near another outline.
     fn near<'a>(&'a self, other: &'a Self, positions: &'a [Vector]) -> impl Iterator<Item = &'a Side> {
         let around = other.around();
-        let is_near = move |side: &&Side| !side.is_mirror && boxes_meet(&box_of(std::slice::from_ref(*side), positions), &around);
+        let is_near = move |side: &&Side| !side.is_mirror && do_meet(&box_of(std::slice::from_ref(*side), positions), &around);
         self.sides.iter().filter(is_near)
     }
-}
-
-/// Whether two boxes meet.
-pub(super) fn boxes_meet(a: &[Vector; 2], b: &[Vector; 2]) -> bool {
-    (0..2).all(|d| a[0][d] <= b[1][d] && b[0][d] <= a[1][d])
 }
 
 /// Twice the area of the triangle a, b, c, with the right sign: positive where c is on the left of a → b.
@@ -301,8 +297,7 @@ fn sort(sides: &mut [Side], positions: &[Vector]) {
     if sides.len() <= LEAF {
         return;
     }
-    let [low, high] = box_of(sides, positions);
-    let axis = usize::from(high[1] - low[1] > high[0] - low[0]);
+    let axis = longest(&box_of(sides, positions));
     let middle = |Side { segment: [a, b], .. }: &Side| positions[*a as usize][axis] + positions[*b as usize][axis];
     sides.sort_by(|a, b| middle(a).total_cmp(&middle(b)).then(a.segment.cmp(&b.segment)));
     let (first, second) = sides.split_at_mut(sides.len() / 2);
@@ -311,7 +306,7 @@ fn sort(sides: &mut [Side], positions: &[Vector]) {
 }
 
 /// Adds the box of segments, then those of both halves; the first.
-fn fit(sides: &[Side], positions: &[Vector], boxes: &mut Vec<([Vector; 2], u32)>) -> [Vector; 2] {
+fn fit(sides: &[Side], positions: &[Vector], boxes: &mut Vec<(Aabb<2>, u32)>) -> Aabb<2> {
     let at = boxes.len();
     boxes.push(([[0.0; 2]; 2], 0));
     if sides.len() > LEAF {
@@ -319,36 +314,15 @@ fn fit(sides: &[Side], positions: &[Vector], boxes: &mut Vec<([Vector; 2], u32)>
         let a = fit(first, positions, boxes);
         boxes[at].1 = boxes.len() as u32;
         let b = fit(second, positions, boxes);
-        boxes[at].0 = [[0, 1].map(|d| a[0][d].min(b[0][d])), [0, 1].map(|d| a[1][d].max(b[1][d]))];
+        boxes[at].0 = joined(a, b);
     } else {
         boxes[at].0 = box_of(sides, positions);
     }
     boxes[at].0
 }
 
-fn box_of(sides: &[Side], positions: &[Vector]) -> [Vector; 2] {
-    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-    for x in sides.iter().flat_map(|side| side.segment).map(|node| positions[node as usize]) {
-        (0..2).for_each(|d| (low[d], high[d]) = (low[d].min(x[d]), high[d].max(x[d])));
-    }
-    [low, high]
-}
-
-/// Whether a ray meets a box before it has gone so far.
-fn meets_box(from: Vector, direction: Vector, [low, high]: [Vector; 2], far: f64) -> bool {
-    let (mut begin, mut end) = (0.0, far);
-    for d in 0..2 {
-        if direction[d] == 0.0 {
-            if from[d] < low[d] || from[d] > high[d] {
-                return false;
-            }
-            continue;
-        }
-        let [s, t] = [low[d], high[d]].map(|bound| (bound - from[d]) / direction[d]);
-        (begin, end) = (s.min(t).max(begin), s.max(t).min(end));
-    }
-    // A flat box counts, whatever rounds.
-    begin <= end * (1.0 + BESIDE)
+fn box_of(sides: &[Side], positions: &[Vector]) -> Aabb<2> {
+    around(sides.iter().flat_map(|side| side.segment).map(|node| positions[node as usize]))
 }
 
 /// Where a ray meets a segment from p to q that it comes to from inside: how far, m, the share of q there, and the cosine between its direction and the normal.

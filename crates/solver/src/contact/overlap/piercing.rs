@@ -6,7 +6,8 @@
 
 use super::predicates::{Point, volume};
 use super::skin::{Facet, Skin};
-use super::tree::{Tree, bounds, do_meet};
+use super::tree::Tree;
+use crate::contact::boxes::{Aabb, around, do_meet};
 use crate::contact::projection::node_facet::Vector;
 use crate::mesh::surface::NONE;
 use crate::tensor::dot;
@@ -41,18 +42,18 @@ pub(super) fn find(skin: &Skin, tree: &Tree, found: &mut Vec<Piercing>) {
     tree.pairs(skin, |first, second| {
         let [a, b] = [first, second].map(|facet| &skin.facets[facet as usize]);
         if skin.may_meet(a, b) {
-            of_edges(skin, a, tree.facet_box(first), b, found);
-            of_edges(skin, b, tree.facet_box(second), a, found);
+            of_edges(skin, a, &tree.boxes[first as usize], b, found);
+            of_edges(skin, b, &tree.boxes[second as usize], a, found);
         }
     });
 }
 
 /// Piercings of the edges of one facet, in its box, through the triangles of another one.
-fn of_edges(skin: &Skin, own: &Facet, own_box: [Vector; 2], other: &Facet, found: &mut Vec<Piercing>) {
+fn of_edges(skin: &Skin, own: &Facet, own_box: &Aabb<3>, other: &Facet, found: &mut Vec<Piercing>) {
     let point = |vertex: u32| -> Point { (vertex, skin.x[vertex as usize]) };
     for triangle in other.triangles() {
         let corners = skin.triangles[triangle as usize];
-        if !do_meet(own_box, bounds(skin, &corners)) {
+        if !do_meet(own_box, &around(skin.corners(triangle))) {
             continue;
         }
         let [a, b, c] = corners.map(point);

@@ -4,6 +4,7 @@
 //! with the searches of contact.
 
 use super::skin::Skin;
+use crate::contact::boxes::{Aabb, around, do_meet, joined, longest, meets_ray, nothing, square_away};
 use crate::contact::projection::node_facet::{Vector, square_to_triangle};
 
 /// Facets of a leaf.
@@ -13,8 +14,7 @@ const MIXED: u32 = u32::MAX;
 
 #[derive(Clone, Copy, Debug)]
 struct Node {
-    low: Vector,
-    high: Vector,
+    around: Aabb<3>,
     /// Children; of a leaf where its facets begin and end in the order, and `is_leaf`.
     first: u32,
     second: u32,
@@ -30,8 +30,8 @@ pub(super) struct Tree {
     /// Root of each body.
     roots: Vec<u32>,
     root: u32,
-    /// Box of each facet, low and high corner, m.
-    boxes: Vec<[Vector; 2]>,
+    /// Box of each facet.
+    pub(super) boxes: Vec<Aabb<3>>,
 }
 
 impl Tree {
@@ -77,14 +77,14 @@ impl Tree {
         if let [only] = numbers {
             return tops[*only];
         }
-        let axis = longest(numbers.iter().map(|&number| at[number]));
+        let axis = longest(&around(numbers.iter().map(|&number| at[number])));
         numbers.sort_by(|&a, &b| at[a][axis].total_cmp(&at[b][axis]));
         let half = numbers.len() / 2;
         let (low, high) = numbers.split_at_mut(half);
         let first = self.join(tops, at, low);
         let second = self.join(tops, at, high);
         let side = self.common_side(first, second);
-        self.push(Node { low: [0.0; 3], high: [0.0; 3], first, second, is_leaf: false, side })
+        self.push(Node { around: nothing(), first, second, is_leaf: false, side })
     }
 
     fn common_side(&self, first: u32, second: u32) -> u32 {
@@ -100,13 +100,12 @@ impl Tree {
     /// The subtree of the facets `order[begin..end]`, all of one body.
     fn grow(&mut self, skin: &Skin, centres: &[Vector], begin: usize, end: usize) -> u32 {
         let facets = &mut self.order[begin..end];
-        let zero = [0.0; 3];
         if facets.len() <= LEAF {
             let sides = facets.iter().map(|&facet| skin.facets[facet as usize].side);
             let side = sides.reduce(|a, b| if a == b { a } else { MIXED }).unwrap_or(MIXED);
-            return self.push(Node { low: zero, high: zero, first: begin as u32, second: end as u32, is_leaf: true, side });
+            return self.push(Node { around: nothing(), first: begin as u32, second: end as u32, is_leaf: true, side });
         }
-        let axis = longest(facets.iter().map(|&facet| centres[facet as usize]));
+        let axis = longest(&around(facets.iter().map(|&facet| centres[facet as usize])));
         let half = facets.len() / 2;
         let key = |&facet: &u32| (centres[facet as usize][axis], facet);
         facets.sort_by(|a, b| {
@@ -116,32 +115,23 @@ impl Tree {
         let first = self.grow(skin, centres, begin, begin + half);
         let second = self.grow(skin, centres, begin + half, end);
         let side = self.common_side(first, second);
-        self.push(Node { low: zero, high: zero, first, second, is_leaf: false, side })
+        self.push(Node { around: nothing(), first, second, is_leaf: false, side })
     }
 
     /// Takes the boxes anew. Children come before their parents.
     pub(super) fn refit(&mut self, skin: &Skin) {
-        self.boxes.clear();
-        self.boxes.extend(skin.facets.iter().map(|facet| bounds(skin, facet.all())));
-        for number in 0..self.nodes.len() {
-            let node = self.nodes[number];
-            let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-            if node.is_leaf {
-                for &facet in &self.order[node.first as usize..node.second as usize] {
-                    let [bottom, top] = self.boxes[facet as usize];
-                    (0..3).for_each(|d| (low[d], high[d]) = (low[d].min(bottom[d]), high[d].max(top[d])));
-                }
+        let Self { nodes, order, boxes, .. } = self;
+        boxes.clear();
+        boxes.extend(skin.facets.iter().map(|facet| around(facet.all().iter().map(|&vertex| skin.x[vertex as usize]))));
+        for number in 0..nodes.len() {
+            let Node { first, second, is_leaf, .. } = nodes[number];
+            nodes[number].around = if is_leaf {
+                let facets = order[first as usize..second as usize].iter();
+                facets.map(|&facet| boxes[facet as usize]).fold(nothing(), joined)
             } else {
-                let [a, b] = [node.first, node.second].map(|child| self.nodes[child as usize]);
-                (0..3).for_each(|d| (low[d], high[d]) = (a.low[d].min(b.low[d]), a.high[d].max(b.high[d])));
-            }
-            (self.nodes[number].low, self.nodes[number].high) = (low, high);
+                joined(nodes[first as usize].around, nodes[second as usize].around)
+            };
         }
-    }
-
-    /// Box of a facet at the last look, m.
-    pub(super) fn facet_box(&self, facet: u32) -> [Vector; 2] {
-        self.boxes[facet as usize]
     }
 
     /// Facets whose boxes meet, each pair once.
@@ -153,7 +143,7 @@ impl Tree {
         while let Some((a, b)) = stack.pop() {
             let (p, q) = (&self.nodes[a as usize], &self.nodes[b as usize]);
             let is_one_side = !skin.meets_itself && p.side == q.side && p.side != MIXED;
-            if is_one_side || !do_meet([p.low, p.high], [q.low, q.high]) {
+            if is_one_side || !do_meet(&p.around, &q.around) {
                 continue;
             }
             match (p.is_leaf, q.is_leaf) {
@@ -161,7 +151,7 @@ impl Tree {
                     for i in p.first..p.second {
                         for j in if a == b { i + 1 } else { q.first }..q.second {
                             let [i, j] = [i, j].map(|at| self.order[at as usize]);
-                            if do_meet(self.boxes[i as usize], self.boxes[j as usize]) {
+                            if do_meet(&self.boxes[i as usize], &self.boxes[j as usize]) {
                                 meet(i, j);
                             }
                         }
@@ -197,16 +187,11 @@ impl Tree {
                 }
                 continue;
             }
-            let [a, b] = [node.first, node.second].map(|child| (child, self.square_to_box(child, x)));
+            let [a, b] = [node.first, node.second].map(|child| (child, square_away(&self.nodes[child as usize].around, x)));
             // The nearer one first: it is on top.
             if a.1 < b.1 { stack.extend([b, a]) } else { stack.extend([a, b]) }
         }
         found
-    }
-
-    fn square_to_box(&self, node: u32, x: Vector) -> f64 {
-        let Node { low, high, .. } = &self.nodes[node as usize];
-        (0..3).map(|d| (low[d] - x[d]).max(x[d] - high[d]).max(0.0)).fold(0.0, |sum, off| sum + off * off)
     }
 
     /// Triangles of a body whose leaves' boxes a ray meets.
@@ -214,19 +199,7 @@ impl Tree {
         let mut stack = vec![self.roots[body as usize]];
         while let Some(number) = stack.pop() {
             let node = &self.nodes[number as usize];
-            let (mut begin, mut end) = (0.0, f64::INFINITY);
-            for d in 0..3 {
-                if direction[d] == 0.0 {
-                    if from[d] < node.low[d] || from[d] > node.high[d] {
-                        end = -1.0;
-                    }
-                    continue;
-                }
-                let [s, t] = [node.low[d], node.high[d]].map(|bound| (bound - from[d]) / direction[d]);
-                (begin, end) = (s.min(t).max(begin), s.max(t).min(end));
-            }
-            // A flat box counts, whatever rounds.
-            if begin > end * (1.0 + 1e-9) {
+            if !meets_ray(&node.around, from, direction, f64::INFINITY) {
                 continue;
             }
             if node.is_leaf {
@@ -240,21 +213,6 @@ impl Tree {
     }
 }
 
-/// Box of vertices, low and high corner, m.
-pub(super) fn bounds(skin: &Skin, vertices: &[u32]) -> [Vector; 2] {
-    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-    for &vertex in vertices {
-        let x = skin.x[vertex as usize];
-        (0..3).for_each(|d| (low[d], high[d]) = (low[d].min(x[d]), high[d].max(x[d])));
-    }
-    [low, high]
-}
-
-/// Whether boxes have a point in common.
-pub(super) fn do_meet([low, high]: [Vector; 2], [bottom, top]: [Vector; 2]) -> bool {
-    (0..3).all(|d| low[d] <= top[d] && bottom[d] <= high[d])
-}
-
 /// Mean of vertices, m.
 fn centre(skin: &Skin, vertices: &[u32]) -> Vector {
     let mut sum = [0.0; 3];
@@ -262,14 +220,4 @@ fn centre(skin: &Skin, vertices: &[u32]) -> Vector {
         (0..3).for_each(|d| sum[d] += skin.x[vertex as usize][d] / vertices.len() as f64);
     }
     sum
-}
-
-/// The axis along which places spread most.
-fn longest(places: impl Iterator<Item = Vector>) -> usize {
-    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-    for x in places {
-        (0..3).for_each(|d| (low[d], high[d]) = (low[d].min(x[d]), high[d].max(x[d])));
-    }
-    let size = |d: usize| high[d] - low[d];
-    (1..3).fold(0, |axis, d| if size(d) > size(axis) { d } else { axis })
 }

@@ -364,7 +364,6 @@ where
         let scene = Scene { sweep, bodies: &self.bodies, time: self.time };
         for contact in &mut self.contacts {
             contact.detect(&scene, &mut self.springs);
-            self.penetration_max = self.penetration_max.max(contact.depth());
         }
         let nodes = nodes!(self, velocities, time_step);
         let update =
@@ -373,6 +372,7 @@ where
         self.contact_forces.clear();
         for contact in &mut self.contacts {
             contact.collect(&self.springs, &mut self.contact_forces, &mut self.bodies, &mut self.traces, time_step);
+            self.penetration_max = self.penetration_max.max(contact.depth());
         }
         if let Some(erosion) = &mut self.erosion {
             erosion.close_springs(|| self.contacts.iter().map(|contact| contact.stored_before(&self.springs)).sum());

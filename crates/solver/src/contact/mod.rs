@@ -27,6 +27,7 @@ mod boxes;
 pub mod overlap;
 pub mod depths;
 pub mod outline;
+mod closed;
 pub mod mirror;
 pub mod traces;
 
@@ -241,7 +242,6 @@ where
         }
         self.found = first..springs.list.len();
         springs.close_group(self.terms);
-        self.penetration = springs.list[self.found.clone()].iter().fold(0.0, |deepest, spring| f64::max(deepest, -spring.gap));
     }
 
     /// Sums up the solved springs: adds their forces to `forces` and `bodies`, and what they did in the update of `time_step` (s) to `traces`.
@@ -254,6 +254,7 @@ where
         time_step: f64,
     ) {
         let answers = springs.answers(self.found.clone());
+        self.penetration = answers.clone().fold(0.0, |deepest, answer| f64::max(deepest, -answer.solved.gap));
         self.totals = answers.clone().collect_into(forces, bodies, traces);
         self.has_pressed |= self.totals.pressing > 0.0;
         self.friction_work += self.totals.lost.friction;
@@ -362,8 +363,8 @@ where
 
     /// Slave nodes that are inside in the last step, with their depth, m.
     pub fn penetrations<'a>(&'a self, springs: &'a Springs<D>) -> impl Iterator<Item = (u32, f64)> + 'a {
-        let inside = springs.list[self.found.clone()].iter().filter(|spring| spring.gap < 0.0);
-        inside.filter_map(|spring| Some((springs.ends(spring).next()?.at, -spring.gap)))
+        let inside = springs.answers(self.found.clone()).filter(|answer| answer.solved.gap < 0.0);
+        inside.filter_map(|answer| Some((answer.ends().next()?.at, -answer.solved.gap)))
     }
 }
 

@@ -12,11 +12,12 @@ pub(super) mod passage;
 pub mod tied;
 pub mod tracker;
 
+use super::closed::Closed;
 use super::edge_edge::{self, Around, EdgeTouch, EdgeTracker};
 use super::findings::Findings;
 use super::initial::{is_ignored, kept};
 use super::law::penalty::stiffening;
-use super::node_segment::{Before, Closed, carried, is_stored};
+use super::node_segment::is_stored;
 use super::overlap::Judge;
 use super::projection::edge_edge::distance;
 use super::projection::node_facet::{Placed, Projection, Vector, unit};
@@ -209,12 +210,6 @@ impl NodeFacet {
         (gap - offset, offset)
     }
 
-    /// What the gap of a spring is moved by so that it goes on, m.
-    fn carried(&self, memory: &Memory, normal: Vector, gap: f64, ends: &[End<3>], scene: &Scene<'_, 3>) -> f64 {
-        let before = Before { half: memory.half, normal: memory.normal, carried: memory.carried };
-        if self.stores { carried(&before, normal, gap, ends, self.reach, scene.sweep, self.has_begun) } else { 0.0 }
-    }
-
     /// Finds the pairs of edges that touch.
     fn track_edges(&mut self, scene: &Scene<'_, 3>, is_searched: bool) {
         let Self { tracker, edges: Some(edges), passes, closed_nodes, .. } = self else { return };
@@ -287,24 +282,22 @@ impl NodeFacet {
         let of_mass = pass.of_mass(slave, target.sharing(facet, rest));
         let (stiffening, side) = (stiffening(thickness, stiffness, of_mass), self.tracker.side(touch.pass));
         let spring = Spring { normal, gap, stiffness, area, stiffening, side, ..Spring::default() };
-        let before = Before { half: memory.half, normal: memory.normal, carried: memory.carried };
-        let steadily = before.steadily(normal, gap, self.reach, self.has_begun);
-        let carried = match steadily {
-            // Nearly all, nearly always.
-            Some(carried) if !self.slips && weights.iter().all(|weight| *weight >= 0.0) => {
-                let carried = if self.stores { carried } else { 0.0 };
-                let corners = target.facets[facet as usize].into_iter().zip(weights);
-                let shares = corners.filter(|(_, weight)| *weight != 0.0).map(|(corner, weight)| (corner, -weight));
-                springs.push_plain(Spring { gap: gap + carried, ..spring }, std::iter::once((node, 1.0)).chain(shares));
-                carried
-            }
-            _ => self.push_whole(&touch, &memory, (spring, rest), scene, (springs, &mut more)),
-        };
+        if !self.slips && weights.iter().all(|weight| *weight >= 0.0) {
+            // Nearly all without friction.
+            let corners = target.facets[facet as usize].into_iter().zip(weights);
+            let shares = corners.filter(|(_, weight)| *weight != 0.0).map(|(corner, weight)| (corner, -weight));
+            springs.push_plain(spring, std::iter::once((node, 1.0)).chain(shares));
+        } else {
+            self.push_whole(&touch, &memory, (spring, rest), scene, (springs, &mut more));
+        }
+        if self.stores && self.has_begun {
+            springs.goes_on(memory.half(), memory.stored);
+        }
         self.more = more;
-        *self.tracker.kept_mut(&touch) = Memory { offset, carried, normal, facet, rest, stored: 0.0, ..memory };
+        *self.tracker.kept_mut(&touch) = Memory { offset, normal, facet, rest, stored: 0.0, ..memory };
     }
 
-    /// The same with slip, rims and gaps that jump: by what its gap was moved, m.
+    /// The same with slip and rims.
     fn push_whole(
         &self,
         touch: &Touch,
@@ -312,22 +305,19 @@ impl NodeFacet {
         (spring, rest): (Spring<3>, [u32; 2]),
         scene: &Scene<'_, 3>,
         (springs, more): (&mut Springs<3>, &mut Vec<End<3>>),
-    ) -> f64 {
+    ) {
         let Projection { normal, facet, .. } = touch.projection;
         let placed = Placed { surface: self.tracker.target(touch.pass), positions: scene.sweep.new };
         if !self.slips {
             let (ends, known) = pushed(&placed, touch.node, &touch.projection);
-            let carried = self.carried(memory, normal, spring.gap, &ends[..known], scene);
-            springs.push(Spring { gap: spring.gap + carried, ..spring }, &ends[..known]);
-            return carried;
+            springs.push(spring, &ends[..known]);
+            return;
         }
         let facets = placed.surface.sharing(facet, rest);
         let tangent = tangent(normal, first_edge(&placed, facet));
         let (ends, known) = ends_with(&placed, (touch.node, &touch.projection), &tangent, facets.clone(), more);
-        let carried = self.carried(memory, normal, spring.gap, &ends[..known], scene);
         let slip = cone::carried(slip(&placed, memory.slip, facets, scene.sweep), Dim::<3>::tangents(normal, &tangent));
-        springs.push_with(Spring { gap: spring.gap + carried, slip, tangent, ..spring }, ends[..known].iter().chain(&*more));
-        carried
+        springs.push_with(Spring { slip, tangent, ..spring }, ends[..known].iter().chain(&*more));
     }
 
     /// The spring of edges that touch; the energy that it had, J.
@@ -340,15 +330,17 @@ impl NodeFacet {
         let tangent = edge_edge::tangent(touch, positions);
         let ends = edge_edge::ends(touch, tangent, positions);
         let (gap, offset) = self.beyond(self.edge_gap(touch), touch.own, &pair.memory);
-        let carried = self.carried(&pair.memory, normal, gap, &ends, scene);
         // It turns with both edges alike: which is the first says nothing.
         let turn = || spin::turn(touch.nodes.iter().map(|nodes| &nodes[..]), scene.sweep);
         let slip = if pair.memory.slip == [0.0; 3] { [0.0; 3] } else { spin::turned(pair.memory.slip, turn()) };
         let slip = cone::carried(slip, Dim::<3>::tangents(normal, &tangent));
         let (stiffness, area, stiffening) = (pair.stiffness, pair.area, pair.stiffening);
-        springs.push(Spring { normal, gap: gap + carried, stiffness, area, stiffening, side, slip, tangent, ..Spring::default() }, &ends);
+        springs.push(Spring { normal, gap, stiffness, area, stiffening, side, slip, tangent, ..Spring::default() }, &ends);
+        if self.stores && self.has_begun {
+            springs.goes_on(pair.memory.half(), pair.memory.stored);
+        }
         if let Some(edges) = &mut self.edges {
-            edges.kept_mut(touch).memory = Memory { offset, carried, normal, facet: touch.edges[1], stored: 0.0, ..pair.memory };
+            edges.kept_mut(touch).memory = Memory { offset, normal, facet: touch.edges[1], stored: 0.0, ..pair.memory };
         }
         pair.memory.stored
     }
@@ -396,7 +388,7 @@ impl NodeFacet {
             again.add(self.push_edges(at, scene, springs));
         }
         if let Some(judge) = &self.judge {
-            judge.nets().for_each(|(spring, ends)| springs.push(spring, &ends));
+            judge.push_nets(springs, |stored| again.add(stored));
         }
         self.let_go = self.closed.less(&again);
         self.has_begun = true;
@@ -409,19 +401,20 @@ impl Formulation<3> for NodeFacet {
     }
 
     fn remember(&mut self, solved: Answers<'_, 3>) {
+        let (nodes, count) = (self.used.len(), self.edges.as_ref().map_or(0, |edges| edges.touches().len()));
+        self.closed = Closed::default();
         if let Some(judge) = &mut self.judge {
+            judge.note_nets(solved.part(nodes + count, usize::MAX), |stored| self.closed.add(stored));
             judge.weigh(&solved);
         }
-        self.closed = Closed::default();
-        let (nodes, count) = (self.used.len(), self.edges.as_ref().map_or(0, |edges| edges.touches().len()));
-        let (nodes, edges) = (solved.clone().part(0, nodes), solved.part(nodes, nodes + count));
+        let (nodes, edges) = (solved.part(0, nodes), solved.part(nodes, nodes + count));
         let (stores, slips, reach, closed) = (self.stores, self.slips, self.reach, &mut self.closed);
         let mut note = |memory: &mut Memory, answer: &Answer<'_, 3>| {
             if slips {
                 let ([first, second], [a, b]) = (answer.spring.tangents(), answer.solved.slip_new);
                 memory.slip = [0, 1, 2].map(|d| a * first[d] + b * second[d]);
             }
-            memory.half = answer.gap_new();
+            (memory.half, memory.carried) = (answer.gap_new(), answer.solved.gap - answer.spring.gap);
             if stores && memory.half < reach {
                 memory.stored = answer.stored_new();
                 closed.add(memory.stored);

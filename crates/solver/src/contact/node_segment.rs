@@ -4,6 +4,7 @@
 
 mod fold;
 
+use super::closed::Closed;
 use super::depths::Depths;
 use super::findings::Findings;
 use super::formulation::{FormulationKind, Setup, both_passes, one_pass};
@@ -12,13 +13,10 @@ use super::law::penalty::stiffening;
 use super::projection::node_segment::{Projection, Target};
 use super::springs::{Answers, End, Spring, Springs, tangent};
 use super::tracker::{Certificate, Memory, SearchReport, Touch, Tracker, is_facing};
-use super::{Formulation, Scene, Sweep, Vector};
-use crate::archive::{Archive, Kept, keep_all, keep_each};
+use super::{Formulation, Scene, Vector};
+use crate::archive::{Archive, Kept, keep_each};
 use crate::mesh::surface::NONE;
 use crate::model;
-use crate::motion::Motion;
-use crate::tensor::Dim;
-use crate::vector::dot;
 use fold::{other_at_node, turn_with_both};
 use std::any::Any;
 
@@ -64,30 +62,6 @@ pub struct NodeSegment {
     let_go: f64,
     /// How deep nodes are against the local thickness.
     depths: Depths,
-}
-
-/// How many springs are closed, and their energy, J/m.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Closed {
-    count: u32,
-    energy: f64,
-}
-
-keep_all!(Closed { count, energy });
-
-impl Closed {
-    /// Adds a spring.
-    pub(super) fn add(&mut self, stored: f64) {
-        if stored > 0.0 {
-            self.count += 1;
-            self.energy += stored;
-        }
-    }
-
-    /// What is missing in `now`, J/m: where nothing is, sums that were added up in another order differ by round-off.
-    pub(super) fn less(&self, now: &Self) -> f64 {
-        if self.count > now.count { (self.energy - now.energy).max(0.0) } else { 0.0 }
-    }
 }
 
 /// What a pass knows of its nodes and segments.
@@ -270,15 +244,16 @@ impl NodeSegment {
             if touch.slope != 0.0 {
                 lean(&mut ends, &touch, scene.sweep.new);
             }
-            let carried =
-                if self.stores { carried(&memory.before(), normal, gap, &ends, self.reach, scene.sweep, self.has_begun) } else { 0.0 };
-            let (side, slip, gap) = (self.tracker.side(touch.pass), memory.slip, gap + carried);
+            let (side, slip) = (self.tracker.side(touch.pass), memory.slip);
             let spring = Spring { normal, gap, stiffness, area, stiffening, side, slip: [slip], ..Spring::default() };
             match other.filter(|_| self.slips).map(|other| turn_with_both(&mut ends, &touch.projection, other, target, scene.sweep.new)) {
                 None => springs.push(spring, &ends),
                 Some(more) => springs.push_with(spring, ends.iter().chain([&more])),
             }
-            *self.tracker.kept_mut(&touch) = Memory { offset, faces, carried, normal, stored: 0.0, ..memory };
+            if self.stores && self.has_begun {
+                springs.goes_on(memory.half(), memory.stored);
+            }
+            *self.tracker.kept_mut(&touch) = Memory { offset, faces, normal, stored: 0.0, ..memory };
             self.used.push(index as u32);
         }
         self.depths.end();
@@ -386,96 +361,6 @@ pub fn segment_ends([a, b]: [u32; 2], projection: &Projection, arm: f64, positio
     [end(a, wa, -1.0), end(b, wb, 1.0)]
 }
 
-/// Cosine of the angle by which the normal of a spring may turn within a step before its gap is carried over.
-const TURNED: f64 = 0.87;
-/// Cosine beyond which it is the same stretch of surface for certain.
-const STEADY: f64 = 0.999;
-/// Fraction of the way that its ends go past each other in a step by which a gap may begin elsewhere than it ended before it is carried over: what a turn by some fifteen degrees makes.
-const JUMPED: f64 = 0.25;
-
-/// By how much a spring's gap is moved (m), so that it begins at n − ½ where it ended in the step before, though its normal or its depth jumped: from face to face of a corner, or to another
-/// stretch of the surface. `open` is the gap from which on the law does not push.
-///
-/// At a corner the gap itself goes on, its rate does not: g^{n−½} = g^n − ½ dt ġ^{n−½} would begin elsewhere, by up to what the node goes in half a step, and a spring that is not much deeper
-/// than that would lose or gain any multiple of its energy. Where a surface folds, a node is near another stretch of it from one step to the next, and deep inside that. What it was moved by
-/// stays for as long as it pushes, and then goes as the surfaces part.
-pub(super) fn carried<const D: usize>(
-    before: &Before<D>,
-    normal: [f64; D],
-    gap: f64,
-    ends: &[End<D>],
-    open: f64,
-    sweep: Sweep<'_, D>,
-    has_begun: bool,
-) -> f64
-where
-    Dim<D>: Motion<D>,
-{
-    if let Some(carried) = before.steadily(normal, gap, open, has_begun) {
-        return carried;
-    }
-    let (is_new, cosine, stays) = (before.is_new(), dot(before.normal, normal), before.stays(open));
-    let (half, carried) = (before.half(open), before.carried);
-    let (mut way, mut relative) = (0.0, [0.0; D]);
-    for end in ends {
-        let [old, new] = [sweep.old, sweep.new].map(|positions| positions[end.at as usize]);
-        for d in 0..D {
-            way += (end.share * normal[d] + end.lean[d]) * (new[d] - old[d]);
-            relative[d] += end.share * (new[d] - old[d]);
-        }
-    }
-    let begins = gap - 0.5 * way;
-    let jump = (begins + carried).min(open) - half.min(open);
-    // What is new may have come in within the step.
-    let least = if is_new { 1.0 } else { JUMPED };
-    let square = (1..D).fold(relative[0] * relative[0], |sum, d| sum + relative[d] * relative[d]);
-    let has_jumped = jump.abs() > least * square.sqrt();
-    if (is_new || cosine >= TURNED) && !has_jumped && stays {
-        return carried;
-    }
-    if half < open { half - begins } else { (open - begins).max(0.0) }
-}
-
-/// Where a spring was in the step before.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Before<const D: usize> {
-    /// Its gap at n − ½, m.
-    pub(super) half: f64,
-    /// Its normal; zero: there was none.
-    pub(super) normal: [f64; D],
-    /// What its gap was moved by, m.
-    pub(super) carried: f64,
-}
-
-impl<const D: usize> Before<D> {
-    fn is_new(&self) -> bool {
-        self.normal == [0.0; D]
-    }
-
-    /// Where its gap was; of what is new it was `open`.
-    fn half(&self, open: f64) -> f64 {
-        if self.is_new() { open } else { self.half }
-    }
-
-    fn stays(&self, open: f64) -> bool {
-        self.carried == 0.0 || self.half(open) < open
-    }
-
-    /// What [`carried`] finds where neither gap nor normal have jumped, as in nearly every step; `None`: it must look.
-    pub(super) fn steadily(&self, normal: [f64; D], gap: f64, open: f64, has_begun: bool) -> Option<f64> {
-        if self.is_new() && (gap >= open || !has_begun) {
-            return Some(0.0);
-        }
-        (dot(self.normal, normal) > STEADY && self.stays(open)).then_some(self.carried)
-    }
-}
-
-impl Memory {
-    fn before(&self) -> Before<2> {
-        Before { half: self.half, normal: self.normal, carried: self.carried }
-    }
-}
-
 /// Adds to the rows of the gap those of what the face has fallen off at a distance d beyond its end, φ(d), with the slope φ'.
 ///
 /// d = ± t·(x − C) with the segment's direction t and its nearer end C, so dd = ± [t·(dx − dC) + h n·(dx_C2 − dx_C1) / L] with the height h of the node over the segment's line. The
@@ -548,26 +433,5 @@ mod tests {
                 .sum();
             assert!(spin.abs() < 1e-14, "{x:?}: {spin}");
         }
-    }
-
-    #[test]
-    fn a_gap_that_jumps_begins_where_it_ended_and_one_that_goes_on_is_left_alone() {
-        // The node goes down by 0.02 in the step, half of it after n − ½.
-        let (old, new) = ([[0.5, 0.03], [0.0, 0.0], [1.0, 0.0]], [[0.5, 0.01], [0.0, 0.0], [1.0, 0.0]]);
-        let sweep = Sweep::between(&old, &new);
-        let ends = [End::node(0, 1.0), End::node(1, -0.5), End::node(2, -0.5)];
-        let (up, aside) = ([0.0, 1.0], [0.1, (1.0f64 - 0.01).sqrt()]);
-        let of =
-            |half: f64, before: Vector, gap: f64| carried(&Before { half, normal: before, carried: 0.0 }, up, gap, &ends, 0.0, sweep, true);
-        assert_eq!(of(-0.5, up, -0.9), 0.0, "the normal stayed: so did the surface");
-        assert_eq!(of(-0.01, aside, -0.022), 0.0, "off by no more than a turn makes");
-        assert!((of(-0.01, aside, -0.9) - (-0.01 + 0.89)).abs() < 1e-15, "another stretch, and deep in it");
-        assert!((of(0.3, aside, -0.9) - 0.89).abs() < 1e-15, "it was open");
-        assert_eq!(of(0.3, aside, 0.2), 0.0, "and is");
-        // A spring that was not there.
-        assert_eq!(of(0.0, [0.0; 2], -0.02), 0.0, "what came in within the step");
-        assert!((of(0.0, [0.0; 2], -0.9) - 0.89).abs() < 1e-15, "what can't have");
-        let at_start = carried(&Memory::default().before(), up, -0.9, &ends, 0.0, sweep, false);
-        assert_eq!(at_start, 0.0, "at the start the model has decided");
     }
 }

@@ -186,7 +186,7 @@ where
             let status = if solved.force == 0.0 { 0.0 } else { 1.0 + f64::from(u8::from(solved.slides)) };
             for end in springs.ends(spring) {
                 if let Some((gap, share, most)) = sums.get_mut(end.at as usize) {
-                    *gap += end.share.abs() * spring.gap;
+                    *gap += end.share.abs() * solved.gap;
                     *share += end.share.abs();
                     if end.share != 0.0 {
                         *most = most.max(status);

@@ -162,9 +162,10 @@ fn squeezed_ball(low: f64, interface: Interface) -> Model {
 
 #[test]
 fn a_quarter_of_a_ball_between_slabs_does_what_the_whole_does() {
-    for interface in [Interface::default(), rough(0.3), layer()] {
+    // Between soft layers the whole ball, which nothing holds, can tip: what rounding makes of that grows tenfold in 0.1 ms, from 1e-14 m at 0.2 ms on.
+    for (interface, way) in [(Interface::default(), 1e-12), (rough(0.3), 1e-12), (layer(), 1e-11)] {
         let case = format!("{:?} {}", interface.law, interface.friction.is_some());
-        let [whole, part] = compare(&squeezed_ball(-1.0, interface.clone()), &squeezed_ball(0.0, interface), 4.0, [1e-12, 1e-9], &case);
+        let [whole, part] = compare(&squeezed_ball(-1.0, interface.clone()), &squeezed_ball(0.0, interface), 4.0, [way, 1e-9], &case);
         let squeezed = [&whole, &part].map(|simulation| value(simulation, "energy.internal"));
         assert!(squeezed[1] > 0.0 && (squeezed[0] / squeezed[1] - 4.0).abs() < 1e-6, "{case}: {squeezed:?}");
     }

@@ -16,6 +16,7 @@ mod certificate_in_space;
 mod chaboche;
 mod conditions;
 mod contact;
+mod corners;
 mod discrete;
 mod discrete_in_space;
 mod edge_edge;

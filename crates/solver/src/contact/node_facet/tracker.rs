@@ -60,7 +60,7 @@ pub struct Memory {
     pub half: f64,
     /// Its normal in the step before; zero: it had none.
     pub normal: Vector,
-    /// What the gap had to be moved by so that it went on, m.
+    /// By how much that was less deep than the surfaces at n − 1, m.
     pub carried: f64,
     /// Energy of its spring at n − ½, J.
     pub stored: f64,
@@ -85,6 +85,14 @@ impl Default for Memory {
             side: none,
             is_led: false,
         }
+    }
+}
+
+impl Memory {
+    /// Where its spring's gap was at n − ½, m; infinite: there was no spring.
+    #[must_use]
+    pub fn half(&self) -> f64 {
+        if self.normal == [0.0; 3] { f64::INFINITY } else { self.half }
     }
 }
 

@@ -87,9 +87,12 @@ struct Known {
     depth: f64,
     area: f64,
     thick: f64,
+    /// Gap (m) and energy (J) of the net at n − ½; infinite: there was none.
+    half: f64,
+    stored: f64,
 }
 
-keep_all!(Known { bodies, began, size, size_before, volume, before, ratio, thickness, offset, is_loose, depth, area, thick });
+keep_all!(Known { bodies, began, size, size_before, volume, before, ratio, thickness, offset, is_loose, depth, area, thick, half, stored });
 
 /// The judge of one contact.
 pub struct Judge {
@@ -285,11 +288,14 @@ impl Judge {
                 known.depth += share * parent.area * parent.depth;
                 known.area += share * parent.area;
                 if parent.area > 0.0 {
+                    known.half += share * parent.area * parent.half;
+                    known.stored += share * parent.stored;
                     known.thick = if known.thick > 0.0 { known.thick.min(parent.thick) } else { parent.thick };
                 }
                 known.is_loose |= parent.is_loose;
             }
-            known.depth = if known.area > 0.0 { known.depth / known.area } else { 0.0 };
+            (known.depth, known.half) =
+                if known.area > 0.0 { (known.depth / known.area, known.half / known.area) } else { (0.0, f64::INFINITY) };
             known
         };
         self.known = self.regions.iter().zip(&parents).map(of).collect();

@@ -5,11 +5,12 @@
 //! of nodes, edges and faces that touch, and its rows −(∂V/∂x)/A add up to nothing, so the net has no hand-over, needs no normal, and keeps
 //! both momenta. It begins without force, so it brings no
 //! energy, and resists whatever makes the overlap larger, combs of edges and folded nodes included. Regions that merge or part share A by
-//! their volumes, and the depth is the mean.
+//! their volumes, and the depth is the mean. From step to step a net goes on where it ended, as other springs do: its rows are those of
+//! the volume at a step, which bends in between.
 
 use super::super::law::penalty::stiffening;
 use super::super::projection::node_facet::unit;
-use super::super::springs::{End, Spring};
+use super::super::springs::{Answers, End, Spring, Springs};
 use super::{CAST, DIRECTED, Judge, Vector};
 use crate::vector::length;
 
@@ -46,29 +47,54 @@ impl Judge {
         } else if known.ratio > CAST || known.is_loose {
             (known.area, known.depth) = (length(region.area).max(DIRECTED * region.size), 0.0);
             known.thick = known.thickness;
+            (known.half, known.stored) = (f64::INFINITY, 0.0);
         }
     }
 
-    /// The springs of the nets in this step.
-    pub(in crate::contact) fn nets(&self) -> impl Iterator<Item = (Spring<3>, Vec<End<3>>)> + '_ {
-        let are_new = if self.has_looked { &self.known[..] } else { &[] };
-        let cast = self.regions.iter().zip(are_new).filter(|(_, known)| known.area > 0.0);
-        cast.filter_map(|(region, known)| {
-            let [modulus, of_mass] = self.modulus(region)?;
-            let row = |&(vertex, row): &(u32, Vector)| {
-                let lean = row.map(|c| -c / known.area);
-                End { lean, ..End::node(self.skin.nodes[vertex as usize], 0.0) }
-            };
-            let spring = Spring {
-                normal: unit(region.area),
-                gap: -known.depth,
-                stiffness: modulus * known.area,
-                area: known.area,
-                stiffening: stiffening(known.thick, modulus, of_mass),
-                ..Spring::default()
-            };
-            Some((spring, region.gradient.iter().map(row).collect()))
-        })
+    /// Numbers of the regions that have a net in this step.
+    fn netted(&self) -> impl Iterator<Item = usize> + '_ {
+        let known = if self.has_looked { &self.known[..] } else { &[] };
+        (0..known.len()).filter(|&number| known[number].area > 0.0 && self.modulus(&self.regions[number]).is_some())
+    }
+
+    /// Adds the springs of the nets in this step, each where it ended in the step before; `found` gets the energy that each had there, J.
+    pub(in crate::contact) fn push_nets(&self, springs: &mut Springs<3>, mut found: impl FnMut(f64)) {
+        for number in self.netted() {
+            let known = &self.known[number];
+            let Some((spring, ends)) = self.net(number) else { continue };
+            springs.push(spring, &ends);
+            springs.goes_on(known.half, known.stored);
+            found(known.stored);
+        }
+    }
+
+    /// Notes where the nets of this step ended; `store` gets the energy of each, J.
+    pub(in crate::contact) fn note_nets(&mut self, solved: Answers<'_, 3>, mut store: impl FnMut(f64)) {
+        let numbers: Vec<usize> = self.netted().collect();
+        for (number, answer) in numbers.into_iter().zip(solved) {
+            let known = &mut self.known[number];
+            (known.half, known.stored) = (answer.gap_new(), answer.stored_new());
+            store(known.stored);
+        }
+    }
+
+    /// The spring of the net of a region.
+    fn net(&self, number: usize) -> Option<(Spring<3>, Vec<End<3>>)> {
+        let (region, known) = (&self.regions[number], &self.known[number]);
+        let [modulus, of_mass] = self.modulus(region)?;
+        let row = |&(vertex, row): &(u32, Vector)| {
+            let lean = row.map(|c| -c / known.area);
+            End { lean, ..End::node(self.skin.nodes[vertex as usize], 0.0) }
+        };
+        let spring = Spring {
+            normal: unit(region.area),
+            gap: -known.depth,
+            stiffness: modulus * known.area,
+            area: known.area,
+            stiffening: stiffening(known.thick, modulus, of_mass),
+            ..Spring::default()
+        };
+        Some((spring, region.gradient.iter().map(row).collect()))
     }
 
     /// Pressure stiffness of the softer side of a region, of its elements and by its mass, the mean of its nodes there, Pa/m.

@@ -1,6 +1,7 @@
 //! Regions against closed forms, differences and turned copies of themselves.
 
 use super::*;
+use crate::contact::springs::Springs;
 use crate::mesh::surface::SpaceSurface;
 use proptest::prelude::*;
 
@@ -207,7 +208,10 @@ proptest! {
             *x = [0, 1, 2].map(|d| x[d] + by[d] + noise * random());
         }
         look(&mut judge, &nodes);
-        for (_, ends) in judge.nets() {
+        let mut springs = Springs::default();
+        judge.push_nets(&mut springs, |_| ());
+        for spring in &springs.list {
+            let ends: Vec<_> = springs.ends(spring).collect();
             let (mut sum, mut moment, mut size) = ([0.0; 3], [0.0; 3], 0.0);
             for end in &ends {
                 let turned = cross(nodes[end.at as usize], end.lean);

@@ -83,13 +83,13 @@ where
     /// g^{n−½}, m.
     #[must_use]
     pub fn gap_old(&self) -> f64 {
-        self.spring.gap - 0.5 * self.time_steps()[0] * self.solved.rates[0]
+        self.solved.gap - 0.5 * self.time_steps()[0] * self.solved.rates[0]
     }
 
     /// g^{n+½}, m.
     #[must_use]
     pub fn gap_new(&self) -> f64 {
-        self.spring.gap + 0.5 * self.time_steps()[1] * self.solved.rates[1]
+        self.solved.gap + 0.5 * self.time_steps()[1] * self.solved.rates[1]
     }
 
     /// Energy of the gap at n + ½, J/m.

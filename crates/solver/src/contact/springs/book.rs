@@ -43,7 +43,7 @@ where
             true if terms.damping == 0.0 => solved.force,
             true => terms.law.mean_force(&patch, gap_old, gap_new),
         };
-        let bend = gap_new + gap_old - 2.0 * spring.gap;
+        let bend = gap_new + gap_old - 2.0 * solved.gap;
         let rate_mean = 0.5 * (rate_old + rate);
         let slip_mean = Dim::<D>::along(|a| 0.5 * (slip_rate_old[a] + slip_rate[a]));
         let inelastic = solved.force - elastic;

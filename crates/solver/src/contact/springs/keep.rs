@@ -22,8 +22,8 @@ where
     Dim<D>: Motion<D>,
 {
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
-        let Self { force, friction, slip_new, slides, rates, slip_rates } = self;
-        keep_each!(archive; force, friction, slip_new, slides, rates, slip_rates);
+        let Self { gap, force, friction, slip_new, slides, rates, slip_rates } = self;
+        keep_each!(archive; gap, force, friction, slip_new, slides, rates, slip_rates);
         Ok(())
     }
 }

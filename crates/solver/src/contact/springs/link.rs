@@ -6,7 +6,8 @@
 use super::couple::{Couplings, Forces};
 use super::ends::Ends;
 use super::islands::NONE;
-use super::{Along, End, Mover, Movers, Spring, Tangential, Update, sum_along};
+use super::{Along, End, Mover, Movers, Spring, Tangential, Terms, Update, sum_along};
+use crate::contact::law::Law;
 use crate::motion::Motion;
 use crate::tensor::Dim;
 use std::ops::Range;
@@ -117,6 +118,8 @@ where
     /// What its own forces do to its rates, arm by arm: the gap's per normal force, either per the other, the slips' per friction.
     pub(super) own: <Dim<D> as Motion<D>>::Symmetric,
     pub(super) is_at_hub: bool,
+    /// g^n, g^{n−½}.
+    pub(super) gap: f64,
     pub(super) gap_old: f64,
     /// g^{n+½} without any force.
     pub(super) gap_free: f64,
@@ -141,7 +144,7 @@ where
         let (own, [slip_rate_old, slip_rate_free, slip_new]) = Default::default();
         #[rustfmt::skip]
         let link = Self {
-            spring, first, own, slip_rate_old, slip_rate_free, slip_new, count: 0, compliance: 0.0, is_at_hub: false, gap_old: 0.0, gap_free: 0.0, rate_old: 0.0, rate_free: 0.0,
+            spring, first, own, slip_rate_old, slip_rate_free, slip_new, count: 0, compliance: 0.0, is_at_hub: false, gap: 0.0, gap_old: 0.0, gap_free: 0.0, rate_old: 0.0, rate_free: 0.0,
             lent: [0.0; 2], centre: [0.0; D], slides: false,
         };
         link
@@ -170,6 +173,8 @@ where
     Dim<D>: Motion<D>,
 {
     pub(super) list: &'a [Spring<D>],
+    /// Where springs ended; see [`super::Springs::goes_on`].
+    pub(super) ended: &'a [[f64; 2]],
     pub(super) ends: &'a Ends<D>,
     /// Place of each end.
     pub(super) places: &'a [u32],
@@ -225,8 +230,8 @@ where
     Dim<D>: Motion<D>,
 {
     /// Adds the link of a spring, with its arms and the slots that come with it.
-    pub(super) fn link(&self, number: u32, tangential: Tangential, bench: &mut Bench<D>) {
-        let spring = &self.list[number as usize];
+    pub(super) fn link(&self, number: u32, terms: &Terms, bench: &mut Bench<D>) {
+        let (spring, tangential) = (&self.list[number as usize], terms.tangential);
         let [before, after] = self.update.time_steps;
         let has_slip = !matches!(tangential, Tangential::Free);
         let tangents = if has_slip { spring.tangents() } else { Default::default() };
@@ -274,8 +279,16 @@ where
             link.count += 1;
         }
         link.compliance = 0.5 * after * link.own[0];
-        link.gap_old = spring.gap - 0.5 * before * link.rate_old;
-        link.gap_free = spring.gap + 0.5 * after * link.rate_free;
+        let begins = spring.gap - 0.5 * before * link.rate_old;
+        (link.gap, link.gap_old) = match self.ended.get(number as usize) {
+            Some(&[half, stored]) if !half.is_nan() => {
+                let open = terms.law.reach();
+                let old = if half < open { gap_of(terms.law.as_ref(), spring, half, stored) } else { begins.max(open) };
+                (old + 0.5 * before * link.rate_old, old)
+            }
+            _ => (spring.gap, begins),
+        };
+        link.gap_free = link.gap + 0.5 * after * link.rate_free;
         bench.links.push(link);
     }
 
@@ -298,4 +311,20 @@ where
         }
         &bench.movables[slot as usize]
     }
+}
+
+/// The gap at which a spring stores what it had at the gap `half` (m): elsewhere if it is as stiff as another face now. Newton's iteration; energies are convex.
+fn gap_of<const D: usize>(law: &dyn Law, spring: &Spring<D>, half: f64, stored: f64) -> f64
+where
+    Dim<D>: Motion<D>,
+{
+    let (patch, mut gap) = (spring.patch(), half);
+    for _ in 0..50 {
+        let (more, force) = (law.stored(&patch, gap) - stored, law.mean_force(&patch, gap, gap));
+        if !(more.abs() > 4.0 * f64::EPSILON * stored && force > 0.0) {
+            break;
+        }
+        gap += more / force;
+    }
+    gap
 }

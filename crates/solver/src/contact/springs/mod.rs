@@ -13,6 +13,12 @@
 //! Stability: while a linear spring is closed, F = −k (g^{n−1} + 2 g^n + g^{n+1})/4, so it adds k to the stiffness and k dt²/4 to the mass:
 //! (K + k) dt² ≤ 4 (M + k dt²/4) holds exactly if K dt² ≤ 4 M. The stable step of the elements alone is the stable step with contact.
 //!
+//! The gap of a spring is that of the surfaces when it closes, and from then on the integral of its rate ([`Springs::goes_on`]): a step begins at n − ½ where the one before ended, with the
+//! energy that is stored there. On a plane both are the same number. On a curved surface the gap of the surfaces less ½ dt ġ is elsewhere by the error of the trapezoidal rule, some dt² times the
+//! curvature times the square of the sliding velocity; at a corner of the angle θ by up to θ times what a node slides in half a step; in a fold by any depth. A spring that began there would
+//! gain or lose what it stores in between, at each corner, and one that is no deeper than that any multiple of what it has. What lies between both gaps has either sign, no preferred one, and is
+//! gone when the surfaces have parted.
+//!
 //! g^{n+½} depends on F itself and on the other springs at the same nodes. Springs that share none are in different `islands`; those of one are swept over in their fixed order
 //! (`relax`: Gauss-Seidel, normal force and friction in turn) until no force changes, and where that is slow, Newton's step predicts the forces (`newton`, `skyline`). Pair forces
 //! keep both momenta exactly at any time. `solve` leads through the step, `link` has what springs act on, `couple` what they do to each other, `book` the energies, `answers` what contacts are told. Laws of the normal force are in [`super::law`],
@@ -54,7 +60,7 @@ where
 {
     /// Unit vector.
     pub normal: [f64; D],
-    /// g^n, m.
+    /// Gap of the surfaces at n, m; of the spring that closes there g^n.
     pub gap: f64,
     /// k, N/m per metre of depth, of laws that have one.
     pub stiffness: f64,
@@ -175,6 +181,8 @@ pub struct Solved<const D: usize = 2>
 where
     Dim<D>: Motion<D>,
 {
+    /// g^n, m.
+    pub gap: f64,
     /// F, N/m.
     pub force: f64,
     /// T, N/m: friction along each tangent.
@@ -331,6 +339,8 @@ where
     /// In the order in which contacts and obstacles found them.
     pub list: Vec<Spring<D>>,
     ends: Ends<D>,
+    /// Gap (m) and energy (J/m) of each spring at the end of the step before, as far as any goes on; no number: it does not.
+    ended: Vec<[f64; 2]>,
     /// What acts in springs, by number.
     pub terms: Vec<Terms>,
     /// Terms of each spring.
@@ -440,6 +450,7 @@ where
     pub fn clear(&mut self) {
         self.list.clear();
         self.ends.clear();
+        self.ended.clear();
         self.terms_of.clear();
     }
 
@@ -463,6 +474,13 @@ where
         let first = self.ends.len();
         self.ends.extend(shares);
         self.list.push(Spring { first, count: self.ends.len() - first, ..spring });
+    }
+
+    /// Lets the spring that was pushed last begin where it ended in the step before, at the gap `half` (m) with the energy `stored` (J/m); if it was open there, without energy.
+    #[inline]
+    pub fn goes_on(&mut self, half: f64, stored: f64) {
+        self.ended.resize(self.list.len() - 1, [f64::NAN; 2]);
+        self.ended.push([half, stored]);
     }
 
     /// Ends the springs of a contact: what was pushed since the last group follows the terms number `terms`.

@@ -7,7 +7,7 @@ use super::couple::{Couplings, Forces, Rates};
 use super::friction::{Slid, Stick};
 use super::link::{Arm, Link, Row, Slips, Slot};
 use super::newton::Newton;
-use super::{Along, Closing, Solved, Spring, Tangential, Terms};
+use super::{Along, Closing, Patch, Solved, Spring, Tangential, Terms};
 use crate::contact::law;
 use crate::motion::Motion;
 use crate::tensor::Dim;
@@ -132,8 +132,8 @@ where
         // All springs, then those that push until they agree, then all again: open ones are only looked at.
         let mut all = self.sweep_all();
         let mut pace = Pace { sweeps: 1, ..Pace::default() };
-        // A spring alone without friction is solved by its law.
-        if self.links.len() == 1 && matches!(self.terms_of(0).tangential, Tangential::Free) {
+        // A spring alone without friction is solved by its law, unless it acts on a body at several places, of which each feels what the others do.
+        if self.links.len() == 1 && !self.links[0].is_at_hub && matches!(self.terms_of(0).tangential, Tangential::Free) {
             return pace.effort();
         }
         loop {
@@ -328,7 +328,7 @@ where
     #[inline]
     pub(super) fn normal_force(&self, i: usize, free: f64) -> f64 {
         let (link, terms) = (&self.links[i], self.terms_of(i));
-        let spring = &self.list[link.spring as usize].patch();
+        let spring = &Patch { gap: link.gap, ..self.list[link.spring as usize].patch() };
         let closing =
             Closing { spring, old: link.gap_old, free: free - link.lent[0] * link.centre[0], compliance: link.compliance + link.lent[0] };
         if terms.damping > 0.0 {
@@ -390,8 +390,8 @@ where
             let slip_rate = Dim::<D>::along(|a| if is_free { 0.0 } else { link.slip_rate_free[a] + (others[a + 1] + own(a + 1)) });
             let (force, friction) = (forces[0], Dim::<D>::along(|a| forces[a + 1]));
             let slides = if is_free { force != 0.0 } else { link.slides };
-            let Link { slip_new, rate_old, slip_rate_old, .. } = *link;
-            *solved = Solved { force, friction, slip_new, slides, rates: [rate_old, rate], slip_rates: [slip_rate_old, slip_rate] };
+            let Link { gap, slip_new, rate_old, slip_rate_old, .. } = *link;
+            *solved = Solved { gap, force, friction, slip_new, slides, rates: [rate_old, rate], slip_rates: [slip_rate_old, slip_rate] };
         }
     }
 }

@@ -151,7 +151,7 @@ where
             desks.resize_with(count, Desk::default);
         }
         desks.iter_mut().for_each(|desk| desk.effort = Effort::default());
-        let joints = Joints { list: &self.list, ends: &self.ends, places, at, slots, update };
+        let joints = Joints { list: &self.list, ended: &self.ended, ends: &self.ends, places, at, slots, update };
         let plan = Plan { joints, islands, chunks, terms: &self.terms, terms_of: &self.terms_of };
         if parallel {
             plan.solve(0..chunks.len(), solved, &mut desks[..count]);
@@ -220,7 +220,7 @@ where
             let range = self.before(island)..self.before(island + 1);
             bench.clear();
             for &spring in &self.islands.order[range.clone()] {
-                self.joints.link(spring, self.terms[self.terms_of[spring as usize] as usize].tangential, bench);
+                self.joints.link(spring, &self.terms[self.terms_of[spring as usize] as usize], bench);
             }
             bench.close();
             let Bench { links, arms, slips, slots, couplings, forces, .. } = bench;

@@ -63,15 +63,21 @@ pub struct Memory {
     pub half: f64,
     /// Its normal in the step before; zero: it had none.
     pub normal: Vector,
-    /// What the gap had to be moved by so that it went on from face to face, m.
-    pub carried: f64,
     /// Energy of its spring at n − ½, J/m.
     pub stored: f64,
     /// Which of the segments at the slave node stand for it: 1 that which ends there, 2 that which begins there, 3 both; 0 not known.
     pub faces: u8,
 }
 
-keep_all!(Memory { slip, offset, half, normal, carried, stored, faces });
+impl Memory {
+    /// Where its spring's gap was at n − ½, m; infinite: there was no spring.
+    #[must_use]
+    pub fn half(&self) -> f64 {
+        if self.normal == [0.0; 2] { f64::INFINITY } else { self.half }
+    }
+}
+
+keep_all!(Memory { slip, offset, half, normal, stored, faces });
 
 /// Follows the nodes of surfaces along the bodies of other surfaces, or of their own.
 pub struct Tracker {

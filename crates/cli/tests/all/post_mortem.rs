@@ -28,7 +28,7 @@ const FAILURES: &[Failure] = &[
     Failure {
         name: "inverted-solid",
         code: "E0601",
-        culprit: "element 1430 of part \"pad\"",
+        culprit: "element 1433 of part \"pad\"",
         keys: [("part[0].box.elements", "[16, 16, 6]"), ("obstacle[0].motion", "\"-150 m/s\"")],
         pictures: ALL,
     },
@@ -199,10 +199,10 @@ fn pictures_of_solids_are_cut_open_to_the_culprit_and_number_it() {
     let near = picture("neighbourhood.svg");
     // Four panels, each with its image and with the culprit's number on one of its sides.
     assert_eq!((near.matches("<image ").count(), near.matches("data:image/png;base64,iVBORw0KGgo").count()), (4, 4));
-    assert_eq!(near.matches("font-weight=\"bold\">1430</text>").count(), 4);
+    assert_eq!(near.matches("font-weight=\"bold\">1433</text>").count(), 4);
     assert!(near.contains("cut open: ") && near.contains("contact force, up to "));
     let place = picture("place.svg");
-    assert!(place.matches("<image ").count() == 1 && place.contains(">element 1430</text>") && place.contains(" mm</text>"));
+    assert!(place.matches("<image ").count() == 1 && place.contains(">element 1433</text>") && place.contains(" mm</text>"));
 }
 
 #[test]

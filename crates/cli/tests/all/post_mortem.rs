@@ -47,13 +47,6 @@ const FAILURES: &[Failure] = &[
         pictures: ALL,
     },
     Failure {
-        name: "stiff-contact-of-solids",
-        code: "E0603",
-        culprit: "contact \"hit\" at node 537 of part \"ball\"",
-        keys: [("contact[0].penalty_scale", "1e6"), ("part[1].sphere.elements", "4")],
-        pictures: ALL,
-    },
-    Failure {
         name: "not-finite",
         code: "E0604",
         culprit: "node 20 of part \"strip\"",

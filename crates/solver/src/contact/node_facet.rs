@@ -290,11 +290,16 @@ impl NodeFacet {
         } else {
             self.push_whole(&touch, &memory, (spring, rest), scene, (springs, &mut more));
         }
+        self.go_on(&memory, springs);
+        self.more = more;
+        *self.tracker.kept_mut(&touch) = Memory { offset, normal, facet, rest, stored: 0.0, ..memory };
+    }
+
+    /// Lets the spring that was pushed last go on where it ended.
+    fn go_on(&self, memory: &Memory, springs: &mut Springs<3>) {
         if self.stores && self.has_begun {
             springs.goes_on(memory.half(), memory.stored);
         }
-        self.more = more;
-        *self.tracker.kept_mut(&touch) = Memory { offset, normal, facet, rest, stored: 0.0, ..memory };
     }
 
     /// The same with slip and rims.
@@ -336,9 +341,7 @@ impl NodeFacet {
         let slip = cone::carried(slip, Dim::<3>::tangents(normal, &tangent));
         let (stiffness, area, stiffening) = (pair.stiffness, pair.area, pair.stiffening);
         springs.push(Spring { normal, gap, stiffness, area, stiffening, side, slip, tangent, ..Spring::default() }, &ends);
-        if self.stores && self.has_begun {
-            springs.goes_on(pair.memory.half(), pair.memory.stored);
-        }
+        self.go_on(&pair.memory, springs);
         if let Some(edges) = &mut self.edges {
             edges.kept_mut(touch).memory = Memory { offset, normal, facet: touch.edges[1], stored: 0.0, ..pair.memory };
         }
@@ -376,8 +379,7 @@ impl NodeFacet {
                 continue;
             }
             let memory = *self.tracker.kept(&touch);
-            let was_closed = memory.normal != [0.0; 3] && memory.half < self.reach;
-            if !self.superseded.is_empty() && !was_closed && self.is_superseded(&touch, scene) {
+            if !self.superseded.is_empty() && memory.half() >= self.reach && self.is_superseded(&touch, scene) {
                 continue;
             }
             again.add(memory.stored);
@@ -387,7 +389,7 @@ impl NodeFacet {
         for at in 0..self.edges.as_ref().map_or(0, |edges| edges.touches().len()) {
             again.add(self.push_edges(at, scene, springs));
         }
-        if let Some(judge) = &self.judge {
+        if let Some(judge) = &mut self.judge {
             judge.push_nets(springs, |stored| again.add(stored));
         }
         self.let_go = self.closed.less(&again);

@@ -1,8 +1,9 @@
-//! Energy at corners and edges: bodies that slide and tumble over them. Rigid ones store nothing themselves, so that all that contact takes it must give back, to round-off.
+//! Energy at corners and edges: bodies that slide and tumble over them. Rigid ones store nothing themselves, so that all that
+//! contact takes it must give back, to round-off.
 
 use crate::bodies::*;
 use crate::edge_edge::{Block, meet};
-use embate_solver::model::{Contact, Disk, Interface, Model, Motion, Obstacle, ObstacleShape, Partners, Polygon, Shape};
+use embate_solver::model::{Contact, Disk, Interface, Model, Motion, Obstacle, ObstacleShape, Partners, Penalty, Polygon, Shape};
 
 /// A room with corners of 45 to 135 degrees, convex and concave: 0.1 m wide, with a ridge on its floor and a notch in its wall.
 fn room(turned: f64, mirrored: bool) -> ObstacleShape {
@@ -60,8 +61,7 @@ fn a_soft_body_slides_over_corners_with_no_more_than_its_elements_lose() {
         let mut model = model(0.02);
         add(&mut model, "ball", Shape::Disk(Disk { centre: [-0.02, 0.03], radius: 0.01, elements: 3 }), [10.0, -17.0]);
         model.parts[0].spin = 300.0;
-        let interface = Interface { law: Interface::from(embate_solver::model::Penalty::automatic(scale)).law, ..Interface::default() };
-        model.obstacles.push(Obstacle { interface, ..Obstacle::fixed("room", room(0.1, false)) });
+        model.obstacles.push(Obstacle { interface: Penalty::automatic(scale).into(), ..Obstacle::fixed("room", room(0.1, false)) });
         let (error, work) = error_by_work(&model);
         assert!(work > 0.5 && error < 1e-3, "{scale}: {error} {work}");
     }

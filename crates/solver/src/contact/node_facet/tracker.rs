@@ -282,7 +282,7 @@ impl Tracker {
         closed.clear();
         for pass in &self.passes {
             // A node that edges stand for touches without a spring.
-            let is_closed = |group: &&Group| group.touches && group.memory.normal != [0.0; 3] && group.memory.half < open;
+            let is_closed = |group: &&Group| group.touches && group.memory.half() < open;
             let target = &self.surfaces[pass.target];
             for Group { node, memory: Memory { facet, rest, .. }, .. } in pass.groups.iter().filter(is_closed) {
                 closed.extend(target.sharing(*facet, *rest).map(|facet| (pass.slave, *node, facet)));

@@ -111,6 +111,8 @@ pub struct Judge {
     /// Regions of the last look, and what is known of them.
     regions: Vec<Region>,
     known: Vec<Known>,
+    /// Those that have a net in this step.
+    netted: Vec<u32>,
     /// Region of the last look in which each triangle was.
     owner: Vec<u32>,
     /// Places of the last look.
@@ -159,6 +161,7 @@ impl Judge {
             piercings: Vec::new(),
             regions: Vec::new(),
             known: Vec::new(),
+            netted: Vec::new(),
             owner,
             places: Vec::new(),
             next: f64::NEG_INFINITY,

@@ -11,7 +11,7 @@
 use super::super::law::penalty::stiffening;
 use super::super::projection::node_facet::unit;
 use super::super::springs::{Answers, End, Spring, Springs};
-use super::{CAST, DIRECTED, Judge, Vector};
+use super::{CAST, DIRECTED, Judge, Known, Vector};
 use crate::vector::length;
 
 /// Depth below which a region loses its net, as a fraction of the local thickness.
@@ -51,28 +51,27 @@ impl Judge {
         }
     }
 
-    /// Numbers of the regions that have a net in this step.
-    fn netted(&self) -> impl Iterator<Item = usize> + '_ {
-        let known = if self.has_looked { &self.known[..] } else { &[] };
-        (0..known.len()).filter(|&number| known[number].area > 0.0 && self.modulus(&self.regions[number]).is_some())
-    }
-
     /// Adds the springs of the nets in this step, each where it ended in the step before; `found` gets the energy that each had there, J.
-    pub(in crate::contact) fn push_nets(&self, springs: &mut Springs<3>, mut found: impl FnMut(f64)) {
-        for number in self.netted() {
-            let known = &self.known[number];
-            let Some((spring, ends)) = self.net(number) else { continue };
-            springs.push(spring, &ends);
-            springs.goes_on(known.half, known.stored);
-            found(known.stored);
+    pub(in crate::contact) fn push_nets(&mut self, springs: &mut Springs<3>, mut found: impl FnMut(f64)) {
+        self.netted.clear();
+        let regions = if self.has_looked { self.regions.len() } else { 0 };
+        for number in 0..regions {
+            let Known { area, half, stored, .. } = self.known[number];
+            if area > 0.0
+                && let Some((spring, ends)) = self.net(number)
+            {
+                springs.push(spring, &ends);
+                springs.goes_on(half, stored);
+                found(stored);
+                self.netted.push(number as u32);
+            }
         }
     }
 
     /// Notes where the nets of this step ended; `store` gets the energy of each, J.
     pub(in crate::contact) fn note_nets(&mut self, solved: Answers<'_, 3>, mut store: impl FnMut(f64)) {
-        let numbers: Vec<usize> = self.netted().collect();
-        for (number, answer) in numbers.into_iter().zip(solved) {
-            let known = &mut self.known[number];
+        for (&number, answer) in self.netted.iter().zip(solved) {
+            let known = &mut self.known[number as usize];
             (known.half, known.stored) = (answer.gap_new(), answer.stored_new());
             store(known.stored);
         }

@@ -144,8 +144,8 @@ where
         let (own, [slip_rate_old, slip_rate_free, slip_new]) = Default::default();
         #[rustfmt::skip]
         let link = Self {
-            spring, first, own, slip_rate_old, slip_rate_free, slip_new, count: 0, compliance: 0.0, is_at_hub: false, gap: 0.0, gap_old: 0.0, gap_free: 0.0, rate_old: 0.0, rate_free: 0.0,
-            lent: [0.0; 2], centre: [0.0; D], slides: false,
+            spring, first, own, slip_rate_old, slip_rate_free, slip_new, count: 0, compliance: 0.0, is_at_hub: false, gap: 0.0,
+            gap_old: 0.0, gap_free: 0.0, rate_old: 0.0, rate_free: 0.0, lent: [0.0; 2], centre: [0.0; D], slides: false,
         };
         link
     }
@@ -313,15 +313,21 @@ where
     }
 }
 
-/// The gap at which a spring stores what it had at the gap `half` (m): elsewhere if it is as stiff as another face now. Newton's iteration; energies are convex.
+/// The gap at which a spring stores what it had at the gap `half` (m): elsewhere if it is as stiff as another face now. Newton's
+/// iteration; energies are convex.
 fn gap_of<const D: usize>(law: &dyn Law, spring: &Spring<D>, half: f64, stored: f64) -> f64
 where
     Dim<D>: Motion<D>,
 {
     let (patch, mut gap) = (spring.patch(), half);
     for _ in 0..50 {
-        let (more, force) = (law.stored(&patch, gap) - stored, law.mean_force(&patch, gap, gap));
-        if !(more.abs() > 4.0 * f64::EPSILON * stored && force > 0.0) {
+        let more = law.stored(&patch, gap) - stored;
+        // Nearly always at once.
+        if !(more.abs() > 4.0 * f64::EPSILON * stored) {
+            break;
+        }
+        let force = law.mean_force(&patch, gap, gap);
+        if !(force > 0.0) {
             break;
         }
         gap += more / force;

@@ -13,11 +13,13 @@
 //! Stability: while a linear spring is closed, F = −k (g^{n−1} + 2 g^n + g^{n+1})/4, so it adds k to the stiffness and k dt²/4 to the mass:
 //! (K + k) dt² ≤ 4 (M + k dt²/4) holds exactly if K dt² ≤ 4 M. The stable step of the elements alone is the stable step with contact.
 //!
-//! The gap of a spring is that of the surfaces when it closes, and from then on the integral of its rate ([`Springs::goes_on`]): a step begins at n − ½ where the one before ended, with the
-//! energy that is stored there. On a plane both are the same number. On a curved surface the gap of the surfaces less ½ dt ġ is elsewhere by the error of the trapezoidal rule, some dt² times the
-//! curvature times the square of the sliding velocity; at a corner of the angle θ by up to θ times what a node slides in half a step; in a fold by any depth. A spring that began there would
-//! gain or lose what it stores in between, at each corner, and one that is no deeper than that any multiple of what it has. What lies between both gaps has either sign, no preferred one, and is
-//! gone when the surfaces have parted.
+//! The gap of a spring is that of the surfaces when it closes, and from then on the integral of its rate ([`Springs::goes_on`]): a
+//! step begins at n − ½ where the one before ended, with the energy that is stored there. On a plane both are the same number. On a
+//! curved surface the gap of the surfaces less ½ dt ġ is elsewhere by the error of the trapezoidal rule, some dt² times the curvature
+//! times the square of the sliding velocity; at a corner of the angle θ by up to θ times what a node slides in half a step; in a fold
+//! by any depth. A spring that began there would gain or lose what it stores in between, at each corner, and one that is no deeper
+//! than that any multiple of what it has. What lies between both gaps has either sign, no preferred one, and is gone when the
+//! surfaces have parted.
 //!
 //! g^{n+½} depends on F itself and on the other springs at the same nodes. Springs that share none are in different `islands`; those of one are swept over in their fixed order
 //! (`relax`: Gauss-Seidel, normal force and friction in turn) until no force changes, and where that is slow, Newton's step predicts the forces (`newton`, `skyline`). Pair forces
@@ -476,7 +478,8 @@ where
         self.list.push(Spring { first, count: self.ends.len() - first, ..spring });
     }
 
-    /// Lets the spring that was pushed last begin where it ended in the step before, at the gap `half` (m) with the energy `stored` (J/m); if it was open there, without energy.
+    /// Lets the spring that was pushed last begin where it ended in the step before, at the gap `half` (m) with the energy `stored`
+    /// (J/m); if it was open there, without energy.
     #[inline]
     pub fn goes_on(&mut self, half: f64, stored: f64) {
         self.ended.resize(self.list.len() - 1, [f64::NAN; 2]);

@@ -17,6 +17,7 @@ where
         match governor {
             Governor::Element(squared) => self.element_with_step(squared),
             Governor::Given => "`run.time_step`".into(),
+            Governor::Contact => "bodies that come at each other fast".into(),
             Governor::Schedule => "growth limit or end of the run".into(),
         }
     }

@@ -484,8 +484,8 @@ fn rolls_thin_a_strip_with_the_force_of_the_slab_theory() {
 #[cfg_attr(debug_assertions, ignore = "takes half a minute without optimization; release tests run it")]
 fn a_bullet_tears_a_plate_and_flies_on_behind_a_cap() {
     let results = run("bullet", "example-bullet");
-    // Shreds of the plate that are squeezed thin. How many steps hangs on the last digits: 52 to 111 with `safety` from 0.85 to 0.9.
-    results.is_sound_but(200, 1e-3);
+    // A shred of the plate that is squeezed thin.
+    results.is_sound_but(20, 1e-3);
     let drift = results.summary["momentum_drift"]["linear"].as_f64().unwrap();
     assert!(drift < 1e-12, "momentum along the axis: {drift}");
     let eroded = results.summary["erosion"]["elements"]["plate"].as_u64().unwrap();

@@ -22,6 +22,11 @@ pub(super) fn joined<const D: usize>([low, high]: Aabb<D>, [bottom, top]: Aabb<D
     [std::array::from_fn(|d| low[d].min(bottom[d])), std::array::from_fn(|d| high[d].max(top[d]))]
 }
 
+/// A box with a margin on all sides, m.
+pub(super) fn widened<const D: usize>([low, high]: &Aabb<D>, margin: f64) -> Aabb<D> {
+    [low.map(|bound| bound - margin), high.map(|bound| bound + margin)]
+}
+
 /// Whether boxes have a point in common.
 pub(super) fn do_meet<const D: usize>([low, high]: &Aabb<D>, [bottom, top]: &Aabb<D>) -> bool {
     (0..D).all(|d| low[d] <= top[d] && bottom[d] <= high[d])

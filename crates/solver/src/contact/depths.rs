@@ -5,10 +5,10 @@
 //! and three places on each part of a segment that is inside, are as deep as the other surface is far away. It looks when things may have
 //! gone a quarter of the least thickness, both bodies together, and at least every thirty-second step; where many segments are near each
 //! other less often, so that it goes through 16 of them a step in the mean.
-//! Bodies are judged against others, not against themselves.
+//! Where a body may meet itself, it is judged against itself, too ([`super::outline`]).
 
 use super::boxes::{Aabb, do_meet};
-use super::findings::{Findings, Overlap};
+use super::findings::{DEEPEST_IN_PLANE, Findings, Overlap};
 use super::outline::{Opposite, Outline, Side};
 use super::tracker::{Touch, Tracker};
 use super::{Scene, Vector};
@@ -31,8 +31,14 @@ pub struct Depths {
 /// Way of both bodies together between two looks, as a fraction of the least thickness, and most steps.
 const BETWEEN_LOOKS: f64 = 0.25;
 const MOST_STEPS: u32 = 32;
+/// The least way, where something is nearly too deep.
+const LEAST_BETWEEN: f64 = 0.025;
 /// So many segments are looked at a step, in the mean: what presses along long sides is looked at less often.
 const PER_STEP: u32 = 16;
+/// Segments of a body that are looked at against itself count so many for one.
+const OF_ITSELF: usize = 8;
+/// Mark of a body that is on both sides of a contact.
+const BOTH_SIDES: u8 = 3;
 /// Depth against the thickness from which on a place is looked at once more.
 const CERTAIN: f64 = 0.02;
 
@@ -110,7 +116,6 @@ impl Depths {
         judge.outlines.iter_mut().for_each(|outline| outline.refit(positions));
         let sides = judge.outlines.iter().flat_map(|outline| &outline.sides).filter(|side| !side.is_mirror);
         let least = sides.map(|side| side.opposite.now(side.segment, positions)).fold(f64::INFINITY, f64::min);
-        (judge.next, judge.steps) = (scene.sweep.travel + 0.5 * BETWEEN_LOOKS * least, 0);
         let findings = &mut self.findings;
         let mut nodes = std::mem::take(&mut judge.inside);
         nodes.clear();
@@ -127,7 +132,19 @@ impl Depths {
                 }
             });
         });
+        for (outline, _) in judge.outlines.iter().zip(&judge.sides).filter(|(_, sides)| **sides == BOTH_SIDES) {
+            // That nothing is cut is seen at once, for most segments by boxes around many.
+            looked += outline.sides.len() / OF_ITSELF;
+            outline.folds(positions, |[x, y], side, square, nearest| {
+                let thickness = [side, nearest].map(|side| side.opposite.now(side.segment, positions));
+                let nodes = [side.segment[0], nearest.segment[0]];
+                let (thickness, time) = (thickness[0].min(thickness[1]), scene.time);
+                findings.see(Overlap { place: [x, y, 0.0], depth: square.sqrt(), thickness, nodes, time }, true);
+            });
+        }
         (judge.inside, judge.looked) = (nodes, looked as u32);
+        let left = DEEPEST_IN_PLANE - findings.now.ratio().max(findings.own.ratio());
+        (judge.next, judge.steps) = (scene.sweep.travel + 0.5 * left.clamp(LEAST_BETWEEN, BETWEEN_LOOKS) * least, 0);
     }
 
     /// Takes a node that is so deep inside, m, where bodies were `initial` thick at the start, m.

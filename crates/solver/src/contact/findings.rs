@@ -2,12 +2,12 @@
 
 use crate::archive::keep_all;
 
-/// Deepest that what is held may be in space, as a fraction of the local thickness: less than half of the half.
-pub const DEEPEST: f64 = 0.2;
-/// The same in the plane, where each step is seen.
-pub const DEEPEST_IN_PLANE: f64 = 0.25;
+/// Deepest that what is held may be in space, as a fraction of the local thickness: well below half of the half, for what lies between samples and looks.
+pub const DEEPEST: f64 = 1.0 / 6.0;
+/// The same in the plane, where springs tell depths in each step.
+pub const DEEPEST_IN_PLANE: f64 = 0.2;
 /// Depth from which on an overlap gets a net and counts as penetration, as a fraction of the local thickness.
-pub const CAST: f64 = 0.125;
+pub const CAST: f64 = 0.05;
 
 /// A place in an overlap.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

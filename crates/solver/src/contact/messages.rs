@@ -215,6 +215,6 @@ pub(crate) static MISSED: Message = Message {
     code: "W0406",
     title: "bodies inside each other that nothing holds apart",
     example: Example::Words("Two parts that no contact names go through each other next to a contact."),
-    cause: "A node came in where no contact watches, a body went through itself, or bodies overlap by more than a fifth of their thickness (in the plane a quarter).",
+    cause: "A node came in where no contact watches, a body went through itself, or bodies overlap by more than a sixth of their thickness (in the plane a fifth).",
     cure: "Look at the place that the message names. Let one contact of `bodies = \"all\"` watch all surfaces; raise `penalty_scale` where a contact is too soft for what presses on it.",
 };

@@ -106,6 +106,11 @@ where
     fn inside(&self) -> &[(u32, f64)] {
         &[]
     }
+
+    /// The least local thickness of the bodies at the start, m; infinite: not known.
+    fn thinnest(&self) -> f64 {
+        f64::INFINITY
+    }
 }
 
 /// What a step shows to contacts.
@@ -315,6 +320,12 @@ where
     #[must_use]
     pub fn inside(&self) -> &[(u32, f64)] {
         self.formulation.inside()
+    }
+
+    /// The least local thickness of its bodies at the start, m; infinite: not known.
+    #[must_use]
+    pub fn thinnest(&self) -> f64 {
+        self.formulation.thinnest()
     }
 
     /// The deeper of the last evaluation's penetration and of the overlaps between bodies in the last look that have a net, m.

@@ -494,6 +494,10 @@ impl Formulation<3> for NodeFacet {
         self.judge.as_ref().map_or(&[], Judge::inside)
     }
 
+    fn thinnest(&self) -> f64 {
+        self.judge.as_ref().map_or(f64::INFINITY, Judge::thinnest)
+    }
+
     fn certificate(&self) -> Certificate {
         self.proof.as_ref().map(Proof::certificate).unwrap_or_default()
     }

@@ -8,6 +8,8 @@
 //! where the ray leaves the body at less than 30 degrees to
 //! the surface there, as beside a corner.
 
+mod folds;
+
 use super::Vector;
 use super::boxes::{Aabb, around, do_meet, joined, longest, meets_ray, square_away};
 use crate::mesh::surface::{NONE, Surface};

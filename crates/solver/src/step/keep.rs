@@ -12,12 +12,14 @@ impl Keep for Governor {
             Self::Element(square) => (0_u8, square),
             Self::Given => (1, 0.0),
             Self::Schedule => (2, 0.0),
+            Self::Contact => (3, 0.0),
         };
         keep_each!(archive; &mut number, &mut square);
         *self = match number {
             0 => Self::Element(square),
             1 => Self::Given,
             2 => Self::Schedule,
+            3 => Self::Contact,
             _ => return Err(Misfit::new("nobody set the time step")),
         };
         Ok(())

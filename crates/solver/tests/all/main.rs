@@ -23,6 +23,7 @@ mod edge_edge;
 mod elements;
 mod ends;
 mod erosion;
+mod fast_solids;
 mod flush;
 mod formulations;
 mod extruded;

@@ -28,7 +28,8 @@ fn ring_on_strip(interface: Interface) -> Model {
     contact.interface = interface;
     Model {
         name: "ring".into(),
-        run: Run { end: 0.06, time_step: Some(1e-3), ..Run::default() },
+        // Until something is deeper than a twentieth of the strip: from then on space has a net, which the plane has not.
+        run: Run { end: 0.055, time_step: Some(1e-3), ..Run::default() },
         materials: [("m".to_string(), material("j2", 0.3))].into(),
         parts: vec![part("ring", Shape::Ring(ring), -2.0), part("strip", Shape::Rectangle(strip), 1.0)],
         symmetries: vec![Symmetry { normal: [1.0, 0.0, 0.0], ..Symmetry::default() }],

@@ -1,6 +1,6 @@
 //! Penalty: a spring that only pushes. F = k_n |G| where the gap G is negative, eq. (11) of the paper; energy ½ k_n G².
 //!
-//! Beyond the depth ℓ, an eighth of the local thickness of the thinner body, it stiffens: V = ½ k d² + k S (d − ℓ)³ / 6ℓ with d = −G up to
+//! Beyond the depth ℓ, a twentieth of the local thickness of the thinner body, it stiffens: V = ½ k d² + k S (d − ℓ)³ / 6ℓ with d = −G up to
 //! 2ℓ, and goes on with the stiffness k (1 + S) that it has there: twice continuously differentiable and convex.
 //! A linear spring as stiff as the elements lets a heavy body through a soft one. S is 100, or α m / (k dt²) with the mass m of the lighter
 //! side's nodes, α = 0.1 and the first step dt, where that is more:
@@ -40,7 +40,7 @@ pub const KIND: ContactLawKind = ContactLawKind {
 /// How much stiffer it is at least at twice the limit than below it.
 const STIFFENING: f64 = 100.0;
 /// Fraction of the local thickness beyond which it stiffens.
-pub const LIMIT: f64 = 0.125;
+pub const LIMIT: f64 = 0.05;
 
 /// Fraction α of m / dt² that `penalty_from = "time_step"` takes.
 const OF_TIME_STEP: f64 = 0.1;

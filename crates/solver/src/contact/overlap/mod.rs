@@ -5,21 +5,22 @@
 //! predicates, `regions` closes the contours and finds what
 //! lies inside, the area vector N and the volume V; `thickness` gives the local thickness of the bodies. A region is *held* if
 //!
-//! 1. no sampled place in it (vertices, middles of the parts of edges that are inside) is deeper than a fifth of the local thickness τ,
+//! 1. no sampled place in it (vertices, three places on each part of an edge that is inside) is deeper than a sixth of the local thickness τ,
 //!    the lesser of both bodies';
 //! 2. its area vector has not turned by more than a right angle against the one with which it began, turned with the bodies since;
-//! 3. the forces of the springs at its nodes work against its volume, −Σ f·∂V/∂x > 0, or the volume falls, or it is shallower than τ/50.
+//! 3. the forces of the springs at its nodes work against its volume, −Σ f·∂V/∂x > 0, or the volume falls, or it is shallower than τ/20.
 //!
 //! Else it counts as `unverified`. Depth is the distance to the other body's surface; once that exceeds 0.15 τ, to the side of entry:
 //! facets that look against the area vector of the region.
 //! The bodies are looked at before anything can have gone farther than an eighth of the least thickness (both bodies' ways together, by the
 //! travel ∑ dt max |v|). So nothing gets through a body
-//! between two looks, and on its way through it is deeper than a fifth at one of them.
+//! between two looks, and on its way through it is deeper than that at one of them. What is nearly too deep is looked at more often.
 //!
-//! A region that is deeper than τ/8, or not held, gets a spring on its volume (`net`): the net under the springs of nodes and edges.
+//! A region that is deeper than τ/20 gets a spring on its volume (`net`): the net under the springs of nodes and edges.
 //!
 //! Not covered: surfaces without an opposite skin, overlaps between facets that share a node, and what lies between the samples.
 
+mod near;
 mod net;
 mod piercing;
 mod predicates;
@@ -39,6 +40,7 @@ use crate::archive::{Archive, Kept, keep_all, keep_each};
 use crate::mesh::surface::NONE;
 use crate::tensor::{cross, dot};
 use crate::vector::{length, minus};
+use near::Near;
 use piercing::Piercing;
 use regions::{Region, Work};
 use skin::Skin;
@@ -55,12 +57,16 @@ const SIDED_MOST: usize = 16;
 const FACES: f64 = 0.2;
 /// Way of both sides together between two looks, as a fraction of the least thickness.
 const BETWEEN_LOOKS: f64 = 0.125;
+/// The least, where something is so deep already that more would be too deep.
+const LEAST_BETWEEN: f64 = 0.025;
+/// Places on a part of an edge.
+const PLACES: [f64; 3] = [0.25, 0.5, 0.75];
 /// Most steps between two looks.
 const MOST_STEPS: u32 = 16;
 /// A region whose area vector is less than this fraction of its area has no direction: a pin in a hole.
 const DIRECTED: f64 = 0.3;
 /// Shallower than this fraction of the thickness a region may be without a force.
-const SHALLOW: f64 = 0.02;
+const SHALLOW: f64 = CAST;
 
 /// What is known of a region from look to look.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -98,6 +104,7 @@ keep_all!(Known { bodies, began, size, size_before, volume, before, ratio, thick
 pub struct Judge {
     skin: Skin,
     tree: Tree,
+    near: Near,
     thickness: Thickness,
     /// The least, and the largest of each body, at the start, m.
     least: f64,
@@ -152,6 +159,7 @@ impl Judge {
         Self {
             skin,
             tree,
+            near: Near::default(),
             thickness,
             least,
             thickest,
@@ -183,6 +191,12 @@ impl Judge {
     #[must_use]
     pub fn inside(&self) -> &[(u32, f64)] {
         &self.inside
+    }
+
+    /// The least local thickness at the start, m.
+    #[must_use]
+    pub fn thinnest(&self) -> f64 {
+        self.least
     }
 
     /// Takes the pressure stiffness of a node, and that by its mass, Pa/m.
@@ -223,9 +237,8 @@ impl Judge {
             self.has_looked = false;
             return;
         }
-        self.tree.refit(&self.skin);
-        piercing::find(&self.skin, &self.tree, &mut self.piercings);
-        self.regions = self.work.find(&self.skin, &mut self.piercings);
+        piercing::find(&self.skin, &mut self.tree, &mut self.near, sweep.travel, &mut self.piercings);
+        let before = std::mem::replace(&mut self.regions, self.work.find(&self.skin, &mut self.piercings));
         self.inherit_known();
         (self.findings.now, self.findings.own, self.findings.through) = (Overlap::default(), Overlap::default(), None);
         self.inside.clear();
@@ -248,11 +261,16 @@ impl Judge {
             self.cast(number, sweep.travel - self.looked_at);
         }
         self.looked_at = sweep.travel;
-        self.owner.fill(NONE);
+        if before.is_empty() {
+            // Nothing was inside, or a state was read.
+            self.owner.fill(NONE);
+        }
+        before.iter().flat_map(|region| &region.triangles).for_each(|&(triangle, _)| self.owner[triangle as usize] = NONE);
         for (number, region) in (0..).zip(&self.regions) {
             region.triangles.iter().for_each(|&(triangle, _)| self.owner[triangle as usize] = number);
         }
-        self.next = sweep.travel + 0.5 * BETWEEN_LOOKS * self.least;
+        let deepest = self.known.iter().map(|known| known.ratio).fold(0.0, f64::max);
+        self.next = sweep.travel + 0.5 * (DEEPEST - deepest).clamp(LEAST_BETWEEN, BETWEEN_LOOKS) * self.least;
     }
 
     /// What is known of the regions of the look before goes to those that share a triangle with them.
@@ -359,7 +377,7 @@ impl Judge {
         Some((square.sqrt(), foot))
     }
 
-    /// Vertices and the middles of the parts of edges that are inside.
+    /// Vertices and three places on each part of an edge that are inside.
     fn samples(&self, region: &Region) -> Vec<Sample> {
         let is_one = region.bodies[0] == region.bodies[1];
         let look = |own: u32, node: Option<u32>, place: Vector, behind: f64| {
@@ -382,11 +400,12 @@ impl Judge {
             look(own, node, self.skin.x[vertex as usize], self.thickness_around(vertex))
         };
         let of_chord = |&(own, [from, to]): &(u32, [Vector; 2])| {
-            look(own, None, [0, 1, 2].map(|d| 0.5 * (from[d] + to[d])), self.thickness.of(&self.skin, own))
+            let at = move |share: f64| [0, 1, 2].map(|d| (1.0 - share) * from[d] + share * to[d]);
+            PLACES.map(|share| look(own, None, at(share), self.thickness.of(&self.skin, own)))
         };
         // Where the contour is open the flood can't be trusted.
         let inside = if region.is_open { &[] } else { &region.inside[..] };
-        inside.iter().filter_map(of_vertex).chain(region.chords.iter().filter_map(of_chord)).collect()
+        inside.iter().filter_map(of_vertex).chain(region.chords.iter().flat_map(of_chord).flatten()).collect()
     }
 
     /// A node of a triangle.
@@ -412,7 +431,7 @@ impl Judge {
                 self.findings.miss();
             }
         }
-        if self.known.iter().any(|known| known.area > 0.0 || (known.is_loose && known.bodies[0] != known.bodies[1])) {
+        if self.known.iter().any(|known| known.area > 0.0 || known.is_loose) {
             self.next = f64::NEG_INFINITY;
         }
     }

@@ -17,7 +17,7 @@ use crate::vector::length;
 /// Depth below which a region loses its net, as a fraction of the local thickness.
 const TAKEN_IN: f64 = 0.02;
 /// Least area of a net, as a fraction of that of the region.
-const SPREAD: f64 = 0.1;
+const SPREAD: f64 = 0.5;
 
 impl Judge {
     /// Casts or takes in the net of a region; no node has gone farther than `way` since the last look, m.
@@ -26,8 +26,8 @@ impl Judge {
         // A volume grows by what its sides go. If by more, it is another one, and the net keeps its force.
         let grown = region.volume - known.before;
         let grown = if grown.abs() > 8.0 * way * region.size.min(known.size_before) { 0.0 } else { grown };
-        if region.is_open || !region.is_closed || region.bodies[0] == region.bodies[1] {
-            // Its volume says nothing, or its forces would not add up to nothing; that of a body with itself jumps where the surface folds.
+        if region.is_open || !region.is_closed {
+            // Its volume says nothing, or its forces would not add up to nothing.
             known.area = 0.0;
         } else if known.area > 0.0 {
             known.depth += grown / known.area;
@@ -44,7 +44,7 @@ impl Judge {
             if known.ratio < TAKEN_IN && known.depth <= 0.0 {
                 known.area = 0.0;
             }
-        } else if known.ratio > CAST || known.is_loose {
+        } else if known.ratio > CAST {
             (known.area, known.depth) = (length(region.area).max(DIRECTED * region.size), 0.0);
             known.thick = known.thickness;
             (known.half, known.stored) = (f64::INFINITY, 0.0);

@@ -4,6 +4,7 @@
 //! straight piece with a piercing at either end: whatever
 //! has not two ends is a border of a surface, or an error, and is reported.
 
+use super::near::Near;
 use super::predicates::{Point, volume};
 use super::skin::{Facet, Skin};
 use super::tree::Tree;
@@ -36,15 +37,13 @@ pub(super) struct Piece {
     pub(super) to: Vector,
 }
 
-/// All piercings.
-pub(super) fn find(skin: &Skin, tree: &Tree, found: &mut Vec<Piercing>) {
+/// All piercings, at a travel (m).
+pub(super) fn find(skin: &Skin, tree: &mut Tree, near: &mut Near, travel: f64, found: &mut Vec<Piercing>) {
     found.clear();
-    tree.pairs(skin, |first, second| {
-        let [a, b] = [first, second].map(|facet| &skin.facets[facet as usize]);
-        if skin.may_meet(a, b) {
-            of_edges(skin, a, &tree.boxes[first as usize], b, found);
-            of_edges(skin, b, &tree.boxes[second as usize], a, found);
-        }
+    near.meeting(skin, tree, travel, |facets, [first, second]| {
+        let [a, b] = facets.map(|facet| &skin.facets[facet as usize]);
+        of_edges(skin, a, first, b, found);
+        of_edges(skin, b, second, a, found);
     });
 }
 

@@ -225,3 +225,42 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn pairs_that_are_kept_and_sleep_are_those_of_a_search_anew_in_each_look() {
+    // Two blocks of facets that shake, one of them on a way through the other; all nodes within the travel that is told.
+    let (mut judge, start) = two([1.0; 3], [[0.2, 0.3, 1.02], [0.7, 0.9, 1.6]], [[3, 4, 2], [2, 2, 3]], [false, true]);
+    let first = 4 * 5 * 3;
+    let mut state = 7_u64;
+    let mut random = || {
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (state >> 40) as f64 / (1_u64 << 24) as f64 - 0.5
+    };
+    let (mut nodes, mut travel, mut total) = (start, 0.0, 0);
+    let mut near = Near::default();
+    for step in 0..400 {
+        let way = if step % 50 == 49 { 0.2 } else { 0.01 };
+        let down = if step < 200 { -0.4 * way } else { 0.4 * way };
+        for (number, x) in nodes.iter_mut().enumerate() {
+            let shift = [random(), random(), random()].map(|r| 0.5 * way * r);
+            (0..3).for_each(|d| x[d] += shift[d] + if number >= first && d == 2 { down } else { 0.0 });
+        }
+        travel += way;
+        judge.skin.place(&nodes);
+        let (mut kept, mut anew) = (Vec::new(), Vec::new());
+        piercing::find(&judge.skin, &mut judge.tree, &mut near, travel, &mut kept);
+        // Nearest triangles in boxes that have grown, and in new ones.
+        let places: Vec<Vector> = (0..8).map(|_| [random() + 0.5, random() + 0.5, random() + 0.8]).collect();
+        let nearest = |tree: &Tree| places.iter().map(|x| tree.nearest(&judge.skin, 0, *x, f64::INFINITY, |_| true)).collect::<Vec<_>>();
+        let before = nearest(&judge.tree);
+        let mut fresh = Tree::new(&judge.skin);
+        piercing::find(&judge.skin, &mut fresh, &mut Near::default(), f64::INFINITY, &mut anew);
+        for list in [&mut kept, &mut anew] {
+            list.sort_by_key(|piercing| (piercing.edge, piercing.triangle));
+        }
+        assert_eq!(kept, anew, "{step}");
+        assert_eq!(before, nearest(&fresh), "{step}");
+        total += kept.len();
+    }
+    assert!(total > 1000, "{total}");
+}

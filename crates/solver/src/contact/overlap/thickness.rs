@@ -1,7 +1,7 @@
 //! Local thickness of bodies: how far the surface opposite is, along the inward normal.
 //!
 //! For each facet the ray from its middle finds the opposite skin once, in the initial places; what lies there is followed as it moves, so
-//! that a crushed body is as thin as it is.
+//! that a crushed body is as thin as it is. What bulges is no thicker than it was.
 
 use super::skin::Skin;
 use super::tree::Tree;
@@ -15,9 +15,18 @@ const OPPOSITE: f64 = -0.5;
 /// How far beside a triangle a ray may pass and still meet it, as a share.
 const BESIDE: f64 = 1e-9;
 
-/// What is opposite of each facet: a triangle, or [`NONE`], and the shares of its corners. On a symmetry plane the body goes on as its image.
+/// What is opposite of a facet: a triangle, or [`NONE`], and the shares of its corners; and how thick the body was, m. On a symmetry plane the
+/// body goes on as its image.
+#[derive(Debug)]
+struct Opposite {
+    triangle: u32,
+    shares: [f64; 3],
+    most: f64,
+}
+
+/// What is opposite of each facet.
 #[derive(Debug, Default)]
-pub(super) struct Thickness(Vec<(u32, [f64; 3])>);
+pub(super) struct Thickness(Vec<Opposite>);
 
 impl Thickness {
     /// Of the facets of a skin in its places.
@@ -34,22 +43,26 @@ impl Thickness {
                     nearest = (away, (triangle, shares));
                 }
             });
-            nearest.1
+            let (triangle, shares) = nearest.1;
+            Opposite { triangle, shares, most: f64::INFINITY }
         };
-        Self(skin.facets.iter().map(of).collect())
+        let mut made = Self(skin.facets.iter().map(of).collect());
+        let most: Vec<f64> = skin.facets.iter().map(|facet| made.of(skin, facet.first)).collect();
+        made.0.iter_mut().zip(most).for_each(|(opposite, most)| opposite.most = most);
+        made
     }
 
     /// Thickness of the body behind a triangle now, m; infinite where nothing is opposite.
     pub(super) fn of(&self, skin: &Skin, triangle: u32) -> f64 {
         let facet = skin.facet_of[triangle as usize] as usize;
-        let (opposite, shares) = self.0[facet];
-        if opposite == NONE {
+        let Opposite { triangle, shares, most } = self.0[facet];
+        if triangle == NONE {
             return f64::INFINITY;
         }
-        let x = skin.corners(opposite);
+        let x = skin.corners(triangle);
         let foot = [0, 1, 2].map(|d| shares[0] * x[0][d] + shares[1] * x[1][d] + shares[2] * x[2][d]);
         let way = length(minus(foot, middle(skin, skin.facets[facet].first).0));
-        if skin.is_mirror(opposite) { 2.0 * way } else { way }
+        if skin.is_mirror(triangle) { 2.0 * way } else { way }.min(most)
     }
 
     /// The largest of each body, m.

@@ -4,11 +4,14 @@
 //! with the searches of contact.
 
 use super::skin::Skin;
-use crate::contact::boxes::{Aabb, around, do_meet, joined, longest, meets_ray, nothing, square_away};
+use crate::contact::boxes::{Aabb, around, do_meet, joined, longest, meets_ray, nothing, square_away, widened};
 use crate::contact::projection::node_facet::{Vector, square_to_triangle};
+use crate::mesh::surface::NONE;
 
 /// Facets of a leaf.
 const LEAF: usize = 2;
+/// Squares of distances that differ by less than this fraction are equal.
+const ROUNDED: f64 = 1e-9;
 /// The side of what has both.
 const MIXED: u32 = u32::MAX;
 
@@ -32,6 +35,8 @@ pub(super) struct Tree {
     root: u32,
     /// Box of each facet.
     pub(super) boxes: Vec<Aabb<3>>,
+    /// By how much any place may have left the boxes since they were taken, m.
+    pub(super) grown: f64,
 }
 
 impl Tree {
@@ -120,6 +125,7 @@ impl Tree {
 
     /// Takes the boxes anew. Children come before their parents.
     pub(super) fn refit(&mut self, skin: &Skin) {
+        self.grown = 0.0;
         let Self { nodes, order, boxes, .. } = self;
         boxes.clear();
         boxes.extend(skin.facets.iter().map(|facet| around(facet.all().iter().map(|&vertex| skin.x[vertex as usize]))));
@@ -134,8 +140,8 @@ impl Tree {
         }
     }
 
-    /// Facets whose boxes meet, each pair once.
-    pub(super) fn pairs(&self, skin: &Skin, mut meet: impl FnMut(u32, u32)) {
+    /// Facets whose boxes, as they were taken, are no farther apart than `margin` along any axis, m; each pair once.
+    pub(super) fn pairs(&self, skin: &Skin, margin: f64, mut meet: impl FnMut(u32, u32)) {
         if self.nodes.is_empty() {
             return;
         }
@@ -143,7 +149,7 @@ impl Tree {
         while let Some((a, b)) = stack.pop() {
             let (p, q) = (&self.nodes[a as usize], &self.nodes[b as usize]);
             let is_one_side = !skin.meets_itself && p.side == q.side && p.side != MIXED;
-            if is_one_side || !do_meet(&p.around, &q.around) {
+            if is_one_side || !do_meet(&p.around, &widened(&q.around, margin)) {
                 continue;
             }
             match (p.is_leaf, q.is_leaf) {
@@ -151,7 +157,7 @@ impl Tree {
                     for i in p.first..p.second {
                         for j in if a == b { i + 1 } else { q.first }..q.second {
                             let [i, j] = [i, j].map(|at| self.order[at as usize]);
-                            if do_meet(&self.boxes[i as usize], &self.boxes[j as usize]) {
+                            if do_meet(&self.boxes[i as usize], &widened(&self.boxes[j as usize], margin)) {
                                 meet(i, j);
                             }
                         }
@@ -167,12 +173,13 @@ impl Tree {
         }
     }
 
-    /// The triangle of a body that is nearest to a place, and the square of the distance, if that is less than `square` (m²).
-    pub(super) fn nearest(&self, skin: &Skin, body: u32, x: Vector, mut square: f64, counts: impl Fn(u32) -> bool) -> Option<(f64, u32)> {
-        let mut found = None;
+    /// The triangle of a body that is nearest to a place, the first of equally near ones, and the square of the distance, if that is less than `square` (m²).
+    pub(super) fn nearest(&self, skin: &Skin, body: u32, x: Vector, square: f64, counts: impl Fn(u32) -> bool) -> Option<(f64, u32)> {
+        let mut found = (square, NONE);
         let mut stack = vec![(self.roots[body as usize], 0.0)];
         while let Some((number, away)) = stack.pop() {
-            if away >= square {
+            // Boxes round otherwise than triangles do.
+            if away * (1.0 - ROUNDED) > found.0 {
                 continue;
             }
             let node = &self.nodes[number as usize];
@@ -180,18 +187,19 @@ impl Tree {
                 for &facet in &self.order[node.first as usize..node.second as usize] {
                     for triangle in skin.facets[facet as usize].triangles().filter(|&triangle| counts(triangle)) {
                         let away = square_to_triangle(x, skin.corners(triangle));
-                        if away < square {
-                            (square, found) = (away, Some((away, triangle)));
+                        if away < found.0 || (away == found.0 && triangle < found.1 && found.1 != NONE) {
+                            found = (away, triangle);
                         }
                     }
                 }
                 continue;
             }
-            let [a, b] = [node.first, node.second].map(|child| (child, square_away(&self.nodes[child as usize].around, x)));
+            let of = |child: u32| (child, square_away(&widened(&self.nodes[child as usize].around, self.grown), x));
+            let [a, b] = [node.first, node.second].map(of);
             // The nearer one first: it is on top.
             if a.1 < b.1 { stack.extend([b, a]) } else { stack.extend([a, b]) }
         }
-        found
+        (found.1 != NONE).then_some(found)
     }
 
     /// Triangles of a body whose leaves' boxes a ray meets.

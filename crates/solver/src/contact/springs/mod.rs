@@ -50,6 +50,9 @@ use ends::Ends;
 use friction::Friction;
 use std::ops::Range;
 
+/// Both sides' ways together, and what shares beyond a facet's rim may add.
+const BOTH: f64 = 2.2;
+
 /// A value for each direction along a surface.
 pub type Along<const D: usize> = <Dim<D> as Motion<D>>::Along<f64>;
 
@@ -298,6 +301,17 @@ where
         std::array::from_fn(|d| self.share * normal[d] + self.lean[d])
     }
 
+    /// What it adds to the gap's rate, m/s.
+    fn rate(&self, normal: [f64; D], velocities: &[[f64; D]], bodies: &Bodies<D>) -> f64 {
+        let row = self.gap_row(normal);
+        let at = self.at as usize;
+        let velocity = velocities.get(at).copied().unwrap_or_else(|| {
+            let body = bodies.state(at - velocities.len());
+            body.velocity_at(self.point, &body.velocity)
+        });
+        (0..D).map(|d| row[d] * velocity[d]).sum()
+    }
+
     /// Rows of the slip's rates.
     #[inline]
     fn slip_rows(&self, tangents: &<Dim<D> as Motion<D>>::Tangents) -> <Dim<D> as Motion<D>>::Tangents {
@@ -494,6 +508,19 @@ where
     /// The ends of a spring.
     pub fn ends(&self, spring: &Spring<D>) -> impl Iterator<Item = End<D>> {
         spring.ends().map(|k| self.ends.get(k))
+    }
+
+    /// The longest step, s, in which nothing goes farther into a body than `ways` times the depth at which the spring there stiffens, with
+    /// the velocities (m/s) that nodes and rigid bodies have; infinite if nothing can in a step in which none goes farther than `way`, m.
+    #[must_use]
+    pub fn step_of_approach(&self, ways: f64, way: f64, velocities: &[[f64; D]], bodies: &Bodies<D>) -> f64 {
+        let may_be = |spring: &&Spring<D>| spring.gap > 0.0 && ways * spring.stiffening.depth() < BOTH * way;
+        let of = |spring: &Spring<D>| {
+            let limit = spring.stiffening.depth();
+            let rate: f64 = spring.ends().map(|k| self.ends.get(k)).map(|end| end.rate(spring.normal, velocities, bodies)).sum();
+            if rate < 0.0 { (ways * limit + spring.gap) / -rate } else { f64::INFINITY }
+        };
+        self.list.iter().filter(may_be).map(of).fold(f64::INFINITY, f64::min)
     }
 
     /// What the last solution found of the springs `range`.

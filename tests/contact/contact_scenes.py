@@ -4,7 +4,7 @@
     python tests/contact/contact_scenes.py --embate target/release/embate --first 1 --count 100 [--plane] [--family bars] [--processes 2]
     python tests/contact/contact_scenes.py --embate target/release/embate --torture FOLDER
 
-Prints a table by family, and the silent ones with their seeds. Scenes come from `scenes.py`: the same seeds are the same scenes.
+Prints a table by family, and the silent ones with their seeds. Scenes come from `scenes.py`: the same seeds are the same scenes, if `--cells` is.
 What is not deep and was not finished within the limit counts as `late`; a run without results as `refused` (of the model) or
 `crashed`. Exit code 1 if a run is silent, refused or crashed.
 """
@@ -39,7 +39,7 @@ def work(task):
     family = None
     if not isinstance(model, pathlib.Path):
         family, number = model
-        model = scenes.make(family, number).write(scratch / "models")
+        model = scenes.make(family, number, options.cells).write(scratch / "models")
     out = scratch / "results" / model.name
     command = [str(options.embate), "run", str(model), "--threads", "1", "--quiet", "--force", "--out", str(out)]
     command += ["--set", "output.pictures=false"] + (["--set", f"output.fields={TORTURE_FRAMES}"] if family is None else [])
@@ -131,6 +131,7 @@ def main():
     parser.add_argument("--count", type=int, default=100, help="how many scenes")
     parser.add_argument("--plane", action="store_true", help="scenes of the plane")
     parser.add_argument("--family", help="scenes of one family only")
+    parser.add_argument("--cells", type=int, default=scenes.CELLS, help="elements of a scene at most")
     parser.add_argument("--torture", type=pathlib.Path, help="run the models in this folder instead")
     parser.add_argument("--only", default="", help="with --torture: models whose names contain this")
     parser.add_argument("--processes", type=int, default=1)

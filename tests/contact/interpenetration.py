@@ -14,7 +14,7 @@ the faces that only one element has, quadrilaterals made of four triangles aroun
   from one frame to the next, the bodies have changed sides there. The volume of the deepest overlap is found by sampling;
 - edges of a body are cut with its own triangles that are more than two elements away;
 - elongated bodies have centre lines (means of cross-sections): where two of them cross as seen along the line between them,
-  the order must stay the same. That sees a passage between two frames as well.
+  neither may be half a thickness on the other side later. That sees a passage between two frames as well.
 
 Local thickness tau of a facet: the way from its centre inward to where it leaves the undeformed body, if the surface there faces
 the other way (n.n' < -0.5), at most twice the radius of the largest ball around the centre of an element or a face, or an inner
@@ -488,14 +488,22 @@ class Judge:
             size = np.linalg.norm(direction)
             if size == 0:
                 return
-            state = [direction / size, None]
+            state = [direction / size, None, 0.0]
             self.orders[(i, j)] = state
         now = crossings(one, two, state[0])
         before, state[1] = state[1], now
-        if before is not None and len(before) == 1 and len(now) == 1:
-            (s0, t0, h0), (s1, t1, h1) = before[0], now[0]
-            if h0 * h1 < 0 and abs(s1 - s0) < 0.2 and abs(t1 - t0) < 0.2 and 0.1 < s1 < 0.9 and 0.1 < t1 < 0.9:
+        # One crossing that goes on; else it is another one, and what was known of its sides is gone.
+        goes_on = before is not None and len(before) == 1 and len(now) == 1
+        if not goes_on or max(abs(now[0][k] - before[0][k]) for k in (0, 1)) >= 0.2:
+            state[2] = 0.0
+        if len(now) != 1:
+            return
+        s, t, height = now[0]
+        # Soft bodies are squeezed until their centre lines meet: only what is half a thickness on the other side is through.
+        if abs(height) >= min(self.bodies[i].radius, self.bodies[j].radius):
+            if state[2] * height < 0 and 0.1 < s < 0.9 and 0.1 < t < 0.9:
                 self.change(f"the centre lines of {where} change sides by {frame.time:.3g} s")
+            state[2] = height
 
     def change(self, text):
         self.changed.append(text)

@@ -41,16 +41,23 @@ def height(corners):
 
 def turned(points, cell):
     """The cell with its first face below the second."""
-    at = points[list(cell)]
+    at = [points[node].tolist() for node in cell]
     if len(cell) == 4:
-        a, b, c = at[1:] - at[0]
-        return tuple(cell) if np.dot(np.cross(a, b), c) > 0 else (cell[0], cell[2], cell[1], cell[3])
+        a, b, c = ([x - y for x, y in zip(corner, at[0])] for corner in at[1:])
+        return tuple(cell) if dot(across(a, b), c) > 0 else (cell[0], cell[2], cell[1], cell[3])
     n = len(cell) // 2
-    centre = at.mean(0)
-    low = at[:n]
-    middle = low.mean(0)
-    normal = sum(np.cross(low[k] - middle, low[(k + 1) % n] - middle) for k in range(n))
-    return tuple(cell) if np.dot(normal, centre - middle) > 0 else tuple(cell[n:]) + tuple(cell[:n])
+    centre, middle = ([sum(corner[d] for corner in some) / len(some) for d in range(3)] for some in (at, at[:n]))
+    arms = [[x - y for x, y in zip(corner, middle)] for corner in at[:n]]
+    normal = [sum(turn) for turn in zip(*(across(arms[k], arms[(k + 1) % n]) for k in range(n)))]
+    return tuple(cell) if dot(normal, [x - y for x, y in zip(centre, middle)]) > 0 else tuple(cell[n:]) + tuple(cell[:n])
+
+
+def across(a, b):
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
 
 
 def grid(counts, place, kind="hex", around=(), dice=None):

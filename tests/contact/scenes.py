@@ -24,16 +24,16 @@ from space import SPACE
 CELLS = 2000
 
 
-def make(family, seed):
-    """The scene of a family and a seed."""
-    for attempt in range(100):
+def make(family, seed, cells=CELLS):
+    """The scene of a family and a seed, of so many elements at most."""
+    for attempt in range(400):
         dice = Dice(f"{family} {seed} {attempt}")
         scene = Scene(family, seed, is_plane=family in PLANE)
         (PLANE if scene.is_plane else SPACE)[family](scene, dice)
         scene.friction = dice.choice([0.0, 0.0, 0.0, round(dice.uniform(0.05, 1.0), 3)])
         if not (scene.is_plane or scene.obstacles or scene.gravity) and dice.random() < 0.5:
             scene.turned(meshes.any_rotation(dice))
-        if scene.cells() <= CELLS:
+        if scene.cells() <= cells:
             return scene.softened()
     raise RuntimeError(f"no scene of {family} {seed} is small enough")
 
@@ -42,10 +42,10 @@ def families(plane=False):
     return list(PLANE if plane else SPACE)
 
 
-def scene(number, plane=False):
+def scene(number, plane=False, cells=CELLS):
     """Scene number `number` of all: families in turn."""
     names = families(plane)
-    return make(names[number % len(names)], number)
+    return make(names[number % len(names)], number, cells)
 
 
 def main():
@@ -55,6 +55,7 @@ def main():
     parser.add_argument("--count", type=int, default=20)
     parser.add_argument("--family")
     parser.add_argument("--plane", action="store_true")
+    parser.add_argument("--cells", type=int, default=CELLS, help="elements of a scene at most")
     parser.add_argument("--list", action="store_true")
     options = parser.parse_args()
     if options.list or options.out is None:
@@ -62,7 +63,7 @@ def main():
         print("in the plane:", ", ".join(PLANE))
         return 0
     for number in range(options.first, options.first + options.count):
-        made = make(options.family, number) if options.family else scene(number, options.plane)
+        made = make(options.family, number, options.cells) if options.family else scene(number, options.plane, options.cells)
         print(made.write(options.out))
     return 0
 

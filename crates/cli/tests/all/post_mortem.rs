@@ -64,7 +64,7 @@ const FAILURES: &[Failure] = &[
         name: "deep-contact",
         code: "E0606",
         culprit: "contact \"landing\" at node ",
-        keys: [("contact[0].penalty_scale", "1e-5"), ("part[0].velocity", "[0, \"-20 m/s\"]")],
+        keys: [("contact[0].penalty_scale", "1e-6"), ("part[0].velocity", "[0, \"-20 m/s\"]")],
         pictures: ALL,
     },
     Failure {

@@ -63,8 +63,7 @@ where
         }
         let unverified = self.certificate().unverified;
         if unverified > 0 {
-            let (who, much) =
-                if D == 3 { ("a node or an edge went into a body", "sixth") } else { ("a node was inside a body", "fifth") };
+            let (who, much) = if D == 3 { ("a node or an edge went into a body", "sixth") } else { ("a node was inside a body", "fifth") };
             let mut text = format!(
                 "{unverified} time(s) {who} without being held apart, or bodies overlapped by more than a {much} of their thickness: \
                  a contact was missed or is too soft, or a body went through itself"

@@ -75,7 +75,7 @@ struct Known {
     bodies: [u32; 2],
     /// Area vector with which it began, turned with the bodies since, m²; zero: it has no direction.
     began: Vector,
-    /// Area of the first side in the last look, and in the one before, m².
+    /// Area, the mean of both sides, in the last look, and in the one before, m².
     size: f64,
     size_before: f64,
     /// V now and in the look before, m³.

@@ -31,7 +31,7 @@ pub(super) struct Region {
     pub(super) chords: Vec<(u32, [Vector; 2])>,
     /// N of the first side, m².
     pub(super) area: Vector,
-    /// Area of the first side, m².
+    /// Area, the mean of both sides, m².
     pub(super) size: f64,
     /// V, m³.
     pub(super) volume: f64,
@@ -361,9 +361,11 @@ fn integrate(skin: &Skin, region: &mut Region, pieces: &[Piece]) {
         }
         let covered = shares[0] + shares[1] + shares[2];
         let area = double.map(|c| 0.5 * covered * c);
-        if !second && !skin.is_mirror(triangle) {
-            (0..3).for_each(|d| region.area[d] += area[d]);
-            region.size += 0.5 * covered * square.sqrt();
+        if !skin.is_mirror(triangle) {
+            region.size += 0.25 * covered * square.sqrt();
+            if !second {
+                (0..3).for_each(|d| region.area[d] += area[d]);
+            }
         }
         region.volume += dot(minus(x[0], origin), area) / 3.0;
         for (vertex, share) in skin.triangles[triangle as usize].into_iter().zip(shares) {

@@ -8,7 +8,7 @@
 //! Where a body may meet itself, it is judged against itself, too ([`super::outline`]).
 
 use super::boxes::{Aabb, do_meet};
-use super::findings::{DEEPEST_IN_PLANE, Findings, Overlap};
+use super::findings::{DEEPEST_IN_PLANE, Findings, Overlap, way_until_next};
 use super::outline::{Opposite, Outline, Side};
 use super::tracker::{Touch, Tracker};
 use super::{Scene, Vector};
@@ -31,8 +31,6 @@ pub struct Depths {
 /// Way of both bodies together between two looks, as a fraction of the least thickness, and most steps.
 const BETWEEN_LOOKS: f64 = 0.25;
 const MOST_STEPS: u32 = 32;
-/// The least way, where something is nearly too deep.
-const LEAST_BETWEEN: f64 = 0.025;
 /// So many segments are looked at a step, in the mean: what presses along long sides is looked at less often.
 const PER_STEP: u32 = 16;
 /// Segments of a body that are looked at against itself count so many for one.
@@ -135,16 +133,11 @@ impl Depths {
         for (outline, _) in judge.outlines.iter().zip(&judge.sides).filter(|(_, sides)| **sides == BOTH_SIDES) {
             // That nothing is cut is seen at once, for most segments by boxes around many.
             looked += outline.sides.len() / OF_ITSELF;
-            outline.folds(positions, |[x, y], side, square, nearest| {
-                let thickness = [side, nearest].map(|side| side.opposite.now(side.segment, positions));
-                let nodes = [side.segment[0], nearest.segment[0]];
-                let (thickness, time) = (thickness[0].min(thickness[1]), scene.time);
-                findings.see(Overlap { place: [x, y, 0.0], depth: square.sqrt(), thickness, nodes, time }, true);
-            });
+            outline.folds(positions, |x, side, square, nearest| findings.see(overlap_of(x, [side, nearest], square, scene), true));
         }
         (judge.inside, judge.looked) = (nodes, looked as u32);
-        let left = DEEPEST_IN_PLANE - findings.now.ratio().max(findings.own.ratio());
-        (judge.next, judge.steps) = (scene.sweep.travel + 0.5 * left.clamp(LEAST_BETWEEN, BETWEEN_LOOKS) * least, 0);
+        let deepest = findings.now.ratio().max(findings.own.ratio());
+        (judge.next, judge.steps) = (scene.sweep.travel + way_until_next(deepest, DEEPEST_IN_PLANE, BETWEEN_LOOKS, least), 0);
     }
 
     /// Takes a node that is so deep inside, m, where bodies were `initial` thick at the start, m.
@@ -204,9 +197,13 @@ impl Judge {
 
 /// How deep a place of a segment is in another body.
 fn deep(x: Vector, side: &Side, other: &Outline, scene: &Scene<'_>) -> Option<Overlap> {
-    let positions = scene.sweep.new;
-    let (square, nearest) = other.nearest(x, positions)?;
-    let thickness = [side, &nearest].map(|side| side.opposite.now(side.segment, positions));
-    let nodes = [side.segment[0], nearest.segment[0]];
-    Some(Overlap { place: [x[0], x[1], 0.0], depth: square.sqrt(), thickness: thickness[0].min(thickness[1]), nodes, time: scene.time })
+    let (square, nearest) = other.nearest(x, scene.sweep.new)?;
+    Some(overlap_of(x, [side, &nearest], square, scene))
+}
+
+/// The overlap at a place of the first side, whose distance from the second one has this square, m².
+fn overlap_of(x: Vector, sides: [&Side; 2], square: f64, scene: &Scene<'_>) -> Overlap {
+    let thickness = sides.map(|side| side.opposite.now(side.segment, scene.sweep.new));
+    let nodes = sides.map(|side| side.segment[0]);
+    Overlap { place: [x[0], x[1], 0.0], depth: square.sqrt(), thickness: thickness[0].min(thickness[1]), nodes, time: scene.time }
 }

@@ -9,6 +9,17 @@ pub const DEEPEST_IN_PLANE: f64 = 0.2;
 /// Depth from which on an overlap gets a net and counts as penetration, as a fraction of the local thickness.
 pub const CAST: f64 = 0.05;
 
+/// Places on a part of an edge or a segment that are looked at.
+pub(super) const PLACES: [f64; 3] = [0.25, 0.5, 0.75];
+/// Least way of both bodies between two looks, as a fraction of the least thickness: where something is nearly too deep.
+const LEAST_BETWEEN: f64 = 0.025;
+
+/// How far each body may go until the next look, m: both together no farther than `between` of the `least` thickness, m, and what is as deep as a
+/// `ratio` of its thickness no farther than to where it is too deep, `most`.
+pub(super) fn way_until_next(ratio: f64, most: f64, between: f64, least: f64) -> f64 {
+    0.5 * (most - ratio).clamp(LEAST_BETWEEN, between) * least
+}
+
 /// A place in an overlap.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Overlap {

@@ -12,6 +12,7 @@ mod folds;
 
 use super::Vector;
 use super::boxes::{Aabb, around, do_meet, joined, longest, meets_ray, square_away};
+use super::findings::PLACES;
 use crate::mesh::surface::{NONE, Surface};
 use crate::vector::{dot, minus};
 use robust::{Coord, orient2d};
@@ -21,8 +22,6 @@ use std::collections::BTreeMap;
 const OPPOSITE: f64 = -0.5;
 /// How far beside a segment a ray may pass and still meet it, as a share.
 const BESIDE: f64 = 1e-9;
-/// Places on a part of a segment that is inside.
-const PLACES: [f64; 3] = [0.25, 0.5, 0.75];
 /// Segments of a leaf of the tree.
 const LEAF: usize = 4;
 
@@ -186,7 +185,12 @@ impl Outline {
         // Across the longer extent a ray meets few segments.
         let [low, high] = self.around();
         let is_wide = high[0] - low[0] > high[1] - low[1];
-        let turned = |[x, y]: Vector| if is_wide { [y, x] } else { [x, y] };
+        self.winding(x, is_wide, |_| true, positions) != 0
+    }
+
+    /// Winding number of a place, of the segments that count: by a ray along x, or along y if the outline `is_turned`, which changes the sign.
+    fn winding(&self, x: Vector, is_turned: bool, counts: impl Fn(&Side) -> bool, positions: &[Vector]) -> i32 {
+        let turned = |[x, y]: Vector| if is_turned { [y, x] } else { [x, y] };
         let x = turned(x);
         let mut winding = 0;
         self.visit(
@@ -197,12 +201,12 @@ impl Outline {
             |side| {
                 let [a, b] = side.segment.map(|node| turned(positions[node as usize]));
                 let rises = b[1] > x[1];
-                if (a[1] > x[1]) != rises && (turn(a, b, x) > 0.0) == rises {
+                if (a[1] > x[1]) != rises && (turn(a, b, x) > 0.0) == rises && counts(side) {
                     winding += if rises { 1 } else { -1 };
                 }
             },
         );
-        winding != 0
+        winding
     }
 
     /// The segment that is nearest to a place, and the square of the distance, m².
@@ -212,28 +216,25 @@ impl Outline {
         self.visit(
             |around| square_away(around, x) < square.get(),
             |side| {
-                let [a, b] = side.segment.map(|node| positions[node as usize]);
-                let (along, off) = (minus(b, a), minus(x, a));
-                let share = (dot(off, along) / dot(along, along)).clamp(0.0, 1.0);
-                let away = [0, 1].map(|d| off[d] - share * along[d]);
-                if !side.is_mirror && dot(away, away) < square.get() {
-                    square.set(dot(away, away));
-                    found = Some((dot(away, away), *side));
+                let away = square_to(x, side.segment.map(|node| positions[node as usize]));
+                if !side.is_mirror && away < square.get() {
+                    square.set(away);
+                    found = Some((away, *side));
                 }
             },
         );
         found
     }
 
-    /// Adds where along the way from p to q (0 to 1) the outline is crossed.
-    pub(super) fn cross(&self, [p, q]: [Vector; 2], positions: &[Vector], places: &mut Vec<f64>) {
+    /// Adds where along the way from p to q (0 to 1) the segments that count are crossed.
+    fn cross(&self, [p, q]: [Vector; 2], counts: impl Fn(&Side) -> bool, positions: &[Vector], places: &mut Vec<f64>) {
         let way = around([p, q]);
         self.visit(
             |around| do_meet(around, &way),
             |side| {
                 let [a, b] = side.segment.map(|node| positions[node as usize]);
                 let (from, to) = (turn(a, b, p), turn(a, b, q));
-                if (from > 0.0) != (to > 0.0) && (turn(p, q, a) > 0.0) != (turn(p, q, b) > 0.0) {
+                if (from > 0.0) != (to > 0.0) && (turn(p, q, a) > 0.0) != (turn(p, q, b) > 0.0) && counts(side) {
                     places.push(from / (from - to));
                 }
             },
@@ -246,12 +247,7 @@ impl Outline {
     pub(super) fn inside(&self, other: &Self, positions: &[Vector], mut see: impl FnMut(Vector, &Side, bool)) -> usize {
         let near: Vec<&Side> = self.near(other, positions).collect();
         let looked = near.len();
-        let mut cuts = Vec::new();
-        let mut begin = vec![0];
-        for side in &near {
-            other.cross(side.segment.map(|node| positions[node as usize]), positions, &mut cuts);
-            begin.push(cuts.len());
-        }
+        let (cuts, begin) = other.cuts(&near, |_, _| true, positions);
         // Outlines that do not cut each other are apart, or one is all inside.
         let middle = |side: &Side| {
             let [a, b] = side.segment.map(|node| positions[node as usize]);
@@ -262,22 +258,30 @@ impl Outline {
         }
         for (side, range) in near.into_iter().zip(begin.windows(2)) {
             let ends = side.segment.map(|node| positions[node as usize]);
-            let at = |share: f64| [0, 1].map(|d| (1.0 - share) * ends[0][d] + share * ends[1][d]);
-            let own = &mut cuts[range[0]..range[1]];
-            own.sort_by(f64::total_cmp);
-            for part in 0..=own.len() {
-                let from = if part == 0 { 0.0 } else { own[part - 1] };
-                let to = own.get(part).copied().unwrap_or(1.0);
-                let between = |share: f64| at(from + share * (to - from));
-                if other.is_inside(between(0.5), positions) {
+            for (part, [from, to]) in pieces(&cuts[range[0]..range[1]]).enumerate() {
+                let at = |share: f64| between(ends, from + share * (to - from));
+                if other.is_inside(at(0.5), positions) {
                     if part == 0 {
                         see(ends[0], side, true);
                     }
-                    PLACES.into_iter().for_each(|share| see(between(share), side, false));
+                    PLACES.into_iter().for_each(|share| see(at(share), side, false));
                 }
             }
         }
         looked
+    }
+
+    /// Where segments cut this outline, of those of its own that count for each: shares of their ways, ascending, and where those of each
+    /// segment begin.
+    fn cuts(&self, of: &[&Side], counts: impl Fn(&Side, &Side) -> bool, positions: &[Vector]) -> (Vec<f64>, Vec<usize>) {
+        let (mut cuts, mut begin) = (Vec::new(), vec![0]);
+        for &side in of {
+            let first = cuts.len();
+            self.cross(side.segment.map(|node| positions[node as usize]), |other| counts(side, other), positions, &mut cuts);
+            cuts[first..].sort_by(f64::total_cmp);
+            begin.push(cuts.len());
+        }
+        (cuts, begin)
     }
 
     /// Its segments near another outline.
@@ -286,6 +290,25 @@ impl Outline {
         let is_near = move |side: &&Side| !side.is_mirror && do_meet(&box_of(std::slice::from_ref(*side), positions), &around);
         self.sides.iter().filter(is_near)
     }
+}
+
+/// The pieces between cuts of a segment, from a share of its way to another.
+fn pieces(cuts: &[f64]) -> impl Iterator<Item = [f64; 2]> {
+    (0..=cuts.len()).map(|k| [if k == 0 { 0.0 } else { cuts[k - 1] }, cuts.get(k).copied().unwrap_or(1.0)])
+}
+
+/// The place at a share of the way from p to q.
+fn between([p, q]: [Vector; 2], share: f64) -> Vector {
+    [0, 1].map(|d| (1.0 - share) * p[d] + share * q[d])
+}
+
+/// Square of the distance of a place from the way from p to q, m².
+fn square_to(x: Vector, [p, q]: [Vector; 2]) -> f64 {
+    let (along, off) = (minus(q, p), minus(x, p));
+    let square = dot(along, along);
+    let share = if square > 0.0 { (dot(off, along) / square).clamp(0.0, 1.0) } else { 0.0 };
+    let away = [0, 1].map(|d| off[d] - share * along[d]);
+    dot(away, away)
 }
 
 /// Twice the area of the triangle a, b, c, with the right sign: positive where c is on the left of a → b.

@@ -4,9 +4,9 @@
 //! of a part says whether the body is there, too. Parts that are inside and follow each other make a chain. Two chains bound an overlap, or
 //! the two flanks of a chain that run against each other, and a place of one is as deep as the other one is far.
 
-use super::{Outline, PLACES, Side, turn};
+use super::{Outline, Side, between, pieces, square_to};
 use crate::contact::Vector;
-use crate::contact::boxes::{around, do_meet};
+use crate::contact::findings::PLACES;
 use crate::mesh::surface::NONE;
 use crate::vector::{dot, minus};
 use std::collections::BTreeMap;
@@ -23,15 +23,18 @@ impl Outline {
     /// Shows places of the outline that are inside the body itself, with their segment, the square of their depth (m²) and the segment that
     /// is nearest.
     pub(in crate::contact) fn folds(&self, positions: &[Vector], mut see: impl FnMut(Vector, &Side, f64, &Side)) {
-        let cuts = self.cuts(positions);
+        let sides: Vec<&Side> = self.sides.iter().collect();
+        let are_apart = |side: &Side, other: &Side| !other.segment.iter().any(|node| side.segment.contains(node));
+        let (cuts, begin) = self.cuts(&sides, are_apart, positions);
         if cuts.is_empty() {
             return;
         }
-        let parts = chained(self.parts(&cuts, positions));
+        let own = begin.windows(2).map(|range| &cuts[range[0]..range[1]]);
+        let parts = chained(self.sides.iter().zip(own).flat_map(|(side, own)| self.parts(side, own, positions)).collect());
         for part in &parts {
             let mut look = |x: Vector| {
                 let others = parts.iter().filter(|other| other.chain != part.chain || is_facing(part.ends, other.ends));
-                let away = |other: &Part| (square_away_from(x, other.ends), other.side);
+                let away = |other: &Part| (square_to(x, other.ends), other.side);
                 if let Some((square, nearest)) = others.map(away).reduce(|a, b| if b.0 < a.0 { b } else { a }) {
                     see(x, &part.side, square, &nearest);
                 }
@@ -43,50 +46,14 @@ impl Outline {
         }
     }
 
-    /// Where segments are cut by others that are no neighbours: the number of the segment, and the share of its way; ascending.
-    fn cuts(&self, positions: &[Vector]) -> Vec<(usize, f64)> {
-        let mut cuts = Vec::new();
-        for (number, side) in self.sides.iter().enumerate() {
-            let [p, q] = side.segment.map(|node| positions[node as usize]);
-            let way = around([p, q]);
-            self.visit(
-                |around| do_meet(around, &way),
-                |other| {
-                    if other.segment.iter().any(|node| side.segment.contains(node)) {
-                        return;
-                    }
-                    let [a, b] = other.segment.map(|node| positions[node as usize]);
-                    let (from, to) = (turn(a, b, p), turn(a, b, q));
-                    if (from > 0.0) != (to > 0.0) && (turn(p, q, a) > 0.0) != (turn(p, q, b) > 0.0) {
-                        cuts.push((number, from / (from - to)));
-                    }
-                },
-            );
+    /// The parts of a segment between its cuts that are inside.
+    fn parts(&self, side: &Side, cuts: &[f64], positions: &[Vector]) -> Vec<Part> {
+        if side.is_mirror {
+            return Vec::new();
         }
-        cuts.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
-        cuts
-    }
-
-    /// The parts of segments that are inside.
-    fn parts(&self, cuts: &[(usize, f64)], positions: &[Vector]) -> Vec<Part> {
-        let mut parts = Vec::new();
-        let mut rest = cuts;
-        for (number, &side) in self.sides.iter().enumerate() {
-            let (own, others) = rest.split_at(rest.iter().take_while(|cut| cut.0 == number).count());
-            rest = others;
-            if side.is_mirror {
-                continue;
-            }
-            let ends = side.segment.map(|node| positions[node as usize]);
-            for k in 0..=own.len() {
-                let shares = [if k == 0 { 0.0 } else { own[k - 1].1 }, own.get(k).map_or(1.0, |cut| cut.1)];
-                let ends = shares.map(|share| between(ends, share));
-                if self.is_within(between(ends, 0.5), &side, positions) {
-                    parts.push(Part { side, shares, ends, chain: NONE });
-                }
-            }
-        }
-        parts
+        let ends = side.segment.map(|node| positions[node as usize]);
+        let part = |shares: [f64; 2]| Part { side: *side, shares, ends: shares.map(|share| between(ends, share)), chain: NONE };
+        pieces(cuts).map(part).filter(|part| self.is_within(between(part.ends, 0.5), side, positions)).collect()
     }
 
     /// Whether the body is just outside of a place on one of its segments, by the winding number there.
@@ -94,25 +61,18 @@ impl Outline {
         let [a, b] = own.segment.map(|node| positions[node as usize]);
         // A ray along x across segments that run along y more than along x, and the other way round: that turns the outline round.
         let is_turned = (b[1] - a[1]).abs() < (b[0] - a[0]).abs();
-        let turned = |[x, y]: Vector| if is_turned { [y, x] } else { [x, y] };
-        let x = turned(x);
-        let mut winding = 0;
-        self.visit(
-            |around| {
-                let [low, high] = around.map(turned);
-                low[1] <= x[1] && x[1] <= high[1] && x[0] <= high[0]
-            },
-            |side| {
-                let [a, b] = side.segment.map(|node| turned(positions[node as usize]));
-                let rises = b[1] > x[1];
-                if side.segment == own.segment {
-                    // Counts as crossed if what is outside of it is before it.
-                    winding += if (b[1] > a[1]) != is_turned { if rises { 1 } else { -1 } } else { 0 };
-                } else if (a[1] > x[1]) != rises && (turn(a, b, x) > 0.0) == rises {
-                    winding += if rises { 1 } else { -1 };
-                }
-            },
-        );
+        let others = self.winding(x, is_turned, |side| side.segment != own.segment, positions);
+        // The own segment counts as crossed if what is outside of it is before it.
+        let axis = usize::from(!is_turned);
+        let is_crossed = (b[axis] > a[axis]) != is_turned;
+        let winding = others
+            + if !is_crossed {
+                0
+            } else if b[axis] > x[axis] {
+                1
+            } else {
+                -1
+            };
         // The body is on the right of its segments.
         if is_turned { winding > 0 } else { winding < 0 }
     }
@@ -150,19 +110,6 @@ fn chained(mut parts: Vec<Part>) -> Vec<Part> {
 fn is_facing([a, b]: [Vector; 2], [c, d]: [Vector; 2]) -> bool {
     let (own, other) = (minus(b, a), minus(d, c));
     dot(own, other) < -0.5 * (dot(own, own) * dot(other, other)).sqrt()
-}
-
-fn between([p, q]: [Vector; 2], share: f64) -> Vector {
-    [0, 1].map(|d| (1.0 - share) * p[d] + share * q[d])
-}
-
-/// Square of the distance of a place from a piece, m².
-fn square_away_from(x: Vector, [p, q]: [Vector; 2]) -> f64 {
-    let (along, off) = (minus(q, p), minus(x, p));
-    let square = dot(along, along);
-    let share = if square > 0.0 { (dot(off, along) / square).clamp(0.0, 1.0) } else { 0.0 };
-    let away = [0, 1].map(|d| off[d] - share * along[d]);
-    dot(away, away)
 }
 
 #[cfg(test)]

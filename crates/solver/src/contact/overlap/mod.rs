@@ -32,7 +32,7 @@ mod tree;
 pub use skin::Bodies;
 
 use super::Sweep;
-use super::findings::{CAST, DEEPEST, Findings, Overlap};
+use super::findings::{CAST, DEEPEST, Findings, Overlap, PLACES, way_until_next};
 use super::projection::node_facet::{Vector, square_to_triangle, unit};
 use super::spin;
 use super::springs::Answers;
@@ -57,10 +57,6 @@ const SIDED_MOST: usize = 16;
 const FACES: f64 = 0.2;
 /// Way of both sides together between two looks, as a fraction of the least thickness.
 const BETWEEN_LOOKS: f64 = 0.125;
-/// The least, where something is so deep already that more would be too deep.
-const LEAST_BETWEEN: f64 = 0.025;
-/// Places on a part of an edge.
-const PLACES: [f64; 3] = [0.25, 0.5, 0.75];
 /// Most steps between two looks.
 const MOST_STEPS: u32 = 16;
 /// A region whose area vector is less than this fraction of its area has no direction: a pin in a hole.
@@ -270,7 +266,7 @@ impl Judge {
             region.triangles.iter().for_each(|&(triangle, _)| self.owner[triangle as usize] = number);
         }
         let deepest = self.known.iter().map(|known| known.ratio).fold(0.0, f64::max);
-        self.next = sweep.travel + 0.5 * (DEEPEST - deepest).clamp(LEAST_BETWEEN, BETWEEN_LOOKS) * self.least;
+        self.next = sweep.travel + way_until_next(deepest, DEEPEST, BETWEEN_LOOKS, self.least);
     }
 
     /// What is known of the regions of the look before goes to those that share a triangle with them.
@@ -401,7 +397,8 @@ impl Judge {
         };
         let of_chord = |&(own, [from, to]): &(u32, [Vector; 2])| {
             let at = move |share: f64| [0, 1, 2].map(|d| (1.0 - share) * from[d] + share * to[d]);
-            PLACES.map(|share| look(own, None, at(share), self.thickness.of(&self.skin, own)))
+            let behind = self.thickness.of(&self.skin, own);
+            PLACES.map(|share| look(own, None, at(share), behind))
         };
         // Where the contour is open the flood can't be trusted.
         let inside = if region.is_open { &[] } else { &region.inside[..] };

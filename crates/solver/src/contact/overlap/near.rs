@@ -6,7 +6,7 @@
 
 use super::skin::Skin;
 use super::tree::Tree;
-use crate::contact::boxes::{Aabb, around};
+use crate::contact::boxes::Aabb;
 use crate::contact::projection::node_facet::Vector;
 use crate::tensor::{cross, dot};
 use crate::vector::{length, minus};
@@ -31,19 +31,17 @@ pub(super) struct Near {
     /// Travel when they were found, and until which no other pair can meet; m.
     found: f64,
     holds: f64,
-    has_begun: bool,
 }
 
 impl Near {
     /// Shows all pairs of facets whose boxes meet, with their boxes, at the places of the skin and the travel there, m.
     pub(super) fn meeting(&mut self, skin: &Skin, tree: &mut Tree, travel: f64, mut meet: impl FnMut([u32; 2], [&Aabb<3>; 2])) {
-        if !(self.has_begun && travel < self.holds && travel >= self.found) {
+        if !(self.found..self.holds).contains(&travel) {
             self.find(skin, tree, travel);
         }
         tree.grown = if travel.is_finite() { travel - self.found } else { 0.0 };
-        let box_of = |facet: u32| around(skin.facets[facet as usize].all().iter().map(|&vertex| skin.x[vertex as usize]));
         for pair in self.pairs.iter_mut().filter(|pair| pair.wakes <= travel) {
-            let [a, b] = pair.facets.map(box_of);
+            let [a, b] = pair.facets.map(|facet| skin.box_of(&skin.facets[facet as usize]));
             let mut away = away(&a, &b);
             if away <= 0.0 {
                 away = between(skin, pair.facets);
@@ -68,10 +66,10 @@ impl Near {
             let [a, b] = facets.map(|facet| &skin.facets[facet as usize]);
             if skin.may_meet(a, b) {
                 let away = away(&tree.boxes[i as usize], &tree.boxes[j as usize]);
-                pairs.push(Pair { facets, wakes: if away > 0.0 { travel + 0.5 * away } else { f64::NEG_INFINITY } });
+                pairs.push(Pair { facets, wakes: travel + 0.5 * away.max(0.0) });
             }
         });
-        (self.found, self.holds, self.has_begun) = (travel, travel + 0.5 * margin, true);
+        (self.found, self.holds) = (travel, travel + 0.5 * margin);
     }
 }
 

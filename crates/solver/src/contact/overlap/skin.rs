@@ -3,6 +3,7 @@
 //!
 //! Topology is fixed, places are taken anew for each look. Vertices are the surfaces' nodes, ascending, then the middles of facets of four nodes.
 
+use crate::contact::boxes::{Aabb, around};
 use crate::mesh::surface::{NONE, SpaceSurface};
 use crate::rows::Rows;
 
@@ -181,6 +182,11 @@ impl Skin {
     /// Places of a triangle's corners, m.
     pub(super) fn corners(&self, triangle: u32) -> [Vector; 3] {
         self.triangles[triangle as usize].map(|vertex| self.x[vertex as usize])
+    }
+
+    /// The box around a facet.
+    pub(super) fn box_of(&self, facet: &Facet) -> Aabb<3> {
+        around(facet.all().iter().map(|&vertex| self.x[vertex as usize]))
     }
 
     /// Whether facets may meet each other: they are of different sides where there are two, and no neighbours.

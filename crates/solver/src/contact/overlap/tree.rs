@@ -128,7 +128,7 @@ impl Tree {
         self.grown = 0.0;
         let Self { nodes, order, boxes, .. } = self;
         boxes.clear();
-        boxes.extend(skin.facets.iter().map(|facet| around(facet.all().iter().map(|&vertex| skin.x[vertex as usize]))));
+        boxes.extend(skin.facets.iter().map(|facet| skin.box_of(facet)));
         for number in 0..nodes.len() {
             let Node { first, second, is_leaf, .. } = nodes[number];
             nodes[number].around = if is_leaf {

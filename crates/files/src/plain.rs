@@ -240,43 +240,33 @@ mod tests {
     use super::*;
     use std::io::Write;
     use std::os::unix::fs::symlink;
-    use std::path::PathBuf;
-
-    fn fresh(name: &str) -> PathBuf {
-        let folder = std::env::temp_dir().join(format!("embate-plain-{name}-{}", std::process::id()));
-        let _ = fs::remove_dir_all(&folder);
-        fs::create_dir_all(&folder).unwrap();
-        folder
-    }
 
     #[test]
     fn what_was_left_is_replaced_and_a_hard_link_of_it_stays_as_it_was() {
-        let folder = fresh("leftover");
-        let [part, other] = ["a.part", "other"].map(|name| folder.join(name));
+        let folder = tempfile::tempdir().unwrap();
+        let [part, other] = ["a.part", "other"].map(|name| folder.path().join(name));
         fs::write(&other, "mine").unwrap();
         fs::hard_link(&other, &part).unwrap();
         create(&part).unwrap().write_all(b"new").unwrap();
         assert_eq!([&part, &other].map(|path| fs::read_to_string(path).unwrap()), ["new", "mine"]);
-        fs::remove_dir_all(folder).unwrap();
     }
 
     #[test]
     fn what_another_one_writes_is_left_alone() {
-        let folder = fresh("busy");
-        let part = folder.join("a.part");
+        let folder = tempfile::tempdir().unwrap();
+        let part = folder.path().join("a.part");
         let mut first = create(&part).unwrap();
         assert_eq!(create(&part).unwrap_err().kind(), ErrorKind::ResourceBusy);
         first.write_all(b"first").unwrap();
         assert_eq!(fs::read_to_string(&part).unwrap(), "first");
         drop(first);
         assert!(create(&part).is_ok() && fs::read(&part).unwrap().is_empty());
-        fs::remove_dir_all(folder).unwrap();
     }
 
     #[test]
     fn no_link_is_written_through_whether_its_end_is_there_or_not() {
-        let folder = fresh("link");
-        let (target, link) = (folder.join("target"), folder.join("link"));
+        let folder = tempfile::tempdir().unwrap();
+        let (target, link) = (folder.path().join("target"), folder.path().join("link"));
         symlink(&target, &link).unwrap();
         for is_there in [false, true] {
             if is_there {
@@ -296,13 +286,12 @@ mod tests {
         }
         // Reading follows it.
         assert_eq!(read(&link).unwrap(), b"mine");
-        fs::remove_dir_all(folder).unwrap();
     }
 
     #[test]
     fn pipes_sockets_and_devices_are_refused_at_once() {
-        let folder = fresh("special");
-        let [pipe, socket, device] = ["pipe", "socket", "device"].map(|name| folder.join(name));
+        let folder = tempfile::tempdir().unwrap();
+        let [pipe, socket, device] = ["pipe", "socket", "device"].map(|name| folder.path().join(name));
         nix::unistd::mkfifo(&pipe, nix::sys::stat::Mode::S_IRWXU).unwrap();
         let _listening = std::os::unix::net::UnixListener::bind(&socket).unwrap();
         symlink("/dev/zero", &device).unwrap();
@@ -315,6 +304,5 @@ mod tests {
                 assert_eq!(kind(&error).code, NO_FILE.code, "{error}");
             }
         }
-        fs::remove_dir_all(folder).unwrap();
     }
 }

@@ -72,11 +72,21 @@ fn until(mut holds: impl FnMut() -> bool) -> bool {
     std::iter::repeat_with(|| std::thread::sleep(Duration::from_millis(10))).take_while(|()| Instant::now() < end).any(|()| holds())
 }
 
+/// A run that is killed with its test, whether that holds or not.
+struct Killed(Child);
+
+impl Drop for Killed {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
 #[test]
 fn a_run_keeps_others_out_until_it_is_killed() {
     let folder = fresh("lock-killed");
     fs::write(folder.join("model.toml"), FLIGHT.replacen("\n", "\nrun.checkpoint_steps = 100\n", 1)).unwrap();
-    let mut child = spawn(&folder, "run model.toml --out out --quiet --set run.end=1000s");
+    let mut child = Killed(spawn(&folder, "run model.toml --out out --quiet --set run.end=1000s"));
     let has_two = || fs::read_dir(folder.join("out/checkpoint")).is_ok_and(|entries| entries.count() >= 2);
     let began = until(has_two);
     for arguments in [
@@ -90,9 +100,8 @@ fn a_run_keeps_others_out_until_it_is_killed() {
     }
     // Who only looks is let in.
     let report = embate(&folder, ["report", "out"]);
-    let goes_on = child.try_wait().unwrap().is_none();
-    child.kill().unwrap();
-    child.wait().unwrap();
+    let goes_on = child.0.try_wait().unwrap().is_none();
+    drop(child);
     assert!(began && goes_on, "the run goes on");
     assert_eq!(report.code, Some(0), "{}", report.err);
     let answer = embate(&folder, ["resume", "out", "--quiet", "--set", "run.max_steps=1"]);

@@ -127,6 +127,29 @@ fn a_run_that_goes_on_leaves_the_files_of_one_that_was_never_stopped() {
 }
 
 #[test]
+fn checkpoints_that_a_run_replaces_while_they_are_looked_for_are_looked_for_again() {
+    let folder = fresh("replaced");
+    model(&folder);
+    let out = stopped(&folder, "out");
+    let threads = embate_files::threads::Threads::one();
+    // Between the list of the folder and the reading the run writes a newer one and removes the two that are listed.
+    let is_replaced = std::cell::Cell::new(false);
+    let fits = |_: &embate_files::checkpoint::Generation| {
+        if !is_replaced.replace(true) {
+            let [older, newest]: [PathBuf; 2] = checkpoints(&out).try_into().unwrap();
+            fs::rename(newest, out.join("checkpoint/000000000900.embate")).unwrap();
+            fs::remove_file(older).unwrap();
+        }
+        true
+    };
+    let (found, faults) = embate_files::checkpoint::newest(&out, &threads, fits).unwrap();
+    assert!(found.state.step == 600 && faults.is_empty(), "{faults:?}");
+    // Where there is none it says so.
+    fs::remove_dir_all(out.join("checkpoint")).unwrap();
+    assert!(embate_files::checkpoint::newest(&out, &threads, |_| true).is_err_and(|faults| faults.is_empty()));
+}
+
+#[test]
 fn a_damaged_checkpoint_is_told_and_the_one_before_it_is_used() {
     let folder = fresh("damaged");
     let whole = whole(&folder);

@@ -253,7 +253,11 @@ pub(crate) fn is_checkpoint(name: &str) -> Option<u64> {
     (digits.len() >= 12 && digits.bytes().all(|digit| digit.is_ascii_digit())).then(|| digits.parse().ok())?
 }
 
-/// The newest sound checkpoint that `fits`, and what is wrong with those that are newer.
+/// How often [`newest`] looks at the folder again while a run beside it replaces its checkpoints.
+const LOOKS: usize = 10;
+
+/// The newest sound checkpoint that `fits`, and what is wrong with those that are newer. A file that a run beside it has removed since the
+/// folder was listed is none: where all are, the folder is listed again.
 ///
 /// # Errors
 /// What is wrong with each; empty where there is none at all.
@@ -262,12 +266,19 @@ pub fn newest(
     threads: &Threads,
     fits: impl Fn(&Generation) -> bool,
 ) -> Result<(Checkpoint, Vec<CheckpointError>), Vec<CheckpointError>> {
-    let mut faults = Vec::new();
-    for generation in generations(results).iter().filter(|generation| fits(generation)) {
-        match Checkpoint::read(&generation.path, threads) {
-            Ok(checkpoint) => return Ok((checkpoint, faults)),
-            Err(fault) => faults.push(fault),
+    for _ in 0..LOOKS {
+        let mut faults = Vec::new();
+        let mut are_gone = false;
+        for generation in generations(results).iter().filter(|generation| fits(generation)) {
+            match Checkpoint::read(&generation.path, threads) {
+                Ok(checkpoint) => return Ok((checkpoint, faults)),
+                Err(CheckpointError::File { source, .. }) if source.kind() == io::ErrorKind::NotFound => are_gone = true,
+                Err(fault) => faults.push(fault),
+            }
+        }
+        if !are_gone {
+            return Err(faults);
         }
     }
-    Err(faults)
+    Err(Vec::new())
 }

@@ -352,11 +352,11 @@ mod tests {
 
     #[test]
     fn ways_lead_up_and_down() {
-        let folder = std::env::temp_dir().join(format!("embate-ways-{}", std::process::id()));
+        let folder = tempfile::tempdir().unwrap();
+        let folder = folder.path();
         fs::create_dir_all(folder.join("docs/deep")).unwrap();
         fs::create_dir_all(folder.join("verification")).unwrap();
         assert_eq!(way(&folder.join("docs/deep"), &folder.join("verification")), "../../verification");
-        assert_eq!(way(&folder, &folder.join("verification")), "verification");
-        fs::remove_dir_all(&folder).unwrap();
+        assert_eq!(way(folder, &folder.join("verification")), "verification");
     }
 }

@@ -99,11 +99,10 @@ const ALONE: Options = Options { threads: 1, simd: None };
 /// Files of checkpoints. Who damages one may make its check sums anew: they are set right where the reader looks for them.
 pub fn checkpoint() -> Target {
     let (model, mut simulation) = met();
-    let folder = std::env::temp_dir().join(format!("embate-fuzz-{}", std::process::id()));
+    let folder = tempfile::tempdir().unwrap();
     let threads = Threads::one();
-    Checkpoint::of(simulation.state().unwrap(), &model).write(&folder, &threads).unwrap();
-    let seeds = vec![fs::read(&checkpoint::generations(&folder)[0].path).unwrap()];
-    fs::remove_dir_all(&folder).unwrap();
+    Checkpoint::of(simulation.state().unwrap(), &model).write(folder.path(), &threads).unwrap();
+    let seeds = vec![fs::read(&checkpoint::generations(folder.path())[0].path).unwrap()];
     let read = move |bytes: &[u8]| {
         let mut bytes = bytes.to_vec();
         let _ = sign(&mut bytes);
@@ -163,13 +162,13 @@ pub fn state() -> Target {
 /// Field files: whatever stands in one, it is shown or refused.
 pub fn fields() -> Target {
     let (model, simulation) = met();
-    let folder = std::env::temp_dir().join(format!("embate-fuzz-fields-{}", std::process::id()));
-    let results = ResultFolder::create(&folder, true).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let results = ResultFolder::create(folder.path(), true).unwrap();
     let shown = (simulation.history_columns(), simulation.cells());
     let mut recorder = Recorder::keeping(results, &model, shown, 1, None, Box::new(|_| Control::Continue)).unwrap();
     recorder.frame(simulation.frame()).unwrap();
     drop(recorder);
-    let files = [0, 1].map(|number| folder.join(format!("fields/frame-0000{number}.vtu")));
+    let files = [0, 1].map(|number| folder.path().join(format!("fields/frame-0000{number}.vtu")));
     let sound = fs::read(&files[0]).unwrap();
     let seeds = vec![sound.clone()];
     let read = move |bytes: &[u8]| {
@@ -177,7 +176,7 @@ pub fn fields() -> Target {
         for damaged in 0..2 {
             fs::write(&files[damaged], bytes).unwrap();
             fs::write(&files[1 - damaged], &sound).unwrap();
-            let Ok(view) = ResultView::open(&folder) else { continue };
+            let Ok(view) = ResultView::open(folder.path()) else { continue };
             for scalar in ["velocity", "stress.xy"] {
                 let _ = [0, 1].map(|number| view.frame(number, &Wish { scalar: Some(scalar.into()), arrows: true }));
                 let _ = (view.probe(scalar, 3), view.range(scalar));

@@ -124,21 +124,19 @@ fn instances_of_solids_are_turned_about_any_axis() {
 fn plane_elements_do_not_go_with_solids() {
     let faults = read(&format!("{SOLID}*ELEMENT, TYPE=S4\n7, 1,2,3,4\n")).unwrap_err();
     assert!(faults[0].message == "element 7 is a S4, beside solids", "{}", faults[0]);
-    let folder = std::env::temp_dir().join(format!("embate-deck-solids-{}", std::process::id()));
-    fs::create_dir_all(&folder).unwrap();
-    fs::write(folder.join("solid.inp"), SOLID).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("solid.inp"), SOLID).unwrap();
     // As a mesh they are parts of a model.
     let model = "run.end = \"1 us\"\n[material.steel]\nlaw = \"elastic\"\ndensity = 7800\nyoung = \"200 GPa\"\npoisson = 0.3\n\
         [[part]]\nname = \"a\"\nmaterial = \"steel\"\nelement = \"hex8_reduced\"\nmesh = { file = \"solid.inp\", group = \"body\", scale = \"1 mm\" }\n\
         [[part]]\nname = \"b\"\nmaterial = \"steel\"\nelement = \"tet4\"\nmesh = { file = \"solid.inp\", group = \"tip\", scale = \"1 mm\" }\n\
         [[constraint]]\non = \"bottom\"\nfixed = [\"x\", \"y\", \"z\"]\n[[load]]\npressure = 1e6\non = \"bottom\"\n";
-    let model = load_text("m", model, &folder, &[]).unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
+    let model = load_text("m", model, folder.path(), &[]).unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
     let mesh = Mesh::<3>::new(&model).unwrap_or_else(|faults| panic!("{faults:#?}"));
     assert_eq!((mesh.elements_of(0), mesh.elements_of(1), mesh.positions.len()), (2, 1, 11));
     assert!(mesh.positions.iter().flatten().all(|x| *x <= 0.002));
     let surface = mesh.surface("bottom", |_| false).unwrap();
     assert_eq!(embate_solver::mesh::surface::Sided::facets(&surface).len(), 2);
-    fs::remove_dir_all(&folder).unwrap();
 }
 
 /// A cube of C3D8R that flies at a rigid plate of C3D8I and a held bar of C3D6 and C3D4, in mm, t, s.
@@ -227,21 +225,19 @@ UNDER, OVER
 ";
 
 /// The model that is made of a deck, and the report.
-fn imported(name: &str, deck: &str) -> (Model, String, String) {
-    let folder = std::env::temp_dir().join(format!("embate-import-solids-{name}-{}", std::process::id()));
-    fs::create_dir_all(&folder).unwrap();
-    fs::write(folder.join("deck.inp"), deck).unwrap();
+fn imported(deck: &str) -> (Model, String, String) {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("deck.inp"), deck).unwrap();
     let units = Units::parse("mm,t,s").unwrap();
-    let made = import(&folder.join("deck.inp"), &units, Reach::Folder).unwrap_or_else(|faults| panic!("{faults:#?}"));
-    fs::write(folder.join("mesh.inp"), &made.mesh).unwrap();
-    let model = load_text("m", &made.model, &folder, &[]).unwrap_or_else(|diagnostics| panic!("{diagnostics}\n{}", made.model));
-    fs::remove_dir_all(&folder).unwrap();
+    let made = import(&folder.path().join("deck.inp"), &units, Reach::Folder).unwrap_or_else(|faults| panic!("{faults:#?}"));
+    fs::write(folder.path().join("mesh.inp"), &made.mesh).unwrap();
+    let model = load_text("m", &made.model, folder.path(), &[]).unwrap_or_else(|diagnostics| panic!("{diagnostics}\n{}", made.model));
     (model, made.model, made.report.text())
 }
 
 #[test]
 fn a_deck_of_solids_becomes_a_model_of_space() {
-    let (model, text, report) = imported("all", DECK);
+    let (model, text, report) = imported(DECK);
     assert!(report.contains("nothing was ignored"), "{report}");
     assert!(model.is_of_whole_bodies() && Mesh::<3>::new(&model).is_ok());
     let part = |name: &str| model.parts.iter().find(|part| part.name == name).unwrap_or_else(|| panic!("{name}: {text}"));
@@ -277,18 +273,16 @@ fn a_deck_of_solids_becomes_a_model_of_space() {
 
 #[test]
 fn what_solids_can_not_have_is_told() {
-    let (model, text, report) = imported(
-        "all-exterior",
-        &DECK.replace("*CONTACT PAIR, INTERACTION=ROUGH\nUNDER, OVER\n", "*CONTACT\n*CONTACT INCLUSIONS, ALL EXTERIOR\n"),
-    );
+    let (model, text, report) =
+        imported(&DECK.replace("*CONTACT PAIR, INTERACTION=ROUGH\nUNDER, OVER\n", "*CONTACT\n*CONTACT INCLUSIONS, ALL EXTERIOR\n"));
     assert!(matches!(&model.contacts[0].partners, Partners::Bodies(parts) if parts.is_empty()), "{text}");
     assert!(report.contains("nothing was ignored"), "{report}");
     // Turned about x alone: held about all axes.
-    let (model, _, report) = imported("turned", &DECK.replace("REF, 4, 6\n", "REF, 4, 4\n"));
+    let (model, _, report) = imported(&DECK.replace("REF, 4, 6\n", "REF, 4, 4\n"));
     let plate = model.parts.iter().find(|part| part.name == "PLATE").unwrap();
     assert_eq!(plate.rigid.as_ref().unwrap().spin, Some(Drive::Constant(0.0)));
     assert!(report.contains("rotations are held about all axes or about none"), "{report}");
     // A spin at the start has no place in the import.
-    let (_, _, report) = imported("spin", &DECK.replace("ALL-CUBE, 1, 10\n", "ALL-CUBE, 1, 10\nALL-CUBE, 6, 3\n"));
+    let (_, _, report) = imported(&DECK.replace("ALL-CUBE, 1, 10\n", "ALL-CUBE, 1, 10\nALL-CUBE, 6, 3\n"));
     assert!(report.contains("an angular velocity"), "{report}");
 }

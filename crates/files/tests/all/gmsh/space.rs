@@ -6,7 +6,6 @@ use embate_files::model_file::load_text;
 use embate_solver::error::Fault;
 use embate_solver::mesh::{Mesh, signed_volume};
 use embate_solver::model::ImportedMesh;
-use std::path::PathBuf;
 
 /// An element: type of the format, physical group, nodes.
 type Element = (i32, i32, Vec<usize>);
@@ -276,13 +275,12 @@ fn counts_that_are_too_large_are_refused_before_anything_is_allocated() {
 }
 
 /// A folder with the mesh of these tests and a square of the plane.
-fn folder() -> PathBuf {
-    let folder = std::env::temp_dir().join(format!("embate-mesh-space-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
-    std::fs::write(folder.join("solids.msh"), version_2(&nodes(), &elements())).unwrap();
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("solids.msh"), version_2(&nodes(), &elements())).unwrap();
     let square = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 \"square\"\n$EndPhysicalNames\n\
         $Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n$Elements\n1\n1 3 2 1 1 1 2 3 4\n$EndElements\n";
-    std::fs::write(folder.join("square.msh"), square).unwrap();
+    std::fs::write(folder.path().join("square.msh"), square).unwrap();
     folder
 }
 
@@ -295,7 +293,7 @@ const MODEL: &str = "run.end = \"1 us\"\n[material.steel]\nlaw = \"elastic\"\nde
 #[test]
 fn groups_of_a_file_of_solids_are_parts_surfaces_and_nodes_of_a_model() {
     let folder = folder();
-    let model = load_text("m", MODEL, &folder, &[]).unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
+    let model = load_text("m", MODEL, folder.path(), &[]).unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
     assert_eq!(model.dimension(), 3);
     let mesh = Mesh::<3>::new(&model).unwrap_or_else(|faults| panic!("{faults:#?}"));
     assert_eq!((mesh.positions.len(), mesh.elements_of(0), mesh.elements_of(1)), (20, 3, 6));
@@ -313,33 +311,26 @@ fn groups_of_a_file_of_solids_are_parts_surfaces_and_nodes_of_a_model() {
     };
     assert_eq!(normals("left"), [[-1.0, 0.0, 0.0]]);
     assert_eq!(normals("upper"), [[0.0, 0.0, 1.0]; 3]);
-    std::fs::remove_dir_all(&folder).unwrap();
 }
 
 #[test]
 fn parts_of_the_plane_and_of_space_from_files_do_not_go_together() {
-    let folder = std::env::temp_dir().join(format!("embate-mesh-mixed-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
-    let from = self::folder();
-    for name in ["solids.msh", "square.msh"] {
-        std::fs::copy(from.join(name), folder.join(name)).unwrap();
-    }
+    let folder = folder();
     let part = "[[part]]\nname = \"c\"\nmaterial = \"steel\"\nmesh = { file = \"square.msh\", group = \"square\" }\n";
-    let found = load_text("m", &format!("{MODEL}{part}"), &folder, &[]).unwrap_err();
+    let found = load_text("m", &format!("{MODEL}{part}"), folder.path(), &[]).unwrap_err();
     assert!(
         found.entries.iter().any(|it| it.kind.code == "E0212" && it.message.contains("`c`") | it.message.contains("in the plane")),
         "{found}"
     );
     let group = MODEL.replace("group = \"block\"", "group = \"upper\"");
-    let found = load_text("m", &group, &folder, &[]).unwrap_err();
+    let found = load_text("m", &group, folder.path(), &[]).unwrap_err();
     assert!(
         found.entries.iter().any(|it| it.kind.code == "E0206" && it.message.ends_with("is a group of surfaces, not of volumes")),
         "{found}"
     );
     // The square alone stays a model of the plane; extruded it goes with the solids.
     let alone = format!("run.end = 1\n[material.steel]\nlaw = \"elastic\"\ndensity = 1\nyoung = 1\npoisson = 0\n{part}");
-    assert_eq!(load_text("m", &alone, &folder, &[]).unwrap_or_else(|diagnostics| panic!("{diagnostics}")).dimension(), 2);
+    assert_eq!(load_text("m", &alone, folder.path(), &[]).unwrap_or_else(|diagnostics| panic!("{diagnostics}")).dimension(), 2);
     let extruded = format!("{MODEL}{part}extrude = {{ from = 9, length = 1, elements = 1 }}\n");
-    assert_eq!(load_text("m", &extruded, &folder, &[]).unwrap_or_else(|diagnostics| panic!("{diagnostics}")).dimension(), 3);
-    std::fs::remove_dir_all(&folder).unwrap();
+    assert_eq!(load_text("m", &extruded, folder.path(), &[]).unwrap_or_else(|diagnostics| panic!("{diagnostics}")).dimension(), 3);
 }

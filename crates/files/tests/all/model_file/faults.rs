@@ -2,7 +2,7 @@
 
 use super::{SOUND, changed, faults, read};
 use embate_files::model_file::load_text;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// One changed place of [`SOUND`] and all faults that it must give: `line:column message | help`.
 type Case = (&'static str, &'static str, &'static [&'static str]);
@@ -269,13 +269,12 @@ fn faults_of_overrides_point_at_them() {
 }
 
 /// A folder with the smallest of Gmsh files: a square `block`, its upper side `upper`.
-fn mesh_folder() -> PathBuf {
-    let folder = std::env::temp_dir().join(format!("embate-mesh-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).expect("a temporary folder");
+fn mesh_folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a temporary folder");
     let mesh = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n1 2 \"upper\"\n2 1 \"block\"\n$EndPhysicalNames\n\
         $Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n$Elements\n2\n1 1 2 2 3 3 4\n2 3 2 1 1 1 2 3 4\n$EndElements\n";
-    std::fs::write(folder.join("block.msh"), mesh).expect("a file");
-    std::fs::write(folder.join("none.msh"), "nothing").expect("a file");
+    std::fs::write(folder.path().join("block.msh"), mesh).expect("a file");
+    std::fs::write(folder.path().join("none.msh"), "nothing").expect("a file");
     folder
 }
 
@@ -287,14 +286,14 @@ fn parts_and_surfaces_come_from_mesh_files() {
         "mesh = { file = \"block.msh\", group = \"block\", scale = \"1 mm\" }",
     );
     let base = base.replace("\"plate.left\"", "\"upper\"");
-    let model = load_text("m", &base, &folder, &[]).unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
+    let model = load_text("m", &base, folder.path(), &[]).unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
     assert_eq!((model.meshes.len(), model.meshes[0].positions[2]), (1, [1e-3, 1e-3, 0.0]));
     let twice = format!(
         "{base}[[part]]\nname = \"more\"\nmaterial = \"steel\"\nmesh = {{ file = \"block.msh\", group = \"block\", scale = 0.001 }}\n"
     );
-    assert_eq!(load_text("m", &twice, &folder, &[]).unwrap_or_else(|diagnostics| panic!("{diagnostics}")).meshes.len(), 1);
+    assert_eq!(load_text("m", &twice, folder.path(), &[]).unwrap_or_else(|diagnostics| panic!("{diagnostics}")).meshes.len(), 1);
     let found = |text: &str| {
-        let all = load_text("m", text, &folder, &[]).map_or_else(|diagnostics| diagnostics.entries, |_| Vec::new());
+        let all = load_text("m", text, folder.path(), &[]).map_or_else(|diagnostics| diagnostics.entries, |_| Vec::new());
         all.iter().map(|it| format!("{}:{} {}", it.line, it.column, it.message)).collect::<Vec<_>>()
     };
     let only = |text: &str, begins: &str, ends: &str| {
@@ -309,7 +308,6 @@ fn parts_and_surfaces_come_from_mesh_files() {
     assert_eq!(found(&base.replace("\"upper\"", "\"uper\"")), ["30:6 there is no part, side or group `uper`"]);
     let contact = base.replace("[\"tube\", \"plate\"]", "[\"tube\", \"block\"]");
     assert_eq!(found(&contact), ["23:20 group `block` is a group of surfaces, not lines"]);
-    std::fs::remove_dir_all(&folder).unwrap();
 }
 
 #[test]

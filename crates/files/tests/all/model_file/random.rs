@@ -89,25 +89,24 @@ fn of_many_faults_of_one_kind_twenty_are_shown() {
 
 #[test]
 fn files_that_are_none_are_answered() {
-    let folder = std::env::temp_dir().join(format!("embate-files-{}", std::process::id()));
-    std::fs::create_dir_all(folder.join("inner")).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir_all(folder.path().join("inner")).unwrap();
     let message = |path: &Path| {
         let diagnostics = load(path, &[]).unwrap_err();
         assert_eq!(diagnostics.count, diagnostics.entries.len());
         (diagnostics.entries[0].message.clone(), diagnostics.entries[0].help.clone())
     };
-    assert_eq!(message(&folder).0, "there is no such file");
-    assert!(message(&folder.join("inner/nothing.toml")).1.starts_with("make one with `embate new NAME`"));
-    assert!(message(&folder.join("none/nothing.toml")).1.starts_with("there is no folder "));
-    std::fs::write(folder.join("model.toml"), b"").unwrap();
-    assert_eq!(message(&folder).0, "the model has no [run]");
-    assert!(message(&folder.join("nothing.toml")).1.contains("model.toml"));
-    std::fs::write(folder.join("latin.toml"), b"title = \"caf\xe9\"\n").unwrap();
-    let latin = load(&folder.join("latin.toml"), &[]).unwrap_err();
+    assert_eq!(message(folder.path()).0, "there is no such file");
+    assert!(message(&folder.path().join("inner/nothing.toml")).1.starts_with("make one with `embate new NAME`"));
+    assert!(message(&folder.path().join("none/nothing.toml")).1.starts_with("there is no folder "));
+    std::fs::write(folder.path().join("model.toml"), b"").unwrap();
+    assert_eq!(message(folder.path()).0, "the model has no [run]");
+    assert!(message(&folder.path().join("nothing.toml")).1.contains("model.toml"));
+    std::fs::write(folder.path().join("latin.toml"), b"title = \"caf\xe9\"\n").unwrap();
+    let latin = load(&folder.path().join("latin.toml"), &[]).unwrap_err();
     assert_eq!((latin.entries[0].line, latin.entries[0].column, latin.entries[0].message.as_str()), (1, 13, "the file is not UTF-8 text"));
-    std::fs::write(folder.join("large.toml"), vec![b'#'; (16 << 20) + 1]).unwrap();
-    assert_eq!(message(&folder.join("large.toml")).0, "the file is larger than 16 MiB");
+    std::fs::write(folder.path().join("large.toml"), vec![b'#'; (16 << 20) + 1]).unwrap();
+    assert_eq!(message(&folder.path().join("large.toml")).0, "the file is larger than 16 MiB");
     #[cfg(unix)]
     assert!(message(Path::new("/dev/zero")).0.starts_with("the file can't be read: it is a device, not a file"));
-    std::fs::remove_dir_all(&folder).unwrap();
 }

@@ -157,15 +157,14 @@ fn windows_line_ends_and_a_byte_order_mark_change_nothing() {
 
 #[test]
 fn a_model_is_named_after_its_folder_or_file() {
-    let folder = std::env::temp_dir().join(format!("embate-names-{}", std::process::id()));
-    let inner = folder.join("crash");
+    let folder = tempfile::tempdir().unwrap();
+    let inner = folder.path().join("crash");
     std::fs::create_dir_all(&inner).unwrap();
     std::fs::write(inner.join("model.toml"), SOUND).unwrap();
     std::fs::write(inner.join("other.toml"), SOUND).unwrap();
     assert_eq!(load(&inner, &[]).unwrap().name, "crash");
     assert_eq!(load(&inner.join("model.toml"), &[]).unwrap().name, "crash");
     assert_eq!(load(&inner.join("other.toml"), &[]).unwrap().name, "other");
-    std::fs::remove_dir_all(&folder).unwrap();
 }
 
 #[test]

@@ -90,18 +90,17 @@ const CUBE: &str = "*NODE\n1, 0,0,0\n2, 1,0,0\n3, 1,1,0\n4, 0,1,0\n5, 0,0,1\n6, 
 
 #[test]
 fn parts_that_are_solids_by_their_mesh_alone_have_the_units_of_solids() {
-    let folder = std::env::temp_dir().join(format!("embate-solids-by-mesh-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
-    std::fs::write(folder.join("cube.inp"), CUBE).unwrap();
-    std::fs::write(folder.join("flat.inp"), "*NODE\n1, 0,0\n2, 1,0\n3, 0,1\n*ELEMENT, TYPE=CPE3, ELSET=cube\n1, 1,2,3\n").unwrap();
-    std::fs::write(folder.join("wrong.inp"), CUBE.replace("6,7,8\n", "6,7,9\n")).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("cube.inp"), CUBE).unwrap();
+    std::fs::write(folder.path().join("flat.inp"), "*NODE\n1, 0,0\n2, 1,0\n3, 0,1\n*ELEMENT, TYPE=CPE3, ELSET=cube\n1, 1,2,3\n").unwrap();
+    std::fs::write(folder.path().join("wrong.inp"), CUBE.replace("6,7,8\n", "6,7,9\n")).unwrap();
     let load = |file: &str, sections: &str| {
         let steel = "[run]\nend = \"1 ms\"\n[material.steel]\nlaw = \"elastic\"\nyoung = \"200 GPa\"\npoisson = 0.3\ndensity = 7800\n";
         let part = |name: &str, file: &str| {
             format!("[[part]]\nname = \"{name}\"\nmaterial = \"steel\"\nmesh = {{ file = \"{file}\", group = \"cube\" }}\n")
         };
         let text = format!("{steel}{}{}{sections}\n", part("one", file), part("two", "cube.inp"));
-        embate_files::model_file::load_text("model.toml", &text, &folder, &[])
+        embate_files::model_file::load_text("model.toml", &text, folder.path(), &[])
     };
     let told = |file: &str, sections: &str| {
         let entries = load(file, sections).map_or_else(|diagnostics| diagnostics.entries, |_| Vec::new());
@@ -122,7 +121,6 @@ fn parts_that_are_solids_by_their_mesh_alone_have_the_units_of_solids() {
         found.into_iter().filter(|fault| fault.starts_with("point_mass")).count()
     };
     assert_eq!((plane("2 kg"), plane("2 kg/m")), (0, 1));
-    std::fs::remove_dir_all(&folder).unwrap();
 }
 
 #[test]

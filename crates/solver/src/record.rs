@@ -148,7 +148,7 @@ impl Recorded {
         for contact in &system.contacts {
             let totals = &contact.totals;
             row.extend(totals.resultant);
-            row.extend([totals.energy + totals.slip_energy, contact.penetration, contact.friction_work]);
+            row.extend([totals.energy + totals.slip_energy, contact.depth(), contact.friction_work]);
             if let ContactKind::Obstacle(body) = contact.kind {
                 let moment = contact.moment(body, &system.bodies, &system.springs, &system.positions);
                 row.extend(<Dim<D>>::moments(&moment));

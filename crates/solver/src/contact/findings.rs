@@ -6,6 +6,8 @@ use crate::archive::keep_all;
 pub const DEEPEST: f64 = 1.0 / 6.0;
 /// The same in the plane, where springs tell depths in each step.
 pub const DEEPEST_IN_PLANE: f64 = 0.2;
+/// Deepest that it may be in a single step of the plane: what comes in within a step, which may be thrown out in the next.
+const DEEPEST_IN_A_STEP: f64 = 0.22;
 /// Depth from which on an overlap gets a net and counts as penetration, as a fraction of the local thickness.
 pub const CAST: f64 = 0.05;
 
@@ -78,14 +80,15 @@ impl Findings {
         }
     }
 
-    /// Counts a step in the plane that is too deep, if the one before was, `was_deep`: what comes in within a step may be as deep as both
-    /// sides go in it, `way` (m) each. Whether this one is.
+    /// Counts a step in the plane that is too deep: deeper than a fifth if the one before was, `was_deep`, and 0.22 at once. What comes in
+    /// within a step may be as deep as both sides go in it, `way` (m) each, before it has gone through. Whether this step is too deep.
     pub(super) fn count(&mut self, way: f64, was_deep: bool) -> bool {
         if (Overlap { depth: self.now.depth - 2.0 * way, ..self.now }).ratio() > 1.0 {
             self.through = Some(self.now);
         }
-        let is_deep = self.now.ratio().max(self.own.ratio()) > DEEPEST_IN_PLANE;
-        if is_deep && was_deep {
+        let ratio = self.now.ratio().max(self.own.ratio());
+        let is_deep = ratio > DEEPEST_IN_PLANE;
+        if (is_deep && was_deep) || ratio > DEEPEST_IN_A_STEP {
             self.miss();
         }
         is_deep
@@ -96,5 +99,24 @@ impl Findings {
         self.unverified += 1;
         let Self { now, own, .. } = *self;
         self.first.get_or_insert(if own.ratio() > now.ratio() { own } else { now });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whether a step with this depth counts, after one that was too deep or not.
+    fn counts(ratio: f64, was_deep: bool) -> u64 {
+        let mut found = Findings::default();
+        found.see(Overlap { depth: ratio, thickness: 1.0, ..Overlap::default() }, false);
+        found.count(0.0, was_deep);
+        found.unverified
+    }
+
+    #[test]
+    fn a_step_in_the_plane_counts_at_once_from_0_22_on_and_from_a_fifth_on_if_the_one_before_was_too_deep() {
+        let found = [(0.19, true), (0.21, false), (0.21, true), (0.23, false), (0.23, true)].map(|(ratio, was)| counts(ratio, was));
+        assert_eq!(found, [0, 0, 1, 1, 1]);
     }
 }

@@ -328,11 +328,13 @@ where
         self.formulation.thinnest()
     }
 
-    /// The deeper of the last evaluation's penetration and of the overlaps between bodies in the last look that have a net, m.
+    /// How deep it is, m: the deepest of the last evaluation's penetration and of the overlaps that are deep enough for a net in the last
+    /// look, between bodies and in themselves.
     #[must_use]
     pub fn depth(&self) -> f64 {
-        let deep = self.overlaps().map(|found| &found.now).filter(|now| now.ratio() > CAST);
-        deep.map_or(self.penetration, |now| self.penetration.max(now.depth))
+        let found = self.overlaps().map_or([Overlap::default(); 2], |found| [found.now, found.own]);
+        let deep = found.into_iter().filter(|overlap| overlap.ratio() > CAST).map(|overlap| overlap.depth);
+        deep.fold(self.penetration, f64::max)
     }
 
     /// An overlap that is deeper than the body there is thick: one has gone through the other.

@@ -4,17 +4,19 @@
 //! `--count 1 --first N` for one model). Odd numbers are models of
 //! the plane, even ones of space; `--dimension 2` or `3` for one of them alone. Two of sixteen models run again with scalar lanes and two
 //! threads and must end with the same state hash.
-//! What is found is told with the number of the model.
+//! What is found is told with the number of the model. In space, where all bodies meet in `double_pass`, elements tell whether nodes of one body
+//! are deep in another one (`inside.rs`): a run that does not say so is a finding.
 //!
 //! A drift of energy that at most half is left of with a quarter of the step is an error of the steps: of springs that are stiff against theirs, or of elements that collapse within a few. Those are counted.
 //! The others are told, and more than [`DRIFTING`] of all is a finding.
 
 mod generator;
 mod generator_space;
+mod inside;
 
 use embate_solver::error::Error;
 use embate_solver::message::Message;
-use embate_solver::model::Model;
+use embate_solver::model::{Formulation, Model, Partners};
 use embate_solver::output::Summary;
 use embate_solver::simulation::{Options, Simulation};
 use std::collections::BTreeMap;
@@ -30,6 +32,9 @@ const DRIFTING: f64 = 0.001;
 const FEW: f64 = 2.0;
 /// What is left of a drift with a quarter of the step where the step explains it.
 const LEFT: f64 = 0.5;
+/// Depth against the local thickness that is not told by no run, and looks at the bodies in one.
+const SILENT: f64 = 0.35;
+const LOOKS: u64 = 24;
 /// Models until memory has been used for the first time, and how much it may grow after them, bytes.
 const WARM: u64 = 64;
 const GROWTH: u64 = 64 << 20;
@@ -54,6 +59,7 @@ fn main() {
             _ => {}
         }
     }
+    inside::checks_itself();
     let begin = Instant::now();
     let (mut ends, mut found) = (BTreeMap::<String, u64>::new(), Vec::new());
     let (mut steps, mut warm, mut done, mut drifting, mut stepping) = (0, 0, 0, 0u64, 0u64);
@@ -136,12 +142,18 @@ fn run(seed: u64, steps: &mut u64) -> (End, Option<Drift>, Vec<String>) {
         Err(Error::Model(faults)) => return (End::Refused(faults[0].kind), None, Vec::new()),
         Err(error) => return (End::Failed(error.kind()), None, Vec::new()),
     };
-    let result = simulation.advance(f64::INFINITY, u64::MAX);
+    let (result, deepest) = looked_at(&model, &mut simulation);
     *steps += simulation.steps();
     let summary = simulation.summary();
     let drift = drift(&summary, &result, simulation.sweeps().1 > 0).or_else(|| borrowed(&simulation));
     let drift = drift.map(|(size, told)| Drift { told, left: finer(&model, &simulation) / size });
     let mut faults = wrong(&summary, &result);
+    if let Some(inside::Deepest { parts: [own, other], ratio }) = deepest.filter(|deepest| deepest.ratio > SILENT)
+        && summary.contact.unverified == 0
+        && summary.erosion.is_none()
+    {
+        faults.push(format!("body {own} was {ratio:.2} of the thickness deep in body {other} in silence"));
+    }
     if (seed / 2).is_multiple_of(8) && result.is_ok() {
         let again = Options { threads: 2, simd: Some("scalar".into()) };
         let other = Simulation::new(&model, &again).and_then(|mut other| other.advance(f64::INFINITY, u64::MAX).map(|()| other.summary()));
@@ -152,6 +164,28 @@ fn run(seed: u64, steps: &mut u64) -> (End, Option<Drift>, Vec<String>) {
         }
     }
     (result.err().map_or(End::Done, |error| End::Failed(error.kind())), drift, faults)
+}
+
+/// Runs a model to its end; in space, where contact is that of all bodies, the deepest node of a body in another one.
+fn looked_at(model: &Model, simulation: &mut Simulation) -> (Result<(), Error>, Option<inside::Deepest>) {
+    let is_of_all = |contact: &embate_solver::model::Contact| {
+        contact.formulation == Formulation::DoublePass && matches!(&contact.partners, Partners::Bodies(parts) if parts.is_empty())
+    };
+    if simulation.dimension() != 3 || !model.contacts.iter().any(is_of_all) {
+        return (simulation.advance(f64::INFINITY, u64::MAX), None);
+    }
+    let surfaces = inside::Surfaces::of(simulation.cells());
+    let every = (model.run.max_steps.unwrap_or(600) / LOOKS).max(1);
+    let mut deepest: Option<inside::Deepest> = None;
+    loop {
+        let before = simulation.steps();
+        let result = simulation.advance(f64::INFINITY, every);
+        if result.is_err() || simulation.steps() == before {
+            return (result, deepest);
+        }
+        let found = surfaces.deepest(simulation.frame().positions());
+        deepest = deepest.into_iter().chain(found).max_by(|a, b| a.ratio.total_cmp(&b.ratio));
+    }
 }
 
 /// A drift of energy that neither erosion nor contact forces which were `unsolved` explain.

@@ -18,7 +18,8 @@
 //!
 //! A region that is deeper than τ/20 gets a spring on its volume (`net`): the net under the springs of nodes and edges.
 //!
-//! Not covered: surfaces without an opposite skin, overlaps between facets that share a node, and what lies between the samples.
+//! Not covered: overlaps between facets that share a node, and what lies between the samples. Where a contour in one body does not close,
+//! as where it begins between facets that share a node, what is behind pierced triangles is as deep as it is far from them.
 
 mod near;
 mod net;
@@ -136,6 +137,8 @@ struct Sample {
     /// A triangle there, and whether it is of the second side.
     own: u32,
     is_second: bool,
+    /// The triangle of the other side that is nearest.
+    foot: u32,
     /// The node that it is, if it is one.
     node: Option<u32>,
     overlap: Overlap,
@@ -202,7 +205,7 @@ impl Judge {
         }
     }
 
-    /// Least thickness of the body at each node, in the order of `nodes` (ascending), m, at the places of the last look; infinite where nothing is opposite.
+    /// Least thickness of the body at each node, in the order of `nodes` (ascending), m, at the places of the last look; infinite for nodes that are not on the surface.
     #[must_use]
     pub fn thickness_at(&self, nodes: &[u32]) -> Vec<f64> {
         let at = |node: &u32| {
@@ -293,8 +296,10 @@ impl Judge {
             if let Some(parent) = largest {
                 known.offset = parent.offset;
                 known.ratio = parent.ratio;
-                if parent.began != [0.0; 3] {
-                    known.began = spin::turned(parent.began, self.turn(region));
+                // What slides around a corner turns its area vector by less than a right angle from look to look; what goes through turns it over.
+                let carried = spin::turned(parent.began, self.turn(region));
+                if parent.began != [0.0; 3] && !(dot(carried, direction) > 0.0) {
+                    known.began = carried;
                 }
             }
             for &parent in parents {
@@ -329,19 +334,24 @@ impl Judge {
         let (region, known) = (&self.regions[number], &self.known[number]);
         found.sort_by(|a, b| b.overlap.ratio().total_cmp(&a.overlap.ratio()));
         let Some(&Sample { overlap: most, .. }) = found.first() else { return Overlap::default() };
-        if known.began == [0.0; 3] || most.ratio().max(known.ratio) <= SIDED {
+        if known.began == [0.0; 3] || region.is_open || most.ratio().max(known.ratio) <= SIDED {
             return most;
         }
         // The first side comes along its area vector, and the second's side of entry looks against it.
         let direction = unit(known.began);
-        let deepest = |most: Overlap, &Sample { own, is_second, overlap: unsided, .. }: &Sample| {
+        let deepest = |most: Overlap, &Sample { own, is_second, foot, overlap: unsided, .. }: &Sample| {
+            // Positive where a triangle is of the side of entry, negative of the side opposite.
             let faces = |triangle: u32| {
                 let [a, b, c] = self.skin.corners(triangle);
                 let along = dot(unit(cross(minus(b, a), minus(c, a))), direction);
-                if is_second { along > FACES } else { along < -FACES }
+                if is_second { along } else { -along }
             };
+            // What is nearest to the side of entry, or to a flank, is as deep as that is far.
+            if faces(foot) >= -FACES {
+                return most;
+            }
             let farthest = 2.0 * unsided.thickness;
-            let found = self.depth(region, own, is_second, unsided.place, farthest * farthest, faces);
+            let found = self.depth(region, own, is_second, unsided.place, farthest * farthest, |triangle| faces(triangle) > FACES);
             let found = found.map(|(depth, _)| Overlap { depth, ..unsided });
             found.filter(|found| found.ratio() > most.ratio()).unwrap_or(most)
         };
@@ -362,12 +372,21 @@ impl Judge {
         let (body, is_one) = (self.skin.body(own), region.bodies[0] == region.bodies[1]);
         let other = if is_one { body } else { region.bodies[usize::from(body == region.bodies[0])] };
         let may_be = |triangle: u32| !self.skin.is_mirror(triangle) && counts(triangle);
+        let nearest = |others: &mut dyn Iterator<Item = u32>| {
+            let away = others.map(|triangle| (square_to_triangle(x, self.skin.corners(triangle)), triangle));
+            let nearest = away.reduce(|a, b| if b.0 < a.0 { b } else { a });
+            nearest.filter(|nearest| nearest.0 < square).map(|(square, foot)| (square.sqrt(), foot))
+        };
+        if is_one && region.is_open {
+            // Where its contour is not closed, of what is pierced what does not touch it.
+            let touches =
+                |triangle: u32| self.skin.triangles[triangle as usize].iter().any(|at| self.skin.triangles[own as usize].contains(at));
+            return nearest(&mut region.pierced.iter().copied().filter(|&triangle| may_be(triangle) && !touches(triangle)));
+        }
         if is_one {
             // Of its own body the other side of the region alone.
             let others = region.triangles.iter().filter(|&&(triangle, side)| side != is_second && may_be(triangle));
-            let away = |&(triangle, _): &(u32, bool)| (square_to_triangle(x, self.skin.corners(triangle)), triangle);
-            let nearest = others.map(away).reduce(|a, b| if b.0 < a.0 { b } else { a });
-            return nearest.filter(|nearest| nearest.0 < square).map(|(square, foot)| (square.sqrt(), foot));
+            return nearest(&mut others.map(|&(triangle, _)| triangle));
         }
         let (square, foot) = self.tree.nearest(&self.skin, other, x, square, may_be)?;
         Some((square.sqrt(), foot))
@@ -377,7 +396,7 @@ impl Judge {
     fn samples(&self, region: &Region) -> Vec<Sample> {
         let is_one = region.bodies[0] == region.bodies[1];
         let look = |own: u32, node: Option<u32>, place: Vector, behind: f64| {
-            let is_second = if is_one { region.side(own)? } else { self.skin.body(own) == region.bodies[1] };
+            let is_second = if is_one && !region.is_open { region.side(own)? } else { self.skin.body(own) == region.bodies[1] };
             let other = region.bodies[usize::from(!is_second)];
             let farthest = INSIDE * self.thickest[other as usize];
             let (depth, foot) = self.depth(region, own, is_second, place, farthest * farthest, |_| true)?;
@@ -388,7 +407,7 @@ impl Judge {
             }
             let thickness = behind.min(there);
             let nodes = [own, foot].map(|triangle| self.node_of(triangle));
-            Some(Sample { own, is_second, node, overlap: Overlap { place, depth, thickness, nodes, time: 0.0 } })
+            Some(Sample { own, is_second, foot, node, overlap: Overlap { place, depth, thickness, nodes, time: 0.0 } })
         };
         let of_vertex = |&vertex: &u32| {
             let own = *self.skin.at_vertex.of(vertex as usize).first()?;

@@ -12,7 +12,7 @@
 //! point o of the triangle's plane.
 
 use super::piercing::{Piece, Piercing, contours, runs_with};
-use super::skin::Skin;
+use super::skin::{Edge, Skin};
 use crate::contact::projection::node_facet::Vector;
 use crate::mesh::surface::NONE;
 use crate::tensor::{cross, dot};
@@ -29,6 +29,8 @@ pub(super) struct Region {
     pub(super) inside: Vec<u32>,
     /// Parts of pierced edges that are inside: a triangle at the edge, and both ends, m.
     pub(super) chords: Vec<(u32, [Vector; 2])>,
+    /// Of a body in itself, where the contour is not closed: the triangles that are pierced, ascending. Chords are those beside them then.
+    pub(super) pierced: Vec<u32>,
     /// N of the first side, m².
     pub(super) area: Vector,
     /// Area, the mean of both sides, m².
@@ -244,11 +246,20 @@ impl Work {
                 regions[region].inside.push(vertex);
             }
         }
-        for chord in chords {
-            if let Some(region) = region_of(chord.0, &self.listed, &self.slots) {
-                regions[region].chords.push(chord);
+        // Where a contour in one body is not closed, the flood says nothing, and piercings tell.
+        let is_torn = bodies[0] == bodies[1] && regions[begin..].iter().any(|region| region.is_open);
+        let beside = if is_torn { beside(skin, piercings) } else { Vec::new() };
+        for (chord, pierced) in chords.into_iter().map(|chord| (chord, NONE)).chain(beside) {
+            let region = region_of(chord.0, &self.listed, &self.slots).map(|region| &mut regions[region]);
+            if let Some(region) = region.filter(|region| is_torn && region.is_open == (pierced != NONE) || !is_torn) {
+                region.chords.push(chord);
+                region.pierced.extend((pierced != NONE).then_some(pierced));
             }
         }
+        regions[begin..].iter_mut().for_each(|region| {
+            region.pierced.sort_unstable();
+            region.pierced.dedup();
+        });
         pieces.sort_by_key(|piece| piece.triangle);
         regions[begin..].iter_mut().for_each(|region| integrate(skin, region, &pieces));
     }
@@ -324,6 +335,24 @@ impl Work {
             })
             .collect()
     }
+}
+
+/// The parts of edges behind the triangles that they pierce, as far as the next piercing or the end of the edge, and those triangles.
+fn beside(skin: &Skin, piercings: &[Piercing]) -> Vec<((u32, [Vector; 2]), u32)> {
+    let mut parts = Vec::new();
+    for here in piercings.chunk_by(|a, b| a.edge == b.edge) {
+        let Edge { ends, triangles, .. } = &skin.edges[here[0].edge as usize];
+        let ends = ends.map(|vertex| skin.x[vertex as usize]);
+        for (k, piercing) in here.iter().enumerate().filter(|(_, piercing)| !piercing.is_flat) {
+            let other = if piercing.enters {
+                here.get(k + 1).map_or(ends[1], |next| next.place)
+            } else {
+                if k > 0 { here[k - 1].place } else { ends[0] }
+            };
+            parts.push(((triangles[0], [piercing.place, other]), piercing.triangle));
+        }
+    }
+    parts
 }
 
 /// N, V and its gradient.

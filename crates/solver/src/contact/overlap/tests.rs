@@ -264,3 +264,54 @@ fn pairs_that_are_kept_and_sleep_are_those_of_a_search_anew_in_each_look() {
     }
     assert!(total > 1000, "{total}");
 }
+
+/// The surface of some elements that are one body, and its judge.
+fn one(nodes: &[Vector], cells: &[Vec<u32>]) -> Judge {
+    let surface = SpaceSurface::outside(cells.iter().map(|cell| &cell[..])).unwrap();
+    let bodies = Bodies { outside: &surface, is_mirror: &|_| false, body_of: &|_| 0, side_of: None };
+    Judge::new(&bodies, nodes, false)
+}
+
+#[test]
+fn a_body_without_an_opposite_skin_is_as_thick_as_its_inscribed_ball() {
+    // A regular tetrahedron of the edge a has an inscribed ball of the radius a / sqrt(24); a face looks at no other one.
+    let nodes = [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]];
+    let edge = 8.0_f64.sqrt();
+    let expected = 2.0 * edge / 24.0_f64.sqrt();
+    for (angle, shift) in [(0.0_f64, 0.0), (0.7, 3.0), (2.0, -1e3)] {
+        let (sin, cos) = angle.sin_cos();
+        let nodes = nodes.map(|[x, y, z]| [cos * x - sin * y + shift, sin * x + cos * y, z - shift]);
+        let found = one(&nodes, &[vec![0, 2, 1, 3]]).thickness_at(&[0, 1, 2, 3]);
+        assert!(found.iter().all(|thickness| (thickness - expected).abs() < 1e-10 * expected), "{found:?} {expected}");
+    }
+    // A block has an opposite skin everywhere, however long it is.
+    let (mut nodes, mut cells) = (Vec::new(), Vec::new());
+    block([0.0; 3], [9.0, 2.0, 1.0], [3, 2, 1], false, &mut nodes, &mut cells);
+    let found = one(&nodes, &cells).thickness_at(&(0..nodes.len() as u32).collect::<Vec<_>>());
+    assert!(found.iter().all(|thickness| [1.0, 2.0, 9.0].contains(thickness)), "{found:?}");
+}
+
+#[test]
+fn a_region_that_slides_around_an_edge_keeps_its_depth_and_one_that_goes_through_does_not() {
+    // A long bar, and a small block at its upper side that goes around the edge to its flank, 0.16 deep on its way.
+    let at = |x: f64, z: f64| [[x - 0.4, 0.8, z - 0.4], [x + 0.4, 1.6, z + 0.9]];
+    let begin = at(0.5, 1.24);
+    let (mut judge, nodes) = two([1.0, 3.0, 1.0], begin, [[2, 6, 2], [2, 2, 2]], [false; 2]);
+    let first = nodes.len() - 27;
+    let move_to = |judge: &mut Judge, x: f64, z: f64| {
+        let mut moved = nodes.clone();
+        moved[first..].iter_mut().for_each(|node| (node[0], node[2]) = (node[0] + x - 0.5, node[2] + z - 1.24));
+        look(judge, &moved);
+        judge.findings.now.ratio()
+    };
+    let way: Vec<[f64; 2]> =
+        (0..=20).map(|k| [0.5 + 0.037 * f64::from(k), 1.24]).chain((0..=40).map(|k| [1.24, 1.24 - 0.02 * f64::from(k)])).collect();
+    let deepest = way.iter().map(|&[x, z]| move_to(&mut judge, x, z)).fold(0.0, f64::max);
+    assert!((0.19..0.21).contains(&deepest), "{deepest}");
+    // From the upper side down through the bar it is ever deeper from there, and beyond the thickness it is told.
+    let (mut judge, _) = two([1.0, 3.0, 1.0], begin, [[2, 6, 2], [2, 2, 2]], [false; 2]);
+    for k in 0..=66 {
+        move_to(&mut judge, 0.5, 1.24 - 0.02 * f64::from(k));
+    }
+    assert!(judge.findings.through.is_some_and(|through| through.depth > 0.8), "{:?} {:?}", judge.findings.now, judge.known);
+}

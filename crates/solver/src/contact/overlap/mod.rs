@@ -19,7 +19,8 @@
 //! A region that is deeper than τ/20 gets a spring on its volume (`net`): the net under the springs of nodes and edges.
 //!
 //! Not covered: overlaps between facets that share a node, and what lies between the samples. Where a contour in one body does not close,
-//! as where it begins between facets that share a node, what is behind pierced triangles is as deep as it is far from them.
+//! as where it begins between facets that share a node, what is behind pierced triangles and inside by its winding number is as deep as it
+//! is far from them.
 
 mod near;
 mod net;
@@ -29,6 +30,7 @@ mod regions;
 mod skin;
 mod thickness;
 mod tree;
+mod winding;
 
 pub use skin::Bodies;
 
@@ -52,6 +54,8 @@ use tree::Tree;
 const SIDED: f64 = 0.15;
 /// Nothing inside a body is farther from its surface than this fraction of the thickness there: half of it, but for wedges.
 const INSIDE: f64 = 1.0;
+/// A place of a body in itself that is deeper than this fraction of the thickness is looked at once more, by its winding number.
+const CERTAIN: f64 = CAST;
 /// Of so many places, the deepest ones.
 const SIDED_MOST: usize = 16;
 /// How well a facet of the side of entry looks against the area vector.
@@ -334,7 +338,9 @@ impl Judge {
         let (region, known) = (&self.regions[number], &self.known[number]);
         found.sort_by(|a, b| b.overlap.ratio().total_cmp(&a.overlap.ratio()));
         let Some(&Sample { overlap: most, .. }) = found.first() else { return Overlap::default() };
-        if known.began == [0.0; 3] || region.is_open || most.ratio().max(known.ratio) <= SIDED {
+        // In itself a body has no side of entry: its parts turn with each other.
+        let is_sided = known.began != [0.0; 3] && !region.is_open && region.bodies[0] != region.bodies[1];
+        if !is_sided || most.ratio().max(known.ratio) <= SIDED {
             return most;
         }
         // The first side comes along its area vector, and the second's side of entry looks against it.
@@ -401,11 +407,14 @@ impl Judge {
             let farthest = INSIDE * self.thickest[other as usize];
             let (depth, foot) = self.depth(region, own, is_second, place, farthest * farthest, |_| true)?;
             let there = self.thickness.of(&self.skin, foot);
+            let thickness = behind.min(there);
             // Farther than that it is not inside: an element of the other body is inverted, and the flood went astray.
-            if depth > INSIDE * there {
+            let most = INSIDE * if is_one { thickness } else { there };
+            // In its own body the flood may go astray where the contour does not close.
+            let is_certain = !is_one || depth < CERTAIN * thickness || self.skin.is_in_itself(region.bodies[0], place);
+            if depth > most || !is_certain {
                 return None;
             }
-            let thickness = behind.min(there);
             let nodes = [own, foot].map(|triangle| self.node_of(triangle));
             Some(Sample { own, is_second, foot, node, overlap: Overlap { place, depth, thickness, nodes, time: 0.0 } })
         };

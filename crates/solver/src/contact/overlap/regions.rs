@@ -251,7 +251,7 @@ impl Work {
         let beside = if is_torn { beside(skin, piercings) } else { Vec::new() };
         for (chord, pierced) in chords.into_iter().map(|chord| (chord, NONE)).chain(beside) {
             let region = region_of(chord.0, &self.listed, &self.slots).map(|region| &mut regions[region]);
-            if let Some(region) = region.filter(|region| is_torn && region.is_open == (pierced != NONE) || !is_torn) {
+            if let Some(region) = region.filter(|region| !is_torn || region.is_open == (pierced != NONE)) {
                 region.chords.push(chord);
                 region.pierced.extend((pierced != NONE).then_some(pierced));
             }

@@ -272,7 +272,9 @@ impl Judge {
         for (number, region) in (0..).zip(&self.regions) {
             region.triangles.iter().for_each(|&(triangle, _)| self.owner[triangle as usize] = number);
         }
-        let deepest = self.known.iter().map(|known| known.ratio).fold(0.0, f64::max);
+        // What has no closed contour gets no net: to look sooner would help nothing.
+        let closed = self.known.iter().zip(&self.regions).filter(|(_, region)| !region.is_open);
+        let deepest = closed.map(|(known, _)| known.ratio).fold(0.0, f64::max);
         self.next = sweep.travel + way_until_next(deepest, DEEPEST, BETWEEN_LOOKS, self.least);
     }
 
@@ -411,7 +413,7 @@ impl Judge {
             // Farther than that it is not inside: an element of the other body is inverted, and the flood went astray.
             let most = INSIDE * if is_one { thickness } else { there };
             // In its own body the flood may go astray where the contour does not close.
-            let is_certain = !is_one || depth < CERTAIN * thickness || self.skin.is_in_itself(region.bodies[0], place);
+            let is_certain = !is_one || depth < CERTAIN * thickness || self.tree.is_in_itself(&self.skin, own, place);
             if depth > most || !is_certain {
                 return None;
             }

@@ -1,38 +1,43 @@
-//! How many times a surface goes around a place: the sum of the solid angles of its triangles over 4π.
-//!
-//! Of a triangle with the corners a, b, c as seen from the place tan(Ω/2) = a·(b × c) / (|a||b||c| + (a·b)|c| + (b·c)|a| + (c·a)|b|) (van Oosterom
-//! and Strackee, IEEE Trans. Biomed. Eng. 30 (1983) 125-126). Of a place on an edge of the surface the triangles there have none, and the
-//! others have the dihedral angle θ / 2π; if another part of the body lies over it, 1 more.
+//! How many times the surface of a body goes around a place of its own: what a ray from there along the outward normal leaves, less what it
+//! enters. Zero on a sound surface; one where another part of the body lies over it.
 
 use super::skin::Skin;
-use crate::contact::projection::node_facet::Vector;
+use super::tree::Tree;
+use crate::contact::projection::node_facet::{Vector, unit};
 use crate::tensor::{cross, dot};
 use crate::vector::{length, minus};
-use std::f64::consts::PI;
 
-/// Triangles that are seen from their own plane: a·(b × c) below this fraction of |a||b||c|.
-const FLAT: f64 = 1e-9;
-/// Above this the place of an edge lies in another part of its body; what it lies on alone is below 1.
-const WITHIN: f64 = 1.02;
+/// What is nearer than this fraction of the triangle's size is the place itself.
+const HERE: f64 = 1e-9;
 
-impl Skin {
-    /// Whether a place on an edge of a body lies in another part of it.
-    pub(super) fn is_in_itself(&self, body: u32, place: Vector) -> bool {
-        let mut angle = 0.0;
-        for facet in self.facets.iter().filter(|facet| facet.body == body) {
-            for triangle in facet.triangles() {
-                angle += half_angle(self.corners(triangle).map(|x| minus(x, place)));
+impl Tree {
+    /// Whether a place of a triangle lies in another part of its body.
+    pub(super) fn is_in_itself(&self, skin: &Skin, own: u32, place: Vector) -> bool {
+        let [a, b, c] = skin.corners(own);
+        let outward = unit(cross(minus(b, a), minus(c, a)));
+        let here = HERE * length(minus(b, a)).max(length(minus(c, a)));
+        let mut winding = 0;
+        self.along(skin, skin.body(own), place, outward, |triangle| {
+            if triangle != own
+                && let Some((away, leaves)) = crosses(place, outward, skin.corners(triangle))
+                && away > here
+            {
+                winding += if leaves { 1 } else { -1 };
             }
-        }
-        angle / (2.0 * PI) > WITHIN
+        });
+        winding > 0
     }
 }
 
-/// Half of the solid angle of a triangle.
-fn half_angle([a, b, c]: [Vector; 3]) -> f64 {
-    let [la, lb, lc] = [length(a), length(b), length(c)];
-    let volume = dot(a, cross(b, c));
-    if volume.abs() <= FLAT * la * lb * lc { 0.0 } else { volume.atan2(la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb) }
+/// How far along a direction a triangle is crossed, and whether from behind.
+fn crosses(from: Vector, direction: Vector, corners: [Vector; 3]) -> Option<(f64, bool)> {
+    let [a, b, c] = corners.map(|corner| minus(corner, from));
+    let [p, q, r] = [dot(direction, cross(a, b)), dot(direction, cross(b, c)), dot(direction, cross(c, a))];
+    let leaves = p > 0.0 && q > 0.0 && r > 0.0;
+    if !leaves && !(p < 0.0 && q < 0.0 && r < 0.0) {
+        return None;
+    }
+    Some((dot(a, cross(b, c)) / (p + q + r), leaves))
 }
 
 #[cfg(test)]
@@ -40,15 +45,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_octant_an_eighth_and_what_is_seen_edge_on_nothing() {
-        let [x, y, z] = [[2.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 0.5]];
-        assert!((half_angle([x, y, z]) - PI / 4.0).abs() < 1e-15 && (half_angle([x, z, y]) + PI / 4.0).abs() < 1e-15);
-        assert_eq!(half_angle([x, x.map(|c| -c), y]), 0.0);
-        // From the middle of a face of a tetrahedron the others have half of everything.
-        let [p, q, r, s] = [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]];
-        let middle = [0, 1, 2].map(|d| (p[d] + q[d] + r[d]) / 3.0);
-        let from = |corners: [Vector; 3]| half_angle(corners.map(|corner| minus(corner, middle)));
-        assert!((from([p, r, s]) + from([p, s, q]) + from([q, s, r]) - PI).abs() < 1e-14);
-        assert_eq!(from([p, q, r]), 0.0);
+    fn a_triangle_is_crossed_where_it_is_and_from_its_side() {
+        let [a, b, c] = [[0.0, 0.0, 2.0], [1.0, 0.0, 2.0], [0.0, 1.0, 2.0]];
+        let from = [0.2, 0.3, 0.5];
+        assert_eq!(crosses(from, [0.0, 0.0, 1.0], [a, b, c]), Some((1.5, true)));
+        assert_eq!(crosses(from, [0.0, 0.0, 1.0], [a, c, b]), Some((1.5, false)));
+        assert_eq!(crosses(from, [0.0, 0.0, -1.0], [a, b, c]).map(|(away, leaves)| (away, leaves)), Some((-1.5, false)));
+        assert_eq!(crosses([0.7, 0.6, 0.0], [0.0, 0.0, 1.0], [a, b, c]), None);
     }
 }

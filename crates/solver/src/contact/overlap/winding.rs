@@ -48,9 +48,14 @@ mod tests {
     fn a_triangle_is_crossed_where_it_is_and_from_its_side() {
         let [a, b, c] = [[0.0, 0.0, 2.0], [1.0, 0.0, 2.0], [0.0, 1.0, 2.0]];
         let from = [0.2, 0.3, 0.5];
-        assert_eq!(crosses(from, [0.0, 0.0, 1.0], [a, b, c]), Some((1.5, true)));
-        assert_eq!(crosses(from, [0.0, 0.0, 1.0], [a, c, b]), Some((1.5, false)));
-        assert_eq!(crosses(from, [0.0, 0.0, -1.0], [a, b, c]).map(|(away, leaves)| (away, leaves)), Some((-1.5, false)));
+        for (direction, corners, expected) in [
+            ([0.0, 0.0, 1.0], [a, b, c], (1.5, true)),
+            ([0.0, 0.0, 1.0], [a, c, b], (1.5, false)),
+            ([0.0, 0.0, -1.0], [a, b, c], (-1.5, false)),
+        ] {
+            let found = crosses(from, direction, corners);
+            assert!(found.is_some_and(|(away, leaves)| (away - expected.0).abs() < 1e-14 && leaves == expected.1), "{found:?}");
+        }
         assert_eq!(crosses([0.7, 0.6, 0.0], [0.0, 0.0, 1.0], [a, b, c]), None);
     }
 }

@@ -34,10 +34,8 @@ fn crosses(from: Vector, direction: Vector, corners: [Vector; 3]) -> Option<(f64
     let [a, b, c] = corners.map(|corner| minus(corner, from));
     let [p, q, r] = [dot(direction, cross(a, b)), dot(direction, cross(b, c)), dot(direction, cross(c, a))];
     let leaves = p > 0.0 && q > 0.0 && r > 0.0;
-    if !leaves && !(p < 0.0 && q < 0.0 && r < 0.0) {
-        return None;
-    }
-    Some((dot(a, cross(b, c)) / (p + q + r), leaves))
+    let enters = p < 0.0 && q < 0.0 && r < 0.0;
+    (leaves || enters).then(|| (dot(a, cross(b, c)) / (p + q + r), leaves))
 }
 
 #[cfg(test)]

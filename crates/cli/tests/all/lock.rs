@@ -1,5 +1,6 @@
 //! Several programs that want one folder of results: one has it, the others say so, and what is there at the end is of one run.
 
+use crate::restart::Running;
 use crate::{FLIGHT, embate, fresh};
 use std::collections::BTreeMap;
 use std::fs;
@@ -72,21 +73,11 @@ fn until(mut holds: impl FnMut() -> bool) -> bool {
     std::iter::repeat_with(|| std::thread::sleep(Duration::from_millis(10))).take_while(|()| Instant::now() < end).any(|()| holds())
 }
 
-/// A run that is killed with its test, whether that holds or not.
-struct Killed(Child);
-
-impl Drop for Killed {
-    fn drop(&mut self) {
-        let _ = self.0.kill();
-        let _ = self.0.wait();
-    }
-}
-
 #[test]
 fn a_run_keeps_others_out_until_it_is_killed() {
     let folder = fresh("lock-killed");
     fs::write(folder.join("model.toml"), FLIGHT.replacen("\n", "\nrun.checkpoint_steps = 100\n", 1)).unwrap();
-    let mut child = Killed(spawn(&folder, "run model.toml --out out --quiet --set run.end=1000s"));
+    let mut child = Running::start(&folder, &["run", "model.toml", "--out", "out", "--quiet", "--set", "run.end=1000s"]);
     let has_two = || fs::read_dir(folder.join("out/checkpoint")).is_ok_and(|entries| entries.count() >= 2);
     let began = until(has_two);
     for arguments in [

@@ -12,7 +12,7 @@ use embate_solver::model::{
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, TAU};
 use std::sync::Arc;
 
-type Vector = [f64; 3];
+pub(crate) type Vector = [f64; 3];
 
 /// Side of the cell that a body gets, and width of bars and wires, m.
 const CELL: f64 = 0.01;
@@ -213,15 +213,15 @@ impl Solid {
     }
 }
 
-fn difference(a: Vector, b: Vector) -> Vector {
+pub(crate) fn difference(a: Vector, b: Vector) -> Vector {
     [0, 1, 2].map(|d| a[d] - b[d])
 }
 
-fn dot(a: Vector, b: Vector) -> f64 {
+pub(crate) fn dot(a: Vector, b: Vector) -> f64 {
     (0..3).map(|d| a[d] * b[d]).sum()
 }
 
-fn cross(a: Vector, b: Vector) -> Vector {
+pub(crate) fn cross(a: Vector, b: Vector) -> Vector {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 

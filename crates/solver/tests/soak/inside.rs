@@ -6,10 +6,9 @@
 //! plate, half the width of a rod, a third of that of a ball. Surfaces are the faces that one element alone has, quadrilaterals as two
 //! triangles.
 
+use crate::generator_space::{Vector, cross, difference as minus, dot};
 use embate_solver::output::{CellKind, Cells};
 use std::collections::HashMap;
-
-type Vector = [f64; 3];
 
 /// Facets of an element by its number of nodes, and the corners of its reference element.
 const TETRAHEDRON: [&[usize]; 4] = [&[0, 2, 1], &[0, 1, 3], &[1, 2, 3], &[2, 0, 3]];
@@ -231,18 +230,6 @@ fn meets(from: Vector, direction: Vector, [a, b, c]: [Vector; 3]) -> Option<f64>
     let foot = [0, 1, 2].map(|d| from[d] + way * direction[d]);
     let is_there = [[a, b], [b, c], [c, a]].iter().all(|[q, r]| dot(cross(minus(*r, *q), minus(foot, *q)), normal) >= 0.0);
     (falls != 0.0 && is_there).then_some(way)
-}
-
-fn minus(a: Vector, b: Vector) -> Vector {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn dot(a: Vector, b: Vector) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: Vector, b: Vector) -> Vector {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 fn size(a: Vector) -> f64 {

@@ -41,8 +41,8 @@ use super::spin;
 use super::springs::Answers;
 use crate::archive::{Archive, Kept, keep_all, keep_each};
 use crate::mesh::surface::NONE;
-use crate::tensor::{cross, dot};
-use crate::vector::{length, minus};
+use crate::tensor::dot;
+use crate::vector::length;
 use near::Near;
 use piercing::Piercing;
 use regions::{Region, Work};
@@ -248,7 +248,8 @@ impl Judge {
         for number in 0..self.regions.len() {
             let samples = self.samples(&self.regions[number]);
             let nodes = samples.iter().filter_map(|sample| Some((sample.node?, sample.overlap.depth)));
-            self.inside.extend(nodes.filter(|_| self.known[number].bodies[0] != self.known[number].bodies[1]));
+            let is_own = self.regions[number].is_own();
+            self.inside.extend(nodes.filter(|_| !is_own));
             let mut deepest = Overlap { time, ..self.deepest(number, samples) };
             let known = &mut self.known[number];
             if is_first && self.ignores_start {
@@ -256,7 +257,6 @@ impl Judge {
             }
             deepest.depth = (deepest.depth - known.offset).max(0.0);
             (known.ratio, known.thickness) = (deepest.ratio(), deepest.thickness);
-            let is_own = known.bodies[0] == known.bodies[1];
             self.findings.see(deepest, is_own);
             if known.ratio > 1.0 && !is_own && !self.regions[number].is_open {
                 self.findings.through = Some(deepest);
@@ -341,7 +341,7 @@ impl Judge {
         found.sort_by(|a, b| b.overlap.ratio().total_cmp(&a.overlap.ratio()));
         let Some(&Sample { overlap: most, .. }) = found.first() else { return Overlap::default() };
         // In itself a body has no side of entry: its parts turn with each other.
-        let is_sided = known.began != [0.0; 3] && !region.is_open && region.bodies[0] != region.bodies[1];
+        let is_sided = known.began != [0.0; 3] && !region.is_open && !region.is_own();
         if !is_sided || most.ratio().max(known.ratio) <= SIDED {
             return most;
         }
@@ -350,8 +350,7 @@ impl Judge {
         let deepest = |most: Overlap, &Sample { own, is_second, foot, overlap: unsided, .. }: &Sample| {
             // Positive where a triangle is of the side of entry, negative of the side opposite.
             let faces = |triangle: u32| {
-                let [a, b, c] = self.skin.corners(triangle);
-                let along = dot(unit(cross(minus(b, a), minus(c, a))), direction);
+                let along = dot(unit(self.skin.double(triangle)), direction);
                 if is_second { along } else { -along }
             };
             // What is nearest to the side of entry, or to a flank, is as deep as that is far.
@@ -377,44 +376,44 @@ impl Judge {
         square: f64,
         counts: impl Fn(u32) -> bool,
     ) -> Option<(f64, u32)> {
-        let (body, is_one) = (self.skin.body(own), region.bodies[0] == region.bodies[1]);
-        let other = if is_one { body } else { region.bodies[usize::from(body == region.bodies[0])] };
         let may_be = |triangle: u32| !self.skin.is_mirror(triangle) && counts(triangle);
         let nearest = |others: &mut dyn Iterator<Item = u32>| {
             let away = others.map(|triangle| (square_to_triangle(x, self.skin.corners(triangle)), triangle));
             let nearest = away.reduce(|a, b| if b.0 < a.0 { b } else { a });
             nearest.filter(|nearest| nearest.0 < square).map(|(square, foot)| (square.sqrt(), foot))
         };
-        if is_one && region.is_open {
+        if region.is_torn() {
             // Where its contour is not closed, of what is pierced what does not touch it.
             let touches =
                 |triangle: u32| self.skin.triangles[triangle as usize].iter().any(|at| self.skin.triangles[own as usize].contains(at));
             return nearest(&mut region.pierced.iter().copied().filter(|&triangle| may_be(triangle) && !touches(triangle)));
         }
-        if is_one {
+        if region.is_own() {
             // Of its own body the other side of the region alone.
             let others = region.triangles.iter().filter(|&&(triangle, side)| side != is_second && may_be(triangle));
             return nearest(&mut others.map(|&(triangle, _)| triangle));
         }
+        let other = region.bodies[usize::from(self.skin.body(own) == region.bodies[0])];
         let (square, foot) = self.tree.nearest(&self.skin, other, x, square, may_be)?;
         Some((square.sqrt(), foot))
     }
 
     /// Vertices and three places on each part of an edge that are inside.
     fn samples(&self, region: &Region) -> Vec<Sample> {
-        let is_one = region.bodies[0] == region.bodies[1];
+        let is_own = region.is_own();
         let look = |own: u32, node: Option<u32>, place: Vector, behind: f64| {
-            let is_second = if is_one && !region.is_open { region.side(own)? } else { self.skin.body(own) == region.bodies[1] };
+            let is_second = if is_own && !region.is_open { region.side(own)? } else { self.skin.body(own) == region.bodies[1] };
             let other = region.bodies[usize::from(!is_second)];
             let farthest = INSIDE * self.thickest[other as usize];
             let (depth, foot) = self.depth(region, own, is_second, place, farthest * farthest, |_| true)?;
             let there = self.thickness.of(&self.skin, foot);
             let thickness = behind.min(there);
             // Farther than that it is not inside: an element of the other body is inverted, and the flood went astray.
-            let most = INSIDE * if is_one { thickness } else { there };
+            if depth > INSIDE * if is_own { thickness } else { there } {
+                return None;
+            }
             // In its own body the flood may go astray where the contour does not close.
-            let is_certain = !is_one || depth < CERTAIN * thickness || self.tree.is_in_itself(&self.skin, own, place);
-            if depth > most || !is_certain {
+            if is_own && !(depth < CERTAIN * thickness) && !self.tree.is_in_itself(&self.skin, own, place) {
                 return None;
             }
             let nodes = [own, foot].map(|triangle| self.node_of(triangle));

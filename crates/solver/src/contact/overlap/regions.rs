@@ -46,6 +46,16 @@ pub(super) struct Region {
 }
 
 impl Region {
+    /// Whether a body lies in itself.
+    pub(super) fn is_own(&self) -> bool {
+        self.bodies[0] == self.bodies[1]
+    }
+
+    /// Whether it is of a body in itself whose contour is not closed: the flood says nothing, and piercings tell.
+    pub(super) fn is_torn(&self) -> bool {
+        self.is_own() && self.is_open
+    }
+
     /// To which side a triangle of it belongs.
     pub(super) fn side(&self, triangle: u32) -> Option<bool> {
         let at = self.triangles.binary_search_by_key(&triangle, |&(triangle, _)| triangle);
@@ -246,20 +256,23 @@ impl Work {
                 regions[region].inside.push(vertex);
             }
         }
-        // Where a contour in one body is not closed, the flood says nothing, and piercings tell.
-        let is_torn = bodies[0] == bodies[1] && regions[begin..].iter().any(|region| region.is_open);
-        let beside = if is_torn { beside(skin, piercings) } else { Vec::new() };
-        for (chord, pierced) in chords.into_iter().map(|chord| (chord, NONE)).chain(beside) {
-            let region = region_of(chord.0, &self.listed, &self.slots).map(|region| &mut regions[region]);
-            if let Some(region) = region.filter(|region| !is_torn || region.is_open == (pierced != NONE)) {
-                region.chords.push(chord);
-                region.pierced.extend((pierced != NONE).then_some(pierced));
+        for chord in chords {
+            if let Some(region) = region_of(chord.0, &self.listed, &self.slots).filter(|&region| !regions[region].is_torn()) {
+                regions[region].chords.push(chord);
             }
         }
-        regions[begin..].iter_mut().for_each(|region| {
-            region.pierced.sort_unstable();
-            region.pierced.dedup();
-        });
+        if regions[begin..].iter().any(Region::is_torn) {
+            for (chord, pierced) in beside(skin, piercings) {
+                if let Some(region) = region_of(chord.0, &self.listed, &self.slots).filter(|&region| regions[region].is_torn()) {
+                    regions[region].chords.push(chord);
+                    regions[region].pierced.push(pierced);
+                }
+            }
+            regions[begin..].iter_mut().for_each(|region| {
+                region.pierced.sort_unstable();
+                region.pierced.dedup();
+            });
+        }
         pieces.sort_by_key(|piece| piece.triangle);
         regions[begin..].iter_mut().for_each(|region| integrate(skin, region, &pieces));
     }

@@ -6,6 +6,8 @@
 use crate::contact::boxes::{Aabb, around};
 use crate::mesh::surface::{NONE, SpaceSurface};
 use crate::rows::Rows;
+use crate::tensor::cross;
+use crate::vector::minus;
 
 type Vector = [f64; 3];
 
@@ -182,6 +184,12 @@ impl Skin {
     /// Places of a triangle's corners, m.
     pub(super) fn corners(&self, triangle: u32) -> [Vector; 3] {
         self.triangles[triangle as usize].map(|vertex| self.x[vertex as usize])
+    }
+
+    /// Twice the area of a triangle along its outward normal, m².
+    pub(super) fn double(&self, triangle: u32) -> Vector {
+        let [a, b, c] = self.corners(triangle);
+        cross(minus(b, a), minus(c, a))
     }
 
     /// The box around a facet.

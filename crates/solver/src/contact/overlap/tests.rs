@@ -3,6 +3,8 @@
 use super::*;
 use crate::contact::springs::Springs;
 use crate::mesh::surface::SpaceSurface;
+use crate::tensor::cross;
+use crate::vector::minus;
 use proptest::prelude::*;
 
 /// A block of n × n × n hexahedra between two corners, or six tetrahedra in each.

@@ -36,8 +36,7 @@ fn stout(skin: &Skin) -> Vec<f64> {
     for facet in &skin.facets {
         let (origin, six_volumes, surface): &mut (Option<Vector>, f64, f64) = &mut sums[facet.body as usize];
         for triangle in facet.triangles() {
-            let [a, b, c] = skin.corners(triangle);
-            let double = cross(minus(b, a), minus(c, a));
+            let ([a, _, _], double) = (skin.corners(triangle), skin.double(triangle));
             *six_volumes += dot(minus(a, *origin.get_or_insert(a)), double);
             *surface += if facet.is_mirror { 0.0 } else { 0.5 * length(double) };
         }

@@ -13,8 +13,7 @@ const HERE: f64 = 1e-9;
 impl Tree {
     /// Whether a place of a triangle lies in another part of its body.
     pub(super) fn is_in_itself(&self, skin: &Skin, own: u32, place: Vector) -> bool {
-        let [a, b, c] = skin.corners(own);
-        let outward = unit(cross(minus(b, a), minus(c, a)));
+        let ([a, b, c], outward) = (skin.corners(own), unit(skin.double(own)));
         let here = HERE * length(minus(b, a)).max(length(minus(c, a)));
         let mut winding = 0;
         self.along(skin, skin.body(own), place, outward, |triangle| {

@@ -14,7 +14,8 @@ the faces that only one element has, quadrilaterals made of four triangles aroun
   from one frame to the next, the bodies have changed sides there. The volume of the deepest overlap is found by sampling;
 - edges of a body are cut with its own triangles that are more than two elements away;
 - elongated bodies have centre lines (means of cross-sections): where two of them cross as seen along the line between them,
-  neither may be half a thickness on the other side later. That sees a passage between two frames as well.
+  neither may be half a thickness on the other side later. That sees a passage between two frames as well;
+- nodes, in closed obstacles also places on edges, are looked at in the rigid obstacles (obstacles.py), and corners of these in bodies.
 
 Local thickness tau of a facet: the way from its centre inward to where it leaves the undeformed body, if the surface there faces
 the other way (n.n' < -0.5), at most twice the radius of the largest ball around the centre of an element or a face, or an inner
@@ -40,6 +41,7 @@ import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
+import obstacles as rigid
 from overlap import (
     FACES,
     CentreLine,
@@ -302,6 +304,37 @@ def overlap(first, second):
     return found
 
 
+def in_obstacle(placed, obstacle):
+    """The overlap of a placed body with a rigid obstacle, or None."""
+    body, surface = placed.body, placed.body.surface
+    found = Overlap()
+    places, tau = placed.vertices, body.tau
+    if not obstacle.is_flat:
+        low, high = obstacle.box()
+        if (placed.high < low).any() or (high < placed.low).any():
+            return None
+        share = (np.arange(PLACES) + 0.5) / PLACES
+        line = placed.edges()
+        near = ((line.max(1) >= low) & (line.min(1) <= high)).all(axis=1)
+        line = line[near]
+        on_edges = line[:, None, 0] + share[None, :, None] * (line[:, 1] - line[:, 0])[:, None]
+        places = np.concatenate([places, on_edges.reshape(-1, 3)])
+        tau = np.concatenate([tau, np.repeat(body.tau[surface.edges[near]].max(axis=1), PLACES)])
+        near = ((places >= low) & (places <= high)).all(axis=1)
+        places, tau = places[near], tau[near]
+        corners = np.unique(obstacle.corners.reshape(-1, 3), axis=0)
+        corners = corners[((corners >= placed.low) & (corners <= placed.high)).all(axis=1)]
+        if len(corners) and obstacle.is_closed:
+            corners = corners[winding(corners, placed.corners) > 0.5]
+            if len(corners):
+                depth, foot = placed.nearest(corners)
+                found.deepen(corners, depth, body.facet_tau()[foot])
+    depth = obstacle.depths(places)
+    if (depth > 0).any():
+        found.deepen(places[depth > 0], depth[depth > 0], tau[depth > 0])
+    return found if found.depth > 0 else None
+
+
 def self_overlap(placed, points, limit=600):
     """The overlap of a body with itself beyond two rings of elements, or None."""
     body, surface = placed.body, placed.body.surface
@@ -420,7 +453,7 @@ class Judge:
         self.alive = None
         self.true_depth, self.unseen_gap = 0.0, 0
 
-    def look(self, frame):
+    def look(self, frame, obstacles=()):
         if frame.alive is not None and not frame.alive.all() and (self.alive is None or (self.alive != frame.alive).any()):
             for body in self.bodies:
                 if not all(frame.alive[numbers].all() for numbers in body.numbers.values()):
@@ -432,6 +465,8 @@ class Judge:
             if one is None:
                 continue
             self.keep(self_overlap(one, frame.points), frame, one.body.name + " in itself", None)
+            for number, obstacle in enumerate(obstacles):
+                self.keep(in_obstacle(one, obstacle), frame, f"{one.body.name} in obstacle {number}", None)
             for j in range(i + 1, len(placed)):
                 two = placed[j]
                 if two is None:
@@ -581,12 +616,13 @@ def judge(folder, fraction=FRACTION, name=None):
     except (OSError, ValueError, IndexError, xml.etree.ElementTree.ParseError) as error:
         return Judgement(name, "unread", notes=[repr(error)[:160]])
     looks = Judge(first.points, cells, parts, summary.get("parts", []), fraction)
-    for entry in sets:
+    tools = rigid.files(folder)
+    for number, entry in enumerate(sets):
         frame = read(folder / entry.get("file"))[0]
         if not np.isfinite(frame.points).all():
             looks.notes.append(f"a frame at {frame.time:.3g} s is not finite")
             break
-        looks.look(frame)
+        looks.look(frame, rigid.read(tools[number]) if number < len(tools) else ())
     return looks.verdict(name, summary)
 
 

@@ -32,13 +32,15 @@ use mass::part_masses;
 use crate::assembly::Assembly;
 use crate::block::{Block, BlockInput, Initial, Motion, Report, Wrong, make};
 use crate::contact::forces::ContactForces;
+use crate::contact::initial::is_ignored;
 use crate::contact::law::{self, Law};
-use crate::contact::obstacle::OutlineShape;
+use crate::contact::obstacle::{Manner, OutlineShape};
 use crate::contact::search;
 use crate::contact::search::SearchKind;
 use crate::contact::springs::friction::Friction;
 use crate::contact::springs::{Springs, Tangential, Terms};
 use crate::contact::traces::Traces;
+use crate::contact::tracker::SKIN;
 use crate::element::ElementOptions;
 use crate::energy::{Ledger, Sums};
 use crate::error::{Fault, Warning};
@@ -413,10 +415,18 @@ fn terms_of_ties(interface: &Interface) -> Terms {
     Terms { law: Box::new(law::tie::Tie { rigid }), tangential: Tangential::Tied, damping: 0.0 }
 }
 
-/// Stiffness of a slave node; of laws without a penalty that of the automatic one, for what needs a scale.
+/// Stiffness of a slave node.
 fn stiffness_of(interface: &Interface, node: law::Node, passes: usize) -> f64 {
-    let penalty = if let ContactLaw::Penalty(penalty) = interface.law { penalty } else { Penalty::default() };
-    law::penalty::stiffness(penalty, node, passes)
+    law::penalty::stiffness(law::penalty::penalty_of(interface), node, passes)
+}
+
+/// How nodes of this spacing (m) meet an obstacle.
+fn manner(interface: &Interface, spacing: f64) -> Manner {
+    Manner {
+        reach: SKIN * spacing + law_of(interface).reach(),
+        factor: law::penalty::at_obstacles(law::penalty::penalty_of(interface)),
+        ignores_start: is_ignored(interface),
+    }
 }
 
 /// What an automatic penalty is made from; of laws without a penalty the default.

@@ -125,18 +125,21 @@ where
     }
 
     /// Where bodies in contact overlapped without being held, first and worst, in words.
-    pub(crate) fn overlaps_in_words(&self, contact: &str, found: &Findings) -> Option<String> {
-        let parts = |nodes: [u32; 2]| {
-            let of = |node: u32| self.mesh.parts.iter().find(|part| part.nodes.contains(&node)).map_or("?", |part| &part.name);
-            nodes.map(of)
+    pub(crate) fn overlaps_in_words(&self, contact: &Contact<D>, found: &Findings) -> Option<String> {
+        let of = |node: u32| self.mesh.parts.iter().find(|part| part.nodes.contains(&node)).map(|part| &part.name);
+        let who = |nodes: [u32; 2]| match nodes.map(of) {
+            [Some(a), Some(b)] => format!("parts \"{a}\" and \"{b}\""),
+            [Some(part), None] | [None, Some(part)] => format!("part \"{part}\" in the obstacle"),
+            [None, None] => "the obstacle".into(),
         };
         let words = |Overlap { place: at, depth, thickness, nodes, time }: Overlap| {
-            let [a, b] = parts(nodes);
+            let who = who(nodes);
             let at = at.map(|c| format!("{c:.4e}")).join(", ");
-            format!("{depth:.3e} m deep where the bodies are {thickness:.3e} m thick, parts \"{a}\" and \"{b}\" at ({at}), {time:.4e} s")
+            format!("{depth:.3e} m deep where the bodies are {thickness:.3e} m thick, {who} at ({at}), {time:.4e} s")
         };
         let first = found.first?;
-        Some(format!("; contact \"{contact}\": first {}; worst {}", words(first), words(found.worst)))
+        let Contact { kind, name, .. } = contact;
+        Some(format!("; {} \"{name}\": first {}; worst {}", kind.name(), words(first), words(found.worst)))
     }
 
     /// A node and where it is.

@@ -84,7 +84,7 @@ impl Builder<'_, 2> {
             }
         }
         for (model, contact) in self.model.obstacles.iter().zip(obstacles) {
-            match self.obstacle_formulation(model) {
+            match self.obstacle_formulation(model, &outlines) {
                 Ok((_, formulation)) => contact.renew(formulation),
                 Err(_) => contact.end(),
             }

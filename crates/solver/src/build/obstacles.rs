@@ -1,13 +1,16 @@
 //! Obstacles: their rigid bodies, their shapes, and the nodes that meet them.
 
 use super::plane::Outlined;
-use super::{Builder, search_by_name, stiffness_of, terms_of};
+use super::{Builder, manner, search_by_name, stiffness_of, terms_of};
+use crate::contact::depths::Depths;
 use crate::contact::formulation::Side;
 use crate::contact::messages::OBSTACLE;
 use crate::contact::node_segment::{NodeSegment, Slave};
+use crate::contact::obstacle::behind::Thick;
 use crate::contact::obstacle::circle::{Circle, RoundSegments};
 use crate::contact::obstacle::plane::Plane;
-use crate::contact::obstacle::{Both, NodeObstacle, OutlineShape, Shape};
+use crate::contact::obstacle::{Both, Manner, NodeObstacle, OutlineShape, Shape};
+use crate::contact::outline::{Outlines, Sides};
 use crate::contact::projection::node_segment::Target;
 use crate::contact::tracker::{SKIN, Tracker};
 use crate::contact::{self, Contact, ContactKind, Formulation, Tributary, Vector, initial, law, length};
@@ -32,6 +35,9 @@ struct Met {
     longest: f64,
     /// Reach of the law, m.
     reach: f64,
+    /// The bodies that they belong to, ascending, and outlines of all bodies.
+    bodies: Vec<u32>,
+    outlines: Outlines,
 }
 
 impl Met {
@@ -41,6 +47,16 @@ impl Met {
         let here = law::Node { own, other: own.stiffness, share: 1.0 };
         Slave { stiffness: stiffness_of(&obstacle.interface, here, 1), area: own.area, slip: 0.0, of_mass: 0.0 }
     }
+
+    /// Whether a body is one of those that it meets.
+    fn counts(&self, body: u32) -> bool {
+        self.bodies.binary_search(&body).is_ok()
+    }
+
+    /// Depths in the parts.
+    fn depths(&self) -> Depths {
+        Depths::new(vec![self.outlines.opposite(&self.outline.target.surface), Vec::new()])
+    }
 }
 
 /// Points of the outline of a circle: off by less than 4e-5 of the radius, so that a picture of the place where a roll touches shows it round.
@@ -48,9 +64,9 @@ const ROUND: usize = 360;
 
 impl Builder<'_, 2> {
     pub(crate) fn obstacles(&mut self) -> Vec<Contact> {
-        let mut contacts = Vec::new();
+        let (mut contacts, outlines) = (Vec::new(), self.outlines());
         for (i, obstacle) in self.model.obstacles.iter().enumerate() {
-            match self.obstacle_formulation(obstacle) {
+            match self.obstacle_formulation(obstacle, &outlines) {
                 Ok((body, formulation)) => {
                     let (kind, terms) = (ContactKind::Obstacle(body), self.add_terms(terms_of(&obstacle.interface)));
                     contacts.push(Contact::new(obstacle.name.clone(), kind, formulation, terms, obstacle.interface.active));
@@ -62,8 +78,12 @@ impl Builder<'_, 2> {
     }
 
     /// The body of an obstacle, and what makes springs at it.
-    pub(super) fn obstacle_formulation(&mut self, obstacle: &Obstacle) -> Result<(usize, Box<dyn Formulation>), Fault> {
-        let met = self.met(obstacle, terms_of(&obstacle.interface).law.reach())?;
+    pub(super) fn obstacle_formulation(
+        &mut self,
+        obstacle: &Obstacle,
+        outlines: &Outlines,
+    ) -> Result<(usize, Box<dyn Formulation>), Fault> {
+        let met = self.met(obstacle, terms_of(&obstacle.interface).law.reach(), outlines)?;
         self.obstacle(obstacle, met)
     }
 
@@ -73,13 +93,16 @@ impl Builder<'_, 2> {
         outline.map_err(|fault| Fault { path: ".parts".into(), ..fault })
     }
 
-    fn met(&self, obstacle: &Obstacle, reach: f64) -> Result<Met, Fault> {
+    fn met(&self, obstacle: &Obstacle, reach: f64, outlines: &Outlines) -> Result<Met, Fault> {
         let Side { target, lids, nodes: own, .. } = self.side(self.outline_met(obstacle)?, &obstacle.interface);
         let count = own.len().max(1) as f64;
         let mean = |of: fn(&Tributary) -> f64| own.iter().map(of).fold(0.0, |sum, it| sum + it) / count;
         let mean = Tributary { area: mean(|it| it.area), length: mean(|it| it.length), stiffness: mean(|it| it.stiffness), of_mass: 0.0 };
         let longest = target.surface.segments.iter().map(|&segment| length(segment, &self.mesh.positions)).fold(0.0, f64::max);
-        Ok(Met { outline: Outlined { target, lids }, own, mean, longest, reach })
+        let mut bodies: Vec<u32> = target.surface.nodes.iter().map(|&node| self.body_of_node[node as usize]).collect();
+        bodies.sort_unstable();
+        bodies.dedup();
+        Ok(Met { outline: Outlined { target, lids }, own, mean, longest, reach, bodies, outlines: outlines.clone() })
     }
 
     /// The body of an obstacle, and what makes springs at it.
@@ -117,8 +140,10 @@ impl Builder<'_, 2> {
             return Ok((body, Box::new(nodes)));
         }
         let slaves = vec![vec![met.point(obstacle); own.len()]];
+        let depths = met.depths();
         let tracker = self.tracker(met.outline, points_only(own), &[(1, 0)], &self.positions);
-        Ok((body, Box::new(Both::new([Box::new(nodes), Box::new(NodeSegment::new(tracker, slaves, &obstacle.interface, met.reach))]))))
+        let ends = NodeSegment::new(tracker, slaves, &obstacle.interface, met.reach).with_depths(depths, vec![Vec::new()]);
+        Ok((body, Box::new(Both::new([Box::new(nodes), Box::new(ends)]))))
     }
 
     /// Whether a symmetry line keeps a node at its distance from a plane: then it needs no spring.
@@ -150,9 +175,10 @@ impl Builder<'_, 2> {
         let (body, own) = self.register(obstacle, reference, if slips_through { vec![(middle, centre)] } else { Vec::new() }, points);
         let nodes = self.node_obstacle(obstacle, &met, shape, body, |_| false);
         let Some(&node) = own.first() else { return Ok((body, Box::new(nodes))) };
-        let slave = met.point(obstacle);
+        let (slave, depths) = (met.point(obstacle), met.depths());
         let tracker = self.tracker(met.outline, points_only(vec![node]), &[(1, 0)], &self.positions);
-        let segments = RoundSegments::new(tracker, slave, [pushed, met.reach], body, initial::is_ignored(&obstacle.interface));
+        let segments =
+            RoundSegments::new(tracker, slave, pushed, body, Manner { reach: met.reach, ..manner(&obstacle.interface, 0.0) }, depths);
         Ok((body, Box::new(Both::new([Box::new(nodes), Box::new(segments)]))))
     }
 
@@ -178,9 +204,17 @@ impl Builder<'_, 2> {
         let least = |own: &Tributary| Tributary { area: own.area.min(met.mean.area), length: own.length.min(met.mean.length), ..*own };
         let of_corners = of_corners.iter().map(|own| slave(least(own), 1.0));
         let slaves = vec![of_parts.collect(), of_corners.collect()];
+        let depths = met.depths();
+        let sides = Sides::new(&met.outlines, |body| met.counts(body), &self.mesh.positions);
+        let thickness = met.outline.target.surface.nodes.iter().map(|&node| sides.at(node)).collect();
+        let depths = if closed && !initial::is_ignored(&obstacle.interface) {
+            depths.judging(met.outlines.against(|body| met.counts(body), (u32::MAX, surface.segments.clone()), &self.positions))
+        } else {
+            depths
+        };
         let own = Target { surface, mirrors: Vec::new() };
         let tracker = self.tracker(met.outline, own, &[(0, 1), (1, 0)], &self.positions).with_ends(&self.positions);
-        (body, Box::new(NodeSegment::new(tracker, slaves, &obstacle.interface, met.reach)))
+        (body, Box::new(NodeSegment::new(tracker, slaves, &obstacle.interface, met.reach).with_depths(depths, vec![thickness, Vec::new()])))
     }
 
     /// Follows the outside of the parts and a surface of the obstacle.
@@ -225,11 +259,12 @@ impl Builder<'_, 2> {
     ) -> NodeObstacle {
         let slave = |(&node, &own): (&u32, &Tributary)| {
             let here = law::Node { own, other: own.stiffness, share: self.constraints.share(node) };
-            (!left_out(node))
-                .then(|| (node, Slave { stiffness: stiffness_of(&obstacle.interface, here, 1), area: own.area, slip: 0.0, of_mass: 0.0 }))
+            let slave = Slave { stiffness: stiffness_of(&obstacle.interface, here, 1), area: own.area, slip: 0.0, of_mass: 0.0 };
+            (!left_out(node)).then_some((node, slave))
         };
         let nodes = met.outline.target.surface.nodes.iter().zip(&met.own).filter_map(slave).collect();
-        NodeObstacle::new(shape, body, nodes, SKIN * met.mean.length + met.reach, initial::is_ignored(&obstacle.interface))
+        let sides = Sides::new(&met.outlines, |body| met.counts(body), &self.mesh.positions);
+        NodeObstacle::new(shape, body, nodes, manner(&obstacle.interface, met.mean.length), Box::new(sides))
     }
 
     /// The rigid body of an obstacle with its reference point, m.

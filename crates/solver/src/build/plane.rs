@@ -92,9 +92,9 @@ impl Builder<'_, 2> {
         Ok(Contact::new(contact.name.clone(), ContactKind::Contact, formulation, terms, contact.interface.active))
     }
 
-    /// Outlines of all bodies; nothing where no surfaces meet.
+    /// Outlines of all bodies; nothing where nothing meets them.
     pub(crate) fn outlines(&self) -> Outlines {
-        if self.model.contacts.is_empty() {
+        if self.model.contacts.is_empty() && self.model.obstacles.is_empty() {
             return Outlines::default();
         }
         // Elements that overlap are told elsewhere.

@@ -2,7 +2,7 @@
 
 use super::outline::{self, Outline};
 use super::space_start::Meeting;
-use super::{Builder, law_of, search_by_name, source_of, stiffness_of, terms_of, terms_of_ties};
+use super::{Builder, law_of, manner, search_by_name, source_of, stiffness_of, terms_of, terms_of_ties};
 use crate::contact::formulation::{self, Passes};
 use crate::contact::initial;
 use crate::contact::law::{self, Node};
@@ -12,17 +12,16 @@ use crate::contact::node_facet::tracker::Tracker;
 use crate::contact::node_facet::{NodeFacet, PassInput, Slave};
 use crate::contact::obstacle::OutlineShape;
 use crate::contact::obstacle::space::{NodeSolid, Solid, Vector};
-use crate::contact::overlap::{Bodies, Judge};
+use crate::contact::overlap::{Bodies, Judge, Walls};
 use crate::contact::proof::Proof;
 use crate::contact::search::{Search, registry};
-use crate::contact::tracker::SKIN;
 use crate::contact::{Contact, ContactKind, Formulation, Tributary};
 use crate::error::Fault;
 use crate::load::constraint::unit;
 use crate::load::tributary::{self, Depth};
 use crate::mesh::surface::SpaceSurface;
 use crate::model::messages::{NO_DIRECTION, NOT_IN_SPACE, UNKNOWN_NAME};
-use crate::model::{self, ContactLaw, InitialPenetration, Interface, Obstacle, ObstacleShape, Partners, Penalty, PenaltySource};
+use crate::model::{self, InitialPenetration, Interface, Obstacle, ObstacleShape, Partners, Penalty, PenaltySource};
 use crate::vector::{dot, minus, plus, times};
 use std::collections::BTreeMap;
 
@@ -122,12 +121,10 @@ impl Builder<'_, 3> {
         let pressed = self.nodes_pressed(obstacle, outside);
         let slave = |(&node, &own): (&u32, &Tributary)| {
             let here = Node { own, other: own.stiffness, share: self.constraints.share(node) };
-            pressed
-                .binary_search(&node)
-                .is_ok()
-                .then(|| (node, Slave { stiffness: stiffness_of(&obstacle.interface, here, 1), area: own.area, of_mass: 0.0 }))
+            let slave = Slave { stiffness: stiffness_of(&obstacle.interface, here, 1), area: own.area, of_mass: 0.0 };
+            pressed.binary_search(&node).is_ok().then_some((node, slave))
         };
-        let nodes = outside.nodes.iter().zip(&own).filter_map(slave).collect();
+        let nodes: Vec<_> = outside.nodes.iter().zip(&own).filter_map(slave).collect();
         let body = match self.made.get(&obstacle.name) {
             Some(&body) => body,
             None => {
@@ -136,8 +133,9 @@ impl Builder<'_, 3> {
                 body
             }
         };
-        let reach = SKIN * spacing + law_of(&obstacle.interface).reach();
-        Ok((body, Box::new(NodeSolid::new(solid, body, nodes, reach, initial::is_ignored(&obstacle.interface)))))
+        let walls = self.of_bodies(&self.bodies_of(outside), |bodies| Walls::new(bodies, &self.mesh.positions), None)?;
+        let manner = manner(&obstacle.interface, spacing);
+        Ok((body, Box::new(NodeSolid::new(solid, body, (&nodes, &outside.facets), manner, Box::new(walls)))))
     }
 
     /// The shape of an obstacle as its body sees it from a reference point (m), grown by the distance that it keeps; points and facets of its outline.
@@ -235,19 +233,11 @@ impl Builder<'_, 3> {
         let with_edges = contact.tied.is_none() && meets_edges(contact, passes);
         let proof = Proof::new(tracker.surfaces(), passes, &self.body_of_node, &self.mesh.positions, with_edges, registry::<3>()[0].make);
         let judge = self.judge(tracker.surfaces(), contact)?;
-        let mut inputs = inputs;
-        let thickness: Vec<Vec<f64>> = tracker.surfaces().iter().map(|surface| judge.thickness_at(&surface.nodes)).collect();
-        for (input, &(slave, target)) in inputs.iter_mut().zip(passes) {
-            let surface = &tracker.surfaces()[target];
-            let at = |node: &u32| surface.nodes.binary_search(node).map_or(f64::INFINITY, |rank| thickness[target][rank]);
-            let facets = surface.facets.iter().map(|facet| facet.iter().map(at).fold(f64::INFINITY, f64::min));
-            input.thickness = [thickness[slave].clone(), facets.collect()];
-        }
-        let judge = with_edges.then(|| moduli(judge, tracker.surfaces(), passes, &inputs));
-        let made = NodeFacet::new(tracker, inputs, &contact.interface, reach, &self.mesh.positions).with_proof(proof);
-        let made = if let Some(judge) = judge { made.with_judge(judge) } else { made };
+        let inputs = with_thickness(inputs, &judge, tracker.surfaces(), passes);
+        let judge = if with_edges { moduli(judge, tracker.surfaces(), passes, &inputs) } else { judge.without_nets() };
+        let made = NodeFacet::new(tracker, inputs, &contact.interface, reach, &self.mesh.positions).with_proof(proof).with_judge(judge);
         let Some((strength, input)) = tied else {
-            let made = if meets_edges(contact, passes) { made.with_edges(Self::search_in_space(contact)?) } else { made };
+            let made = if with_edges { made.with_edges(Self::search_in_space(contact)?) } else { made };
             return Ok((self.with_images(Box::new(made), mirrors, contact), terms));
         };
         let unborn = Unborn { search: Self::search_in_space(contact)?, input, thickness: contact.interface.thickness };
@@ -265,30 +255,41 @@ impl Builder<'_, 3> {
     }
 
     /// What looks at the overlaps of the bodies whose surfaces meet.
-    fn judge(&self, surfaces: &[SpaceSurface], contact: &model::Contact) -> Result<Judge, Vec<Fault>> {
-        let body_of = |node: u32| self.body_of_node[node as usize];
-        let bodies_of = |surface: &SpaceSurface| {
-            let mut all: Vec<u32> = surface.facets.iter().map(|facet| body_of(facet[0])).collect();
-            all.sort_unstable();
-            all.dedup();
-            all
-        };
-        let sides: Vec<Vec<u32>> = surfaces.iter().map(bodies_of).collect();
-        let is_met = |body: u32| sides.iter().any(|side| side.binary_search(&body).is_ok());
-        let parts = self.mesh.parts.iter().filter(|part| part.nodes.iter().any(|&node| is_met(body_of(node))));
-        let parts: Vec<String> = parts.map(|part| part.name.clone()).collect();
-        let outside = self.mesh.outside_without(&parts, |facet| !is_met(body_of(facet[0])));
-        let outside = outside.map_err(|fault| vec![fault])?;
+    pub(super) fn judge(&self, surfaces: &[SpaceSurface], contact: &model::Contact) -> Result<Judge, Vec<Fault>> {
+        let sides: Vec<Vec<u32>> = surfaces.iter().map(|surface| self.bodies_of(surface)).collect();
+        let mut all = sides.concat();
+        all.sort_unstable();
+        all.dedup();
         // A body on both sides meets itself.
         let are_two = sides.len() == 2 && !sides[0].iter().any(|body| sides[1].binary_search(body).is_ok());
         let side_of = |body: u32| u32::from(sides[sides.len() - 1].binary_search(&body).is_ok());
-        let bodies = Bodies {
-            outside: &outside,
-            is_mirror: &|facet| self.constraints.is_mirror(facet),
-            body_of: &body_of,
-            side_of: if are_two { Some(&side_of) } else { None },
-        };
-        Ok(Judge::new(&bodies, &self.mesh.positions, initial::is_ignored(&contact.interface)))
+        let ignores_start = initial::is_ignored(&contact.interface) || contact.tied.is_some();
+        let make = |bodies: &Bodies<'_>| Judge::new(bodies, &self.mesh.positions, ignores_start);
+        self.of_bodies(&all, make, if are_two { Some(&side_of) } else { None }).map_err(|fault| vec![fault])
+    }
+
+    /// Bodies that a surface belongs to, ascending.
+    pub(super) fn bodies_of(&self, surface: &SpaceSurface) -> Vec<u32> {
+        let mut all: Vec<u32> = surface.facets.iter().map(|facet| self.body_of_node[facet[0] as usize]).collect();
+        all.sort_unstable();
+        all.dedup();
+        all
+    }
+
+    /// What is made of the whole outside of some bodies (ascending), of one or two sides.
+    pub(super) fn of_bodies<T>(
+        &self,
+        all: &[u32],
+        make: impl Fn(&Bodies<'_>) -> T,
+        side_of: Option<&dyn Fn(u32) -> u32>,
+    ) -> Result<T, Fault> {
+        let body_of = |node: u32| self.body_of_node[node as usize];
+        let is_met = |body: u32| all.binary_search(&body).is_ok();
+        let parts = self.mesh.parts.iter().filter(|part| part.nodes.iter().any(|&node| is_met(body_of(node))));
+        let parts: Vec<String> = parts.map(|part| part.name.clone()).collect();
+        let outside = self.mesh.outside_without(&parts, |facet| !is_met(body_of(facet[0])))?;
+        let is_mirror = |facet| self.constraints.is_mirror(facet);
+        Ok(make(&Bodies { outside: &outside, is_mirror: &is_mirror, body_of: &body_of, side_of }))
     }
 
     /// What follows the nodes of a contact, and its passes.
@@ -379,8 +380,20 @@ impl Builder<'_, 3> {
     }
 }
 
+/// The same with the local thickness of the bodies that a judge looks at.
+pub(super) fn with_thickness(mut inputs: Vec<PassInput>, judge: &Judge, surfaces: &[SpaceSurface], passes: Passes) -> Vec<PassInput> {
+    let thickness: Vec<Vec<f64>> = surfaces.iter().map(|surface| judge.thickness_at(&surface.nodes)).collect();
+    for (input, &(slave, target)) in inputs.iter_mut().zip(passes) {
+        let surface = &surfaces[target];
+        let at = |node: &u32| surface.nodes.binary_search(node).map_or(f64::INFINITY, |rank| thickness[target][rank]);
+        let facets = surface.facets.iter().map(|facet| facet.iter().map(at).fold(f64::INFINITY, f64::min));
+        input.thickness = [thickness[slave].clone(), facets.collect()];
+    }
+    inputs
+}
+
 /// The same judge with the pressure stiffness of slaves, Pa/m.
-fn moduli(mut judge: Judge, surfaces: &[SpaceSurface], passes: Passes, inputs: &[PassInput]) -> Judge {
+pub(super) fn moduli(mut judge: Judge, surfaces: &[SpaceSurface], passes: Passes, inputs: &[PassInput]) -> Judge {
     for (&(slave, _), input) in passes.iter().zip(inputs) {
         for (&node, own) in surfaces[slave].nodes.iter().zip(&input.slaves) {
             let [stiffness, of_mass] = [own.stiffness, own.of_mass].map(|sum| if own.area > 0.0 { sum / own.area } else { 0.0 });
@@ -407,7 +420,7 @@ pub(super) struct Sided {
 impl Sided {
     /// Its nodes as slaves against another surface, in one of so many `passes` that carry the pressure together.
     pub(super) fn against(&self, target: &Self, interface: &Interface, passes: usize) -> PassInput {
-        let penalty = if let ContactLaw::Penalty(penalty) = interface.law { penalty } else { Penalty::default() };
+        let penalty = law::penalty::penalty_of(interface);
         let slave = |(&own, &share): (&Tributary, &f64)| {
             let node = Node { own, other: f64::INFINITY, share };
             Slave {

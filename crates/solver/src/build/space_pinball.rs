@@ -2,10 +2,11 @@
 
 use super::space_contact::Sided;
 use super::{Builder, law_of, terms_of};
-use crate::contact::Formulation;
+use crate::contact::judged::Judged;
 use crate::contact::pinball::space::{Layer, Pinball};
+use crate::contact::{Formulation, law};
 use crate::error::Fault;
-use crate::model::{self, ContactLaw, Penalty};
+use crate::model;
 
 impl Builder<'_, 3> {
     /// What makes the springs of a contact between balls, and the number of the terms that they follow. Faults have paths relative to the contact.
@@ -20,9 +21,10 @@ impl Builder<'_, 3> {
             Layer { surface, cells: surface.facets.iter().map(cell).collect(), stiffness }
         });
         let layers: Vec<Layer<'_>> = layers.collect();
-        let penalty = if let ContactLaw::Penalty(penalty) = contact.interface.law { penalty } else { Penalty::default() };
+        let penalty = law::penalty::penalty_of(&contact.interface);
         let reach = law_of(&contact.interface).reach();
         let made = Pinball::new(&layers, contact, penalty, reach, search, (&self.body_of_node, &self.mesh.positions));
+        let made = Judged::new(Box::new(made), self.judge(&surfaces, contact)?.without_nets());
         Ok((self.with_images(Box::new(made), mirrors, contact), terms))
     }
 }

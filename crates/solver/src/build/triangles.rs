@@ -4,15 +4,16 @@
 //! stand for, as on every obstacle, where the triangles are larger than the facets of the parts; then only points that stick out press back, each with as much as a node of the parts has. Surfaces as
 //! fine as the parts meet them half in each pass.
 
-use super::space_contact::Sided;
+use super::space_contact::{Sided, moduli, with_thickness};
 use super::space_start::stuck;
-use super::{Builder, law_of, search_by_name};
+use super::{Builder, manner, search_by_name};
 use crate::contact::edge_edge::EdgeTouch;
 use crate::contact::initial::space::Look;
 use crate::contact::initial::{self, Inside, Penetration};
 use crate::contact::node_facet::tracker::{Touch, Tracker};
-use crate::contact::node_facet::{NodeFacet, edges_at_start};
-use crate::contact::obstacle::OutlineShape;
+use crate::contact::node_facet::{NodeFacet, PassInput, edges_at_start};
+use crate::contact::obstacle::{Manner, OutlineShape};
+use crate::contact::overlap::{Bodies, Judge};
 use crate::contact::projection::edge_edge::point;
 use crate::contact::projection::node_facet::Placed;
 use crate::contact::search::Search;
@@ -25,6 +26,8 @@ use crate::vector::minus;
 
 /// Nodes of the parts against triangles, and points of these against facets of the parts.
 const PASSES: &[(usize, usize)] = &[(0, 1), (1, 0)];
+/// Number of the obstacle among the bodies.
+const OBSTACLE: u32 = u32::MAX;
 
 impl Builder<'_, 3> {
     /// The body of an obstacle of triangles, and what makes springs where `outside` of the parts meets it.
@@ -48,11 +51,32 @@ impl Builder<'_, 3> {
             moduli: vec![f64::INFINITY; count],
             facets: vec![f64::INFINITY; count],
         };
-        let inputs = vec![parts.against(&rigid, interface, passes), rigid.against(&parts, interface, passes)];
-        let tracker =
-            Tracker::new(vec![outside, own], PASSES, &self.body_of_node, search(), &self.positions).measured_by(0, &self.positions);
-        let made = NodeFacet::new(tracker, inputs, interface, law_of(interface).reach(), &self.positions).with_edges(search());
-        Ok((body, Box::new(made)))
+        let Manner { reach, factor, ignores_start } = manner(interface, 0.0);
+        let of_obstacle = |input: PassInput| PassInput { at_obstacle: Some(factor), ..input };
+        let inputs = [parts.against(&rigid, interface, passes), rigid.against(&parts, interface, passes)].map(of_obstacle).into();
+        let judge = self.judge_of_triangles(&outside, &own, ignores_start)?;
+        let surfaces = vec![outside, own];
+        let inputs = with_thickness(inputs, &judge, &surfaces, PASSES);
+        let judge = moduli(judge, &surfaces, PASSES, &inputs);
+        let tracker = Tracker::new(surfaces, PASSES, &self.body_of_node, search(), &self.positions).measured_by(0, &self.positions);
+        let made = NodeFacet::new(tracker, inputs, interface, reach, &self.positions).with_edges(search());
+        Ok((body, Box::new(made.with_judge(judge))))
+    }
+
+    /// What looks at the overlaps of the obstacle with the bodies that it meets.
+    fn judge_of_triangles(&self, met: &SpaceSurface, own: &SpaceSurface, ignores_start: bool) -> Result<Judge, Fault> {
+        let first = own.nodes.first().copied().unwrap_or(OBSTACLE);
+        let make = |bodies: &Bodies<'_>| {
+            let outside = bodies.outside.joined(own);
+            let bodies = Bodies {
+                outside: &outside,
+                is_mirror: &|facet| facet[0] < first && (bodies.is_mirror)(facet),
+                body_of: &|node| if node < first { (bodies.body_of)(node) } else { OBSTACLE },
+                side_of: Some(&|body| u32::from(body == OBSTACLE)),
+            };
+            Judge::new(&bodies, &self.positions, ignores_start)
+        };
+        self.of_bodies(&self.bodies_of(met), make, None)
     }
 
     /// The rigid body, and the number of the node of its first point. Those that are there already, where contacts are made again.

@@ -73,7 +73,7 @@ impl Depths {
 
     /// With a judge of these bodies, each on the first (1) or the second side (2) of the contact, or on both (3): what meets is of different sides.
     #[must_use]
-    pub(super) fn judging(self, outlines: Vec<(Outline, u8)>) -> Self {
+    pub(crate) fn judging(self, outlines: Vec<(Outline, u8)>) -> Self {
         let (outlines, sides) = outlines.into_iter().unzip();
         Self { judge: Judge { outlines, sides, next: f64::NEG_INFINITY, steps: 0, looked: 0, inside: Vec::new() }, ..self }
     }
@@ -152,6 +152,8 @@ impl Depths {
             Some(opposite.now(tracker.targets()[surface].surface.segments[segment as usize], positions))
         };
         let thickness = around.into_iter().filter_map(thickness).fold(f64::INFINITY, f64::min);
+        // Behind the surface of an obstacle nothing is known, and the node's own body counts.
+        let thickness = if thickness < f64::INFINITY { thickness } else { initial };
         let [(surface, segment), _, _] = around;
         let other = tracker.targets()[surface].surface.segments[segment as usize][0];
         let [x, y] = positions[touch.node as usize];

@@ -94,6 +94,22 @@ impl Findings {
         is_deep
     }
 
+    /// What two found together, of the same bodies at the same times.
+    #[must_use]
+    pub(super) fn with(&self, other: &Self) -> Self {
+        let deeper = |a: Overlap, b: Overlap| if b.ratio() > a.ratio() { b } else { a };
+        let earlier = |a: Overlap, b: Overlap| if b.time < a.time { b } else { a };
+        Self {
+            unverified: self.unverified + other.unverified,
+            looks: self.looks.max(other.looks),
+            first: self.first.into_iter().chain(other.first).reduce(earlier),
+            worst: deeper(self.worst, other.worst),
+            now: deeper(self.now, other.now),
+            own: deeper(self.own, other.own),
+            through: self.through.or(other.through),
+        }
+    }
+
     /// Counts something of this look that was not held.
     pub(super) fn miss(&mut self) {
         self.unverified += 1;

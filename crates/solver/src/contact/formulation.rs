@@ -14,7 +14,7 @@ use super::tracker::Tracker;
 use super::{Formulation, Tributary, Vector, law, node_segment, pinball, segment, tied};
 use crate::error::Fault;
 use crate::load::tributary::Depth;
-use crate::model::{self, ContactLaw, Partners, Penalty, PenaltySource};
+use crate::model::{self, Partners, Penalty, PenaltySource};
 use std::collections::BTreeSet;
 
 /// A formulation as the registry describes it.
@@ -116,10 +116,10 @@ pub struct Setup<'a> {
 }
 
 impl Setup<'_> {
-    /// Stiffness of the contact; of laws without one the automatic one, for what needs a scale.
+    /// As [`law::penalty::penalty_of`].
     #[must_use]
     pub fn penalty(&self) -> Penalty {
-        if let ContactLaw::Penalty(penalty) = self.contact.interface.law { penalty } else { Penalty::default() }
+        law::penalty::penalty_of(&self.contact.interface)
     }
 
     /// As [`is_ignored`].
@@ -128,13 +128,12 @@ impl Setup<'_> {
         is_ignored(&self.contact.interface)
     }
 
-    /// Sees how deep nodes are against the local thickness; where nodes of both surfaces meet the other one, and nothing overlaps at the
-    /// start, bodies are judged as they are.
+    /// Sees how deep nodes are against the local thickness; where nothing is tied, and nothing overlaps at the start, bodies are judged as they
+    /// are.
     #[must_use]
     pub fn depths(&self) -> Depths {
         let depths = Depths::new(self.sides.iter().map(|side| self.outlines.opposite(&side.target.surface)).collect());
-        let is_whole = matches!(self.contact.partners, Partners::Bodies(_)) || self.passes.len() > 1;
-        if !is_whole || self.ignores_start() || self.contact.tied.is_some() {
+        if self.ignores_start() || self.contact.tied.is_some() {
             return depths;
         }
         let body = |segment: &[u32; 2]| self.bodies.get(segment[0] as usize).copied().unwrap_or(0);

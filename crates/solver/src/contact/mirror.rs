@@ -130,4 +130,8 @@ where
     fn inside(&self) -> &[(u32, f64)] {
         self.contact.inside()
     }
+
+    fn thinnest(&self) -> f64 {
+        self.contact.thinnest()
+    }
 }

@@ -28,6 +28,7 @@ pub mod overlap;
 pub mod depths;
 pub mod outline;
 mod closed;
+pub mod judged;
 pub mod mirror;
 pub mod traces;
 

@@ -16,7 +16,7 @@ use super::closed::Closed;
 use super::edge_edge::{self, Around, EdgeTouch, EdgeTracker};
 use super::findings::Findings;
 use super::initial::{is_ignored, kept};
-use super::law::penalty::stiffening;
+use super::law::penalty::{factor, stiffening};
 use super::node_segment::is_stored;
 use super::overlap::Judge;
 use super::projection::edge_edge::distance;
@@ -49,6 +49,8 @@ pub struct PassInput {
     pub moduli: Vec<f64>,
     /// The same α m / (dt² A) by the mass of its nodes and the first step, Pa/m; empty: not known.
     pub of_mass: Vec<f64>,
+    /// By what factor springs stiffen if the slaves or the target are those of an obstacle.
+    pub at_obstacle: Option<f64>,
     /// Local thickness at each slave and behind each facet of the target, m; empty: not known.
     pub thickness: [Vec<f64>; 2],
 }
@@ -80,6 +82,11 @@ impl PassInput {
     fn of_mass(&self, slave: usize, facets: impl Iterator<Item = u32>) -> f64 {
         let Slave { of_mass, area, .. } = self.slaves[slave];
         facets.map(|facet| self.of_mass.get(facet as usize).map_or(0.0, |other| other * area)).fold(of_mass, f64::min)
+    }
+
+    /// By what factor a spring stiffens, between bodies by its stiffness and that by mass and step, N/m.
+    fn factor(&self, stiffness: f64, of_mass: f64) -> f64 {
+        self.at_obstacle.unwrap_or_else(|| factor(stiffness, of_mass))
     }
 
     /// Thickness of the thinner body there, m.
@@ -237,7 +244,7 @@ impl NodeFacet {
                     }
                 }
             }
-            (stiffness, area, stiffening(thickness, stiffness, of_mass))
+            (stiffness, area, stiffening(thickness, passes[0].factor(stiffness, of_mass)))
         };
         edges.track(&around, is_held, make);
     }
@@ -280,7 +287,7 @@ impl NodeFacet {
         let (stiffness, area) = (pass.softest(slave, target.sharing(facet, rest)), pass.slaves[slave].area);
         let thickness = pass.thickness(slave, target.sharing(facet, rest));
         let of_mass = pass.of_mass(slave, target.sharing(facet, rest));
-        let (stiffening, side) = (stiffening(thickness, stiffness, of_mass), self.tracker.side(touch.pass));
+        let (stiffening, side) = (stiffening(thickness, pass.factor(stiffness, of_mass)), self.tracker.side(touch.pass));
         let spring = Spring { normal, gap, stiffness, area, stiffening, side, ..Spring::default() };
         if !self.slips && weights.iter().all(|weight| *weight >= 0.0) {
             // Nearly all without friction.

@@ -9,7 +9,7 @@ use super::depths::Depths;
 use super::findings::Findings;
 use super::formulation::{FormulationKind, Setup, both_passes, one_pass};
 use super::initial::{is_ignored, kept};
-use super::law::penalty::stiffening;
+use super::law::penalty::{at_obstacles, factor, penalty_of, stiffening};
 use super::projection::node_segment::{Projection, Target};
 use super::springs::{Answers, End, Spring, Springs, tangent};
 use super::tracker::{Certificate, Memory, SearchReport, Touch, Tracker, is_facing};
@@ -77,6 +77,10 @@ pub struct PassInput {
     pub of_mass: Vec<f64>,
     /// What the segments at each slave stand for, [that which ends there, that which begins there]; empty: slaves count whole.
     pub faces: Vec<[Face; 2]>,
+    /// By what factor springs stiffen if the slaves or the target are those of an obstacle.
+    pub at_obstacle: Option<f64>,
+    /// Local thickness at each slave at the start, m; empty: what is behind the target counts alone.
+    pub thickness: Vec<f64>,
 }
 
 /// What a segment at a node has of the node's tributary length and of its stiffness, as fractions.
@@ -106,6 +110,16 @@ impl PassInput {
     fn of_mass(&self, slave: usize, segment: u32) -> f64 {
         let Slave { of_mass, area, .. } = self.slaves[slave];
         self.of_mass.get(segment as usize).map_or(0.0, |other| of_mass.min(other * area))
+    }
+
+    /// Local thickness at a slave, m; infinite: not known.
+    fn thickness(&self, slave: usize) -> f64 {
+        self.thickness.get(slave).copied().unwrap_or(f64::INFINITY)
+    }
+
+    /// By what factor a spring stiffens.
+    fn factor(&self, slave: usize, segment: u32, stiffness: f64) -> f64 {
+        self.at_obstacle.unwrap_or_else(|| factor(stiffness, self.of_mass(slave, segment)))
     }
 
     /// What counts of a slave.
@@ -144,6 +158,7 @@ impl NodeSegment {
             moduli: setup.sides[target].softest(),
             of_mass: setup.of_mass(target),
             faces: setup.faces(slave),
+            ..PassInput::default()
         };
         let inputs = passes.iter().map(pass).collect();
         let (interface, reach) = (&setup.contact.interface, (setup.law)().reach());
@@ -152,10 +167,11 @@ impl NodeSegment {
         Self { passes: inputs, initial, depths, ..Self::new(setup.tracker(), Vec::new(), interface, reach) }
     }
 
-    /// For the passes of `tracker` with slaves whose stiffness is known; `reach` of the law, m.
+    /// Of an obstacle, for the passes of `tracker` with slaves whose stiffness is known; `reach` of the law, m.
     #[must_use]
     pub fn new(tracker: Tracker, slaves: Vec<Vec<Slave>>, interface: &model::Interface, reach: f64) -> Self {
-        let passes = slaves.into_iter().map(|slaves| PassInput { slaves, ..PassInput::default() }).collect();
+        let factor = at_obstacles(penalty_of(interface));
+        let passes = slaves.into_iter().map(|slaves| PassInput { slaves, at_obstacle: Some(factor), ..PassInput::default() }).collect();
         Self {
             tracker,
             passes,
@@ -171,6 +187,13 @@ impl NodeSegment {
             let_go: 0.0,
             depths: Depths::default(),
         }
+    }
+
+    /// The same with what is known of depths, and of each pass the thickness of the bodies at its slaves, m (empty: not known).
+    #[must_use]
+    pub fn with_depths(self, depths: Depths, thickness: Vec<Vec<f64>>) -> Self {
+        let passes = self.passes.into_iter().zip(thickness).map(|(pass, thickness)| PassInput { thickness, ..pass }).collect();
+        Self { passes, depths, ..self }
     }
 
     /// Gap less the thickness. A surface keeps no more distance from itself than half of what it had: neighbours along a surface are near, and stay so.
@@ -238,9 +261,9 @@ impl NodeSegment {
             let stiffness = [Some(segment), other].into_iter().flatten().map(|segment| pass.stiffness_of(slave, segment, part));
             let (stiffness, area) = (stiffness.fold(f64::INFINITY, f64::min), part.length * pass.slaves[slave].area);
             let (gap, offset) = self.beyond(&touch, &memory);
-            let thickness = self.depths.thickness(self.tracker.around(&touch));
+            let thickness = self.depths.thickness(self.tracker.around(&touch)).min(pass.thickness(slave));
             self.depths.see(&self.tracker, &touch, offset - touch.projection.gap, thickness, scene);
-            let stiffening = stiffening(thickness, stiffness, pass.of_mass(slave, segment));
+            let stiffening = stiffening(thickness, pass.factor(slave, segment, stiffness));
             if touch.slope != 0.0 {
                 lean(&mut ends, &touch, scene.sweep.new);
             }

@@ -9,6 +9,7 @@
 //! the surface there, as beside a corner.
 
 mod folds;
+mod sides;
 
 use super::Vector;
 use super::boxes::{Aabb, around, do_meet, joined, longest, meets_ray, square_away};
@@ -16,6 +17,7 @@ use super::findings::PLACES;
 use crate::mesh::surface::{NONE, Surface};
 use crate::vector::{dot, minus};
 use robust::{Coord, orient2d};
+pub use sides::Sides;
 use std::collections::BTreeMap;
 
 /// Cosine between the normals of a segment and of the opposite one.
@@ -78,6 +80,13 @@ impl Outlines {
         Self { bodies, opposite }
     }
 
+    /// With the outlines of these bodies as a first side, and that of the rigid body `other`, whose solid is on the right of its segments, as a
+    /// second one.
+    pub(crate) fn against(&self, counts: impl Fn(u32) -> bool, other: (u32, Vec<[u32; 2]>), positions: &[Vector]) -> Vec<(Outline, u8)> {
+        let bodies = self.bodies.iter().filter(|outline| counts(outline.body)).map(|outline| (outline.clone(), 1));
+        bodies.chain([(Outline::new(other.0, other.1, &|_| false, positions), 2)]).collect()
+    }
+
     /// What is opposite of the segments of a surface.
     #[must_use]
     pub fn opposite(&self, surface: &Surface) -> Vec<Opposite> {
@@ -96,9 +105,11 @@ pub(super) struct Side {
 
 /// The outline of a body: its segments in the order of a binary tree of boxes, by halves along the longer axis of their middles.
 #[derive(Clone, Debug)]
-pub(super) struct Outline {
+pub(crate) struct Outline {
     pub(super) body: u32,
     pub(super) sides: Vec<Side>,
+    /// Whether the solid is outside of it, as that of a hollow obstacle.
+    is_hollow: bool,
     /// The box around each half, and where that of its second half is; the first follows.
     boxes: Vec<(Aabb<2>, u32)>,
 }
@@ -115,7 +126,8 @@ impl Outline {
         let most = if double > 0.0 && perimeter > 0.0 { 2.0 * double / perimeter } else { f64::INFINITY };
         let opposite = Opposite { initial: most, most, ..Opposite::default() };
         let side = |segment: [u32; 2]| Side { segment, opposite, is_mirror: is_mirror(segment) };
-        let mut made = Self { body, sides: segments.into_iter().map(side).collect(), boxes: Vec::new() };
+        let is_hollow = double < 0.0;
+        let mut made = Self { body, sides: segments.into_iter().map(side).collect(), is_hollow, boxes: Vec::new() };
         sort(&mut made.sides, positions);
         made.refit(positions);
         let found: Vec<Option<Opposite>> = made.sides.iter().map(|side| made.opposite(side, positions)).collect();
@@ -185,7 +197,7 @@ impl Outline {
         // Across the longer extent a ray meets few segments.
         let [low, high] = self.around();
         let is_wide = high[0] - low[0] > high[1] - low[1];
-        self.winding(x, is_wide, |_| true, positions) != 0
+        (self.winding(x, is_wide, |_| true, positions) != 0) != self.is_hollow
     }
 
     /// Winding number of a place, of the segments that count: by a ray along x, or along y if the outline `is_turned`, which changes the sign.

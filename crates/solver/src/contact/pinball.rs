@@ -14,6 +14,7 @@ mod follower;
 pub mod space;
 
 use super::formulation::{FormulationKind, Setup, Side, both_passes};
+use super::judged::Judged;
 use super::springs::{Answers, End, Spring, Springs};
 use super::{Formulation, Scene, Vector, length};
 use crate::archive::{Archive, Kept};
@@ -26,7 +27,7 @@ pub const KIND: FormulationKind = FormulationKind {
     doc: "disks (in space balls) in the elements under the surfaces against each other: simple and robust, bumpy where bodies slide",
     source: "Belytschko and Neal (1991), split as by Belytschko and Yeh (1993); disks and balls that touch the surface from inside",
     passes: both_passes,
-    make: |setup| Ok(Box::new(Pinball::of(&setup))),
+    make: |setup| Ok(Box::new(Judged::new(Box::new(Pinball::of(&setup)), setup.depths()))),
 };
 
 /// A disk in an element of at most four nodes; its area is the length of surface that it stands for, m.

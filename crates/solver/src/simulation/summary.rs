@@ -69,7 +69,7 @@ where
                  a contact was missed or is too soft, or a body went through itself"
             );
             for contact in &self.system.contacts {
-                text.extend(contact.overlaps().into_iter().flat_map(|found| self.system.overlaps_in_words(&contact.name, found)));
+                text.extend(contact.overlaps().into_iter().flat_map(|found| self.system.overlaps_in_words(contact, found)));
             }
             tell(&MISSED, text);
         }

@@ -430,7 +430,10 @@ fn nodes_of_solids_are_pushed_onto_planes_balls_and_cylinders_along_their_normal
             // Nothing is strained, and nothing is pressed.
             let end = to_end(&model);
             let summary = end.summary();
-            assert!(summary.penetration_max < 1e-9 && summary.ledger_residual < 1e-12, "{shape:?}: {summary:?}");
+            // Facets cut into what is round and whole: √2 times 25 mm is a chord of its circle.
+            let is_whole = matches!(shape, ObstacleShape::Sphere { hollow: false, .. } | ObstacleShape::Cylinder { hollow: false, .. });
+            let most = if is_whole { 0.024 - (0.024_f64 * 0.024 - 0.5 * 0.025 * 0.025).sqrt() } else { 1e-9 };
+            assert!(summary.penetration_max < most && summary.ledger_residual < 1e-12, "{shape:?}: {summary:?}");
             for column in ["energy.kinetic", "energy.internal", "energy.contact"] {
                 assert!(value(&end, column).abs() < 1e-12, "{shape:?}: {column} {}", value(&end, column));
             }

@@ -66,6 +66,7 @@ mod stress_states;
 mod symmetry_planes;
 mod swept;
 mod ties_in_space;
+mod told_obstacles;
 mod triangles;
 mod trusses;
 mod viscosity;

@@ -7,15 +7,17 @@
 //!
 //! Nodes do not see a circle that comes in between them. [`RoundSegments`] does: the same circle against segments, for circles smaller than these.
 
-use super::{Memory, Shape, State, Way};
+use super::{Manner, Memory, Shape, State, Way};
 use crate::archive::{Archive, Keep, Kept};
 use crate::contact::Vector;
+use crate::contact::depths::Depths;
 use crate::contact::initial::kept;
+use crate::contact::law::penalty::stiffening;
 use crate::contact::node_segment::{Slave, segment_ends};
 use crate::contact::springs::{Answers, End, Spring, Springs};
 use crate::contact::tracker::{Certificate, SearchReport, Touch, Tracker};
 use crate::contact::{Formulation, Scene};
-use crate::vector::dot;
+use crate::vector::{dot, minus};
 use std::any::Any;
 
 /// The circle, in the frame of its body.
@@ -107,6 +109,19 @@ impl Shape for Circle {
         let out = if !self.is_short(moved) && self.entry(to, moved).is_some() { self.facing(to, moved) } else { radius };
         Some((self.radius - dot(out, to), [-out[0], -out[1]]))
     }
+
+    fn deepest(&self, [a, b]: [Vector; 2]) -> Option<(f64, Vector)> {
+        let along = minus(b, a);
+        let square = dot(along, along);
+        let share = if square > 0.0 { (dot(minus(self.middle, a), along) / square).clamp(0.0, 1.0) } else { 0.0 };
+        let place = [a[0] + share * along[0], a[1] + share * along[1]];
+        let away = minus(place, self.middle);
+        (!self.hollow).then_some((self.radius - dot(away, away).sqrt(), place))
+    }
+
+    fn is_round(&self) -> Option<f64> {
+        (!self.hollow).then_some(self.radius)
+    }
 }
 
 /// A circle against segments: it comes in between their nodes.
@@ -122,14 +137,17 @@ pub struct RoundSegments {
     /// Whether gaps that are negative when it begins to act count as zero.
     ignores_start: bool,
     has_begun: bool,
+    /// Knows how thick the bodies are; by what factor springs stiffen.
+    depths: Depths,
+    factor: f64,
 }
 
 impl RoundSegments {
-    /// For a circle of this radius (m) whose centre is the only slave of `tracker`; `reach` of the law, m. With `ignores_start` gaps that are negative when it begins to act count
-    /// as zero until the surfaces part.
+    /// For a circle of this radius (m) whose centre is the only slave of `tracker`; `depths` know how thick the bodies are.
     #[must_use]
-    pub fn new(tracker: Tracker, slave: Slave, [radius, reach]: [f64; 2], body: usize, ignores_start: bool) -> Self {
-        Self { tracker, slave, radius, reach, body, ignores_start, has_begun: false }
+    pub fn new(tracker: Tracker, slave: Slave, radius: f64, body: usize, manner: Manner, depths: Depths) -> Self {
+        let Manner { reach, factor, ignores_start } = manner;
+        Self { tracker, slave, radius, reach, body, ignores_start, has_begun: false, depths, factor }
     }
 
     /// The spring at a body that is near, and its ends.
@@ -145,7 +163,8 @@ impl RoundSegments {
         let ends = [a, b, End { at: (positions.len() + self.body) as u32, share: 1.0, point, ..End::default() }];
         let (Slave { stiffness, area, .. }, memory) = (self.slave, self.tracker.kept(touch));
         let (slip, gap) = (memory.slip, gap - memory.offset);
-        (Spring { normal, gap, stiffness, area, side: -1.0, slip: [slip], ..Spring::default() }, ends)
+        let stiffening = stiffening(self.depths.thickness(self.tracker.around(touch)), self.factor);
+        (Spring { normal, gap, stiffness, area, stiffening, side: -1.0, slip: [slip], ..Spring::default() }, ends)
     }
 }
 
@@ -173,7 +192,7 @@ impl Formulation for RoundSegments {
     }
 
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
-        let Self { slave: _, radius: _, reach: _, body: _, ignores_start: _, tracker, has_begun } = self;
+        let Self { slave: _, radius: _, reach: _, body: _, ignores_start: _, depths: _, factor: _, tracker, has_begun } = self;
         tracker.keep(archive)?;
         has_begun.keep(archive)
     }
@@ -218,6 +237,15 @@ mod tests {
         assert_eq!(hollow.facing([-0.5, 0.0], [10.0, 0.0]), [1.0, 0.0]);
         assert_eq!(hollow.facing([0.5, 0.0], [-10.0, 0.0]), [-1.0, 0.0]);
         assert_eq!(hollow.entry([-0.5, 0.0], [0.1, 0.0]), None);
+    }
+
+    #[test]
+    fn a_segment_is_deepest_where_it_is_nearest_to_the_middle() {
+        let circle = Circle { middle: [1.0, 2.0], radius: 0.5, hollow: false };
+        assert_eq!(circle.deepest([[0.0, 2.1], [3.0, 2.1]]), Some((0.5 - (2.1_f64 - 2.0), [1.0, 2.1])));
+        assert_eq!(circle.deepest([[1.25, 2.0], [3.0, 2.0]]), Some((0.25, [1.25, 2.0])));
+        assert_eq!(circle.deepest([[1.0, 2.0], [1.0, 2.0]]), Some((0.5, [1.0, 2.0])));
+        assert_eq!(Circle { hollow: true, ..circle }.deepest([[0.0, 2.1], [3.0, 2.1]]), None);
     }
 
     #[test]

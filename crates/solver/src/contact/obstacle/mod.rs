@@ -3,13 +3,17 @@
 //! The shape lives in the frame of its rigid body; positions come from the step. Reactions go to the body. What is swept is the way of a node as the body sees it: straight
 //! between where the node was seen before the step and where it is seen after it.
 
+pub mod behind;
 pub mod circle;
 pub mod plane;
+pub mod points;
 pub mod space;
 
+use super::findings::Findings;
 use super::initial::kept;
+use super::law::penalty::stiffening;
 use super::node_segment::Slave;
-use super::springs::{Answers, End, Spring, Springs};
+use super::springs::{Answers, End, Spring, Springs, Stiffening};
 use super::tracker::{Certificate, SearchReport};
 use super::{Formulation, Scene, Vector};
 use crate::archive::{Archive, Keep, Kept, Misfit, keep_all, keep_each};
@@ -18,13 +22,24 @@ use crate::motion::Motion;
 use crate::output::Outline;
 use crate::rigid::Bodies;
 use crate::tensor::Dim;
-use crate::vector::{bound_of, plus};
+use crate::vector::{bound_of, dot, plus};
+use behind::{Behind, Thick};
 use std::any::Any;
 
 /// Shape of an obstacle in the frame of its body.
 pub trait Shape: Send + Sync {
     /// Gap (m, negative inside) and unit normal along which a node is pushed out; `None` where it does not meet the obstacle.
     fn meet(&self, way: Way, memory: &mut Memory) -> Option<(f64, Vector)>;
+
+    /// Depth of the place of a segment that is deepest in it, m (negative outside), and that place, if that may be between its ends.
+    fn deepest(&self, _: [Vector; 2]) -> Option<(f64, Vector)> {
+        None
+    }
+
+    /// Its radius, if it is round and whole, m.
+    fn is_round(&self) -> Option<f64> {
+        None
+    }
 }
 
 /// Way of a node in the step, as the body sees it, m.
@@ -94,12 +109,25 @@ where
     }
 }
 
+/// How nodes meet an obstacle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Manner {
+    /// What is within this distance gets a spring, m: a fraction of the nodes' spacing and the reach of the law.
+    pub reach: f64,
+    /// By what factor springs stiffen.
+    pub factor: f64,
+    /// Whether gaps that are negative when it begins to act count as zero until the surfaces part.
+    pub ignores_start: bool,
+}
+
 /// Nodes against an obstacle.
 pub struct NodeObstacle {
     shape: Box<dyn Shape>,
     /// Number of its rigid body.
     body: usize,
     nodes: Vec<(u32, Slave)>,
+    /// Where their springs stiffen, and the thickness of their bodies there at the start, m.
+    walls: Vec<(Stiffening, f64)>,
     memories: Vec<Memory>,
     /// Nodes within this distance get a spring, m.
     reach: f64,
@@ -109,6 +137,9 @@ pub struct NodeObstacle {
     /// Indices of the nodes with springs in this step.
     found: Vec<u32>,
     near: Near,
+    behind: Behind<2>,
+    /// Whether segments may be deep in it between their nodes.
+    sees_facets: bool,
 }
 
 /// Nodes that an obstacle has to look at in each step. The others are farther from it than they can come before the next look at all.
@@ -136,12 +167,17 @@ impl Near {
 }
 
 impl NodeObstacle {
-    /// For `nodes`; `reach` is a fraction of the nodes' spacing and the reach of the law, m. With `ignores_start` gaps that are negative when it begins to act count as zero
-    /// until the surfaces part.
+    /// For `nodes` of `bodies` in their initial places.
     #[must_use]
-    pub fn new(shape: Box<dyn Shape>, body: usize, nodes: Vec<(u32, Slave)>, reach: f64, ignores_start: bool) -> Self {
+    pub fn new(shape: Box<dyn Shape>, body: usize, nodes: Vec<(u32, Slave)>, manner: Manner, bodies: Box<dyn Thick<2>>) -> Self {
+        let Manner { reach, factor, ignores_start } = manner;
         let memories = vec![Memory::default(); nodes.len()];
-        Self { shape, body, memories, nodes, reach, ignores_start, has_begun: false, found: Vec::new(), near: Near::default() }
+        let thickness = shape.is_round().map_or(f64::INFINITY, |radius| 2.0 * radius);
+        let wall = |thickness: f64| (stiffening(thickness, factor), thickness);
+        let walls = nodes.iter().map(|&(node, _)| wall(bodies.at(node).min(thickness))).collect();
+        let (behind, found, near) = (Behind::new(bodies, thickness), Vec::new(), Near::default());
+        let sees_facets = !ignores_start && shape.is_round().is_some_and(|radius| behind.may_be_between(radius));
+        Self { shape, body, memories, nodes, walls, reach, ignores_start, has_begun: false, found, near, behind, sees_facets }
     }
 }
 
@@ -160,6 +196,7 @@ impl Keep for Memory {
 impl Formulation for NodeObstacle {
     fn detect(&mut self, scene: &Scene<'_>, springs: &mut Springs) {
         self.found.clear();
+        self.behind.begin();
         let body = scene.bodies.state(self.body);
         let at = (scene.sweep.new.len() + self.body) as u32;
         let place = (body.angle, body.centre);
@@ -195,12 +232,23 @@ impl Formulation for NodeObstacle {
             if gap >= 0.0 && !pressed && normal[0] * moved[0] + normal[1] * moved[1] > 2.0 * gap {
                 continue;
             }
+            let (stiffening, initial) = self.walls[index];
+            self.behind.see(node, -gap, initial, dot(moved, moved).sqrt(), scene);
             // Well before it touches: a spring that closes unseen would give back what it never took.
             if gap <= self.reach + 4.0 * bound_of(moved) {
                 let Slave { stiffness, area, slip, .. } = slave;
                 let ends = [End::node(node, 1.0), End { at, share: -1.0, point: x, ..End::default() }];
                 springs.push(
-                    Spring { normal: body.to_global(normal), gap, stiffness, area, side: 1.0, slip: [slip], ..Spring::default() },
+                    Spring {
+                        normal: body.to_global(normal),
+                        gap,
+                        stiffness,
+                        area,
+                        stiffening,
+                        side: 1.0,
+                        slip: [slip],
+                        ..Spring::default()
+                    },
                     &ends,
                 );
                 self.found.push(index as u32);
@@ -209,19 +257,34 @@ impl Formulation for NodeObstacle {
         if looks_at_all {
             self.near.indices.truncate(count);
         }
+        if self.sees_facets {
+            let deepest = |ends: &[Vector]| {
+                let local = [0, 1].map(|k| body.to_local(ends[k]));
+                let (depth, place) = self.shape.deepest(local).unwrap_or((f64::NEG_INFINITY, local[0]));
+                (depth, plus(body.centre, body.to_global(place)))
+            };
+            self.behind.see_facets(&deepest, !body.is_fixed(), scene);
+        }
+        self.behind.end();
         self.has_begun = true;
     }
 
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
-        let Self { shape: _, body: _, reach: _, ignores_start: _, found: _, nodes, memories, has_begun, near } = self;
+        #[rustfmt::skip]
+        let Self {
+            shape: _, body: _, walls: _, reach: _, ignores_start: _, found: _, sees_facets: _,
+            nodes, memories, has_begun, near, behind,
+        } = self;
         nodes.iter_mut().try_for_each(|(_, slave)| slave.slip.keep(archive))?;
         keep_each!(archive; &mut memories[..], has_begun, near);
+        behind.keep(archive)?;
         archive.check(near.indices.iter().all(|&index| (index as usize) < nodes.len()), "an obstacle looks at nodes that are not there")
     }
 
     fn inherit(&mut self, old: Box<dyn Any>) {
         let Ok(old) = old.downcast::<Self>() else { return };
         self.has_begun = old.has_begun;
+        self.behind.inherit(&old.behind);
         for ((node, slave), memory) in self.nodes.iter_mut().zip(&mut self.memories) {
             if let Ok(at) = old.nodes.binary_search_by_key(node, |&(node, _)| node) {
                 (slave.slip, *memory) = (old.nodes[at].1.slip, old.memories[at]);
@@ -235,6 +298,10 @@ impl Formulation for NodeObstacle {
             self.memories[index as usize].presses = answer.solved.force != 0.0;
         }
     }
+
+    fn overlaps(&self) -> Option<&Findings> {
+        Some(self.behind.findings())
+    }
 }
 
 /// Two formulations of one contact, one after the other.
@@ -242,13 +309,20 @@ pub struct Both {
     parts: [Box<dyn Formulation>; 2],
     /// Springs of the first in this step.
     split: usize,
+    /// What both found of overlaps.
+    findings: Findings,
 }
 
 impl Both {
     /// From these two.
     #[must_use]
     pub fn new(parts: [Box<dyn Formulation>; 2]) -> Self {
-        Self { parts, split: 0 }
+        Self { parts, split: 0, findings: Findings::default() }
+    }
+
+    fn find(&mut self) {
+        let found = self.parts.iter().filter_map(|part| part.overlaps());
+        self.findings = found.fold(Findings::default(), |sum, found| sum.with(found));
     }
 }
 
@@ -259,12 +333,15 @@ impl Formulation for Both {
         first.detect(scene, springs);
         self.split = springs.list.len() - begin;
         second.detect(scene, springs);
+        self.find();
     }
 
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
         // Where the second begins counts within a step.
-        let Self { parts, split: _ } = self;
-        parts.iter_mut().try_for_each(|part| part.keep(archive))
+        let Self { parts, split: _, findings: _ } = self;
+        parts.iter_mut().try_for_each(|part| part.keep(archive))?;
+        self.find();
+        Ok(())
     }
 
     fn inherit(&mut self, old: Box<dyn Any>) {
@@ -273,6 +350,11 @@ impl Formulation for Both {
                 part.inherit(old);
             }
         }
+        self.find();
+    }
+
+    fn overlaps(&self) -> Option<&Findings> {
+        Some(&self.findings)
     }
 
     fn certificate(&self) -> Certificate {

@@ -1,17 +1,28 @@
-//! Nodes against a rigid obstacle in space: a half-space, a ball or a cylinder, whole or hollow, fixed or carried by a rigid body.
+//! Nodes against a rigid obstacle in space: a half-space, a ball or a cylinder, whole or hollow, fixed or carried by a rigid body. Where a ball or a cylinder may come in between the
+//! nodes, points on the facets meet it as well ([`super::points`]).
 //!
 //! The shape lives in the frame of its rigid body and says how far a point is from its surface; positions come from the step, reactions go to the body. The distance is continuous and its
-//! gradient the normal, so springs give back what they took; where a node goes through a whole ball or cylinder within one step it is not seen: it must be slower than its thickness.
+//! gradient the normal, so springs give back what they took; what goes through a whole ball or cylinder within one step is not held but told.
 
+use super::super::findings::{CAST, Findings};
 use super::super::initial::kept;
+use super::super::law::penalty::stiffening;
 use super::super::node_facet::Slave;
+use super::super::projection::node_facet::place_on_triangle;
 use super::super::springs::friction::cone;
-use super::super::springs::{Answers, End, Spring, Springs};
+use super::super::springs::{Answers, End, Spring, Springs, Stiffening};
 use super::super::{Formulation, Scene};
+use super::Manner;
+use super::behind::{Behind, Thick};
+use super::points::{Point, points};
 use crate::archive::{Archive, Kept, keep_all, keep_each};
+use crate::mesh::surface::Corners;
 use crate::motion::{Motion, any_tangent};
-use crate::tensor::{Dim, dot};
+use crate::tensor::{Dim, cross, dot};
+use crate::vector::{length, minus, plus, times};
 use std::any::Any;
+use std::collections::BTreeMap;
+use std::ops::Range;
 
 /// A vector of space.
 pub type Vector = [f64; 3];
@@ -68,6 +79,70 @@ impl Solid {
             }
         }
     }
+
+    /// Depth of the place of a triangle that is deepest in a whole ball or cylinder, m (negative outside), and that place.
+    /// In the others corners are deepest.
+    #[must_use]
+    pub fn deepest(&self, triangle: [Vector; 3]) -> Option<(f64, Vector)> {
+        let place = match *self {
+            Self::Ball { centre, is_hollow: false, .. } => place_on_triangle(centre, triangle),
+            Self::Cylinder { point, axis, is_hollow: false, .. } => nearest_to_line(triangle, point, axis),
+            _ => return None,
+        };
+        Some((-self.distance(place).0, place))
+    }
+
+    /// How deep a way that is outside at its end is in a whole ball or cylinder, m, and where, if it goes through it.
+    fn passed(&self, from: Vector, to: Vector) -> Option<(f64, Vector)> {
+        let radius = self.is_round()?;
+        let moved = minus(to, from);
+        if dot(moved, moved) < radius * radius || self.distance(from).0 < 0.0 {
+            return None;
+        }
+        self.deepest([from, to, to]).filter(|(depth, _)| *depth > 0.0)
+    }
+
+    /// How many times an area (m²) is larger than what of it meets a whole ball or cylinder; at least one.
+    fn gain(&self, area: f64) -> f64 {
+        let met = match *self {
+            Self::Ball { radius, is_hollow: false, .. } => radius * radius,
+            Self::Cylinder { radius, is_hollow: false, .. } => radius * area.sqrt(),
+            _ => area,
+        };
+        if met > 0.0 { (area / met).max(1.0) } else { 1.0 }
+    }
+
+    /// Radius of a whole ball or cylinder, m.
+    fn is_round(&self) -> Option<f64> {
+        match *self {
+            Self::Ball { radius, is_hollow: false, .. } | Self::Cylinder { radius, is_hollow: false, .. } => Some(radius),
+            _ => None,
+        }
+    }
+}
+
+/// The place of a triangle that is nearest to the line through `point` along the unit vector `axis`.
+fn nearest_to_line(triangle: [Vector; 3], point: Vector, axis: Vector) -> Vector {
+    // As seen along the line, which is the origin then.
+    let seen = triangle.map(|x| {
+        let arm = minus(x, point);
+        minus(arm, times(dot(arm, axis), axis))
+    });
+    let turn = |a: Vector, b: Vector| dot(axis, cross(a, b));
+    let areas = [turn(seen[1], seen[2]), turn(seen[2], seen[0]), turn(seen[0], seen[1])];
+    if areas.iter().all(|area| *area > 0.0) || areas.iter().all(|area| *area < 0.0) {
+        let sum: f64 = areas.iter().sum();
+        return [0, 1, 2].map(|d| (0..3).map(|k| areas[k] / sum * triangle[k][d]).sum());
+    }
+    let on_edge = |k: usize| {
+        let (a, along) = (seen[k], minus(seen[(k + 1) % 3], seen[k]));
+        let square = dot(along, along);
+        let share = if square > 0.0 { (-dot(a, along) / square).clamp(0.0, 1.0) } else { 0.0 };
+        let away = plus(a, times(share, along));
+        (dot(away, away), plus(triangle[k], times(share, minus(triangle[(k + 1) % 3], triangle[k]))))
+    };
+    let [first, second, third] = [0, 1, 2].map(on_edge);
+    [second, third].into_iter().fold(first, |best, next| if next.0 < best.0 { next } else { best }).1
 }
 
 /// What an obstacle remembers of a node.
@@ -83,68 +158,165 @@ struct Memory {
 
 keep_all!(Memory { presses, offset, slip });
 
-/// Nodes against an obstacle.
+/// Nodes, and points of facets, against an obstacle.
 pub struct NodeSolid {
     solid: Solid,
     /// Number of its rigid body.
     body: usize,
-    nodes: Vec<(u32, Slave)>,
+    /// Nodes, then the points of each facet.
+    points: Vec<Point>,
+    nodes: usize,
+    facets: Vec<(Vec<u32>, Range<usize>)>,
+    /// Where their springs stiffen, and the thickness of their bodies there at the start, m.
+    walls: Vec<(Stiffening, f64)>,
     memories: Vec<Memory>,
-    /// Nodes within this distance get a spring, m.
+    /// What is within this distance gets a spring, m.
     reach: f64,
     /// Whether gaps that are negative when it begins to act count as zero.
     ignores_start: bool,
     has_begun: bool,
-    /// Indices of the nodes with springs in this step.
+    /// Indices of the points with springs in this step.
     found: Vec<u32>,
+    behind: Behind<3>,
+    /// Whether facets may be deep in it between their nodes.
+    sees_facets: bool,
 }
 
 impl NodeSolid {
-    /// For `nodes` (ascending); `reach` is a fraction of the nodes' spacing and the reach of the law, m. With `ignores_start` gaps that are negative when it begins to act count as zero
-    /// until the surfaces part.
+    /// For `nodes` (ascending) of `bodies` in their initial places, and the facets of their surface.
     #[must_use]
-    pub fn new(solid: Solid, body: usize, nodes: Vec<(u32, Slave)>, reach: f64, ignores_start: bool) -> Self {
-        let memories = vec![Memory::default(); nodes.len()];
-        Self { solid, body, nodes, memories, reach, ignores_start, has_begun: false, found: Vec::new() }
+    pub fn new(
+        solid: Solid,
+        body: usize,
+        (nodes, facets): (&[(u32, Slave)], &[[u32; 4]]),
+        manner: Manner,
+        bodies: Box<dyn Thick<3>>,
+    ) -> Self {
+        let Manner { reach, factor, ignores_start } = manner;
+        let own = solid.is_round().map_or(f64::INFINITY, |radius| 2.0 * radius);
+        let wall = |point: &Point| {
+            let thickness = point.ends().map(|(node, _)| bodies.at(node)).fold(own, f64::min);
+            (stiffening(thickness, factor), thickness)
+        };
+        let divisions = solid.is_round().map_or(0.0, |radius| divisions(&*bodies, radius));
+        let (points, ranges) = points(nodes, facets, (divisions.ceil() as usize).clamp(1, MOST_DIVISIONS), |area| solid.gain(area));
+        let walls = points.iter().map(wall).collect();
+        let facets = facets.iter().zip(ranges).map(|(facet, range)| (facet.corners().to_vec(), range)).collect();
+        // Facets stretch while they slide off it.
+        let sees_facets = !ignores_start && STRETCH * divisions > 1.0;
+        let (memories, behind, nodes) = (vec![Memory::default(); points.len()], Behind::new(bodies, own), nodes.len());
+        let (has_begun, found) = (false, Vec::new());
+        Self { solid, body, points, nodes, facets, walls, memories, reach, ignores_start, has_begun, found, behind, sees_facets }
+    }
+
+    /// Meets a point; what is so far away that nothing at it may press in this step has no spring.
+    fn meet(&mut self, index: usize, scene: &Scene<'_, 3>, springs: &mut Springs<3>) {
+        let (body, point, memory) = (scene.bodies.state(self.body), self.points[index], &mut self.memories[index]);
+        let at = (scene.sweep.new.len() + self.body) as u32;
+        let x = point.place(scene.sweep.new);
+        let (from, to) = (body.to_local_old(point.place(scene.sweep.old)), body.to_local(x));
+        let (distance, normal) = self.solid.distance(to);
+        let pressed = std::mem::replace(&mut memory.presses, false);
+        if !distance.is_finite() {
+            *memory = Memory::default();
+            return;
+        }
+        // What lies between nodes that touch a round obstacle is a little inside from the start.
+        if self.ignores_start || point.count > 1 {
+            memory.offset = kept(self.has_begun, memory.offset, distance);
+        }
+        let gap = distance - memory.offset;
+        let moved = minus(to, from);
+        if gap > 0.0
+            && !pressed
+            && let Some((depth, place)) = self.solid.passed(from, to)
+        {
+            self.behind.see_through(point.nodes[0], depth, plus(body.centre, body.to_global(place)), scene);
+        }
+        // Who comes from within has pressed no spring that could give anything back.
+        if gap >= 0.0 && !pressed && dot(normal, moved) > 2.0 * gap {
+            return;
+        }
+        let (way, (stiffening, initial)) = (dot(moved, moved).sqrt(), self.walls[index]);
+        if point.count == 1 {
+            self.behind.see(point.nodes[0], -gap, initial, way, scene);
+        }
+        // Well before it touches: a spring that closes unseen would give back what it never took.
+        if gap > self.reach + 4.0 * way {
+            memory.slip = [0.0; 3];
+            return;
+        }
+        let Slave { stiffness, area, .. } = point.slave;
+        let normal = body.to_global(normal);
+        let tangent = any_tangent(normal);
+        let slip = cone::carried(body.to_global(memory.slip), Dim::<3>::tangents(normal, &tangent));
+        let mut ends = [End { at, share: -1.0, point: x, ..End::default() }; 5];
+        point.ends().zip(&mut ends).for_each(|((node, share), end)| *end = End::node(node, share));
+        let spring = Spring { normal, gap, stiffness, area, stiffening, side: 1.0, slip, tangent, ..Spring::default() };
+        springs.push(spring, &ends[..=point.count]);
+        self.found.push(index as u32);
+    }
+
+    /// Whether no point of a facet may press in this step, by its corners.
+    fn is_far(&self, corners: &[u32], scene: &Scene<'_, 3>) -> bool {
+        let body = scene.bodies.state(self.body);
+        let (mut distance, mut way, mut size) = (f64::INFINITY, 0.0, 0.0);
+        let first = scene.sweep.new[corners[0] as usize];
+        for &node in corners {
+            let x = scene.sweep.new[node as usize];
+            let (from, to) = (body.to_local_old(scene.sweep.old[node as usize]), body.to_local(x));
+            (way, size) = (f64::max(way, length(minus(to, from))), f64::max(size, length(minus(x, first))));
+            distance = distance.min(self.solid.distance(to).0);
+        }
+        // No place of it is farther from a corner than the farthest corners are from each other.
+        distance > self.reach + 4.0 * way + 2.0 * size
+    }
+}
+
+/// Into how many parts edges have to be divided for what a chord cuts off a circle of this radius (m) to be as deep as shallow overlaps.
+fn divisions(bodies: &dyn Thick<3>, radius: f64) -> f64 {
+    let mut longest = 0.0;
+    bodies.facets(&mut |corners, _, _| {
+        let edge = |k: usize| minus(corners[(k + 1) % 3], corners[k]);
+        longest = (0..3).map(|k| length(edge(k))).fold(longest, f64::max);
+    });
+    longest / (8.0 * radius * CAST * bodies.least().min(2.0 * radius)).sqrt()
+}
+
+/// Most parts of an edge, and by what factor it may be stretched.
+const MOST_DIVISIONS: usize = 8;
+const STRETCH: f64 = 4.0;
+
+impl NodeSolid {
+    fn meet_facets(&mut self, scene: &Scene<'_, 3>, springs: &mut Springs<3>) {
+        for number in 0..self.facets.len() {
+            let (corners, range) = &self.facets[number];
+            if self.is_far(corners, scene) {
+                // What is far has slipped and pressed nowhere.
+                self.memories[range.clone()].fill(Memory::default());
+            } else {
+                range.clone().for_each(|index| self.meet(index, scene, springs));
+            }
+        }
     }
 }
 
 impl Formulation<3> for NodeSolid {
     fn detect(&mut self, scene: &Scene<'_, 3>, springs: &mut Springs<3>) {
         self.found.clear();
+        self.behind.begin();
+        (0..self.nodes).for_each(|index| self.meet(index, scene, springs));
+        self.meet_facets(scene, springs);
         let body = scene.bodies.state(self.body);
-        let at = (scene.sweep.new.len() + self.body) as u32;
-        for (index, (&(node, slave), memory)) in self.nodes.iter().zip(&mut self.memories).enumerate() {
-            let x = scene.sweep.new[node as usize];
-            let (from, to) = (body.to_local_old(scene.sweep.old[node as usize]), body.to_local(x));
-            let (distance, normal) = self.solid.distance(to);
-            let pressed = std::mem::replace(&mut memory.presses, false);
-            if !distance.is_finite() {
-                *memory = Memory::default();
-                continue;
-            }
-            if self.ignores_start {
-                memory.offset = kept(self.has_begun, memory.offset, distance);
-            }
-            let gap = distance - memory.offset;
-            let moved = [0, 1, 2].map(|d| to[d] - from[d]);
-            // Who comes from within has pressed no spring that could give anything back.
-            if gap >= 0.0 && !pressed && dot(normal, moved) > 2.0 * gap {
-                continue;
-            }
-            // Well before it touches: a spring that closes unseen would give back what it never took.
-            if gap <= self.reach + 4.0 * dot(moved, moved).sqrt() {
-                let Slave { stiffness, area, .. } = slave;
-                let normal = body.to_global(normal);
-                let tangent = any_tangent(normal);
-                let slip = cone::carried(body.to_global(memory.slip), Dim::<3>::tangents(normal, &tangent));
-                let ends = [End::node(node, 1.0), End { at, share: -1.0, point: x, ..End::default() }];
-                springs.push(Spring { normal, gap, stiffness, area, side: 1.0, slip, tangent, ..Spring::default() }, &ends);
-                self.found.push(index as u32);
-            } else {
-                memory.slip = [0.0; 3];
-            }
+        if self.sees_facets {
+            let deepest = |corners: &[Vector]| {
+                let local = [0, 1, 2].map(|k| body.to_local(corners[k]));
+                let (depth, place) = self.solid.deepest(local).unwrap_or((f64::NEG_INFINITY, local[0]));
+                (depth, plus(body.centre, body.to_global(place)))
+            };
+            self.behind.see_facets(&deepest, !body.is_fixed(), scene);
         }
+        self.behind.end();
         self.has_begun = true;
     }
 
@@ -158,19 +330,31 @@ impl Formulation<3> for NodeSolid {
     }
 
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
-        let Self { solid: _, body: _, nodes: _, reach: _, ignores_start: _, found: _, memories, has_begun } = self;
+        #[rustfmt::skip]
+        let Self {
+            solid: _, body: _, points: _, nodes: _, facets: _, walls: _, reach: _, ignores_start: _, found: _, sees_facets: _,
+            memories, has_begun, behind,
+        } = self;
         keep_each!(archive; &mut memories[..], has_begun);
-        Ok(())
+        behind.keep(archive)
     }
 
     fn inherit(&mut self, old: Box<dyn Any>) {
         let Ok(old) = old.downcast::<Self>() else { return };
         self.has_begun = old.has_begun;
-        for ((node, _), memory) in self.nodes.iter().zip(&mut self.memories) {
-            if let Ok(at) = old.nodes.binary_search_by_key(node, |&(node, _)| node) {
-                *memory = old.memories[at];
-            }
+        self.behind.inherit(&old.behind);
+        let known: BTreeMap<_, _> = old.points.iter().map(Point::key).zip(old.memories).collect();
+        for (point, memory) in self.points.iter().zip(&mut self.memories) {
+            *memory = known.get(&point.key()).copied().unwrap_or_default();
         }
+    }
+
+    fn overlaps(&self) -> Option<&Findings> {
+        Some(self.behind.findings())
+    }
+
+    fn thinnest(&self) -> f64 {
+        self.behind.least()
     }
 }
 
@@ -179,6 +363,7 @@ mod tests {
     use super::*;
     use crate::contact::forces::ContactForces;
     use crate::contact::law::penalty::Penalty;
+    use crate::contact::obstacle::behind::Unknown;
     use crate::contact::springs::friction::Friction;
     use crate::contact::springs::{Mover, Movers, Tangential, Terms, Update};
     use crate::contact::traces::Traces;
@@ -186,7 +371,6 @@ mod tests {
     use crate::load::curve::{Curves, Speed};
     use crate::rigid::space::Turning;
     use crate::rigid::{Acting, Bodies, Body};
-    use crate::tensor::cross;
 
     struct Nodes<'a>(&'a [f64], &'a [Vector], f64);
 
@@ -238,8 +422,9 @@ mod tests {
         let tangential = if friction > 0.0 { Tangential::Friction(law) } else { Tangential::Free };
         let terms = Terms { law: Box::new(Penalty), tangential, damping: 0.0 };
         let mut springs = Springs::<3>::new(x.len(), 1, vec![terms]);
-        let nodes = (0..x.len() as u32).map(|node| (node, Slave { stiffness, area: 1.0, of_mass: 0.0 })).collect();
-        let formulation = NodeSolid::new(solid, 0, nodes, 0.01, false);
+        let nodes: Vec<_> = (0..x.len() as u32).map(|node| (node, Slave { stiffness, area: 1.0, of_mass: 0.0 })).collect();
+        let manner = Manner { reach: 0.01, factor: 0.0, ignores_start: false };
+        let formulation = NodeSolid::new(solid, 0, (&nodes, &[]), manner, Box::new(Unknown));
         let mut contact = Contact::new("obstacle".into(), ContactKind::Obstacle(0), Box::new(formulation), 0, [0.0, f64::INFINITY]);
         let (mut old, mut lost, mut traces) = (x.clone(), 0.0, Traces::default());
         let sums = |x: &[Vector], v: &[Vector], bodies: &Bodies<3>| {
@@ -316,6 +501,30 @@ mod tests {
         }
         assert_eq!(solids()[1].0.distance([2.1, 0.0, 0.0]), (1.0, [1.0, 0.0, 0.0]));
         assert_eq!(solids()[2].0.distance([0.0, 0.0, 3.0]), (-1.0, [-0.0, -0.0, -1.0]));
+    }
+
+    #[test]
+    fn no_place_of_a_triangle_is_deeper_than_the_one_that_is_found() {
+        let mut seed = 1_u64;
+        let mut number = || {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (seed >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+        };
+        for (solid, _, _) in solids() {
+            for _ in 0..40 {
+                let triangle: [Vector; 3] = std::array::from_fn(|_| std::array::from_fn(|_| 4.0 * number()));
+                let Some((depth, place)) = solid.deepest(triangle) else { continue };
+                assert!((solid.distance(place).0 + depth).abs() < 1e-14);
+                let mut most = f64::NEG_INFINITY;
+                for (i, j) in (0..=120).flat_map(|i| (0..=120 - i).map(move |j| (i, j))) {
+                    let (u, v) = (f64::from(i) / 120.0, f64::from(j) / 120.0);
+                    let x = [0, 1, 2].map(|d| (1.0 - u - v) * triangle[0][d] + u * triangle[1][d] + v * triangle[2][d]);
+                    most = most.max(-solid.distance(x).0);
+                }
+                assert!(most <= depth + 1e-12 && depth < most + 0.05, "{solid:?} {triangle:?}: {depth} {most}");
+            }
+        }
+        assert!(solids().iter().filter(|(solid, ..)| solid.deepest([[0.0; 3]; 3]).is_some()).count() == 2);
     }
 
     #[test]

@@ -33,6 +33,7 @@ mod tree;
 mod winding;
 
 pub use skin::Bodies;
+pub use thickness::Walls;
 
 use super::Sweep;
 use super::findings::{CAST, DEEPEST, Findings, Overlap, PLACES, way_until_next};
@@ -114,6 +115,8 @@ pub struct Judge {
     moduli: Vec<[f64; 2]>,
     /// Whether overlaps at the start count as none.
     ignores_start: bool,
+    /// Whether regions get nets.
+    casts: bool,
     work: Work,
     piercings: Vec<Piercing>,
     /// Regions of the last look, and what is known of them.
@@ -168,6 +171,7 @@ impl Judge {
             thickest,
             moduli,
             ignores_start,
+            casts: true,
             work: Work::default(),
             piercings: Vec::new(),
             regions: Vec::new(),
@@ -182,6 +186,12 @@ impl Judge {
             findings: Findings::default(),
             inside: Vec::new(),
         }
+    }
+
+    /// The same without nets: it tells, and holds nothing.
+    #[must_use]
+    pub fn without_nets(self) -> Self {
+        Self { casts: false, ..self }
     }
 
     /// What was found so far.
@@ -214,15 +224,9 @@ impl Judge {
     pub fn thickness_at(&self, nodes: &[u32]) -> Vec<f64> {
         let at = |node: &u32| {
             let Ok(vertex) = self.skin.nodes.binary_search(node) else { return f64::INFINITY };
-            self.thickness_around(vertex as u32)
+            self.thickness.around(&self.skin, vertex as u32)
         };
         nodes.iter().map(at).collect()
-    }
-
-    /// The least of the facets at a vertex, m.
-    fn thickness_around(&self, vertex: u32) -> f64 {
-        let surface = self.skin.at_vertex.of(vertex as usize).iter().filter(|&&triangle| !self.skin.is_mirror(triangle));
-        surface.map(|&triangle| self.thickness.of(&self.skin, triangle)).fold(f64::INFINITY, f64::min)
     }
 
     /// Looks at the step, if it is time.
@@ -261,7 +265,9 @@ impl Judge {
             if known.ratio > 1.0 && !is_own && !self.regions[number].is_open {
                 self.findings.through = Some(deepest);
             }
-            self.cast(number, sweep.travel - self.looked_at);
+            if self.casts {
+                self.cast(number, sweep.travel - self.looked_at);
+            }
         }
         self.looked_at = sweep.travel;
         if before.is_empty() {
@@ -422,7 +428,7 @@ impl Judge {
         let of_vertex = |&vertex: &u32| {
             let own = *self.skin.at_vertex.of(vertex as usize).first()?;
             let node = self.skin.nodes.get(vertex as usize).copied();
-            look(own, node, self.skin.x[vertex as usize], self.thickness_around(vertex))
+            look(own, node, self.skin.x[vertex as usize], self.thickness.around(&self.skin, vertex))
         };
         let of_chord = |&(own, [from, to]): &(u32, [Vector; 2])| {
             let at = move |share: f64| [0, 1, 2].map(|d| (1.0 - share) * from[d] + share * to[d]);
@@ -457,7 +463,7 @@ impl Judge {
                 self.findings.miss();
             }
         }
-        if self.known.iter().any(|known| known.area > 0.0 || known.is_loose) {
+        if self.casts && self.known.iter().any(|known| known.area > 0.0 || known.is_loose) {
             self.next = f64::NEG_INFINITY;
         }
     }

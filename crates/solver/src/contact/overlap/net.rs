@@ -8,7 +8,7 @@
 //! their volumes, and the depth is the mean. From step to step a net goes on where it ended, as other springs do: its rows are those of
 //! the volume at a step, which bends in between.
 
-use super::super::law::penalty::stiffening;
+use super::super::law::penalty::{factor, stiffening};
 use super::super::projection::node_facet::unit;
 use super::super::springs::{Answers, End, Spring, Springs};
 use super::{CAST, DIRECTED, Judge, Known, Vector};
@@ -90,7 +90,7 @@ impl Judge {
             gap: -known.depth,
             stiffness: modulus * known.area,
             area: known.area,
-            stiffening: stiffening(known.thick, modulus, of_mass),
+            stiffening: stiffening(known.thick, factor(modulus, of_mass)),
             ..Spring::default()
         };
         Some((spring, region.gradient.iter().map(row).collect()))

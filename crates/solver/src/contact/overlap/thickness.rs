@@ -5,8 +5,9 @@
 //! the surface there, as in a wedge, the body is as thick as 6 V / S with its volume V and its surface S: twice the radius of the inscribed
 //! ball of polyhedra that have one, one and a half times the diameter of a long rod.
 
-use super::skin::Skin;
+use super::skin::{Bodies, Skin};
 use super::tree::Tree;
+use crate::contact::obstacle::behind::{See, Thick};
 use crate::contact::projection::node_facet::{Vector, unit};
 use crate::mesh::surface::NONE;
 use crate::tensor::{cross, dot};
@@ -40,6 +41,9 @@ fn stout(skin: &Skin) -> Vec<f64> {
             *six_volumes += dot(minus(a, *origin.get_or_insert(a)), double);
             *surface += if facet.is_mirror { 0.0 } else { 0.5 * length(double) };
         }
+    }
+    for edge in skin.edges.iter().filter(|edge| edge.triangles[1] == NONE) {
+        sums[skin.body(edge.triangles[0]) as usize].1 = 0.0;
     }
     let of = |(_, six_volumes, surface)| if six_volumes > 0.0 && surface > 0.0 { six_volumes / surface } else { f64::INFINITY };
     sums.into_iter().map(of).collect()
@@ -85,6 +89,12 @@ impl Thickness {
         if skin.is_mirror(triangle) { 2.0 * way } else { way }.min(most)
     }
 
+    /// The least of the facets at a vertex now, m.
+    pub(super) fn around(&self, skin: &Skin, vertex: u32) -> f64 {
+        let surface = skin.at_vertex.of(vertex as usize).iter().filter(|&&triangle| !skin.is_mirror(triangle));
+        surface.map(|&triangle| self.of(skin, triangle)).fold(f64::INFINITY, f64::min)
+    }
+
     /// The largest of each body, m.
     pub(super) fn thickest(&self, skin: &Skin) -> Vec<f64> {
         let mut thickest = vec![0.0; skin.bodies as usize];
@@ -100,6 +110,47 @@ impl Thickness {
     pub(super) fn least(&self, skin: &Skin) -> f64 {
         let surface = skin.facets.iter().filter(|facet| !facet.is_mirror);
         surface.map(|facet| self.of(skin, facet.first)).fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// Bodies with how thick they are, for what meets their facets one by one.
+#[derive(Debug)]
+pub struct Walls {
+    skin: Skin,
+    thickness: Thickness,
+}
+
+impl Walls {
+    /// Of bodies at their initial `positions`, m.
+    #[must_use]
+    pub fn new(bodies: &Bodies<'_>, positions: &[Vector]) -> Self {
+        let mut skin = Skin::new(bodies);
+        skin.place(positions);
+        let mut tree = Tree::new(&skin);
+        tree.refit(&skin);
+        let thickness = Thickness::new(&skin, &tree);
+        Self { skin, thickness }
+    }
+}
+
+impl Thick<3> for Walls {
+    fn place(&mut self, positions: &[Vector]) {
+        self.skin.place(positions);
+    }
+
+    fn at(&self, node: u32) -> f64 {
+        self.skin.nodes.binary_search(&node).map_or(f64::INFINITY, |vertex| self.thickness.around(&self.skin, vertex as u32))
+    }
+
+    fn least(&self) -> f64 {
+        self.thickness.least(&self.skin)
+    }
+
+    fn facets(&self, see: See<'_, 3>) {
+        for facet in self.skin.facets.iter().filter(|facet| !facet.is_mirror) {
+            let (thickness, node) = (self.thickness.of(&self.skin, facet.first), self.skin.nodes[facet.vertices[0] as usize]);
+            facet.triangles().for_each(|triangle| see(&self.skin.corners(triangle), thickness, node));
+        }
     }
 }
 

@@ -110,6 +110,11 @@ const TIE: f64 = 1e-9;
 /// Squares of distances to one point differ by less than this fraction.
 const SAME_SQUARE: f64 = 1e-6;
 
+/// The place of a triangle that is nearest to another place, m.
+pub(in crate::contact) fn place_on_triangle(x: Vector, triangle: [Vector; 3]) -> Vector {
+    nearest_of_triangle(x, triangle).foot
+}
+
 /// Square of the distance of a place from a triangle, m².
 pub(in crate::contact) fn square_to_triangle(x: Vector, triangle: [Vector; 3]) -> f64 {
     nearest_of_triangle(x, triangle).square

@@ -146,6 +146,21 @@ impl SpaceSurface {
         Self { facets, nodes, edges, edges_of, mirrors: Vec::new(), around }
     }
 
+    /// Both surfaces as one; the nodes of the other come after those of this one. Symmetry planes are forgotten.
+    #[must_use]
+    pub fn joined(&self, other: &Self) -> Self {
+        let (facets_before, edges_before) = (self.facets.len() as u32, self.edges.len() as u32);
+        let later = |number: u32, by: u32| if number == NONE { NONE } else { number + by };
+        let edge = |edge: &SurfaceEdge| SurfaceEdge { facets: edge.facets.map(|facet| later(facet, facets_before)), ..*edge };
+        let facets = [&self.facets[..], &other.facets].concat();
+        let nodes = [&self.nodes[..], &other.nodes].concat();
+        let edges = self.edges.iter().copied().chain(other.edges.iter().map(edge)).collect();
+        let edges_of = other.edges_of.iter().map(|edges| edges.map(|edge| later(edge, edges_before)));
+        let edges_of = self.edges_of.iter().copied().chain(edges_of).collect();
+        let around = Self::around_nodes(&facets, &nodes);
+        Self { facets, nodes, edges, edges_of, mirrors: Vec::new(), around }
+    }
+
     /// Facets at each node.
     fn around_nodes(facets: &[[u32; 4]], nodes: &[u32]) -> Rows<u32> {
         let rank = |node: u32| nodes.binary_search(&node).map_or(0, |rank| rank as u32);

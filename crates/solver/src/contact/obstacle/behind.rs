@@ -1,0 +1,198 @@
+//! How deep bodies are in a rigid obstacle against their local thickness: nodes in each step, and what lies between them where the obstacle
+//! is round and as small as their facets.
+//!
+//! A node is as deep as its spring says. A facet is as deep in a circle, ball or cylinder as its place nearest to the middle, which is exact: that
+//! is looked at before the bodies may have gone an eighth of their least thickness, after 16 steps at least, and in each step while the
+//! obstacle moves. What is deeper counts as in the plane ([`Findings::count`]).
+
+use super::super::Scene;
+use super::super::findings::{CAST, DEEPEST_IN_PLANE, Findings, Overlap, way_until_next};
+use crate::archive::{Archive, Kept, keep_each};
+use crate::mesh::surface::NONE;
+use crate::model::in_space;
+use crate::motion::Motion;
+use crate::tensor::Dim;
+use crate::vector::{dot, minus};
+
+/// Takes a facet: its corners, m, local thickness there, m, and a node.
+pub type See<'a, const D: usize> = &'a mut dyn FnMut(&[[f64; D]], f64, u32);
+
+/// The bodies that an obstacle meets: their facets and how thick they are there.
+pub trait Thick<const D: usize>: Send + Sync {
+    /// Takes the places of their nodes, m.
+    fn place(&mut self, positions: &[[f64; D]]);
+
+    /// Least local thickness at a node in these places, m; infinite: not known.
+    fn at(&self, node: u32) -> f64;
+
+    /// Least local thickness of all, m.
+    fn least(&self) -> f64;
+
+    /// Shows all facets, in space as triangles.
+    fn facets(&self, see: See<'_, D>);
+}
+
+/// Bodies of which nothing is known.
+#[cfg(test)]
+pub struct Unknown;
+
+#[cfg(test)]
+impl<const D: usize> Thick<D> for Unknown {
+    fn place(&mut self, _: &[[f64; D]]) {}
+
+    fn at(&self, _: u32) -> f64 {
+        f64::INFINITY
+    }
+
+    fn least(&self) -> f64 {
+        f64::INFINITY
+    }
+
+    fn facets(&self, _: See<'_, D>) {}
+}
+
+/// Depth of a place of a facet that is deepest in an obstacle, m, and that place.
+pub type Deepest<'a, const D: usize> = &'a dyn Fn(&[[f64; D]]) -> (f64, [f64; D]);
+
+/// Depths against the local thickness.
+pub struct Behind<const D: usize> {
+    bodies: Box<dyn Thick<D>>,
+    findings: Findings,
+    /// Least thickness at the start, and that of the obstacle, m; infinite: it has no other side.
+    least: f64,
+    obstacle: f64,
+    /// Half of the way that a deep node went in this step, as the obstacle sees it, m: both sides' ways are as long then.
+    way: f64,
+    was_deep: bool,
+    is_placed: bool,
+    /// Travel at which facets are looked at again, m, and steps since.
+    next: f64,
+    steps: u32,
+}
+
+/// Fraction of the thickness at the start from which on a depth is looked at: a body may be crushed to a sixteenth.
+const SEEN: f64 = 0.0125;
+/// Facets may stretch by this factor while they slide off a round obstacle.
+const STRETCH: f64 = 4.0;
+/// Way between two looks at facets, as a fraction of the least thickness, and most steps.
+const BETWEEN_LOOKS: f64 = 0.125;
+const MOST_STEPS: u32 = 16;
+
+impl<const D: usize> Behind<D>
+where
+    Dim<D>: Motion<D>,
+{
+    /// For bodies in their initial places, and an obstacle of a thickness, m.
+    #[must_use]
+    pub fn new(bodies: Box<dyn Thick<D>>, obstacle: f64) -> Self {
+        let least = bodies.least().min(obstacle);
+        Self {
+            bodies,
+            findings: Findings::default(),
+            least,
+            obstacle,
+            way: 0.0,
+            was_deep: false,
+            is_placed: false,
+            next: f64::NEG_INFINITY,
+            steps: 0,
+        }
+    }
+
+    /// Whether facets may be deep in an obstacle of this radius (m) between their nodes, by what a chord cuts off a circle.
+    #[must_use]
+    pub fn may_be_between(&self, radius: f64) -> bool {
+        let mut longest = 0.0;
+        self.bodies.facets(&mut |corners, _, _| {
+            for (k, &a) in corners.iter().enumerate() {
+                let edge = minus(corners[(k + 1) % corners.len()], a);
+                longest = f64::max(longest, dot(edge, edge));
+            }
+        });
+        STRETCH * STRETCH * longest / (8.0 * radius) > CAST * self.least
+    }
+
+    /// What was found.
+    #[must_use]
+    pub fn findings(&self) -> &Findings {
+        &self.findings
+    }
+
+    /// Least thickness at the start, m.
+    #[must_use]
+    pub fn least(&self) -> f64 {
+        self.least
+    }
+
+    /// A new step begins.
+    pub fn begin(&mut self) {
+        let Findings { looks, now, own, through, .. } = &mut self.findings;
+        *looks += 1;
+        (*now, *own, *through) = (Overlap::default(), Overlap::default(), None);
+        (self.way, self.is_placed) = (0.0, false);
+    }
+
+    /// Takes a node that is so deep, m, where the body was `initial` thick at the start, m; it went so far in the step, m.
+    pub fn see(&mut self, node: u32, depth: f64, initial: f64, way: f64, scene: &Scene<'_, D>) {
+        if !(depth > SEEN * initial) {
+            return;
+        }
+        self.place(scene);
+        let place = in_space(scene.sweep.new[node as usize]);
+        self.way = self.way.max(0.5 * way);
+        let thickness = self.bodies.at(node).min(self.obstacle);
+        self.findings.see(Overlap { place, depth, thickness, nodes: [node, NONE], time: scene.time }, false);
+    }
+
+    /// Takes a node that went through the obstacle within the step, and how deep it was there, m.
+    pub fn see_through(&mut self, node: u32, depth: f64, place: [f64; D], scene: &Scene<'_, D>) {
+        self.place(scene);
+        let thickness = self.bodies.at(node).min(self.obstacle);
+        let found = Overlap { place: in_space(place), depth, thickness, nodes: [node, NONE], time: scene.time };
+        if found.ratio() > DEEPEST_IN_PLANE {
+            self.findings.see(found, false);
+            self.findings.miss();
+        }
+    }
+
+    /// Looks at the facets, if it is time: where each is deepest.
+    pub fn see_facets(&mut self, deepest: Deepest<'_, D>, is_moving: bool, scene: &Scene<'_, D>) {
+        self.steps += 1;
+        if !(is_moving || self.was_deep || scene.sweep.travel >= self.next || self.steps >= MOST_STEPS) {
+            return;
+        }
+        self.place(scene);
+        let findings = &mut self.findings;
+        self.bodies.facets(&mut |corners, thickness, node| {
+            let ((depth, place), thickness) = (deepest(corners), thickness.min(self.obstacle));
+            if depth > SEEN * thickness {
+                findings.see(Overlap { place: in_space(place), depth, thickness, nodes: [node, NONE], time: scene.time }, false);
+            }
+        });
+        let until = way_until_next(findings.now.ratio(), DEEPEST_IN_PLANE, BETWEEN_LOOKS, self.least);
+        // The obstacle rests: the bodies go all of the way.
+        (self.next, self.steps) = (scene.sweep.travel + 2.0 * until, 0);
+    }
+
+    /// The step has been seen: what is too deep counts.
+    pub fn end(&mut self) {
+        self.was_deep = self.findings.count(self.way, self.was_deep);
+    }
+
+    fn place(&mut self, scene: &Scene<'_, D>) {
+        if !std::mem::replace(&mut self.is_placed, true) {
+            self.bodies.place(scene.sweep.new);
+        }
+    }
+
+    /// Keeps what was found.
+    pub fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+        keep_each!(archive; &mut self.findings, &mut self.was_deep, &mut self.next, &mut self.steps);
+        Ok(())
+    }
+
+    /// Goes on with what another one knew, whose surfaces were those before they changed.
+    pub fn inherit(&mut self, old: &Self) {
+        (self.findings, self.was_deep) = (old.findings, old.was_deep);
+    }
+}

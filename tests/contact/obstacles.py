@@ -1,6 +1,7 @@
 """Rigid obstacles in the results of runs, for `interpenetration.py`: how deep bodies are in them.
 
-They are read from obstacles.pvd. What is flat is a half-space behind its outline, in the plane a half-plane on the right of its line;
+They are read from obstacles.pvd. What is flat is a half-space behind its outline, in the plane a half-plane on the right of its line, if
+that is long beside the bodies; of many facets with their corners on a sphere the sphere counts;
 what is closed has its solid inside, or hollow outside, as its facets are turned; a tube that is open at both ends is a cylinder without
 ends. Other open lines and surfaces that are not flat are left out.
 Nodes and places on edges of bodies are looked at, and corners of obstacles in bodies.
@@ -39,7 +40,13 @@ class Obstacle:
                     ends[key] = ends.get(key, 0) + sign
         self.is_closed = not self.is_flat and not any(ends.values())
         self.nearest = None
-        self.axis = None
+        self.axis = self.middle = None
+        self.length = size
+        arms = points - points.mean(0)
+        sizes = np.linalg.norm(arms, axis=1)
+        if self.is_closed and len(corners) > 500 and np.ptp(sizes) < 1e-3 * sizes.mean():
+            self.middle, self.radius = points.mean(0), sizes.mean()
+            self.is_hollow = self.volume() < 0
         if not (self.is_flat or self.is_closed) and corners.shape[1] == 3:
             self.find_axis(points, normals)
 
@@ -57,11 +64,14 @@ class Obstacle:
 
     def depths(self, places):
         """How deep places are inside, m; of those outside not more than zero."""
+        if self.is_flat and self.corners.shape[1] == 2 and self.length < 5 * np.linalg.norm(np.ptp(places, axis=0)):
+            return np.zeros(len(places))  # a plate, beside whose ends bodies go
         if self.is_flat:
             return -(places - self.point) @ self.normal
-        if self.axis is not None:
+        if self.middle is not None:
             arms = places - self.middle
-            away = np.linalg.norm(arms - np.outer(arms @ self.axis, self.axis), axis=1)
+            along = 0 if self.axis is None else np.outer(arms @ self.axis, self.axis)
+            away = np.linalg.norm(arms - along, axis=1)
             return away - self.radius if self.is_hollow else self.radius - away
         if not self.is_closed:
             return np.zeros(len(places))
@@ -86,7 +96,7 @@ class Obstacle:
 
     def box(self):
         """The box around it."""
-        if self.axis is not None:
+        if self.middle is not None and (self.axis is not None or self.is_hollow):
             return np.full(3, -np.inf), np.full(3, np.inf)
         points = self.corners.reshape(-1, 3)
         return points.min(0), points.max(0)

@@ -52,8 +52,11 @@ class Scene:
     thickness: float = 1.0
     search: str = ""
     is_plane: bool = False
-    # What else is in the model file.
+    # What else is in the model file, and other files by their names.
     more: list = field(default_factory=list)
+    extra: dict = field(default_factory=dict)
+    # Whether bodies meet obstacles only.
+    is_alone: bool = False
 
     def name(self):
         return f"{self.family}-{self.seed}"
@@ -104,7 +107,8 @@ class Scene:
         more = (f", friction = {self.friction!r}" if self.friction else "") + (
             f', search = "{self.search}"' if self.search else ""
         )
-        lines.append(f'contact = [{{ bodies = "all"{more} }}]')
+        if not self.is_alone:
+            lines.append(f'contact = [{{ bodies = "all"{more} }}]')
         if self.obstacles:
             lines += ["obstacle = [", *(f"  {obstacle}," for obstacle in self.obstacles), "]"]
         if self.gravity:
@@ -113,7 +117,7 @@ class Scene:
         frames = min(FRAMES[1], max(FRAMES[0], math.ceil(self.travel / (0.5 * self.thickness))))
         lines += self.more
         lines += [f"output.fields = {frames}", "output.history = 50", "output.pictures = false", ""]
-        files = {"model.toml": "\n".join(lines)}
+        files = {"model.toml": "\n".join(lines), **self.extra}
         bodies = {part.name: part.mesh for part in self.parts if part.mesh is not None}
         if bodies:
             files["bodies.msh"] = meshes.gmsh(bodies)

@@ -5,7 +5,8 @@
     python tests/contact/scenes.py --list
 
 In space: crossed bars, beams, tetrahedra, sheets of one element, wires, coils, chains, gears, screws, heaps, folding tubes, meshes of
-1:200; in the plane: boxes, shards, sheets, rings, spirals, heaps, combs, meshes of 1:200. Speeds are between 0.1 and 2 times
+1:200; in the plane: boxes, shards, sheets, rings, spirals, heaps, combs, meshes of 1:200; by name alone `tools` and, in the plane, `tools2`:
+bodies thrown at rigid obstacles of every shape. Speeds are between 0.1 and 2 times
 sqrt(E / density) of the softest body, friction between 0 and 1, elements hexahedra, tetrahedra, wedges or mixed; scenes that nothing
 holds are turned at random, every second time. A scene ends when bodies that nothing stops would have passed each other, and has so many
 frames that they move by less than half of the least thickness from one to the next (12 to 60 frames).
@@ -19,6 +20,7 @@ import meshes
 from parts import Dice, Scene
 from plane import PLANE
 from space import SPACE
+from tools import TOOLS
 
 # Elements of a scene at most.
 CELLS = 2000
@@ -28,8 +30,8 @@ def make(family, seed, cells=CELLS):
     """The scene of a family and a seed, of so many elements at most."""
     for attempt in range(400):
         dice = Dice(f"{family} {seed} {attempt}")
-        scene = Scene(family, seed, is_plane=family in PLANE)
-        (PLANE if scene.is_plane else SPACE)[family](scene, dice)
+        scene = Scene(family, seed, is_plane=family in PLANE or family == "tools2")
+        {**PLANE, **SPACE, **TOOLS}[family](scene, dice)
         scene.friction = dice.choice([0.0, 0.0, 0.0, round(dice.uniform(0.05, 1.0), 3)])
         if not (scene.is_plane or scene.obstacles or scene.gravity) and dice.random() < 0.5:
             scene.turned(meshes.any_rotation(dice))
@@ -61,6 +63,7 @@ def main():
     if options.list or options.out is None:
         print("in space:    ", ", ".join(SPACE))
         print("in the plane:", ", ".join(PLANE))
+        print("with obstacles, by --family alone: tools, tools2 (in the plane)")
         return 0
     for number in range(options.first, options.first + options.count):
         made = make(options.family, number, options.cells) if options.family else scene(number, options.plane, options.cells)

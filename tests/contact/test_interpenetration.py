@@ -15,7 +15,8 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import meshes
 import numpy as np
 import scenes
-from interpenetration import Body, Frame, Judge, Placed, bodies_of, judge, overlap, self_overlap, volume
+from interpenetration import Body, Frame, Judge, Placed, bodies_of, in_obstacle, judge, overlap, self_overlap, volume
+from obstacles import Obstacle
 from overlap import distances, near_pairs, simplices, winding, within_elements
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkPoints
@@ -309,6 +310,51 @@ def test_three_ways_to_tell_what_is_inside_agree():
         by_vtk = np.array([locator.FindCell(place) >= 0 for place in places.tolist()])
         # Faces of hexahedra are curved for vtk, and four triangles here.
         assert (by_winding != by_vtk).mean() < (0.0 if kind == "tet" else 0.02) + 1e-12, (kind, (by_winding != by_vtk).mean())
+
+
+def faces(mesh):
+    """The outside of a mesh of hexahedra as triangles, outward."""
+    points, cells, _ = joined(mesh)
+    body = Body(0, "a", cells, points, 3)
+    return Placed(body, points).corners
+
+
+def test_bodies_are_as_deep_in_obstacles_as_they_were_put():
+    box = meshes.box((1, 1, 1), (2, 2, 2))
+    points, cells, owners = joined(box)
+    (body,) = bodies_of(points, cells, owners, ["a"], 3)
+    placed = Placed(body, points)
+    low = points.min(0)
+    # A plane that cuts off 0.1, a block whose corner is inside by 0.2, a pin that comes in between the nodes, a room that is too small.
+    x, y, z = low + [0, 0, 0.1]
+    plane = Obstacle(np.array([[(x, y, z), (x + 9, y, z), (x, y + 9, z)]]))
+    close(in_obstacle(placed, plane).depth, 0.1)
+    block = Obstacle(faces(meshes.box((2, 2, 2), (1, 1, 1)).moved(by=low - 0.8)))
+    found = in_obstacle(placed, block)
+    assert block.is_closed and abs(found.depth - 0.2) < 1e-9, found.depth
+    pin = Obstacle(faces(meshes.box((0.05, 0.05, 0.7), (1, 1, 1)).moved(by=(0.21, 0.22, low[2] - 0.2))))
+    found = in_obstacle(placed, pin)
+    assert abs(found.depth - 0.15) < 1e-9, (found.depth, found.place)
+    room = Obstacle(faces(meshes.box((0.9, 2, 2), (1, 1, 1)))[:, ::-1])
+    assert room.volume() < 0
+    close(in_obstacle(placed, room).depth, 0.05)
+    # A tube without ends is a cylinder without ends; hollow if its facets look inward.
+    angles = np.linspace(0, 2 * math.pi, 721)
+    ring = np.stack([np.cos(angles), np.sin(angles), 0 * angles], axis=1) * 0.3
+    up = np.array([0, 0, 5.0])
+    tube = [(a, b, b + up) for a, b in zip(ring, ring[1:])] + [(a, b + up, a + up) for a, b in zip(ring, ring[1:])]
+    cylinder = Obstacle(np.array(tube) - up / 2)
+    assert cylinder.axis is not None and not cylinder.is_hollow
+    assert np.allclose(cylinder.depths(np.array([[0.1, 0, 40.0], [0.5, 0, 0]])), [0.2, -0.2], atol=1e-5)
+    assert Obstacle(np.array(tube)[:, ::-1]).is_hollow
+    # In the plane the solid is on the right of the line.
+    line = Obstacle(np.array([[(0, 0, 0), (9.0, 0, 0)]]))
+    close(line.depths(np.array([[5.0, -0.25, 0], [5.0, 0.25, 0]])), [0.25, -0.25])
+    corners = np.array([(0, 0, 0), (0, 1, 0), (1, 1, 0), (1.0, 0, 0)])
+    square = Obstacle(np.stack([corners, np.roll(corners, -1, axis=0)], axis=1))
+    close(square.depths(np.array([[0.5, 0.9, 0], [1.5, 0.5, 0]])), [0.1, 0.0])
+    around = Obstacle(np.stack([corners[::-1], np.roll(corners[::-1], -1, axis=0)], axis=1))
+    close(around.depths(np.array([[0.5, 0.9, 0], [1.5, 0.5, 0]])), [0.0, 0.5])
 
 
 def test_scenes_are_the_same_again_and_do_not_overlap_at_the_start():

@@ -11,7 +11,7 @@ use crate::contact::node_facet::tied::{TiedFacet, Unborn};
 use crate::contact::node_facet::tracker::Tracker;
 use crate::contact::node_facet::{NodeFacet, PassInput, Slave};
 use crate::contact::obstacle::OutlineShape;
-use crate::contact::obstacle::space::{NodeSolid, Solid, Vector};
+use crate::contact::obstacle::space::{NodeSolid, Outside, Solid, Vector};
 use crate::contact::overlap::{Bodies, Judge, Walls};
 use crate::contact::proof::Proof;
 use crate::contact::search::{Search, registry};
@@ -135,7 +135,8 @@ impl Builder<'_, 3> {
         };
         let walls = self.of_bodies(&self.bodies_of(outside), |bodies| Walls::new(bodies, &self.mesh.positions), None)?;
         let manner = manner(&obstacle.interface, spacing);
-        Ok((body, Box::new(NodeSolid::new(solid, body, (&nodes, &outside.facets), manner, Box::new(walls)))))
+        let surface = Outside { nodes: &nodes, facets: &outside.facets, positions: &self.mesh.positions };
+        Ok((body, Box::new(NodeSolid::new(solid, body, surface, manner, Box::new(walls)))))
     }
 
     /// The shape of an obstacle as its body sees it from a reference point (m), grown by the distance that it keeps; points and facets of its outline.

@@ -75,40 +75,49 @@ fn divided(corners: usize, n: usize) -> Vec<([f64; 4], f64)> {
     points
 }
 
-/// Nodes (ascending) and the points on facets divided n times, with the numbers of the points of each facet. Where the obstacle is smaller than
-/// a facet few points meet it: they are stiffer by a factor, `gain`, that an area has (m²), so that they hold what the whole facet would.
+/// Nodes (ascending) and the points on facets, each divided so many times (`divisions`, by its number), with the numbers of the points of each
+/// facet. Where the obstacle is smaller than a facet few points meet it: they are stiffer by a factor, `gain`, that an area has (m²), so that
+/// they hold what the whole facet would.
 #[must_use]
 pub fn points(
     nodes: &[(u32, Slave)],
     facets: &[[u32; 4]],
-    n: usize,
+    divisions: &[usize],
     gain: impl Fn(f64) -> f64,
 ) -> (Vec<Point>, Vec<std::ops::Range<usize>>) {
-    if n < 2 {
-        return (nodes.iter().map(|&(node, slave)| Point::node(node, slave)).collect(), Vec::new());
-    }
-    let part = 1.0 / (n * n) as f64;
     let scaled =
         |Slave { stiffness, area, of_mass }: Slave, by: f64| Slave { stiffness: by * stiffness, area: by * area, of_mass: by * of_mass };
-    let gained = |slave: Slave| Slave { stiffness: gain(slave.area) * slave.stiffness, ..slave };
-    let mut points: Vec<Point> = nodes.iter().map(|&(node, slave)| Point::node(node, scaled(gained(slave), part))).collect();
+    let sum = |a: Slave, b: Slave| Slave { stiffness: a.stiffness + b.stiffness, area: a.area + b.area, of_mass: a.of_mass + b.of_mass };
+    let gained = |slave: Slave, area: f64| Slave { stiffness: gain(area) * slave.stiffness, ..slave };
     let at = |node: u32| nodes.binary_search_by_key(&node, |&(node, _)| node).ok();
     let mut counts = vec![0.0; nodes.len()];
     facets.iter().flat_map(Corners::corners).filter_map(|&node| at(node)).for_each(|rank| counts[rank] += 1.0);
-    let patterns = [divided(3, n), divided(4, n)];
+    let mut points: Vec<Point> = nodes.iter().map(|&(node, slave)| Point::node(node, slave)).collect();
+    // What is divided takes its part from the nodes.
+    let (mut kept, mut is_divided) = (vec![Slave::default(); nodes.len()], vec![false; nodes.len()]);
     let mut ranges = Vec::with_capacity(facets.len());
-    for facet in facets {
+    for (facet, &n) in facets.iter().zip(divisions) {
         let corners = facet.corners();
-        let mut whole = Slave::default();
-        for rank in corners.iter().filter_map(|&node| at(node)) {
-            let own = scaled(nodes[rank].1, 1.0 / counts[rank]);
-            whole = Slave { stiffness: whole.stiffness + own.stiffness, area: whole.area + own.area, of_mass: whole.of_mass + own.of_mass };
+        let ranks = || corners.iter().filter_map(|&node| at(node));
+        let own = |rank: usize| scaled(nodes[rank].1, 1.0 / counts[rank]);
+        let first = points.len();
+        if n < 2 {
+            ranks().for_each(|rank| kept[rank] = sum(kept[rank], own(rank)));
+        } else {
+            let whole = ranks().map(own).fold(Slave::default(), sum);
+            let area = whole.area;
+            for rank in ranks() {
+                (kept[rank], is_divided[rank]) = (sum(kept[rank], scaled(gained(own(rank), area), 1.0 / (n * n) as f64)), true);
+            }
+            let whole = gained(whole, area);
+            let make =
+                |(shares, weight): ([f64; 4], f64)| Point { nodes: *facet, shares, count: corners.len(), slave: scaled(whole, weight) };
+            points.extend(divided(corners.len(), n).into_iter().map(make));
         }
-        let (whole, first) = (gained(whole), points.len());
-        let make =
-            |&(shares, weight): &([f64; 4], f64)| Point { nodes: *facet, shares, count: corners.len(), slave: scaled(whole, weight) };
-        points.extend(patterns[corners.len() - 3].iter().map(make));
         ranges.push(first..points.len());
+    }
+    for (point, (kept, _)) in points.iter_mut().zip(kept.into_iter().zip(is_divided)).filter(|(_, (_, is_divided))| *is_divided) {
+        point.slave = kept;
     }
     (points, ranges)
 }
@@ -124,12 +133,12 @@ mod tests {
         let nodes: Vec<(u32, Slave)> =
             (0..5).map(|node| (node, Slave { stiffness: 2.0 + f64::from(node), area: 1.0, of_mass: 0.5 })).collect();
         for n in 1..=5 {
-            let (points, ranges) = points(&nodes, &facets, n, |_| 1.0);
+            let (points, ranges) = points(&nodes, &facets, &[n; 2], |_| 1.0);
             let sum = |of: fn(&Slave) -> f64| points.iter().map(|point| of(&point.slave)).sum::<f64>();
             // Of stiffness and area nothing is lost where all corners of a facet stand for the same; else by how far they differ.
             assert!((sum(|slave| slave.area) - 5.0).abs() < 0.2 && (sum(|slave| slave.stiffness) - 20.0).abs() < 1.5, "{n}");
             let inner: [usize; 2] = [(n + 1) * (n + 1) - 4, (n + 1) * (n + 2) / 2 - 3];
-            assert_eq!(ranges.iter().map(ExactSizeIterator::len).collect::<Vec<_>>(), if n > 1 { inner.to_vec() } else { Vec::new() });
+            assert_eq!(ranges.iter().map(ExactSizeIterator::len).collect::<Vec<_>>(), if n > 1 { inner } else { [0; 2] });
             for (range, facet) in ranges.iter().zip(facets) {
                 for point in &points[range.clone()] {
                     assert!((point.shares.iter().sum::<f64>() - 1.0).abs() < 1e-15 && point.nodes == facet);
@@ -141,7 +150,7 @@ mod tests {
         }
         // A square: the nodes have a quarter of the area each before, and the trapezoidal rule's part after.
         let four: Vec<(u32, Slave)> = (0..4).map(|node| (node, Slave { stiffness: 1.0, area: 0.25, of_mass: 0.0 })).collect();
-        let (points, _) = super::points(&four, &facets[..1], 3, |_| 1.0);
+        let (points, _) = super::points(&four, &facets[..1], &[3], |_| 1.0);
         let integral: f64 = points.iter().map(|point| point.slave.area * point.place(&positions)[0].powi(2)).sum();
         // ∫ x² = 1/3, by the trapezoidal rule h² / 6 more.
         assert!((integral - 1.0 / 3.0 - 1.0 / 54.0).abs() < 1e-14, "{integral}");

@@ -158,6 +158,17 @@ struct Memory {
 
 keep_all!(Memory { presses, offset, slip });
 
+/// The surface that an obstacle meets.
+#[derive(Clone, Copy)]
+pub struct Outside<'a> {
+    /// Its nodes, ascending, but for those that are held beside the obstacle, and what they stand for.
+    pub nodes: &'a [(u32, Slave)],
+    /// Its facets.
+    pub facets: &'a [[u32; 4]],
+    /// Initial places of all nodes, m.
+    pub positions: &'a [Vector],
+}
+
 /// Nodes, and points of facets, against an obstacle.
 pub struct NodeSolid {
     solid: Solid,
@@ -183,27 +194,31 @@ pub struct NodeSolid {
 }
 
 impl NodeSolid {
-    /// For `nodes` (ascending) of `bodies` in their initial places, and the facets of their surface.
+    /// For the nodes of a surface of `bodies` in their initial places.
     #[must_use]
-    pub fn new(
-        solid: Solid,
-        body: usize,
-        (nodes, facets): (&[(u32, Slave)], &[[u32; 4]]),
-        manner: Manner,
-        bodies: Box<dyn Thick<3>>,
-    ) -> Self {
-        let Manner { reach, factor, ignores_start } = manner;
+    pub fn new(solid: Solid, body: usize, surface: Outside<'_>, manner: Manner, bodies: Box<dyn Thick<3>>) -> Self {
+        let (Outside { nodes, facets, positions }, Manner { reach, factor, ignores_start }) = (surface, manner);
         let own = solid.is_round().map_or(f64::INFINITY, |radius| 2.0 * radius);
+        let least = |nodes: &mut dyn Iterator<Item = u32>| nodes.map(|node| bodies.at(node)).fold(own, f64::min);
+        // Into how many parts its edges have to be divided for what a chord cuts off the circle to be as deep as shallow overlaps.
+        let divisions = |facet: &[u32; 4]| {
+            let (corners, Some(radius)) = (facet.corners(), solid.is_round()) else { return 0.0 };
+            let x = |k: usize| positions[corners[k % corners.len()] as usize];
+            let edges = (0..corners.len()).map(|k| length(minus(x(k + 1), x(k)))).fold(0.0, f64::max);
+            edges / (8.0 * radius * CAST * least(&mut corners.iter().copied())).sqrt()
+        };
+        let divisions: Vec<f64> = facets.iter().map(divisions).collect();
+        let counts: Vec<usize> = divisions.iter().map(|count| (count.ceil() as usize).clamp(1, MOST_DIVISIONS)).collect();
+        let (points, ranges) = points(nodes, facets, &counts, |area| solid.gain(area));
         let wall = |point: &Point| {
-            let thickness = point.ends().map(|(node, _)| bodies.at(node)).fold(own, f64::min);
+            let thickness = least(&mut point.ends().map(|(node, _)| node));
             (stiffening(thickness, factor), thickness)
         };
-        let divisions = solid.is_round().map_or(0.0, |radius| divisions(&*bodies, radius));
-        let (points, ranges) = points(nodes, facets, (divisions.ceil() as usize).clamp(1, MOST_DIVISIONS), |area| solid.gain(area));
         let walls = points.iter().map(wall).collect();
-        let facets = facets.iter().zip(ranges).map(|(facet, range)| (facet.corners().to_vec(), range)).collect();
+        let facets = facets.iter().zip(ranges).filter(|(_, range)| !range.is_empty());
+        let facets = facets.map(|(facet, range)| (facet.corners().to_vec(), range)).collect();
         // Facets stretch while they slide off it.
-        let sees_facets = !ignores_start && STRETCH * divisions > 1.0;
+        let sees_facets = !ignores_start && divisions.iter().any(|count| STRETCH * count > 1.0);
         let (memories, behind, nodes) = (vec![Memory::default(); points.len()], Behind::new(bodies, own), nodes.len());
         let (has_begun, found) = (false, Vec::new());
         Self { solid, body, points, nodes, facets, walls, memories, reach, ignores_start, has_begun, found, behind, sees_facets }
@@ -271,16 +286,6 @@ impl NodeSolid {
         // No place of it is farther from a corner than the farthest corners are from each other.
         distance > self.reach + 4.0 * way + 2.0 * size
     }
-}
-
-/// Into how many parts edges have to be divided for what a chord cuts off a circle of this radius (m) to be as deep as shallow overlaps.
-fn divisions(bodies: &dyn Thick<3>, radius: f64) -> f64 {
-    let mut longest = 0.0;
-    bodies.facets(&mut |corners, _, _| {
-        let edge = |k: usize| minus(corners[(k + 1) % 3], corners[k]);
-        longest = (0..3).map(|k| length(edge(k))).fold(longest, f64::max);
-    });
-    longest / (8.0 * radius * CAST * bodies.least().min(2.0 * radius)).sqrt()
 }
 
 /// Most parts of an edge, and by what factor it may be stretched.
@@ -424,7 +429,7 @@ mod tests {
         let mut springs = Springs::<3>::new(x.len(), 1, vec![terms]);
         let nodes: Vec<_> = (0..x.len() as u32).map(|node| (node, Slave { stiffness, area: 1.0, of_mass: 0.0 })).collect();
         let manner = Manner { reach: 0.01, factor: 0.0, ignores_start: false };
-        let formulation = NodeSolid::new(solid, 0, (&nodes, &[]), manner, Box::new(Unknown));
+        let formulation = NodeSolid::new(solid, 0, Outside { nodes: &nodes, facets: &[], positions }, manner, Box::new(Unknown));
         let mut contact = Contact::new("obstacle".into(), ContactKind::Obstacle(0), Box::new(formulation), 0, [0.0, f64::INFINITY]);
         let (mut old, mut lost, mut traces) = (x.clone(), 0.0, Traces::default());
         let sums = |x: &[Vector], v: &[Vector], bodies: &Bodies<3>| {

@@ -3,8 +3,8 @@
 //! A node is inside an element where the element's shape functions say so. Its depth is its distance from the nearest facet of that body;
 //! the local thickness is the way from there through the node to where the body ends, or from the node through its own body to the other
 //! side, if that is less. That is little near every edge, so the depth must be much against 2 V / S of both bodies, too: the thickness of a
-//! plate, half the width of a rod, a third of that of a ball. Surfaces are the faces that one element alone has, quadrilaterals as two
-//! triangles.
+//! plate, half the width of a rod, a third of that of a ball. Surfaces are the faces that one element alone has, quadrilaterals as four
+//! triangles around their mean: of two the choice decides where the face is bent.
 
 use crate::generator_space::{Vector, cross, difference as minus, dot};
 use embate_solver::output::{CellKind, Cells};
@@ -38,8 +38,8 @@ const MUCH: f64 = 0.3;
 /// The surfaces of the parts of a model.
 pub(crate) struct Surfaces {
     cells: Cells,
-    /// Triangles and nodes of each part.
-    triangles: Vec<Vec<[u32; 3]>>,
+    /// Faces, a triangle repeats its last node, and nodes of each part.
+    faces: Vec<Vec<[u32; 4]>>,
     nodes: Vec<Vec<u32>>,
 }
 
@@ -58,16 +58,26 @@ impl Surfaces {
         let mut outside: Vec<(Vec<u32>, u32)> = seen.into_values().filter(|it| it.0 == 1).map(|(_, face, part)| (face, part)).collect();
         outside.sort_unstable();
         let parts = cells.part_names.len();
-        let (mut triangles, mut nodes) = (vec![Vec::new(); parts], vec![Vec::new(); parts]);
+        let (mut faces, mut nodes) = (vec![Vec::new(); parts], vec![Vec::new(); parts]);
         for (face, part) in outside {
-            triangles[part as usize].extend((2..face.len()).map(|k| [face[0], face[k - 1], face[k]]));
+            faces[part as usize].push([0, 1, 2, face.len() - 1].map(|k| face[k]));
             nodes[part as usize].extend(face);
         }
         nodes.iter_mut().for_each(|nodes: &mut Vec<u32>| {
             nodes.sort_unstable();
             nodes.dedup();
         });
-        Self { cells, triangles, nodes }
+        Self { cells, faces, nodes }
+    }
+
+    /// The triangles of a part.
+    fn triangles(&self, part: u32, x: &[Vector]) -> Vec<[Vector; 3]> {
+        let of = |face: &[u32; 4]| {
+            let [a, b, c, d] = face.map(|node| x[node as usize]);
+            let mean = std::array::from_fn(|k| 0.25 * (a[k] + b[k] + c[k] + d[k]));
+            if face[2] == face[3] { vec![[a, b, c]] } else { vec![[a, b, mean], [b, c, mean], [c, d, mean], [d, a, mean]] }
+        };
+        self.faces[part as usize].iter().flat_map(of).collect()
     }
 
     /// The deepest node of a part in another one against the local thickness.
@@ -95,8 +105,9 @@ impl Surfaces {
 
     /// 2 V / S of a part, m.
     fn thickness(&self, part: u32, x: &[Vector]) -> f64 {
-        let [six_volumes, double_surface] = self.triangles[part as usize].iter().fold([0.0; 2], |[volume, surface], corners| {
-            let [a, b, c] = corners.map(|node| minus(x[node as usize], x[self.nodes[part as usize][0] as usize]));
+        let origin = x[self.nodes[part as usize][0] as usize];
+        let [six_volumes, double_surface] = self.triangles(part, x).into_iter().fold([0.0; 2], |[volume, surface], corners| {
+            let [a, b, c] = corners.map(|x| minus(x, origin));
             let double = cross(minus(b, a), minus(c, a));
             [volume + dot(a, double), surface + size(double)]
         });
@@ -105,7 +116,7 @@ impl Surfaces {
 
     /// How deep a node of the first part is in the second, if that is much.
     fn depth(&self, parts: [u32; 2], p: Vector, x: &[Vector]) -> Option<Deepest> {
-        let [own, other] = parts.map(|part| self.triangles[part as usize].iter().map(|corners| corners.map(|node| x[node as usize])));
+        let [own, other] = parts.map(|part| self.triangles(part, x).into_iter());
         let nearest = other.clone().map(|corners| nearest(p, corners)).min_by(|a, b| size(minus(*a, p)).total_cmp(&size(minus(*b, p))));
         let foot = nearest.unwrap_or(p);
         let depth = size(minus(p, foot));

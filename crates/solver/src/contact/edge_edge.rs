@@ -44,6 +44,20 @@ const SHALLOW: f64 = 0.25;
 /// The global search is asked for a little more than is needed: it may round.
 const SLACK: f64 = 1.001;
 
+/// Another pair, and whether its first edge is that which goes on in the second one here: of one surface pairs are ascending.
+#[derive(Clone, Copy)]
+struct Other {
+    pair: usize,
+    is_swapped: bool,
+}
+
+impl Other {
+    /// Sign of its normal and its slip here.
+    fn sign(self) -> f64 {
+        if self.is_swapped { -1.0 } else { 1.0 }
+    }
+}
+
 /// Two edges that are near each other, and what is kept of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EdgePair {
@@ -272,9 +286,9 @@ impl EdgeTracker {
             let turn_of = |touch: &EdgeTouch| if touch.is_new { 1 } else { 2 * u32::from(is_beyond(touch)) };
             for touch in order.iter().map(|&at| &found[at]).filter(|touch| turn_of(touch) == turn) {
                 let mut lines = self.beside(touch, around);
-                let is_held = |other: usize| taken[other] && dot(self.pairs[other].memory.normal, touch.crossing.normal) > STRAIGHT;
+                let is_held = |other: Other| taken[other.pair] && self.cosine(other, &touch.crossing) > STRAIGHT;
                 let is_free =
-                    turn == 0 || lines.all(|other| !taken[other]) && (turn == 2 || !self.come_from(touch.edges, around).any(is_held));
+                    turn == 0 || lines.all(|other| !taken[other.pair]) && (turn == 2 || !self.come_from(touch.edges, around).any(is_held));
                 taken[touch.pair as usize] = is_free;
             }
         }
@@ -288,12 +302,15 @@ impl EdgeTracker {
                 (pair.stiffness, pair.area, pair.stiffening, pair.memory) = (stiffness, area, stiffening, Memory::default());
                 // A spring that went over the end of another edge goes on: of several that which pushed most nearly along this normal.
                 let others = self.beside(touch, around).chain(self.come_from(touch.edges, around));
-                let cosine = |other: usize| dot(self.pairs[other].memory.normal, touch.crossing.normal);
-                let better = |a: usize, b: usize| if cosine(b) > cosine(a) { b } else { a };
+                let cosine = |other: Other| self.cosine(other, &touch.crossing);
+                let better = |a: Other, b: Other| if cosine(b) > cosine(a) { b } else { a };
                 let left = others.filter(|&other| self.goes_over(other, touch, &taken)).reduce(better);
                 if let Some(left) = left {
-                    let EdgePair { stiffness, area, stiffening, memory, .. } = self.pairs[left];
-                    self.pairs[left].touches = false;
+                    let EdgePair { stiffness, area, stiffening, memory, .. } = self.pairs[left.pair];
+                    // Normal and slip are those of the first edge against the second.
+                    let of = |vector: Vector| vector.map(|c| left.sign() * c);
+                    let memory = Memory { normal: of(memory.normal), slip: of(memory.slip), ..memory };
+                    self.pairs[left.pair].touches = false;
                     self.pairs[touch.pair as usize] = EdgePair { stiffness, area, stiffening, memory, ..self.pairs[touch.pair as usize] };
                 }
             }
@@ -307,23 +324,29 @@ impl EdgeTracker {
     }
 
     /// Whether the spring of a pair ended in this step and goes on at a touch.
-    fn goes_over(&self, other: usize, touch: &EdgeTouch, taken: &[bool]) -> bool {
-        let pair = &self.pairs[other];
-        pair.touches && !taken[other] && dot(pair.memory.normal, touch.crossing.normal) > STRAIGHT
+    fn goes_over(&self, other: Other, touch: &EdgeTouch, taken: &[bool]) -> bool {
+        self.pairs[other.pair].touches && !taken[other.pair] && self.cosine(other, &touch.crossing) > STRAIGHT
+    }
+
+    /// Cosine of the angle between the normal of a pair's spring and that of a crossing.
+    fn cosine(&self, other: Other, crossing: &Crossing) -> f64 {
+        other.sign() * dot(self.pairs[other.pair].memory.normal, crossing.normal)
     }
 
     /// Pairs of the edges of a touch, or those that go on from them in the same line.
-    fn beside<'a>(&'a self, touch: &EdgeTouch, around: &'a Around<'_>) -> impl Iterator<Item = usize> + use<'a> {
+    fn beside<'a>(&'a self, touch: &EdgeTouch, around: &'a Around<'_>) -> impl Iterator<Item = Other> + use<'a> {
         let [firsts, seconds] = [0, 1].map(|of| self.line(of, touch.edges[of], around));
         let (own, sides) = (touch.edges, self.sides);
         firsts.into_iter().flat_map(move |a| seconds.clone().into_iter().map(move |b| [a, b])).filter_map(move |[a, b]| {
-            let edges = if sides[0] == sides[1] && a > b { [b, a] } else { [a, b] };
-            if edges == own { None } else { self.pairs.binary_search_by_key(&edges, |pair| pair.edges).ok() }
+            let is_swapped = sides[0] == sides[1] && a > b;
+            let edges = if is_swapped { [b, a] } else { [a, b] };
+            let pair = if edges == own { None } else { self.pairs.binary_search_by_key(&edges, |pair| pair.edges).ok() };
+            pair.map(|pair| Other { pair, is_swapped })
         })
     }
 
     /// Pairs with an edge that goes on from one of these at its end in any direction, and the same other edge, that cross beyond that end: what crosses has gone over the node.
-    fn come_from<'a>(&'a self, edges: [u32; 2], around: &'a Around<'_>) -> impl Iterator<Item = usize> + use<'a> {
+    fn come_from<'a>(&'a self, edges: [u32; 2], around: &'a Around<'_>) -> impl Iterator<Item = Other> + use<'a> {
         let nodes = move |of: usize, edge: u32| around.surfaces[self.sides[of]].edges[edge as usize].nodes;
         let ends = (0..2).flat_map(move |of| nodes(of, edges[of]).map(|node| (of, node)));
         let others = ends.flat_map(move |(of, node)| {
@@ -341,7 +364,7 @@ impl EdgeTracker {
                 [0, 1].map(|of| Placed { surface: &around.surfaces[self.sides[of]], positions: around.sweep.new }.edge(sorted[of]));
             let along = crossing(placed[0], placed[1])?.along[at];
             let is_beyond = if nodes(of, edge)[0] == node { along < 0.0 } else { along > 1.0 };
-            is_beyond.then_some(found)
+            is_beyond.then_some(Other { pair: found, is_swapped: is_turned })
         })
     }
 
@@ -459,9 +482,9 @@ impl EdgeTracker {
             stands: false,
             pair: number as u32,
         };
-        let follows = |other: usize| {
-            let pair = &self.pairs[other];
-            pair.touches && pair.memory.half < around.open && dot(pair.memory.normal, crossing.normal) > STRAIGHT
+        let follows = |other: Other| {
+            let pair = &self.pairs[other.pair];
+            pair.touches && pair.memory.half < around.open && self.cosine(other, crossing) > STRAIGHT
         };
         self.beside(&touch, around).any(follows) || self.come_from(pair.edges, around).any(follows)
     }

@@ -37,7 +37,7 @@ pub use thickness::Walls;
 
 use super::Sweep;
 use super::findings::{CAST, DEEPEST, Findings, Overlap, PLACES, way_until_next};
-use super::projection::node_facet::{Vector, square_to_triangle, unit};
+use super::projection::node_facet::{Vector, corners_below, square_to_triangle, unit};
 use super::spin;
 use super::springs::Answers;
 use crate::archive::{Archive, Kept, keep_all, keep_each};
@@ -47,7 +47,7 @@ use crate::vector::length;
 use near::Near;
 use piercing::Piercing;
 use regions::{Region, Work};
-use skin::Skin;
+use skin::{Edge, Skin};
 use thickness::Thickness;
 use tree::Tree;
 
@@ -360,7 +360,8 @@ impl Judge {
                 if is_second { along } else { -along }
             };
             // What is nearest to the side of entry, or to a flank, is as deep as that is far.
-            if faces(foot) >= -FACES {
+            let (below, count) = self.below(unsided.place, foot);
+            if self.skin.sharing(&below[..count]).any(|triangle| faces(triangle) >= -FACES) {
                 return most;
             }
             let farthest = 2.0 * unsided.thickness;
@@ -369,6 +370,17 @@ impl Judge {
             found.filter(|found| found.ratio() > most.ratio()).unwrap_or(most)
         };
         found.iter().take(SIDED_MOST).fold(most, deepest)
+    }
+
+    /// Vertices of what of a triangle is nearest to a place, of itself, an edge or a corner, and how many: facets that share these are as near.
+    fn below(&self, x: Vector, triangle: u32) -> ([u32; 3], usize) {
+        let (mut found, mut count) = ([NONE; 3], 0);
+        let vertices = self.skin.triangles[triangle as usize].into_iter().zip(corners_below(x, self.skin.corners(triangle)));
+        for (vertex, _) in vertices.filter(|(_, is_there)| *is_there) {
+            found[count] = vertex;
+            count += 1;
+        }
+        (found, count)
     }
 
     /// Depth of a place of a triangle's side of a region, by those triangles of the other side that count, and the nearest one; nothing
@@ -412,7 +424,8 @@ impl Judge {
             let other = region.bodies[usize::from(!is_second)];
             let farthest = INSIDE * self.thickest[other as usize];
             let (depth, foot) = self.depth(region, own, is_second, place, farthest * farthest, |_| true)?;
-            let there = self.thickness.of(&self.skin, foot);
+            let (below, count) = self.below(place, foot);
+            let there = self.thickness.sharing(&self.skin, &below[..count]);
             let thickness = behind.min(there);
             // Farther than that it is not inside: an element of the other body is inverted, and the flood went astray.
             if depth > INSIDE * if is_own { thickness } else { there } {
@@ -430,9 +443,10 @@ impl Judge {
             let node = self.skin.nodes.get(vertex as usize).copied();
             look(own, node, self.skin.x[vertex as usize], self.thickness.around(&self.skin, vertex))
         };
-        let of_chord = |&(own, [from, to]): &(u32, [Vector; 2])| {
+        let of_chord = |&(edge, [from, to]): &(u32, [Vector; 2])| {
             let at = move |share: f64| [0, 1, 2].map(|d| (1.0 - share) * from[d] + share * to[d]);
-            let behind = self.thickness.of(&self.skin, own);
+            let Edge { ends, triangles: [own, _] } = self.skin.edges[edge as usize];
+            let behind = self.thickness.sharing(&self.skin, &ends);
             PLACES.map(|share| look(own, None, at(share), behind))
         };
         // Where the contour is open the flood can't be trusted.

@@ -12,7 +12,7 @@
 //! point o of the triangle's plane.
 
 use super::piercing::{Piece, Piercing, contours, runs_with};
-use super::skin::{Edge, Skin};
+use super::skin::Skin;
 use crate::contact::projection::node_facet::Vector;
 use crate::mesh::surface::NONE;
 use crate::tensor::{cross, dot};
@@ -27,7 +27,7 @@ pub(super) struct Region {
     pub(super) triangles: Vec<(u32, bool)>,
     /// Vertices that are inside, ascending.
     pub(super) inside: Vec<u32>,
-    /// Parts of pierced edges that are inside: a triangle at the edge, and both ends, m.
+    /// Parts of pierced edges that are inside: the edge, and both ends, m.
     pub(super) chords: Vec<(u32, [Vector; 2])>,
     /// Of a body in itself, where the contour is not closed: the triangles that are pierced, ascending. Chords are those beside them then.
     pub(super) pierced: Vec<u32>,
@@ -257,13 +257,15 @@ impl Work {
             }
         }
         for chord in chords {
-            if let Some(region) = region_of(chord.0, &self.listed, &self.slots).filter(|&region| !regions[region].is_torn()) {
+            let own = skin.edges[chord.0 as usize].triangles[0];
+            if let Some(region) = region_of(own, &self.listed, &self.slots).filter(|&region| !regions[region].is_torn()) {
                 regions[region].chords.push(chord);
             }
         }
         if regions[begin..].iter().any(Region::is_torn) {
             for (chord, pierced) in beside(skin, piercings) {
-                if let Some(region) = region_of(chord.0, &self.listed, &self.slots).filter(|&region| regions[region].is_torn()) {
+                let own = skin.edges[chord.0 as usize].triangles[0];
+                if let Some(region) = region_of(own, &self.listed, &self.slots).filter(|&region| regions[region].is_torn()) {
                     regions[region].chords.push(chord);
                     regions[region].pierced.push(pierced);
                 }
@@ -290,7 +292,7 @@ impl Work {
                     pieces.push(Piece { triangle, from, to });
                 }
                 if !here.iter().any(|piercing| piercing.is_flat) {
-                    chords.push((skin.edges[edge as usize].triangles[0], [from, to]));
+                    chords.push((edge, [from, to]));
                 }
             };
             // How many times it is inside.
@@ -354,15 +356,15 @@ impl Work {
 fn beside(skin: &Skin, piercings: &[Piercing]) -> Vec<((u32, [Vector; 2]), u32)> {
     let mut parts = Vec::new();
     for here in piercings.chunk_by(|a, b| a.edge == b.edge) {
-        let Edge { ends, triangles, .. } = &skin.edges[here[0].edge as usize];
-        let ends = ends.map(|vertex| skin.x[vertex as usize]);
+        let edge = here[0].edge;
+        let ends = skin.edges[edge as usize].ends.map(|vertex| skin.x[vertex as usize]);
         for (k, piercing) in here.iter().enumerate().filter(|(_, piercing)| !piercing.is_flat) {
             let other = if piercing.enters {
                 here.get(k + 1).map_or(ends[1], |next| next.place)
             } else {
                 if k > 0 { here[k - 1].place } else { ends[0] }
             };
-            parts.push(((triangles[0], [piercing.place, other]), piercing.triangle));
+            parts.push(((edge, [piercing.place, other]), piercing.triangle));
         }
     }
     parts

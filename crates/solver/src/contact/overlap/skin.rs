@@ -171,6 +171,12 @@ impl Skin {
         self.x.iter().flatten().all(|c| c.is_finite())
     }
 
+    /// Triangles that have all these vertices.
+    pub(super) fn sharing<'a>(&'a self, vertices: &'a [u32]) -> impl Iterator<Item = u32> + 'a {
+        let at = vertices.first().map_or(&[][..], |&vertex| self.at_vertex.of(vertex as usize));
+        at.iter().copied().filter(|&triangle| vertices.iter().all(|vertex| self.triangles[triangle as usize].contains(vertex)))
+    }
+
     /// Whether a triangle lies on a symmetry plane.
     pub(super) fn is_mirror(&self, triangle: u32) -> bool {
         self.facets[self.facet_of[triangle as usize] as usize].is_mirror

@@ -89,10 +89,15 @@ impl Thickness {
         if skin.is_mirror(triangle) { 2.0 * way } else { way }.min(most)
     }
 
+    /// The least of the facets that share these vertices now, m: whichever of them is taken for the nearest.
+    pub(super) fn sharing(&self, skin: &Skin, vertices: &[u32]) -> f64 {
+        let surface = skin.sharing(vertices).filter(|&triangle| !skin.is_mirror(triangle));
+        surface.map(|triangle| self.of(skin, triangle)).fold(f64::INFINITY, f64::min)
+    }
+
     /// The least of the facets at a vertex now, m.
     pub(super) fn around(&self, skin: &Skin, vertex: u32) -> f64 {
-        let surface = skin.at_vertex.of(vertex as usize).iter().filter(|&&triangle| !skin.is_mirror(triangle));
-        surface.map(|&triangle| self.of(skin, triangle)).fold(f64::INFINITY, f64::min)
+        self.sharing(skin, &[vertex])
     }
 
     /// The largest of each body, m.

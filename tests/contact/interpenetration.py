@@ -38,10 +38,9 @@ import xml.etree.ElementTree
 from dataclasses import dataclass, field
 
 import numpy as np
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 import obstacles as rigid
+import vtu
 from overlap import (
     FACES,
     CentreLine,
@@ -582,26 +581,12 @@ class Judge:
 
 def read(path):
     """A frame of a result folder: the frame, and its cells (kind, number, nodes) and parts."""
-    reader = vtkXMLUnstructuredGridReader()
-    reader.SetFileName(str(path))
-    reader.Update()
-    grid = reader.GetOutput()
-    if reader.GetErrorCode() or not grid.GetNumberOfPoints():
-        raise ValueError(f"{path} can't be read")
-    points = vtk_to_numpy(grid.GetPoints().GetData()).astype(float)
-    offsets = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
-    nodes = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).tolist()
-    kinds = [grid.GetCellType(i) for i in range(grid.GetNumberOfCells())]
-    cells = [(kind, i, tuple(nodes[offsets[i] : offsets[i + 1]])) for i, kind in enumerate(kinds)]
-
-    def array(data, name):
-        found = data.GetArray(name)
-        return None if found is None else vtk_to_numpy(found)
-
-    alive, part = array(grid.GetCellData(), "alive"), array(grid.GetCellData(), "part")
-    time = array(grid.GetFieldData(), "TimeValue")
+    grid, points, found = vtu.read(path)
+    cells = [(kind, number, nodes) for number, (kind, nodes) in enumerate(found)]
+    alive, part = vtu.array(grid.GetCellData(), "alive"), vtu.array(grid.GetCellData(), "part")
+    time = vtu.array(grid.GetFieldData(), "TimeValue")
     frame = Frame(float(np.ravel(time)[0]) if time is not None else 0.0, points)
-    frame.alive, frame.gap = None if alive is None else alive > 0.5, array(grid.GetPointData(), "contact_gap")
+    frame.alive, frame.gap = None if alive is None else alive > 0.5, vtu.array(grid.GetPointData(), "contact_gap")
     return frame, cells, part
 
 
@@ -611,14 +596,14 @@ def judge(folder, fraction=FRACTION, name=None):
     name = name or folder.name
     try:
         summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
-        sets = xml.etree.ElementTree.parse(folder / "fields.pvd").getroot().findall("Collection/DataSet")
-        first, cells, parts = read(folder / sets[0].get("file"))
+        frames = vtu.collection(folder / "fields.pvd")
+        first, cells, parts = read(frames[0])
     except (OSError, ValueError, IndexError, xml.etree.ElementTree.ParseError) as error:
         return Judgement(name, "unread", notes=[repr(error)[:160]])
     looks = Judge(first.points, cells, parts, summary.get("parts", []), fraction)
     tools = rigid.files(folder)
-    for number, entry in enumerate(sets):
-        frame = read(folder / entry.get("file"))[0]
+    for number, path in enumerate(frames):
+        frame = read(path)[0]
         if not np.isfinite(frame.points).all():
             looks.notes.append(f"a frame at {frame.time:.3g} s is not finite")
             break

@@ -10,9 +10,7 @@ Nodes and places on edges of bodies are looked at, and corners of obstacles in b
 import xml.etree.ElementTree
 
 import numpy as np
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
-
+import vtu
 from overlap import Nearest, cross, units, winding
 
 FLAT = 1e-9
@@ -105,31 +103,20 @@ class Obstacle:
 def files(folder):
     """The files of obstacles of all frames."""
     try:
-        sets = xml.etree.ElementTree.parse(folder / "obstacles.pvd").getroot().findall("Collection/DataSet")
+        return vtu.collection(folder / "obstacles.pvd")
     except (OSError, xml.etree.ElementTree.ParseError):
         return []
-    return [folder / entry.get("file") for entry in sets]
 
 
 def read(path):
     """The obstacles of a file."""
-    reader = vtkXMLUnstructuredGridReader()
-    reader.SetFileName(str(path))
-    reader.Update()
-    grid = reader.GetOutput()
-    if reader.GetErrorCode() or not grid.GetNumberOfPoints():
-        return []
-    points = vtk_to_numpy(grid.GetPoints().GetData()).astype(float)
-    offsets = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
-    nodes = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
-    of = np.ravel(vtk_to_numpy(grid.GetCellData().GetArray("obstacle")))
+    grid, points, cells = vtu.read(path)
     facets = {}
-    for cell in range(grid.GetNumberOfCells()):
-        mine = points[nodes[offsets[cell] : offsets[cell + 1]]]
-        kind = grid.GetCellType(cell)
+    for number, (kind, nodes) in zip(np.ravel(vtu.array(grid.GetCellData(), "obstacle")).tolist(), cells):
+        mine = points[list(nodes)]
         if kind in (3, 4):
             pieces = [mine[k : k + 2] for k in range(len(mine) - 1)]
         else:
             pieces = [mine[[0, k, k + 1]] for k in range(1, len(mine) - 1)]
-        facets.setdefault(int(of[cell]), []).extend(pieces)
+        facets.setdefault(number, []).extend(pieces)
     return [Obstacle(np.array(facets[number])) for number in sorted(facets)]

@@ -4,6 +4,7 @@ import math
 
 import meshes
 import numpy as np
+from overlap import units
 from parts import Part
 from plane import add, body, numbers, points, star
 
@@ -35,11 +36,10 @@ def ball(dice):
         a, b, c = (corners[k] * sign[k] for k in range(3))
         found.append((a, b, c) if np.prod(sign) > 0 else (a, c, b))
     for _ in range(dice.choice([0, 1, 2])):
-        unit = lambda x: x / np.linalg.norm(x)  # noqa: E731
         found = [
             piece
             for a, b, c in found
-            for ab, bc, ca in [(unit(a + b), unit(b + c), unit(c + a))]
+            for ab, bc, ca in [units(np.array([a + b, b + c, c + a]))]
             for piece in [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
         ]
     radius = dice.order(0.5, 4)

@@ -17,7 +17,7 @@ use crate::load::curve::{Curves, Speed};
 use crate::load::damping::Damping;
 use crate::motion::Motion;
 use crate::tensor::Dim;
-use crate::vector::dot;
+use crate::vector::{dot, plus};
 use crate::world::World;
 
 pub mod space;
@@ -188,6 +188,12 @@ where
     #[must_use]
     pub fn to_global(&self, direction: [f64; D]) -> [f64; D] {
         Dim::<D>::turned(&self.angle, direction)
+    }
+
+    /// Where a point of its frame is, m.
+    #[must_use]
+    pub fn place(&self, point: [f64; D]) -> [f64; D] {
+        plus(self.centre, self.to_global(point))
     }
 
     /// Square of the velocity of its reference point, m²/s².

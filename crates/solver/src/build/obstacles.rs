@@ -25,7 +25,7 @@ use crate::vector::first;
 use std::f64::consts::TAU;
 
 /// The outside of the bodies that an obstacle stops.
-struct Met {
+struct Met<'a> {
     outline: Outlined,
     /// What each of its nodes stands for.
     own: Vec<Tributary>,
@@ -37,10 +37,10 @@ struct Met {
     reach: f64,
     /// The bodies that they belong to, ascending, and outlines of all bodies.
     bodies: Vec<u32>,
-    outlines: Outlines,
+    outlines: &'a Outlines,
 }
 
-impl Met {
+impl Met<'_> {
     /// A point of the obstacle as a slave: it has as much as a node of the parts.
     fn point(&self, obstacle: &Obstacle) -> Slave {
         let own = self.mean;
@@ -93,7 +93,7 @@ impl Builder<'_, 2> {
         outline.map_err(|fault| Fault { path: ".parts".into(), ..fault })
     }
 
-    fn met(&self, obstacle: &Obstacle, reach: f64, outlines: &Outlines) -> Result<Met, Fault> {
+    fn met<'a>(&self, obstacle: &Obstacle, reach: f64, outlines: &'a Outlines) -> Result<Met<'a>, Fault> {
         let Side { target, lids, nodes: own, .. } = self.side(self.outline_met(obstacle)?, &obstacle.interface);
         let count = own.len().max(1) as f64;
         let mean = |of: fn(&Tributary) -> f64| own.iter().map(of).fold(0.0, |sum, it| sum + it) / count;
@@ -102,11 +102,11 @@ impl Builder<'_, 2> {
         let mut bodies: Vec<u32> = target.surface.nodes.iter().map(|&node| self.body_of_node[node as usize]).collect();
         bodies.sort_unstable();
         bodies.dedup();
-        Ok(Met { outline: Outlined { target, lids }, own, mean, longest, reach, bodies, outlines: outlines.clone() })
+        Ok(Met { outline: Outlined { target, lids }, own, mean, longest, reach, bodies, outlines })
     }
 
     /// The body of an obstacle, and what makes springs at it.
-    fn obstacle(&mut self, obstacle: &Obstacle, met: Met) -> Result<(usize, Box<dyn Formulation>), Fault> {
+    fn obstacle(&mut self, obstacle: &Obstacle, met: Met<'_>) -> Result<(usize, Box<dyn Formulation>), Fault> {
         match &obstacle.shape {
             ObstacleShape::Plane { point, normal, length } => self.plane(obstacle, met, first(*point), first(*normal), *length),
             ObstacleShape::Circle { centre, radius, hollow } => self.circle(obstacle, met, first(*centre), *radius, *hollow),
@@ -120,7 +120,7 @@ impl Builder<'_, 2> {
     fn plane(
         &mut self,
         obstacle: &Obstacle,
-        met: Met,
+        met: Met<'_>,
         point: [f64; 2],
         normal: [f64; 2],
         length: Option<f64>,
@@ -154,7 +154,7 @@ impl Builder<'_, 2> {
     fn circle(
         &mut self,
         obstacle: &Obstacle,
-        met: Met,
+        met: Met<'_>,
         centre: [f64; 2],
         radius: f64,
         hollow: bool,
@@ -183,7 +183,7 @@ impl Builder<'_, 2> {
     }
 
     /// Points and lines are nodes and segments that move with the body, and meet the outside of the parts as surfaces meet: nodes of each against segments of the other.
-    fn polyline(&mut self, obstacle: &Obstacle, met: Met, points: &[[f64; 2]]) -> (usize, Box<dyn Formulation>) {
+    fn polyline(&mut self, obstacle: &Obstacle, met: Met<'_>, points: &[[f64; 2]]) -> (usize, Box<dyn Formulation>) {
         let (own, closed) = distinct(points);
         let mean = [0, 1].map(|d| own.iter().map(|x| x[d]).sum::<f64>() / own.len() as f64);
         let reference = obstacle.reference.map_or(mean, first);
@@ -205,7 +205,7 @@ impl Builder<'_, 2> {
         let of_corners = of_corners.iter().map(|own| slave(least(own), 1.0));
         let slaves = vec![of_parts.collect(), of_corners.collect()];
         let depths = met.depths();
-        let sides = Sides::new(&met.outlines, |body| met.counts(body), &self.mesh.positions);
+        let sides = Sides::new(met.outlines, |body| met.counts(body), &self.mesh.positions);
         let thickness = met.outline.target.surface.nodes.iter().map(|&node| sides.at(node)).collect();
         let depths = if closed && !initial::is_ignored(&obstacle.interface) {
             depths.judging(met.outlines.against(|body| met.counts(body), (u32::MAX, surface.segments.clone()), &self.positions))
@@ -252,7 +252,7 @@ impl Builder<'_, 2> {
     fn node_obstacle(
         &self,
         obstacle: &Obstacle,
-        met: &Met,
+        met: &Met<'_>,
         shape: Box<dyn Shape>,
         body: usize,
         left_out: impl Fn(u32) -> bool,
@@ -263,7 +263,7 @@ impl Builder<'_, 2> {
             (!left_out(node)).then_some((node, slave))
         };
         let nodes = met.outline.target.surface.nodes.iter().zip(&met.own).filter_map(slave).collect();
-        let sides = Sides::new(&met.outlines, |body| met.counts(body), &self.mesh.positions);
+        let sides = Sides::new(met.outlines, |body| met.counts(body), &self.mesh.positions);
         NodeObstacle::new(shape, body, nodes, manner(&obstacle.interface, met.mean.length), Box::new(sides))
     }
 

@@ -5,6 +5,7 @@ use super::space_start::Meeting;
 use super::{Builder, law_of, manner, search_by_name, source_of, stiffness_of, terms_of, terms_of_ties};
 use crate::contact::formulation::{self, Passes};
 use crate::contact::initial;
+use crate::contact::judged::Judged;
 use crate::contact::law::{self, Node};
 use crate::contact::messages::{ON_SYMMETRY, TIE};
 use crate::contact::node_facet::tied::{TiedFacet, Unborn};
@@ -236,8 +237,9 @@ impl Builder<'_, 3> {
         let judge = self.judge(tracker.surfaces(), contact)?;
         let inputs = with_thickness(inputs, &judge, tracker.surfaces(), passes);
         let judge = if with_edges { moduli(judge, tracker.surfaces(), passes, &inputs) } else { judge.without_nets() };
-        let made = NodeFacet::new(tracker, inputs, &contact.interface, reach, &self.mesh.positions).with_proof(proof).with_judge(judge);
+        let made = NodeFacet::new(tracker, inputs, &contact.interface, reach, &self.mesh.positions).with_proof(proof);
         let Some((strength, input)) = tied else {
+            let made = made.with_judge(judge);
             let made = if with_edges { made.with_edges(Self::search_in_space(contact)?) } else { made };
             return Ok((self.with_images(Box::new(made), mirrors, contact), terms));
         };
@@ -252,7 +254,8 @@ impl Builder<'_, 3> {
                 return Err(vec![Fault::new(&TIE, "tied", message, "let the surfaces touch, raise `thickness`, or leave `tied` out")]);
             }
         }
-        Ok((Box::new(made), terms))
+        // What weighs forces has to see those of the ties.
+        Ok((Box::new(Judged::new(Box::new(made), judge)), terms))
     }
 
     /// What looks at the overlaps of the bodies whose surfaces meet.

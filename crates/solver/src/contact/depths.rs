@@ -8,7 +8,8 @@
 //! Where a body may meet itself, it is judged against itself, too ([`super::outline`]).
 
 use super::boxes::{Aabb, do_meet};
-use super::findings::{DEEPEST_IN_PLANE, Findings, Overlap, way_until_next};
+use super::findings::{DEEPEST_IN_PLANE, Findings, Overlap, SEEN, way_until_next};
+use super::judged::Look;
 use super::outline::{Opposite, Outline, Side};
 use super::tracker::{Touch, Tracker};
 use super::{Scene, Vector};
@@ -55,9 +56,6 @@ struct Judge {
     inside: Vec<(u32, f64)>,
 }
 
-/// Fraction of the thickness at the start from which on a depth is looked at: a body may be crushed to a sixteenth.
-const SEEN: f64 = 0.0125;
-
 impl Depths {
     /// For surfaces with what is opposite of their segments.
     #[must_use]
@@ -65,23 +63,11 @@ impl Depths {
         Self { surfaces, ..Self::default() }
     }
 
-    /// Nodes that were inside another body in the last look of the judge, and how deep, m.
-    #[must_use]
-    pub fn inside(&self) -> &[(u32, f64)] {
-        &self.judge.inside
-    }
-
     /// With a judge of these bodies, each on the first (1) or the second side (2) of the contact, or on both (3): what meets is of different sides.
     #[must_use]
     pub(crate) fn judging(self, outlines: Vec<(Outline, u8)>) -> Self {
         let (outlines, sides) = outlines.into_iter().unzip();
         Self { judge: Judge { outlines, sides, next: f64::NEG_INFINITY, steps: 0, looked: 0, inside: Vec::new() }, ..self }
-    }
-
-    /// What was found.
-    #[must_use]
-    pub fn findings(&self) -> &Findings {
-        &self.findings
     }
 
     /// Least thickness at the start behind segments (of their surfaces), m.
@@ -95,9 +81,7 @@ impl Depths {
     pub fn begin(&mut self, scene: &Scene<'_>) {
         let way = scene.sweep.travel - self.travel;
         (self.travel, self.way) = (scene.sweep.travel, if way.is_finite() { way } else { 0.0 });
-        let Findings { looks, now, own, through, .. } = &mut self.findings;
-        *looks += 1;
-        (*now, *own, *through) = (Overlap::default(), Overlap::default(), None);
+        self.findings.begin();
         self.judge.steps += 1;
         // What was too deep is looked at in each step: its springs alone may not see it.
         let least = if scene.sweep.travel >= self.judge.next { 1 } else { MOST_STEPS }.max(self.judge.looked / PER_STEP);
@@ -165,15 +149,28 @@ impl Depths {
     pub fn end(&mut self) {
         self.was_deep = self.findings.count(self.way, self.was_deep);
     }
+}
 
-    /// Keeps what was found.
-    pub fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+impl Look<2> for Depths {
+    fn see_step(&mut self, scene: &Scene<'_>) {
+        self.begin(scene);
+        self.end();
+    }
+
+    fn findings(&self) -> &Findings {
+        &self.findings
+    }
+
+    fn inside(&self) -> &[(u32, f64)] {
+        &self.judge.inside
+    }
+
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
         keep_each!(archive; &mut self.findings, &mut self.travel, &mut self.was_deep, &mut self.judge.next, &mut self.judge.steps, &mut self.judge.looked, &mut self.judge.inside);
         Ok(())
     }
 
-    /// Goes on with what another one knew, whose surfaces were those before they changed; the bodies are looked at anew.
-    pub fn inherit(&mut self, old: &Self) {
+    fn inherit(&mut self, old: &Self) {
         (self.findings, self.travel, self.was_deep) = (old.findings, old.travel, old.was_deep);
     }
 }

@@ -11,6 +11,12 @@ const DEEPEST_IN_A_STEP: f64 = 0.22;
 /// Depth from which on an overlap gets a net and counts as penetration, as a fraction of the local thickness.
 pub const CAST: f64 = 0.05;
 
+/// Fraction of the thickness at the start from which on a depth is looked at: a body may be crushed to a sixteenth.
+pub(super) const SEEN: f64 = 0.0125;
+/// Way of both sides together between two looks in space, as a fraction of the least thickness, and most steps.
+pub(super) const BETWEEN_LOOKS: f64 = 0.125;
+pub(super) const MOST_STEPS: u32 = 16;
+
 /// Places on a part of an edge or a segment that are looked at.
 pub(super) const PLACES: [f64; 3] = [0.25, 0.5, 0.75];
 /// Least way of both bodies between two looks, as a fraction of the least thickness: where something is nearly too deep.
@@ -69,6 +75,12 @@ pub struct Findings {
 keep_all!(Findings { unverified, looks, first, worst, now, own, through });
 
 impl Findings {
+    /// A new look begins.
+    pub(super) fn begin(&mut self) {
+        self.looks += 1;
+        (self.now, self.own, self.through) = (Overlap::default(), Overlap::default(), None);
+    }
+
     /// Takes a place of this look, of a body in itself (`is_own`) or of two.
     pub(super) fn see(&mut self, place: Overlap, is_own: bool) {
         let most = if is_own { &mut self.own } else { &mut self.now };

@@ -1,27 +1,23 @@
-//! A contact whose bodies are looked at as they are, whatever makes its springs: pinballs, a single pass, ties. What looks holds nothing, it tells.
+//! A contact whose bodies are looked at as they are, whatever makes its springs: pinballs, ties. What looks holds nothing, it tells.
 
-use super::depths::Depths;
 use super::findings::Findings;
-use super::overlap::Judge;
 use super::springs::{Answers, Springs};
-use super::tied::Ties;
-use super::tracker::{Certificate, SearchReport};
-use super::{Formulation, Scene, Sweep};
+use super::{Formulation, Scene};
 use crate::archive::{Archive, Kept};
 use crate::motion::Motion;
 use crate::tensor::Dim;
 use std::any::Any;
 
 /// Looks at bodies.
-pub trait Look<const D: usize>: Any + Send + Sync
+pub trait Look<const D: usize>: Send + Sync + 'static
 where
     Dim<D>: Motion<D>,
 {
     /// Looks at the step, if it is time.
-    fn look(&mut self, scene: &Scene<'_, D>);
+    fn see_step(&mut self, scene: &Scene<'_, D>);
 
-    /// Weighs the forces of the step's springs.
-    fn weigh(&mut self, solved: &Answers<'_, D>);
+    /// Weighs the forces of the step's springs, if it was looked at.
+    fn weigh(&mut self, _: &Answers<'_, D>) {}
 
     /// What was found so far.
     fn findings(&self) -> &Findings;
@@ -35,62 +31,8 @@ where
     /// What is read is of other bodies.
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept;
 
-    /// Goes on with what another one knew, whose surfaces were those before they changed.
-    fn inherit(&mut self, old: &Self)
-    where
-        Self: Sized;
-}
-
-impl Look<3> for Judge {
-    fn look(&mut self, scene: &Scene<'_, 3>) {
-        let sweep = if self.findings().looks > 0 { scene.sweep } else { Sweep { old: scene.sweep.new, ..scene.sweep } };
-        self.look(sweep, scene.time);
-    }
-
-    fn weigh(&mut self, solved: &Answers<'_, 3>) {
-        self.weigh(solved);
-    }
-
-    fn findings(&self) -> &Findings {
-        self.findings()
-    }
-
-    fn inside(&self) -> &[(u32, f64)] {
-        self.inside()
-    }
-
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
-        self.keep(archive)
-    }
-
-    fn inherit(&mut self, old: &Self) {
-        self.inherit(old);
-    }
-}
-
-impl Look<2> for Depths {
-    fn look(&mut self, scene: &Scene<'_>) {
-        self.begin(scene);
-        self.end();
-    }
-
-    fn weigh(&mut self, _: &Answers<'_>) {}
-
-    fn findings(&self) -> &Findings {
-        self.findings()
-    }
-
-    fn inside(&self) -> &[(u32, f64)] {
-        self.inside()
-    }
-
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
-        self.keep(archive)
-    }
-
-    fn inherit(&mut self, old: &Self) {
-        self.inherit(old);
-    }
+    /// Goes on with what another one knew, whose surfaces were those before they changed; the bodies are looked at anew.
+    fn inherit(&mut self, old: &Self);
 }
 
 /// The contact.
@@ -118,7 +60,7 @@ where
     Dim<D>: Motion<D>,
 {
     fn detect(&mut self, scene: &Scene<'_, D>, springs: &mut Springs<D>) {
-        self.judge.look(scene);
+        self.judge.see_step(scene);
         self.contact.detect(scene, springs);
     }
 
@@ -140,24 +82,8 @@ where
         }
     }
 
-    fn freed(&self) -> f64 {
-        self.contact.freed()
-    }
-
-    fn let_go(&self) -> f64 {
-        self.contact.let_go()
-    }
-
-    fn ties(&self) -> Option<Ties> {
-        self.contact.ties()
-    }
-
-    fn certificate(&self) -> Certificate {
-        self.contact.certificate()
-    }
-
-    fn search_report(&self) -> Option<SearchReport> {
-        self.contact.search_report()
+    fn within(&self) -> Option<&dyn Formulation<D>> {
+        Some(&*self.contact)
     }
 
     fn overlaps(&self) -> Option<&Findings> {
@@ -166,9 +92,5 @@ where
 
     fn inside(&self) -> &[(u32, f64)] {
         self.judge.inside()
-    }
-
-    fn thinnest(&self) -> f64 {
-        self.contact.thinnest()
     }
 }

@@ -3,10 +3,7 @@
 //! Lines or planes, and nodes, come from the builder; springs go to the same solution as those of the contact itself. By symmetry a node meets the image where it meets the line or plane, at half of the
 //! gap. Of the two passes of the pair, node against image and image against node, half belongs to the model: with the stiffness k of a pass its energy is 2 · ½ k (2g)² / 2 = ½ (4k) g².
 
-use super::findings::Findings;
 use super::springs::{Answers, End, Spring, Springs};
-use super::tied::Ties;
-use super::tracker::{Certificate, SearchReport};
 use super::{Formulation, Scene};
 use crate::archive::{Archive, Kept};
 use crate::motion::Motion;
@@ -103,35 +100,7 @@ where
         }
     }
 
-    fn freed(&self) -> f64 {
-        self.contact.freed()
-    }
-
-    fn let_go(&self) -> f64 {
-        self.contact.let_go()
-    }
-
-    fn ties(&self) -> Option<Ties> {
-        self.contact.ties()
-    }
-
-    fn certificate(&self) -> Certificate {
-        self.contact.certificate()
-    }
-
-    fn search_report(&self) -> Option<SearchReport> {
-        self.contact.search_report()
-    }
-
-    fn overlaps(&self) -> Option<&Findings> {
-        self.contact.overlaps()
-    }
-
-    fn inside(&self) -> &[(u32, f64)] {
-        self.contact.inside()
-    }
-
-    fn thinnest(&self) -> f64 {
-        self.contact.thinnest()
+    fn within(&self) -> Option<&dyn Formulation<D>> {
+        Some(&*self.contact)
     }
 }

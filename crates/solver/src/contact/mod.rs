@@ -72,45 +72,50 @@ where
     /// more is forgotten.
     fn inherit(&mut self, old: Box<dyn Any>);
 
+    /// The formulation that it stands around, if it does: what is asked for and not answered below is that one's.
+    fn within(&self) -> Option<&dyn Formulation<D>> {
+        None
+    }
+
     /// Energy of springs that broke in the last step and will not come back, J/m.
     fn freed(&self) -> f64 {
-        0.0
+        self.within().map_or(0.0, |within| within.freed())
     }
 
     /// Energy of springs that were closed in the step before and were not found by the last [`Formulation::detect`], because what they pushed on has left the surface, J/m. What
     /// goes with surfaces that are no more is not among it.
     fn let_go(&self) -> f64 {
-        0.0
+        self.within().map_or(0.0, |within| within.let_go())
     }
 
     /// Its ties, if it has such.
     fn ties(&self) -> Option<Ties> {
-        None
+        self.within()?.ties()
     }
 
     /// What was checked so far, and whether a contact was missed; without [`Formulation::overlaps`].
     fn certificate(&self) -> Certificate {
-        Certificate::default()
+        self.within().map(|within| within.certificate()).unwrap_or_default()
     }
 
     /// What the global search did, if there is one.
     fn search_report(&self) -> Option<SearchReport> {
-        None
+        self.within()?.search_report()
     }
 
     /// What was found of overlaps of the bodies, if they are looked at.
     fn overlaps(&self) -> Option<&Findings> {
-        None
+        self.within()?.overlaps()
     }
 
     /// Nodes that were inside another body when the bodies were last looked at, and how deep, m.
     fn inside(&self) -> &[(u32, f64)] {
-        &[]
+        self.within().map_or(&[], |within| within.inside())
     }
 
     /// The least local thickness of the bodies at the start, m; infinite: not known.
     fn thinnest(&self) -> f64 {
-        f64::INFINITY
+        self.within().map_or(f64::INFINITY, |within| within.thinnest())
     }
 }
 

@@ -16,6 +16,7 @@ use super::closed::Closed;
 use super::edge_edge::{self, Around, EdgeTouch, EdgeTracker};
 use super::findings::Findings;
 use super::initial::{is_ignored, kept};
+use super::judged::Look;
 use super::law::penalty::{factor, stiffening};
 use super::node_segment::is_stored;
 use super::overlap::Judge;
@@ -370,8 +371,7 @@ impl NodeFacet {
             proof.look_at(&self.tracker, self.edges.as_ref(), scene.sweep);
         }
         if let Some(judge) = &mut self.judge {
-            let sweep = if self.has_begun { scene.sweep } else { Sweep { old: scene.sweep.new, ..scene.sweep } };
-            judge.look(sweep, scene.time);
+            judge.see_step(scene);
         }
         self.find_superseded();
         let mut again = Closed::default();

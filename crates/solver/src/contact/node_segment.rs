@@ -9,6 +9,7 @@ use super::depths::Depths;
 use super::findings::Findings;
 use super::formulation::{FormulationKind, Setup, both_passes, one_pass};
 use super::initial::{is_ignored, kept};
+use super::judged::Look;
 use super::law::penalty::{at_obstacles, factor, penalty_of, stiffening};
 use super::projection::node_segment::{Projection, Target};
 use super::springs::{Answers, End, Spring, Springs, tangent};

@@ -17,6 +17,7 @@ use super::depths::Depths;
 use super::findings::Findings;
 use super::formulation::{FormulationKind, Setup, both_passes};
 use super::initial::kept;
+use super::judged::Look;
 use super::law::{Law, penalty};
 use super::springs::{Answers, Patch, Spring, Springs};
 use super::tracker::{Certificate, SearchReport, Tracker};

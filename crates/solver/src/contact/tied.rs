@@ -7,13 +7,11 @@
 //! Where √(⟨−F⟩² + T²) / area exceeds the strength the tie is gone for good; pressing does not break it. What was stored in pulling and in slip is lost, and told to the ledger.
 //! Nodes that are free, and those whose ties are gone, are in ordinary contact with the same surface.
 
-use super::findings::Findings;
 use super::formulation::{FormulationKind, Setup, one_pass};
 use super::node_segment::{NodeSegment, PassInput, ends};
 use super::projection::node_segment::{Projection, Target};
 use super::search::{Query, Search};
 use super::springs::{Answers, Spring, Springs};
-use super::tracker::{Certificate, SearchReport};
 use super::{Formulation, Scene, Vector, length};
 use crate::archive::{Archive, Kept, keep_all, keep_each};
 use crate::contact::messages::TIE;
@@ -236,28 +234,12 @@ impl Formulation for Tied {
         }
     }
 
-    fn certificate(&self) -> Certificate {
-        self.loose.certificate()
-    }
-
-    fn overlaps(&self) -> Option<&Findings> {
-        self.loose.overlaps()
-    }
-
-    fn inside(&self) -> &[(u32, f64)] {
-        self.loose.inside()
-    }
-
-    fn search_report(&self) -> Option<SearchReport> {
-        self.loose.search_report()
+    fn within(&self) -> Option<&dyn Formulation> {
+        Some(&self.loose)
     }
 
     fn freed(&self) -> f64 {
         self.freed
-    }
-
-    fn let_go(&self) -> f64 {
-        self.loose.let_go()
     }
 
     fn ties(&self) -> Option<Ties> {

@@ -3,8 +3,7 @@
 
 use crate::bodies::{add, model, rectangle, simulation, touch};
 use embate_solver::model::{
-    Contact, ContactLaw, Cuboid, Formulation, Friction, Interface, Model, Motion, Obstacle, ObstacleShape, Part, Partners, Penalty,
-    PenaltySource, Shape, TriangleSurface,
+    Contact, Cuboid, Formulation, Friction, Interface, Model, Motion, Obstacle, ObstacleShape, Part, Penalty, Shape, TriangleSurface,
 };
 use embate_solver::output::Summary;
 use embate_solver::simulation::Simulation;
@@ -163,16 +162,12 @@ fn what_goes_through_a_ball_within_a_step_is_told() {
 
 #[test]
 fn pinballs_and_single_passes_are_looked_at() {
-    let interface = |scale: f64| Interface {
-        law: ContactLaw::Penalty(Penalty::Automatic { source: PenaltySource::default(), scale }),
-        ..Interface::default()
-    };
     for formulation in [Formulation::Pinball, Formulation::SinglePass { slave: 0 }, Formulation::DoublePass] {
         for (scale, is_told) in [(1e-6, true), (1.0, false)] {
             let mut model = plate(1e-3, 10.0);
             model.parts.push(brick("floor", [-0.04, -0.04, -0.0202], [0.08, 0.08, 0.02], [5, 5, 2], [0.0; 3]));
-            let partners = Partners::Between(["plate".into(), "floor".into()]);
-            model.contacts.push(Contact { name: "c".into(), partners, formulation, interface: interface(scale), ..Contact::default() });
+            let interface = Penalty::automatic(scale).into();
+            model.contacts.push(Contact { formulation, interface, ..Contact::between("c", "plate", "floor") });
             let (summary, _) = watch(&model, |_| {});
             assert_eq!(summary.contact.unverified > 0, is_told, "{formulation:?} in space: {summary:?}");
         }
@@ -182,10 +177,23 @@ fn pinballs_and_single_passes_are_looked_at() {
             add(&mut model, "plate", rectangle([-0.03, 0.0], [0.06, 0.01], [6, 1]), [0.0, -10.0]);
             add(&mut model, "floor", rectangle([-0.04, -0.0202], [0.08, 0.02], [9, 2]), [0.0, 0.0]);
             touch(&mut model, "plate", "floor");
-            (model.contacts[0].formulation, model.contacts[0].interface) = (formulation, interface(scale));
+            (model.contacts[0].formulation, model.contacts[0].interface) = (formulation, Penalty::automatic(scale).into());
             let (summary, _) = watch(&model, |_| {});
             assert_eq!(summary.contact.unverified > 0, is_told, "{formulation:?} in the plane: {summary:?}");
         }
+    }
+}
+
+#[test]
+fn ties_in_space_are_looked_at() {
+    // The plate is glued to the floor below it, too softly, well, and until it is torn off.
+    for (scale, strength, is_told) in [(1e-6, f64::INFINITY, true), (1.0, f64::INFINITY, false), (1.0, 1e5, false)] {
+        let mut model = plate(1e-3, 10.0);
+        model.parts.push(brick("floor", [-0.04, -0.04, -0.0202], [0.08, 0.08, 0.02], [5, 5, 2], [0.0; 3]));
+        let interface = Penalty::automatic(scale).into();
+        model.contacts.push(Contact { tied: Some(strength), interface, ..Contact::between("glue", "plate", "floor") });
+        let (summary, _) = watch(&model, |_| {});
+        assert_eq!(summary.contact.unverified > 0, is_told, "{scale} {strength}: {summary:?}");
     }
 }
 

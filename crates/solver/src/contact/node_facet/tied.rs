@@ -11,7 +11,6 @@ use crate::contact::projection::node_facet::{Feature, Placed, Projection, Vector
 use crate::contact::search::{Query, Search};
 use crate::contact::springs::{Answers, Spring, Springs};
 use crate::contact::tied::{NEAR, Ties};
-use crate::contact::tracker::{Certificate, SearchReport};
 use crate::contact::{Formulation, Scene};
 use crate::mesh::surface::{Corners, SpaceSurface};
 use crate::motion::Motion;
@@ -211,20 +210,12 @@ impl Formulation<3> for TiedFacet {
         }
     }
 
-    fn certificate(&self) -> Certificate {
-        self.loose.certificate()
-    }
-
-    fn search_report(&self) -> Option<SearchReport> {
-        self.loose.search_report()
+    fn within(&self) -> Option<&dyn Formulation<3>> {
+        Some(&self.loose)
     }
 
     fn freed(&self) -> f64 {
         self.freed
-    }
-
-    fn let_go(&self) -> f64 {
-        self.loose.let_go()
     }
 
     fn ties(&self) -> Option<Ties> {

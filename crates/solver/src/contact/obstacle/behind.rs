@@ -6,13 +6,14 @@
 //! obstacle moves. What is deeper counts as in the plane: than a fifth of the thickness in two steps, or 0.22 in one.
 
 use super::super::Scene;
-use super::super::findings::{CAST, DEEPEST_IN_PLANE, Findings, Overlap, way_until_next};
+use super::super::findings::{BETWEEN_LOOKS, CAST, DEEPEST_IN_PLANE, Findings, MOST_STEPS, Overlap, SEEN, way_until_next};
 use crate::archive::{Archive, Kept, keep_each};
 use crate::mesh::surface::NONE;
 use crate::model::in_space;
 use crate::motion::Motion;
+use crate::rigid::Body;
 use crate::tensor::Dim;
-use crate::vector::{dot, minus};
+use crate::vector::{length, minus};
 
 /// Takes a facet: its corners, m, local thickness there, m, and a node.
 pub type See<'a, const D: usize> = &'a mut dyn FnMut(&[[f64; D]], f64, u32);
@@ -51,9 +52,6 @@ impl<const D: usize> Thick<D> for Unknown {
     fn facets(&self, _: See<'_, D>) {}
 }
 
-/// Depth of a place of a facet that is deepest in an obstacle, m, and that place.
-pub type Deepest<'a, const D: usize> = &'a dyn Fn(&[[f64; D]]) -> (f64, [f64; D]);
-
 /// Depths against the local thickness.
 pub struct Behind<const D: usize> {
     bodies: Box<dyn Thick<D>>,
@@ -70,13 +68,21 @@ pub struct Behind<const D: usize> {
     steps: u32,
 }
 
-/// Fraction of the thickness at the start from which on a depth is looked at: a body may be crushed to a sixteenth.
-const SEEN: f64 = 0.0125;
 /// Facets may stretch by this factor while they slide off a round obstacle.
 const STRETCH: f64 = 4.0;
-/// Way between two looks at facets, as a fraction of the least thickness, and most steps.
-const BETWEEN_LOOKS: f64 = 0.125;
-const MOST_STEPS: u32 = 16;
+
+/// Into how many parts the longest edge of a facet has to be divided for what a chord cuts off a circle of this radius (m) to be as deep as
+/// overlaps are that count for nothing where the bodies are so thick, m.
+pub(super) fn divisions<const D: usize>(corners: &[[f64; D]], radius: f64, thickness: f64) -> f64 {
+    let edge = |k: usize| length(minus(corners[(k + 1) % corners.len()], corners[k]));
+    let longest = (0..corners.len()).map(edge).fold(0.0, f64::max);
+    longest / (8.0 * radius * CAST * thickness).sqrt()
+}
+
+/// Whether something may be deep between the nodes of a facet that would have to be divided so many times.
+pub(super) fn may_be_between(divisions: f64) -> bool {
+    STRETCH * divisions > 1.0
+}
 
 impl<const D: usize> Behind<D>
 where
@@ -99,17 +105,12 @@ where
         }
     }
 
-    /// Whether facets may be deep in an obstacle of this radius (m) between their nodes, by what a chord cuts off a circle.
+    /// Whether facets may be deep in an obstacle of this radius (m) between their nodes.
     #[must_use]
     pub fn may_be_between(&self, radius: f64) -> bool {
-        let mut longest = 0.0;
-        self.bodies.facets(&mut |corners, _, _| {
-            for (k, &a) in corners.iter().enumerate() {
-                let edge = minus(corners[(k + 1) % corners.len()], a);
-                longest = f64::max(longest, dot(edge, edge));
-            }
-        });
-        STRETCH * STRETCH * longest / (8.0 * radius) > CAST * self.least
+        let mut may_be = false;
+        self.bodies.facets(&mut |corners, _, _| may_be |= may_be_between(divisions(corners, radius, self.least)));
+        may_be
     }
 
     /// What was found.
@@ -126,9 +127,7 @@ where
 
     /// A new step begins.
     pub fn begin(&mut self) {
-        let Findings { looks, now, own, through, .. } = &mut self.findings;
-        *looks += 1;
-        (*now, *own, *through) = (Overlap::default(), Overlap::default(), None);
+        self.findings.begin();
         (self.way, self.is_placed) = (0.0, false);
     }
 
@@ -144,8 +143,8 @@ where
         self.findings.see(Overlap { place, depth, thickness, nodes: [node, NONE], time: scene.time }, false);
     }
 
-    /// Takes a node that went through the obstacle within the step, and how deep it was there, m.
-    pub fn see_through(&mut self, node: u32, depth: f64, place: [f64; D], scene: &Scene<'_, D>) {
+    /// Takes a node that went through the obstacle within the step, how deep it was there, m, and where.
+    pub fn see_through(&mut self, node: u32, (depth, place): (f64, [f64; D]), scene: &Scene<'_, D>) {
         self.place(scene);
         let thickness = self.bodies.at(node).min(self.obstacle);
         let found = Overlap { place: in_space(place), depth, thickness, nodes: [node, NONE], time: scene.time };
@@ -155,18 +154,23 @@ where
         }
     }
 
-    /// Looks at the facets, if it is time: where each is deepest.
-    pub fn see_facets(&mut self, deepest: Deepest<'_, D>, is_moving: bool, scene: &Scene<'_, D>) {
+    /// Looks at the facets, if it is time: how deep and where each is deepest in the obstacle, in the frame of its `body`.
+    pub fn see_facets(&mut self, body: &Body<D>, deepest: impl Fn(&[[f64; D]]) -> Option<(f64, [f64; D])>, scene: &Scene<'_, D>) {
         self.steps += 1;
-        if !(is_moving || self.was_deep || scene.sweep.travel >= self.next || self.steps >= MOST_STEPS) {
+        if body.is_fixed() && !self.was_deep && scene.sweep.travel < self.next && self.steps < MOST_STEPS {
             return;
         }
         self.place(scene);
         let findings = &mut self.findings;
         self.bodies.facets(&mut |corners, thickness, node| {
-            let ((depth, place), thickness) = (deepest(corners), thickness.min(self.obstacle));
-            if depth > SEEN * thickness {
-                findings.see(Overlap { place: in_space(place), depth, thickness, nodes: [node, NONE], time: scene.time }, false);
+            let mut local = [[0.0; D]; 3];
+            local.iter_mut().zip(corners).for_each(|(local, &x)| *local = body.to_local(x));
+            let thickness = thickness.min(self.obstacle);
+            if let Some((depth, place)) = deepest(&local[..corners.len()])
+                && depth > SEEN * thickness
+            {
+                let place = in_space(body.place(place));
+                findings.see(Overlap { place, depth, thickness, nodes: [node, NONE], time: scene.time }, false);
             }
         });
         let until = way_until_next(findings.now.ratio(), DEEPEST_IN_PLANE, BETWEEN_LOOKS, self.least);

@@ -110,7 +110,8 @@ impl Shape for Circle {
         Some((self.radius - dot(out, to), [-out[0], -out[1]]))
     }
 
-    fn deepest(&self, [a, b]: [Vector; 2]) -> Option<(f64, Vector)> {
+    fn deepest(&self, ends: &[Vector]) -> Option<(f64, Vector)> {
+        let &[a, b] = ends else { return None };
         let along = minus(b, a);
         let square = dot(along, along);
         let share = if square > 0.0 { (dot(minus(self.middle, a), along) / square).clamp(0.0, 1.0) } else { 0.0 };
@@ -119,7 +120,7 @@ impl Shape for Circle {
         (!self.hollow).then_some((self.radius - dot(away, away).sqrt(), place))
     }
 
-    fn is_round(&self) -> Option<f64> {
+    fn radius(&self) -> Option<f64> {
         (!self.hollow).then_some(self.radius)
     }
 }
@@ -242,10 +243,10 @@ mod tests {
     #[test]
     fn a_segment_is_deepest_where_it_is_nearest_to_the_middle() {
         let circle = Circle { middle: [1.0, 2.0], radius: 0.5, hollow: false };
-        assert_eq!(circle.deepest([[0.0, 2.1], [3.0, 2.1]]), Some((0.5 - (2.1_f64 - 2.0), [1.0, 2.1])));
-        assert_eq!(circle.deepest([[1.25, 2.0], [3.0, 2.0]]), Some((0.25, [1.25, 2.0])));
-        assert_eq!(circle.deepest([[1.0, 2.0], [1.0, 2.0]]), Some((0.5, [1.0, 2.0])));
-        assert_eq!(Circle { hollow: true, ..circle }.deepest([[0.0, 2.1], [3.0, 2.1]]), None);
+        assert_eq!(circle.deepest(&[[0.0, 2.1], [3.0, 2.1]]), Some((0.5 - (2.1_f64 - 2.0), [1.0, 2.1])));
+        assert_eq!(circle.deepest(&[[1.25, 2.0], [3.0, 2.0]]), Some((0.25, [1.25, 2.0])));
+        assert_eq!(circle.deepest(&[[1.0, 2.0], [1.0, 2.0]]), Some((0.5, [1.0, 2.0])));
+        assert_eq!(Circle { hollow: true, ..circle }.deepest(&[[0.0, 2.1], [3.0, 2.1]]), None);
     }
 
     #[test]

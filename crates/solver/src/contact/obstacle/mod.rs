@@ -22,7 +22,7 @@ use crate::motion::Motion;
 use crate::output::Outline;
 use crate::rigid::Bodies;
 use crate::tensor::Dim;
-use crate::vector::{bound_of, dot, plus};
+use crate::vector::{bound_of, dot};
 use behind::{Behind, Thick};
 use std::any::Any;
 
@@ -32,12 +32,12 @@ pub trait Shape: Send + Sync {
     fn meet(&self, way: Way, memory: &mut Memory) -> Option<(f64, Vector)>;
 
     /// Depth of the place of a segment that is deepest in it, m (negative outside), and that place, if that may be between its ends.
-    fn deepest(&self, _: [Vector; 2]) -> Option<(f64, Vector)> {
+    fn deepest(&self, _: &[Vector]) -> Option<(f64, Vector)> {
         None
     }
 
     /// Its radius, if it is round and whole, m.
-    fn is_round(&self) -> Option<f64> {
+    fn radius(&self) -> Option<f64> {
         None
     }
 }
@@ -104,7 +104,7 @@ where
     #[must_use]
     pub fn now(&self, bodies: &Bodies<D>) -> Outline {
         let body = bodies.state(self.body);
-        let place = |&point: &[f64; D]| in_space(plus(body.centre, body.to_global(point)));
+        let place = |&point: &[f64; D]| in_space(body.place(point));
         Outline { name: self.name.clone(), points: self.points.iter().map(place).collect(), facets: self.facets.clone() }
     }
 }
@@ -172,11 +172,11 @@ impl NodeObstacle {
     pub fn new(shape: Box<dyn Shape>, body: usize, nodes: Vec<(u32, Slave)>, manner: Manner, bodies: Box<dyn Thick<2>>) -> Self {
         let Manner { reach, factor, ignores_start } = manner;
         let memories = vec![Memory::default(); nodes.len()];
-        let thickness = shape.is_round().map_or(f64::INFINITY, |radius| 2.0 * radius);
+        let thickness = shape.radius().map_or(f64::INFINITY, |radius| 2.0 * radius);
         let wall = |thickness: f64| (stiffening(thickness, factor), thickness);
         let walls = nodes.iter().map(|&(node, _)| wall(bodies.at(node).min(thickness))).collect();
         let (behind, found, near) = (Behind::new(bodies, thickness), Vec::new(), Near::default());
-        let sees_facets = !ignores_start && shape.is_round().is_some_and(|radius| behind.may_be_between(radius));
+        let sees_facets = !ignores_start && shape.radius().is_some_and(|radius| behind.may_be_between(radius));
         Self { shape, body, memories, nodes, walls, reach, ignores_start, has_begun: false, found, near, behind, sees_facets }
     }
 }
@@ -258,12 +258,7 @@ impl Formulation for NodeObstacle {
             self.near.indices.truncate(count);
         }
         if self.sees_facets {
-            let deepest = |ends: &[Vector]| {
-                let local = [0, 1].map(|k| body.to_local(ends[k]));
-                let (depth, place) = self.shape.deepest(local).unwrap_or((f64::NEG_INFINITY, local[0]));
-                (depth, plus(body.centre, body.to_global(place)))
-            };
-            self.behind.see_facets(&deepest, !body.is_fixed(), scene);
+            self.behind.see_facets(body, |ends| self.shape.deepest(ends), scene);
         }
         self.behind.end();
         self.has_begun = true;

@@ -76,7 +76,7 @@ fn divided(corners: usize, n: usize) -> Vec<([f64; 4], f64)> {
 }
 
 /// Nodes (ascending) and the points on facets, each divided so many times (`divisions`, by its number), with the numbers of the points of each
-/// facet. Where the obstacle is smaller than a facet few points meet it: they are stiffer by a factor, `gain`, that an area has (m²), so that
+/// facet that is divided. Where the obstacle is smaller than a facet few points meet it: they are stiffer by a factor, `gain`, that an area has (m²), so that
 /// they hold what the whole facet would.
 #[must_use]
 pub fn points(
@@ -95,7 +95,7 @@ pub fn points(
     let mut points: Vec<Point> = nodes.iter().map(|&(node, slave)| Point::node(node, slave)).collect();
     // What is divided takes its part from the nodes.
     let (mut kept, mut is_divided) = (vec![Slave::default(); nodes.len()], vec![false; nodes.len()]);
-    let mut ranges = Vec::with_capacity(facets.len());
+    let mut ranges = Vec::new();
     for (facet, &n) in facets.iter().zip(divisions) {
         let corners = facet.corners();
         let ranks = || corners.iter().filter_map(|&node| at(node));
@@ -113,8 +113,8 @@ pub fn points(
             let make =
                 |(shares, weight): ([f64; 4], f64)| Point { nodes: *facet, shares, count: corners.len(), slave: scaled(whole, weight) };
             points.extend(divided(corners.len(), n).into_iter().map(make));
+            ranges.push(first..points.len());
         }
-        ranges.push(first..points.len());
     }
     for (point, (kept, _)) in points.iter_mut().zip(kept.into_iter().zip(is_divided)).filter(|(_, (_, is_divided))| *is_divided) {
         point.slave = kept;
@@ -138,13 +138,12 @@ mod tests {
             // Of stiffness and area nothing is lost where all corners of a facet stand for the same; else by how far they differ.
             assert!((sum(|slave| slave.area) - 5.0).abs() < 0.2 && (sum(|slave| slave.stiffness) - 20.0).abs() < 1.5, "{n}");
             let inner: [usize; 2] = [(n + 1) * (n + 1) - 4, (n + 1) * (n + 2) / 2 - 3];
-            assert_eq!(ranges.iter().map(ExactSizeIterator::len).collect::<Vec<_>>(), if n > 1 { inner } else { [0; 2] });
+            assert_eq!(ranges.iter().map(ExactSizeIterator::len).collect::<Vec<_>>(), inner[..if n > 1 { 2 } else { 0 }]);
             for (range, facet) in ranges.iter().zip(facets) {
                 for point in &points[range.clone()] {
                     assert!((point.shares.iter().sum::<f64>() - 1.0).abs() < 1e-15 && point.nodes == facet);
                     let place = point.place(&positions);
-                    let within = |d: usize| positions.iter().all(|_| (-1e-15..=2.0).contains(&place[d]));
-                    assert!((0..3).all(within), "{place:?}");
+                    assert!(place.iter().all(|c| (-1e-15..=2.0).contains(c)), "{place:?}");
                 }
             }
         }

@@ -4,7 +4,7 @@
 //! The shape lives in the frame of its rigid body and says how far a point is from its surface; positions come from the step, reactions go to the body. The distance is continuous and its
 //! gradient the normal, so springs give back what they took; what goes through a whole ball or cylinder within one step is not held but told.
 
-use super::super::findings::{CAST, Findings};
+use super::super::findings::Findings;
 use super::super::initial::kept;
 use super::super::law::penalty::stiffening;
 use super::super::node_facet::Slave;
@@ -13,7 +13,7 @@ use super::super::springs::friction::cone;
 use super::super::springs::{Answers, End, Spring, Springs, Stiffening};
 use super::super::{Formulation, Scene};
 use super::Manner;
-use super::behind::{Behind, Thick};
+use super::behind::{Behind, Thick, divisions, may_be_between};
 use super::points::{Point, points};
 use crate::archive::{Archive, Kept, keep_all, keep_each};
 use crate::mesh::surface::Corners;
@@ -94,7 +94,7 @@ impl Solid {
 
     /// How deep a way that is outside at its end is in a whole ball or cylinder, m, and where, if it goes through it.
     fn passed(&self, from: Vector, to: Vector) -> Option<(f64, Vector)> {
-        let radius = self.is_round()?;
+        let radius = self.radius()?;
         let moved = minus(to, from);
         if dot(moved, moved) < radius * radius || self.distance(from).0 < 0.0 {
             return None;
@@ -113,7 +113,7 @@ impl Solid {
     }
 
     /// Radius of a whole ball or cylinder, m.
-    fn is_round(&self) -> Option<f64> {
+    fn radius(&self) -> Option<f64> {
         match *self {
             Self::Ball { radius, is_hollow: false, .. } | Self::Cylinder { radius, is_hollow: false, .. } => Some(radius),
             _ => None,
@@ -144,6 +144,9 @@ fn nearest_to_line(triangle: [Vector; 3], point: Vector, axis: Vector) -> Vector
     let [first, second, third] = [0, 1, 2].map(on_edge);
     [second, third].into_iter().fold(first, |best, next| if next.0 < best.0 { next } else { best }).1
 }
+
+/// Most parts of an edge.
+const MOST_DIVISIONS: usize = 8;
 
 /// What an obstacle remembers of a node.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -177,7 +180,7 @@ pub struct NodeSolid {
     /// Nodes, then the points of each facet.
     points: Vec<Point>,
     nodes: usize,
-    facets: Vec<(Vec<u32>, Range<usize>)>,
+    facets: Vec<Range<usize>>,
     /// Where their springs stiffen, and the thickness of their bodies there at the start, m.
     walls: Vec<(Stiffening, f64)>,
     memories: Vec<Memory>,
@@ -198,27 +201,22 @@ impl NodeSolid {
     #[must_use]
     pub fn new(solid: Solid, body: usize, surface: Outside<'_>, manner: Manner, bodies: Box<dyn Thick<3>>) -> Self {
         let (Outside { nodes, facets, positions }, Manner { reach, factor, ignores_start }) = (surface, manner);
-        let own = solid.is_round().map_or(f64::INFINITY, |radius| 2.0 * radius);
+        let own = solid.radius().map_or(f64::INFINITY, |radius| 2.0 * radius);
         let least = |nodes: &mut dyn Iterator<Item = u32>| nodes.map(|node| bodies.at(node)).fold(own, f64::min);
-        // Into how many parts its edges have to be divided for what a chord cuts off the circle to be as deep as shallow overlaps.
         let divisions = |facet: &[u32; 4]| {
-            let (corners, Some(radius)) = (facet.corners(), solid.is_round()) else { return 0.0 };
-            let x = |k: usize| positions[corners[k % corners.len()] as usize];
-            let edges = (0..corners.len()).map(|k| length(minus(x(k + 1), x(k)))).fold(0.0, f64::max);
-            edges / (8.0 * radius * CAST * least(&mut corners.iter().copied())).sqrt()
+            let (corners, Some(radius)) = (facet.corners(), solid.radius()) else { return 0.0 };
+            let x = facet.map(|node| positions[node as usize]);
+            divisions(&x[..corners.len()], radius, least(&mut corners.iter().copied()))
         };
         let divisions: Vec<f64> = facets.iter().map(divisions).collect();
         let counts: Vec<usize> = divisions.iter().map(|count| (count.ceil() as usize).clamp(1, MOST_DIVISIONS)).collect();
-        let (points, ranges) = points(nodes, facets, &counts, |area| solid.gain(area));
+        let (points, facets) = points(nodes, facets, &counts, |area| solid.gain(area));
         let wall = |point: &Point| {
             let thickness = least(&mut point.ends().map(|(node, _)| node));
             (stiffening(thickness, factor), thickness)
         };
         let walls = points.iter().map(wall).collect();
-        let facets = facets.iter().zip(ranges).filter(|(_, range)| !range.is_empty());
-        let facets = facets.map(|(facet, range)| (facet.corners().to_vec(), range)).collect();
-        // Facets stretch while they slide off it.
-        let sees_facets = !ignores_start && divisions.iter().any(|count| STRETCH * count > 1.0);
+        let sees_facets = !ignores_start && divisions.iter().any(|&count| may_be_between(count));
         let (memories, behind, nodes) = (vec![Memory::default(); points.len()], Behind::new(bodies, own), nodes.len());
         let (has_begun, found) = (false, Vec::new());
         Self { solid, body, points, nodes, facets, walls, memories, reach, ignores_start, has_begun, found, behind, sees_facets }
@@ -246,7 +244,7 @@ impl NodeSolid {
             && !pressed
             && let Some((depth, place)) = self.solid.passed(from, to)
         {
-            self.behind.see_through(point.nodes[0], depth, plus(body.centre, body.to_global(place)), scene);
+            self.behind.see_through(point.nodes[0], (depth, body.place(place)), scene);
         }
         // Who comes from within has pressed no spring that could give anything back.
         if gap >= 0.0 && !pressed && dot(normal, moved) > 2.0 * gap {
@@ -272,12 +270,12 @@ impl NodeSolid {
         self.found.push(index as u32);
     }
 
-    /// Whether no point of a facet may press in this step, by its corners.
-    fn is_far(&self, corners: &[u32], scene: &Scene<'_, 3>) -> bool {
+    /// Whether no point of a facet, of which this is one, may press in this step, by its corners.
+    fn is_far(&self, point: &Point, scene: &Scene<'_, 3>) -> bool {
         let body = scene.bodies.state(self.body);
         let (mut distance, mut way, mut size) = (f64::INFINITY, 0.0, 0.0);
-        let first = scene.sweep.new[corners[0] as usize];
-        for &node in corners {
+        let first = scene.sweep.new[point.nodes[0] as usize];
+        for (node, _) in point.ends() {
             let x = scene.sweep.new[node as usize];
             let (from, to) = (body.to_local_old(scene.sweep.old[node as usize]), body.to_local(x));
             (way, size) = (f64::max(way, length(minus(to, from))), f64::max(size, length(minus(x, first))));
@@ -286,21 +284,16 @@ impl NodeSolid {
         // No place of it is farther from a corner than the farthest corners are from each other.
         distance > self.reach + 4.0 * way + 2.0 * size
     }
-}
 
-/// Most parts of an edge, and by what factor it may be stretched.
-const MOST_DIVISIONS: usize = 8;
-const STRETCH: f64 = 4.0;
-
-impl NodeSolid {
+    /// Meets the points of all facets.
     fn meet_facets(&mut self, scene: &Scene<'_, 3>, springs: &mut Springs<3>) {
         for number in 0..self.facets.len() {
-            let (corners, range) = &self.facets[number];
-            if self.is_far(corners, scene) {
+            let range = self.facets[number].clone();
+            if self.is_far(&self.points[range.start], scene) {
                 // What is far has slipped and pressed nowhere.
-                self.memories[range.clone()].fill(Memory::default());
+                self.memories[range].fill(Memory::default());
             } else {
-                range.clone().for_each(|index| self.meet(index, scene, springs));
+                range.for_each(|index| self.meet(index, scene, springs));
             }
         }
     }
@@ -314,12 +307,8 @@ impl Formulation<3> for NodeSolid {
         self.meet_facets(scene, springs);
         let body = scene.bodies.state(self.body);
         if self.sees_facets {
-            let deepest = |corners: &[Vector]| {
-                let local = [0, 1, 2].map(|k| body.to_local(corners[k]));
-                let (depth, place) = self.solid.deepest(local).unwrap_or((f64::NEG_INFINITY, local[0]));
-                (depth, plus(body.centre, body.to_global(place)))
-            };
-            self.behind.see_facets(&deepest, !body.is_fixed(), scene);
+            let deepest = |corners: &[Vector]| self.solid.deepest(*corners.first_chunk()?);
+            self.behind.see_facets(body, deepest, scene);
         }
         self.behind.end();
         self.has_begun = true;

@@ -35,11 +35,12 @@ mod winding;
 pub use skin::Bodies;
 pub use thickness::Walls;
 
-use super::Sweep;
-use super::findings::{CAST, DEEPEST, Findings, Overlap, PLACES, way_until_next};
+use super::findings::{BETWEEN_LOOKS, CAST, DEEPEST, Findings, MOST_STEPS, Overlap, PLACES, way_until_next};
+use super::judged::Look;
 use super::projection::node_facet::{Vector, corners_below, square_to_triangle, unit};
 use super::spin;
 use super::springs::Answers;
+use super::{Scene, Sweep};
 use crate::archive::{Archive, Kept, keep_all, keep_each};
 use crate::mesh::surface::NONE;
 use crate::tensor::dot;
@@ -61,10 +62,6 @@ const CERTAIN: f64 = CAST;
 const SIDED_MOST: usize = 16;
 /// How well a facet of the side of entry looks against the area vector.
 const FACES: f64 = 0.2;
-/// Way of both sides together between two looks, as a fraction of the least thickness.
-const BETWEEN_LOOKS: f64 = 0.125;
-/// Most steps between two looks.
-const MOST_STEPS: u32 = 16;
 /// A region whose area vector is less than this fraction of its area has no direction: a pin in a hole.
 const DIRECTED: f64 = 0.3;
 /// Shallower than this fraction of the thickness a region may be without a force.
@@ -194,18 +191,6 @@ impl Judge {
         Self { casts: false, ..self }
     }
 
-    /// What was found so far.
-    #[must_use]
-    pub fn findings(&self) -> &Findings {
-        &self.findings
-    }
-
-    /// Nodes that were inside another body in the last look, and how deep, m.
-    #[must_use]
-    pub fn inside(&self) -> &[(u32, f64)] {
-        &self.inside
-    }
-
     /// The least local thickness at the start, m.
     #[must_use]
     pub fn thinnest(&self) -> f64 {
@@ -224,7 +209,7 @@ impl Judge {
     pub fn thickness_at(&self, nodes: &[u32]) -> Vec<f64> {
         let at = |node: &u32| {
             let Ok(vertex) = self.skin.nodes.binary_search(node) else { return f64::INFINITY };
-            self.thickness.around(&self.skin, vertex as u32)
+            self.thickness.sharing(&self.skin, &[vertex as u32])
         };
         nodes.iter().map(at).collect()
     }
@@ -441,7 +426,7 @@ impl Judge {
         let of_vertex = |&vertex: &u32| {
             let own = *self.skin.at_vertex.of(vertex as usize).first()?;
             let node = self.skin.nodes.get(vertex as usize).copied();
-            look(own, node, self.skin.x[vertex as usize], self.thickness.around(&self.skin, vertex))
+            look(own, node, self.skin.x[vertex as usize], self.thickness.sharing(&self.skin, &[vertex]))
         };
         let of_chord = |&(edge, [from, to]): &(u32, [Vector; 2])| {
             let at = move |share: f64| [0, 1, 2].map(|d| (1.0 - share) * from[d] + share * to[d]);
@@ -458,28 +443,6 @@ impl Judge {
     fn node_of(&self, triangle: u32) -> u32 {
         let (carriers, _) = self.skin.shares(self.skin.triangles[triangle as usize][0]);
         self.skin.nodes[carriers[0] as usize]
-    }
-
-    /// Weighs the forces of the step's springs, if it was looked at.
-    pub fn weigh(&mut self, solved: &Answers<'_, 3>) {
-        if !std::mem::take(&mut self.has_looked) || self.regions.is_empty() {
-            return;
-        }
-        let pushes = self.pushes(solved);
-        for (number, push) in pushes.into_iter().enumerate() {
-            let (region, known) = (&self.regions[number], &mut self.known[number]);
-            let has_direction = length(region.area) > DIRECTED * region.size && known.began != [0.0; 3];
-            let is_turned = has_direction && dot(known.began, region.area) < 0.0;
-            // What was found in this step gets its net in the next.
-            let was_loose = known.is_loose;
-            known.is_loose = known.ratio > SHALLOW && known.volume >= known.before && !(push > 0.0) && !region.is_open;
-            if known.ratio > DEEPEST || is_turned || (known.is_loose && was_loose) {
-                self.findings.miss();
-            }
-        }
-        if self.casts && self.known.iter().any(|known| known.area > 0.0 || known.is_loose) {
-            self.next = f64::NEG_INFINITY;
-        }
     }
 
     /// How the forces of the springs on the nodes of each region work against its volume, −Σ f·∂V/∂x, N m².
@@ -500,9 +463,43 @@ impl Judge {
         }
         sums
     }
+}
 
-    /// Keeps what is known of the past.
-    pub(super) fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+impl Look<3> for Judge {
+    fn see_step(&mut self, scene: &Scene<'_, 3>) {
+        self.look(scene.sweep, scene.time);
+    }
+
+    fn weigh(&mut self, solved: &Answers<'_, 3>) {
+        if !std::mem::take(&mut self.has_looked) || self.regions.is_empty() {
+            return;
+        }
+        let pushes = self.pushes(solved);
+        for (number, push) in pushes.into_iter().enumerate() {
+            let (region, known) = (&self.regions[number], &mut self.known[number]);
+            let has_direction = length(region.area) > DIRECTED * region.size && known.began != [0.0; 3];
+            let is_turned = has_direction && dot(known.began, region.area) < 0.0;
+            // What was found in this step gets its net in the next.
+            let was_loose = known.is_loose;
+            known.is_loose = known.ratio > SHALLOW && known.volume >= known.before && !(push > 0.0) && !region.is_open;
+            if known.ratio > DEEPEST || is_turned || (known.is_loose && was_loose) {
+                self.findings.miss();
+            }
+        }
+        if self.casts && self.known.iter().any(|known| known.area > 0.0 || known.is_loose) {
+            self.next = f64::NEG_INFINITY;
+        }
+    }
+
+    fn findings(&self) -> &Findings {
+        &self.findings
+    }
+
+    fn inside(&self) -> &[(u32, f64)] {
+        &self.inside
+    }
+
+    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
         let Self { known, owner, places, next, looked_at, steps, findings, inside, .. } = self;
         keep_each!(archive; known, places, next, looked_at, steps, findings, inside);
         crate::archive::Keep::keep(&mut owner[..], archive)?;
@@ -516,8 +513,7 @@ impl Judge {
         Ok(())
     }
 
-    /// Goes on with the counts of another one whose surfaces were those before they changed; what is known of regions is forgotten.
-    pub(super) fn inherit(&mut self, old: &Self) {
+    fn inherit(&mut self, old: &Self) {
         self.findings = old.findings;
     }
 }

@@ -95,11 +95,6 @@ impl Thickness {
         surface.map(|triangle| self.of(skin, triangle)).fold(f64::INFINITY, f64::min)
     }
 
-    /// The least of the facets at a vertex now, m.
-    pub(super) fn around(&self, skin: &Skin, vertex: u32) -> f64 {
-        self.sharing(skin, &[vertex])
-    }
-
     /// The largest of each body, m.
     pub(super) fn thickest(&self, skin: &Skin) -> Vec<f64> {
         let mut thickest = vec![0.0; skin.bodies as usize];
@@ -144,7 +139,7 @@ impl Thick<3> for Walls {
     }
 
     fn at(&self, node: u32) -> f64 {
-        self.skin.nodes.binary_search(&node).map_or(f64::INFINITY, |vertex| self.thickness.around(&self.skin, vertex as u32))
+        self.skin.nodes.binary_search(&node).map_or(f64::INFINITY, |vertex| self.thickness.sharing(&self.skin, &[vertex as u32]))
     }
 
     fn least(&self) -> f64 {

@@ -362,3 +362,21 @@ fn friction_and_normal_forces_of_a_spring_keep_the_angular_momentum_where_its_ro
     let (before, now) = (moment(&cloud.velocities), moment(&after));
     assert!((0..3).all(|d| (before[d] - now[d]).abs() < 1e-15), "{before:?} {now:?}");
 }
+
+/// What touches only as long as another spring does not push yet has slid nowhere: else the order of the springs would decide what it remembers.
+#[test]
+fn a_spring_that_is_open_in_the_end_remembers_no_slip_of_an_earlier_sweep() {
+    let spring = |normal: Vector, gap: f64| (Spring { normal, gap, stiffness: 1e4, ..Spring::default() }, vec![End::node(0, 1.0)]);
+    let [grazes, presses] = [spring([0.6, 0.0, 0.8], 1e-3), spring([0.0, 0.0, 1.0], -0.02)];
+    for springs in [[grazes.clone(), presses.clone()], [presses, grazes]] {
+        let is_open = |spring: &Spring<3>| spring.gap > 0.0;
+        let cloud =
+            Cloud { mass: vec![1.0], positions: vec![[0.0; 3]], velocities: vec![[-0.2, 0.1, -1.0]], springs: springs.to_vec(), dt: 0.01 };
+        let solved = cloud.solve(terms(coulomb(0.6)), &Bodies::default());
+        for answer in solved.answers(0..2) {
+            assert_eq!(is_open(answer.spring), answer.solved.force == 0.0);
+            let remembers = answer.solved.slip_new != [0.0; 2] || answer.solved.slides;
+            assert_eq!(remembers, !is_open(answer.spring), "{:?}", answer.solved);
+        }
+    }
+}

@@ -22,6 +22,7 @@
 //! as where it begins between facets that share a node, what is behind pierced triangles and inside by its winding number is as deep as it
 //! is far from them.
 
+mod lineage;
 mod near;
 mod net;
 mod piercing;
@@ -121,8 +122,8 @@ pub struct Judge {
     known: Vec<Known>,
     /// Those that have a net in this step.
     netted: Vec<u32>,
-    /// Region of the last look in which each triangle was.
-    owner: Vec<u32>,
+    /// Triangles of the last look, and in which regions they were.
+    owners: Vec<lineage::Owner>,
     /// Places of the last look.
     places: Vec<Vector>,
     /// Travel at which it looks again, of the last look, m, and steps since.
@@ -158,7 +159,7 @@ impl Judge {
         tree.refit(&skin);
         let thickness = Thickness::new(&skin, &tree);
         let (least, thickest) = (thickness.least(&skin), thickness.thickest(&skin));
-        let (owner, moduli) = (vec![NONE; skin.triangles.len()], vec![[0.0; 2]; skin.nodes.len()]);
+        let moduli = vec![[0.0; 2]; skin.nodes.len()];
         Self {
             skin,
             tree,
@@ -174,7 +175,7 @@ impl Judge {
             regions: Vec::new(),
             known: Vec::new(),
             netted: Vec::new(),
-            owner,
+            owners: Vec::new(),
             places: Vec::new(),
             next: f64::NEG_INFINITY,
             looked_at: f64::NEG_INFINITY,
@@ -230,7 +231,7 @@ impl Judge {
             return;
         }
         piercing::find(&self.skin, &mut self.tree, &mut self.near, sweep.travel, &mut self.piercings);
-        let before = std::mem::replace(&mut self.regions, self.work.find(&self.skin, &mut self.piercings));
+        self.regions = self.work.find(&self.skin, &mut self.piercings);
         self.inherit_known();
         (self.findings.now, self.findings.own, self.findings.through) = (Overlap::default(), Overlap::default(), None);
         self.inside.clear();
@@ -255,32 +256,17 @@ impl Judge {
             }
         }
         self.looked_at = sweep.travel;
-        if before.is_empty() {
-            // Nothing was inside, or a state was read.
-            self.owner.fill(NONE);
-        }
-        before.iter().flat_map(|region| &region.triangles).for_each(|&(triangle, _)| self.owner[triangle as usize] = NONE);
-        for (number, region) in (0..).zip(&self.regions) {
-            region.triangles.iter().for_each(|&(triangle, _)| self.owner[triangle as usize] = number);
-        }
+        self.owners = lineage::owners(&self.regions);
         // What has no closed contour gets no net: to look sooner would help nothing.
         let closed = self.known.iter().zip(&self.regions).filter(|(_, region)| !region.is_open);
         let deepest = closed.map(|(known, _)| known.ratio).fold(0.0, f64::max);
         self.next = sweep.travel + way_until_next(deepest, DEEPEST, BETWEEN_LOOKS, self.least);
     }
 
-    /// What is known of the regions of the look before goes to those that share a triangle with them.
+    /// What is known of the regions of the look before goes to those that go on from them.
     fn inherit_known(&mut self) {
         let before = std::mem::take(&mut self.known);
-        let parents = |region: &Region| {
-            let owners = region.triangles.iter().map(|&(triangle, _)| self.owner[triangle as usize]);
-            let is_parent = |owner: &u32| *owner != NONE && before[*owner as usize].bodies == region.bodies;
-            let mut owners: Vec<u32> = owners.filter(is_parent).collect();
-            owners.sort_unstable();
-            owners.dedup();
-            owners
-        };
-        let parents: Vec<Vec<u32>> = self.regions.iter().map(parents).collect();
+        let parents = lineage::parents(&self.owners, &before, &self.regions);
         // Volume of all children of each.
         let mut volumes = vec![0.0; before.len()];
         for (region, parents) in self.regions.iter().zip(&parents) {
@@ -500,10 +486,9 @@ impl Look<3> for Judge {
     }
 
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
-        let Self { known, owner, places, next, looked_at, steps, findings, inside, .. } = self;
-        keep_each!(archive; known, places, next, looked_at, steps, findings, inside);
-        crate::archive::Keep::keep(&mut owner[..], archive)?;
-        let are_there = owner.iter().all(|&owner| owner == NONE || (owner as usize) < known.len());
+        let Self { known, owners, places, next, looked_at, steps, findings, inside, .. } = self;
+        keep_each!(archive; known, owners, places, next, looked_at, steps, findings, inside);
+        let are_there = owners.is_sorted() && owners.iter().all(|&(_, owner)| (owner as usize) < known.len());
         archive.check(are_there, "overlaps are known that are not there")?;
         archive.check(places.is_empty() || places.len() == self.skin.x.len(), "overlaps were seen at other places")?;
         // What was seen last becomes what was seen before.

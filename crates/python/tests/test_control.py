@@ -296,9 +296,11 @@ def test_errors_go_through_pickle() -> None:
 
 
 INTERRUPTED = """
-import sys, embate
+import signal, sys, embate
 sys.path.insert(0, {tests!r})
 from conftest import sections
+# A shell's job in the background is born without it.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 # The bodies fly apart for ever.
 model = embate.Model(sections(run={{"end": "10 s"}}, output={{"history": "1 us", "fields": "1 s", "pictures": False}}))
 simulation = model.simulation()

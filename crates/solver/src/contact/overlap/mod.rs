@@ -50,6 +50,7 @@ use near::Near;
 use piercing::Piercing;
 use regions::{Region, Work};
 use skin::{Edge, Skin};
+use std::cell::Cell;
 use thickness::Thickness;
 use tree::Tree;
 
@@ -336,7 +337,8 @@ impl Judge {
                 return most;
             }
             let farthest = 2.0 * unsided.thickness;
-            let found = self.depth(region, own, is_second, unsided.place, farthest * farthest, |triangle| faces(triangle) > FACES);
+            let most_away = (farthest * farthest, NONE);
+            let found = self.depth(region, (own, is_second), unsided.place, most_away, |triangle| faces(triangle) > FACES);
             let found = found.map(|(depth, _)| Overlap { depth, ..unsided });
             found.filter(|found| found.ratio() > most.ratio()).unwrap_or(most)
         };
@@ -354,15 +356,14 @@ impl Judge {
         (found, count)
     }
 
-    /// Depth of a place of a triangle's side of a region, by those triangles of the other side that count, and the nearest one; nothing
-    /// where all are farther than the root of `square`, m².
+    /// Depth of a place of a triangle's side (whether it is the second) of a region, by those triangles of the other side that count, and the nearest one; nothing
+    /// where all are farther than the root of `square`, m². The guess is as in [`Tree::nearest`].
     fn depth(
         &self,
         region: &Region,
-        own: u32,
-        is_second: bool,
+        (own, is_second): (u32, bool),
         x: Vector,
-        square: f64,
+        (square, guess): (f64, u32),
         counts: impl Fn(u32) -> bool,
     ) -> Option<(f64, u32)> {
         let may_be = |triangle: u32| !self.skin.is_mirror(triangle) && counts(triangle);
@@ -383,18 +384,22 @@ impl Judge {
             return nearest(&mut others.map(|&(triangle, _)| triangle));
         }
         let other = region.bodies[usize::from(self.skin.body(own) == region.bodies[0])];
-        let (square, foot) = self.tree.nearest(&self.skin, other, x, square, may_be)?;
+        let (square, foot) = self.tree.nearest(&self.skin, other, x, (square, guess), may_be)?;
         Some((square.sqrt(), foot))
     }
 
     /// Vertices and three places on each part of an edge that are inside.
     fn samples(&self, region: &Region) -> Vec<Sample> {
         let is_own = region.is_own();
+        // Of each side: neighbours along a contour are nearest to neighbours.
+        let last = [const { Cell::new(NONE) }; 2];
         let look = |own: u32, node: Option<u32>, place: Vector, behind: f64| {
             let is_second = if is_own && !region.is_open { region.side(own)? } else { self.skin.body(own) == region.bodies[1] };
             let other = region.bodies[usize::from(!is_second)];
             let farthest = INSIDE * self.thickest[other as usize];
-            let (depth, foot) = self.depth(region, own, is_second, place, farthest * farthest, |_| true)?;
+            let last = &last[usize::from(is_second)];
+            let (depth, foot) = self.depth(region, (own, is_second), place, (farthest * farthest, last.get()), |_| true)?;
+            last.set(foot);
             let (below, count) = self.below(place, foot);
             let there = self.thickness.sharing(&self.skin, &below[..count]);
             let thickness = behind.min(there);

@@ -253,15 +253,20 @@ fn pairs_that_are_kept_and_sleep_are_those_of_a_search_anew_in_each_look() {
         piercing::find(&judge.skin, &mut judge.tree, &mut near, travel, &mut kept);
         // Nearest triangles in boxes that have grown, and in new ones.
         let places: Vec<Vector> = (0..8).map(|_| [random() + 0.5, random() + 0.5, random() + 0.8]).collect();
-        let nearest = |tree: &Tree| places.iter().map(|x| tree.nearest(&judge.skin, 0, *x, f64::INFINITY, |_| true)).collect::<Vec<_>>();
-        let before = nearest(&judge.tree);
+        let nearest = |tree: &Tree, guess: u32| {
+            let of = |x: &Vector| tree.nearest(&judge.skin, 0, *x, (f64::INFINITY, guess), |_| true);
+            places.iter().map(of).collect::<Vec<_>>()
+        };
+        let before = nearest(&judge.tree, NONE);
+        let guess = ((random() + 0.5) * judge.skin.triangles.len() as f64) as u32;
+        assert_eq!(before, nearest(&judge.tree, guess), "{step}: guessed {guess}");
         let mut fresh = Tree::new(&judge.skin);
         piercing::find(&judge.skin, &mut fresh, &mut Near::default(), f64::INFINITY, &mut anew);
         for list in [&mut kept, &mut anew] {
             list.sort_by_key(|piercing| (piercing.edge, piercing.triangle));
         }
         assert_eq!(kept, anew, "{step}");
-        assert_eq!(before, nearest(&fresh), "{step}");
+        assert_eq!(before, nearest(&fresh, NONE), "{step}");
         total += kept.len();
     }
     assert!(total > 1000, "{total}");

@@ -174,8 +174,23 @@ impl Tree {
     }
 
     /// The triangle of a body that is nearest to a place, the first of equally near ones, and the square of the distance, if that is less than `square` (m²).
-    pub(super) fn nearest(&self, skin: &Skin, body: u32, x: Vector, square: f64, counts: impl Fn(u32) -> bool) -> Option<(f64, u32)> {
+    /// A guess, the triangle that is nearest to another place nearby or [`NONE`], spares work and changes nothing.
+    pub(super) fn nearest(
+        &self,
+        skin: &Skin,
+        body: u32,
+        x: Vector,
+        (square, guess): (f64, u32),
+        counts: impl Fn(u32) -> bool,
+    ) -> Option<(f64, u32)> {
         let mut found = (square, NONE);
+        if guess != NONE && skin.body(guess) == body && counts(guess) {
+            let away = square_to_triangle(x, skin.corners(guess));
+            if away < square {
+                found = (away, guess);
+            }
+        }
+        let is_farther = |around: &Aabb<3>, than: f64| square_away(&widened(around, self.grown), x) * (1.0 - ROUNDED) > than;
         let mut stack = vec![(self.roots[body as usize], 0.0)];
         while let Some((number, away)) = stack.pop() {
             // Boxes round otherwise than triangles do.
@@ -185,6 +200,9 @@ impl Tree {
             let node = &self.nodes[number as usize];
             if node.is_leaf {
                 for &facet in &self.order[node.first as usize..node.second as usize] {
+                    if is_farther(&self.boxes[facet as usize], found.0) {
+                        continue;
+                    }
                     for triangle in skin.facets[facet as usize].triangles().filter(|&triangle| counts(triangle)) {
                         let away = square_to_triangle(x, skin.corners(triangle));
                         if away < found.0 || (away == found.0 && triangle < found.1 && found.1 != NONE) {

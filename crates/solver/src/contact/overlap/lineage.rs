@@ -5,15 +5,15 @@
 //! much counts as well.
 
 use super::{Known, Region};
-use crate::mesh::surface::NONE;
 
 /// A triangle, and a region in which it was: in each of several, if it was in several.
 pub(super) type Owner = (u32, u32);
 
 /// The triangles of all regions and in which they are, ascending.
 pub(super) fn owners(regions: &[Region]) -> Vec<Owner> {
-    let of = |(number, region): (u32, &Region)| region.triangles.iter().map(move |&(triangle, _)| (triangle, number)).collect::<Vec<_>>();
-    let mut owners: Vec<Owner> = (0..NONE).zip(regions).flat_map(of).collect();
+    let numbered = (0..).zip(regions);
+    let mut owners: Vec<Owner> =
+        numbered.flat_map(|(number, region)| region.triangles.iter().map(move |&(triangle, _)| (triangle, number))).collect();
     owners.sort_unstable();
     owners
 }

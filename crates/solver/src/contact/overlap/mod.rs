@@ -225,7 +225,6 @@ impl Judge {
         }
         self.steps = 0;
         let is_first = self.findings.looks == 0;
-        self.findings.looks += 1;
         std::mem::swap(&mut self.places, &mut self.skin.x);
         if !self.skin.place(sweep.new) {
             self.has_looked = false;
@@ -234,7 +233,7 @@ impl Judge {
         piercing::find(&self.skin, &mut self.tree, &mut self.near, sweep.travel, &mut self.piercings);
         self.regions = self.work.find(&self.skin, &mut self.piercings);
         self.inherit_known();
-        (self.findings.now, self.findings.own, self.findings.through) = (Overlap::default(), Overlap::default(), None);
+        self.findings.begin();
         self.inside.clear();
         for number in 0..self.regions.len() {
             let samples = self.samples(&self.regions[number]);
@@ -356,8 +355,8 @@ impl Judge {
         (found, count)
     }
 
-    /// Depth of a place of a triangle's side (whether it is the second) of a region, by those triangles of the other side that count, and the nearest one; nothing
-    /// where all are farther than the root of `square`, m². The guess is as in [`Tree::nearest`].
+    /// Depth of a place of a triangle's side (whether it is the second) of a region, by those triangles of the other side that count, and
+    /// the nearest one; nothing where all are farther than the root of `square`, m². The guess is as in [`Tree::nearest`].
     fn depth(
         &self,
         region: &Region,

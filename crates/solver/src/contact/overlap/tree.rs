@@ -190,17 +190,17 @@ impl Tree {
                 found = (away, guess);
             }
         }
-        let is_farther = |around: &Aabb<3>, than: f64| square_away(&widened(around, self.grown), x) * (1.0 - ROUNDED) > than;
+        // Boxes round otherwise than triangles do.
+        let away = |around: &Aabb<3>| square_away(&widened(around, self.grown), x) * (1.0 - ROUNDED);
         let mut stack = vec![(self.roots[body as usize], 0.0)];
-        while let Some((number, away)) = stack.pop() {
-            // Boxes round otherwise than triangles do.
-            if away * (1.0 - ROUNDED) > found.0 {
+        while let Some((number, least)) = stack.pop() {
+            if least > found.0 {
                 continue;
             }
             let node = &self.nodes[number as usize];
             if node.is_leaf {
                 for &facet in &self.order[node.first as usize..node.second as usize] {
-                    if is_farther(&self.boxes[facet as usize], found.0) {
+                    if away(&self.boxes[facet as usize]) > found.0 {
                         continue;
                     }
                     for triangle in skin.facets[facet as usize].triangles().filter(|&triangle| counts(triangle)) {
@@ -212,7 +212,7 @@ impl Tree {
                 }
                 continue;
             }
-            let of = |child: u32| (child, square_away(&widened(&self.nodes[child as usize].around, self.grown), x));
+            let of = |child: u32| (child, away(&self.nodes[child as usize].around));
             let [a, b] = [node.first, node.second].map(of);
             // The nearer one first: it is on top.
             if a.1 < b.1 { stack.extend([b, a]) } else { stack.extend([a, b]) }

@@ -81,7 +81,7 @@ where
 }
 
 /// Friction that was found.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Slid<const D: usize = 2>
 where
     Dim<D>: Motion<D>,

@@ -249,13 +249,9 @@ where
         let tangential = self.terms_of(i).tangential;
         match tangential {
             Tangential::Free => Along::<D>::default(),
-            Tangential::Friction(_) if self.forces[i] == [0.0; D] => {
-                // What an earlier sweep gave it says nothing.
-                (self.links[i].slip_new, self.links[i].slides) = (Along::<D>::default(), false);
-                Along::<D>::default()
-            }
             Tangential::Friction(_) => {
-                let found = self.slide_from(i, rates);
+                // What is open has slid nowhere, whatever an earlier sweep gave it.
+                let found = if self.forces[i] == [0.0; D] { Slid::default() } else { self.slide_from(i, rates) };
                 (self.links[i].slip_new, self.links[i].slides) = (found.slip, found.slides);
                 found.friction
             }

@@ -47,6 +47,7 @@ use crate::mesh::surface::NONE;
 use crate::tensor::dot;
 use crate::vector::length;
 use near::Near;
+use net::Net;
 use piercing::Piercing;
 use regions::{Region, Work};
 use skin::{Edge, Skin};
@@ -79,9 +80,10 @@ struct Known {
     /// Area, the mean of both sides, in the last look, and in the one before, m².
     size: f64,
     size_before: f64,
-    /// V now and in the look before, m³.
+    /// V now and when it was found the time before, and how the net saw it grow since then, m³.
     volume: f64,
     before: f64,
+    since: f64,
     /// Depth against the thickness in the last look.
     ratio: f64,
     /// Local thickness at the deepest place then, m.
@@ -99,7 +101,24 @@ struct Known {
     stored: f64,
 }
 
-keep_all!(Known { bodies, began, size, size_before, volume, before, ratio, thickness, offset, is_loose, depth, area, thick, half, stored });
+keep_all!(Known {
+    bodies,
+    began,
+    size,
+    size_before,
+    volume,
+    before,
+    since,
+    ratio,
+    thickness,
+    offset,
+    is_loose,
+    depth,
+    area,
+    thick,
+    half,
+    stored
+});
 
 /// The judge of one contact.
 pub struct Judge {
@@ -121,15 +140,15 @@ pub struct Judge {
     /// Regions of the last look, and what is known of them.
     regions: Vec<Region>,
     known: Vec<Known>,
-    /// Those that have a net in this step.
-    netted: Vec<u32>,
-    /// Triangles of the last look, and in which regions they were.
+    /// The nets of this step.
+    nets: Vec<Net>,
+    /// Triangles in the regions, and in which.
     owners: Vec<lineage::Owner>,
-    /// Places of the last look.
+    /// Where the vertices were when regions were found the time before.
     places: Vec<Vector>,
-    /// Travel at which it looks again, of the last look, m, and steps since.
+    /// Travel at which it looks again, and at which the regions were found, m, and steps since the last look.
     next: f64,
-    looked_at: f64,
+    found_at: f64,
     steps: u32,
     /// Whether this step was looked at, so that its forces are to be weighed.
     has_looked: bool,
@@ -175,11 +194,11 @@ impl Judge {
             piercings: Vec::new(),
             regions: Vec::new(),
             known: Vec::new(),
-            netted: Vec::new(),
+            nets: Vec::new(),
             owners: Vec::new(),
             places: Vec::new(),
             next: f64::NEG_INFINITY,
-            looked_at: f64::NEG_INFINITY,
+            found_at: f64::NEG_INFINITY,
             steps: 0,
             has_looked: false,
             findings: Findings::default(),
@@ -216,15 +235,14 @@ impl Judge {
         nodes.iter().map(at).collect()
     }
 
-    /// Looks at the step, if it is time.
+    /// Looks at the step, if it is time. In between, regions that have nets are found anew where these can't go on with their nodes.
     pub fn look(&mut self, sweep: Sweep<'_, 3>, time: f64) {
         self.steps += 1;
         self.has_looked = !(sweep.travel < self.next && self.steps < MOST_STEPS);
-        if !self.has_looked {
+        if !self.has_looked && self.follow(sweep) {
             return;
         }
-        self.steps = 0;
-        let is_first = self.findings.looks == 0;
+        self.nets.clear();
         std::mem::swap(&mut self.places, &mut self.skin.x);
         if !self.skin.place(sweep.new) {
             self.has_looked = false;
@@ -233,6 +251,24 @@ impl Judge {
         piercing::find(&self.skin, &mut self.tree, &mut self.near, sweep.travel, &mut self.piercings);
         self.regions = self.work.find(&self.skin, &mut self.piercings);
         self.inherit_known();
+        if self.has_looked {
+            self.see(time);
+            // What has no closed contour gets no net: to look sooner would help nothing.
+            let closed = self.known.iter().zip(&self.regions).filter(|(_, region)| !region.is_open);
+            let deepest = closed.map(|(known, _)| known.ratio).fold(0.0, f64::max);
+            self.next = sweep.travel + way_until_next(deepest, DEEPEST, BETWEEN_LOOKS, self.least);
+            self.steps = 0;
+        }
+        if self.casts {
+            self.cast(sweep.travel - self.found_at);
+        }
+        self.found_at = sweep.travel;
+        self.owners = lineage::owners(&self.regions);
+    }
+
+    /// Measures how deep the regions are.
+    fn see(&mut self, time: f64) {
+        let is_first = self.findings.looks == 0;
         self.findings.begin();
         self.inside.clear();
         for number in 0..self.regions.len() {
@@ -251,16 +287,7 @@ impl Judge {
             if known.ratio > 1.0 && !is_own && !self.regions[number].is_open {
                 self.findings.through = Some(deepest);
             }
-            if self.casts {
-                self.cast(number, sweep.travel - self.looked_at);
-            }
         }
-        self.looked_at = sweep.travel;
-        self.owners = lineage::owners(&self.regions);
-        // What has no closed contour gets no net: to look sooner would help nothing.
-        let closed = self.known.iter().zip(&self.regions).filter(|(_, region)| !region.is_open);
-        let deepest = closed.map(|(known, _)| known.ratio).fold(0.0, f64::max);
-        self.next = sweep.travel + way_until_next(deepest, DEEPEST, BETWEEN_LOOKS, self.least);
     }
 
     /// What is known of the regions of the look before goes to those that go on from them.
@@ -278,7 +305,7 @@ impl Judge {
             let largest = parents.iter().map(|&parent| before[parent as usize]).reduce(|a, b| if b.size > a.size { b } else { a });
             if let Some(parent) = largest {
                 known.offset = parent.offset;
-                known.ratio = parent.ratio;
+                (known.ratio, known.thickness) = (parent.ratio, parent.thickness);
                 // What slides around a corner turns its area vector by less than a right angle from look to look; what goes through turns it over.
                 let carried = spin::turned(parent.began, self.turn(region));
                 if parent.began != [0.0; 3] && !(dot(carried, direction) > 0.0) {
@@ -289,6 +316,7 @@ impl Judge {
                 let (parent, whole) = (before[parent as usize], volumes[parent as usize]);
                 let share = if whole > 0.0 { region.volume.abs() / whole } else { 1.0 };
                 known.before += share * parent.volume;
+                known.since += share * parent.since;
                 known.size_before += share * parent.size;
                 known.depth += share * parent.area * parent.depth;
                 known.area += share * parent.area;
@@ -476,7 +504,7 @@ impl Look<3> for Judge {
                 self.findings.miss();
             }
         }
-        if self.casts && self.known.iter().any(|known| known.area > 0.0 || known.is_loose) {
+        if self.casts && self.known.iter().any(|known| known.is_loose) {
             self.next = f64::NEG_INFINITY;
         }
     }
@@ -490,16 +518,13 @@ impl Look<3> for Judge {
     }
 
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
-        let Self { known, owners, places, next, looked_at, steps, findings, inside, .. } = self;
-        keep_each!(archive; known, owners, places, next, looked_at, steps, findings, inside);
+        let Self { known, nets, owners, next, found_at, steps, findings, inside, skin, .. } = self;
+        keep_each!(archive; known, nets, owners, next, found_at, steps, findings, inside, &mut skin.x[..]);
         let are_there = owners.is_sorted() && owners.iter().all(|&(_, owner)| (owner as usize) < known.len());
         archive.check(are_there, "overlaps are known that are not there")?;
-        archive.check(places.is_empty() || places.len() == self.skin.x.len(), "overlaps were seen at other places")?;
-        // What was seen last becomes what was seen before.
-        if !places.is_empty() {
-            self.skin.x.clone_from(&self.places);
-        }
-        Ok(())
+        let are_nodes = |net: &Net| net.rows.iter().all(|(node, _)| self.skin.nodes.binary_search(node).is_ok());
+        let are_nets = nets.iter().all(|net| (net.region as usize) < known.len() && are_nodes(net));
+        archive.check(are_nets, "nets are known of overlaps that are not there")
     }
 
     fn inherit(&mut self, old: &Self) {

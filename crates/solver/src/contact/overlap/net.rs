@@ -7,97 +7,171 @@
 //! energy, and resists whatever makes the overlap larger, combs of edges and folded nodes included. Regions that merge or part share A by
 //! their volumes, and the depth is the mean. From step to step a net goes on where it ended, as other springs do: its rows are those of
 //! the volume at a step, which bends in between.
+//!
+//! For a few steps a net goes on with the nodes that it has: V grows by its rows times their ways, and the rows r lose what would turn the
+//! bodies, ω × d with (Σ d² 1 − d ⊗ d) ω = Σ d × r and d from the mean of the nodes, so both momenta are kept. Then V is measured again.
 
 use super::super::law::penalty::{factor, stiffening};
 use super::super::projection::node_facet::unit;
 use super::super::springs::{Answers, End, Spring, Springs};
-use super::{CAST, DIRECTED, Judge, Known, Vector};
-use crate::vector::length;
+use super::super::{Sweep, spin};
+use super::{CAST, DIRECTED, Judge, Known, Region, Vector};
+use crate::archive::keep_all;
+use crate::tensor::{cross, dot};
+use crate::vector::{length, minus};
 
 /// Depth below which a region loses its net, as a fraction of the local thickness.
 const TAKEN_IN: f64 = 0.02;
 /// Least area of a net, as a fraction of that of the region.
 const SPREAD: f64 = 0.5;
+/// Regions with nets are found anew at every so many steps, and where a body may have gone farther than this fraction of the least thickness.
+const EVERY: u32 = 8;
+const WAY: f64 = 1.0 / 64.0;
+/// How much of the rows of a net what would turn the bodies may be before its region is found anew.
+const TURNED: f64 = 0.1;
+/// Moment of the rows that is left, as a fraction of that of their sizes: more than rounding, and the region is found anew.
+const LEFT: f64 = 1e-12;
 
-impl Judge {
-    /// Casts or takes in the net of a region; no node has gone farther than `way` since the last look, m.
-    pub(super) fn cast(&mut self, number: usize, way: f64) {
-        let (region, known) = (&self.regions[number], &mut self.known[number]);
-        // A volume grows by what its sides go. If by more, it is another one, and the net keeps its force.
-        let grown = region.volume - known.before;
-        let grown = if grown.abs() > 8.0 * way * region.size.min(known.size_before) { 0.0 } else { grown };
-        if region.is_open || !region.is_closed {
-            // Its volume says nothing, or its forces would not add up to nothing.
-            known.area = 0.0;
-        } else if known.area > 0.0 {
-            known.depth += grown / known.area;
-            // Where the region outgrows the net, that spreads and keeps its energy.
-            let least = SPREAD * region.size;
-            if known.area < least {
-                known.depth *= (known.area / least).sqrt();
-                known.area = least;
-            }
-            // What is open stores nothing: if it grows again it is resisted from here.
-            if known.depth < 0.0 && grown > 0.0 {
-                known.depth = 0.0;
-            }
-            if known.ratio < TAKEN_IN && known.depth <= 0.0 {
-                known.area = 0.0;
-            }
-        } else if known.ratio > CAST {
-            (known.area, known.depth) = (length(region.area).max(DIRECTED * region.size), 0.0);
-            known.thick = known.thickness;
-            (known.half, known.stored) = (f64::INFINITY, 0.0);
+/// The net of a region.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Net {
+    /// Which of those that are known.
+    pub(super) region: u32,
+    /// Along the area vector of the region.
+    normal: Vector,
+    /// Pressure stiffness, of the elements and by their mass, Pa/m.
+    modulus: [f64; 2],
+    /// ∂V/∂x of nodes, m².
+    pub(super) rows: Vec<(u32, Vector)>,
+}
+
+keep_all!(Net { region, normal, modulus, rows });
+
+impl Net {
+    /// Goes on with its nodes for a step, whose way to its depth `known` takes; whether it can.
+    fn follow(&mut self, known: &mut Known, sweep: Sweep<'_, 3>) -> bool {
+        let at = |node: u32| sweep.new[node as usize];
+        let grown = self.rows.iter().map(|&(node, row)| dot(row, minus(at(node), sweep.old[node as usize]))).sum();
+        known.since += grown;
+        known.grow(grown);
+        let mut mean = [0.0; 3];
+        for &(node, _) in &self.rows {
+            (0..3).for_each(|d| mean[d] += at(node)[d] / self.rows.len() as f64);
         }
-    }
-
-    /// Adds the springs of the nets in this step, each where it ended in the step before; `found` gets the energy that each had there, J.
-    pub(in crate::contact) fn push_nets(&mut self, springs: &mut Springs<3>, mut found: impl FnMut(f64)) {
-        self.netted.clear();
-        let regions = if self.has_looked { self.regions.len() } else { 0 };
-        for number in 0..regions {
-            let Known { area, half, stored, .. } = self.known[number];
-            if area > 0.0
-                && let Some((spring, ends)) = self.net(number)
-            {
-                springs.push(spring, &ends);
-                springs.goes_on(half, stored);
-                found(stored);
-                self.netted.push(number as u32);
-            }
-        }
-    }
-
-    /// Notes where the nets of this step ended; `store` gets the energy of each, J.
-    pub(in crate::contact) fn note_nets(&mut self, solved: Answers<'_, 3>, mut store: impl FnMut(f64)) {
-        for (&number, answer) in self.netted.iter().zip(solved) {
-            let known = &mut self.known[number as usize];
-            (known.half, known.stored) = (answer.gap_new(), answer.stored_new());
-            store(known.stored);
-        }
-    }
-
-    /// The spring of the net of a region.
-    fn net(&self, number: usize) -> Option<(Spring<3>, Vec<End<3>>)> {
-        let (region, known) = (&self.regions[number], &self.known[number]);
-        let [modulus, of_mass] = self.modulus(region)?;
-        let row = |&(vertex, row): &(u32, Vector)| {
-            let lean = row.map(|c| -c / known.area);
-            End { lean, ..End::node(self.skin.nodes[vertex as usize], 0.0) }
+        let moment = |rows: &[(u32, Vector)]| {
+            let of = |&(node, row): &(u32, Vector)| (cross(minus(at(node), mean), row), length(minus(at(node), mean)) * length(row));
+            rows.iter().map(of).fold(([0.0; 3], 0.0), |(sum, size), (moment, most)| ([0, 1, 2].map(|d| sum[d] + moment[d]), size + most))
         };
-        let spring = Spring {
-            normal: unit(region.area),
+        let mut inertia = [[0.0; 3]; 3];
+        self.rows.iter().for_each(|&(node, _)| spin::add_arm(minus(at(node), mean), &mut inertia));
+        let turn = spin::solved(&inertia, moment(&self.rows).0);
+        let (mut lost, mut whole) = (0.0, 0.0);
+        for (node, row) in &mut self.rows {
+            let less = cross(turn, minus(at(*node), mean));
+            whole += dot(*row, *row);
+            lost += dot(less, less);
+            *row = minus(*row, less);
+        }
+        let (left, size) = moment(&self.rows);
+        lost <= TURNED * TURNED * whole && length(left) <= LEFT * size
+    }
+
+    /// Its spring.
+    fn spring(&self, known: &Known) -> Spring<3> {
+        let [modulus, of_mass] = self.modulus;
+        Spring {
+            normal: self.normal,
             gap: -known.depth,
             stiffness: modulus * known.area,
             area: known.area,
             stiffening: stiffening(known.thick, factor(modulus, of_mass)),
             ..Spring::default()
-        };
-        Some((spring, region.gradient.iter().map(row).collect()))
+        }
+    }
+}
+
+impl Known {
+    /// The volume grows (m³), and the net with it.
+    fn grow(&mut self, grown: f64) {
+        self.depth += grown / self.area;
+        // What is open stores nothing: if it grows again it is resisted from here.
+        if self.depth < 0.0 && grown > 0.0 {
+            self.depth = 0.0;
+        }
+    }
+
+    /// Casts, spreads or takes in the net, whose region was found anew; no node has gone farther than `way` since it was found before, m.
+    fn cast(&mut self, region: &Region, way: f64) {
+        // A volume grows by what its sides go. If by more, it is another one, and the net keeps its force.
+        let (grown, since) = (self.volume - self.before, std::mem::take(&mut self.since));
+        let is_another = grown.abs() > 8.0 * way * region.size.min(self.size_before);
+        if region.is_open || !region.is_closed {
+            // Its volume says nothing, or its forces would not add up to nothing.
+            self.area = 0.0;
+        } else if self.area > 0.0 {
+            self.grow(if is_another { 0.0 } else { grown - since });
+            // Where the region outgrows the net, that spreads and keeps its energy.
+            let least = SPREAD * region.size;
+            if self.area < least {
+                self.depth *= (self.area / least).sqrt();
+                self.area = least;
+            }
+            if self.ratio < TAKEN_IN && self.depth <= 0.0 {
+                self.area = 0.0;
+            }
+        } else if self.ratio > CAST {
+            (self.area, self.depth) = (length(region.area).max(DIRECTED * region.size), 0.0);
+            self.thick = self.thickness;
+            (self.half, self.stored) = (f64::INFINITY, 0.0);
+        }
+    }
+}
+
+impl Judge {
+    /// Casts the nets of regions that were found anew.
+    pub(super) fn cast(&mut self, way: f64) {
+        for number in 0..self.regions.len() {
+            let (region, known) = (&self.regions[number], &mut self.known[number]);
+            known.cast(region, way);
+            if self.known[number].area > 0.0
+                && let Some(modulus) = self.modulus(region)
+            {
+                let rows = region.gradient.iter().map(|&(vertex, row)| (self.skin.nodes[vertex as usize], row)).collect();
+                self.nets.push(Net { region: number as u32, normal: unit(region.area), modulus, rows });
+            }
+        }
+    }
+
+    /// Lets the nets go on with their nodes for a step; whether all can.
+    pub(super) fn follow(&mut self, sweep: Sweep<'_, 3>) -> bool {
+        let is_due = self.steps.is_multiple_of(EVERY) || !(sweep.travel - self.found_at < WAY * self.least);
+        self.nets.is_empty() || (!is_due && self.nets.iter_mut().all(|net| net.follow(&mut self.known[net.region as usize], sweep)))
+    }
+
+    /// Adds the springs of the nets in this step, each where it ended in the step before; `found` gets the energy that each had there, J.
+    pub(in crate::contact) fn push_nets(&self, springs: &mut Springs<3>, mut found: impl FnMut(f64)) {
+        let mut ends = Vec::new();
+        for net in &self.nets {
+            let known = &self.known[net.region as usize];
+            ends.clear();
+            ends.extend(net.rows.iter().map(|&(node, row)| End { lean: row.map(|c| -c / known.area), ..End::node(node, 0.0) }));
+            springs.push(net.spring(known), &ends);
+            springs.goes_on(known.half, known.stored);
+            found(known.stored);
+        }
+    }
+
+    /// Notes where the nets of this step ended; `store` gets the energy of each, J.
+    pub(in crate::contact) fn note_nets(&mut self, solved: Answers<'_, 3>, mut store: impl FnMut(f64)) {
+        for (net, answer) in self.nets.iter().zip(solved) {
+            let known = &mut self.known[net.region as usize];
+            (known.half, known.stored) = (answer.gap_new(), answer.stored_new());
+            store(known.stored);
+        }
     }
 
     /// Pressure stiffness of the softer side of a region, of its elements and by its mass, the mean of its nodes there, Pa/m.
-    fn modulus(&self, region: &super::Region) -> Option<[f64; 2]> {
+    fn modulus(&self, region: &Region) -> Option<[f64; 2]> {
         let (mut sums, mut counts) = ([[0.0; 2]; 2], [0.0; 2]);
         for &(triangle, is_second) in &region.triangles {
             for vertex in self.skin.triangles[triangle as usize] {

@@ -11,7 +11,7 @@ use super::tree::Tree;
 use crate::contact::boxes::{Aabb, around, do_meet};
 use crate::contact::projection::node_facet::Vector;
 use crate::mesh::surface::NONE;
-use crate::tensor::dot;
+use crate::tensor::{cross, dot};
 use crate::vector::minus;
 
 /// An edge goes through a triangle.
@@ -40,46 +40,91 @@ pub(super) struct Piece {
 /// All piercings, at a travel (m).
 pub(super) fn find(skin: &Skin, tree: &mut Tree, near: &mut Near, travel: f64, found: &mut Vec<Piercing>) {
     found.clear();
-    near.meeting(skin, tree, travel, |facets, [first, second]| {
-        let [a, b] = facets.map(|facet| &skin.facets[facet as usize]);
-        of_edges(skin, a, first, b, found);
-        of_edges(skin, b, second, a, found);
+    near.meeting(skin, tree, travel, |facets, boxes| {
+        let [a, b] = [0, 1].map(|of| Placed::new(skin, facets[of], *boxes[of]));
+        of_edges(skin, &a, &b, found);
+        of_edges(skin, &b, &a, found);
     });
 }
 
-/// Piercings of the edges of one facet, in its box, through the triangles of another one.
-fn of_edges(skin: &Skin, own: &Facet, own_box: &Aabb<3>, other: &Facet, found: &mut Vec<Piercing>) {
-    let point = |vertex: u32| -> Point { (vertex, skin.x[vertex as usize]) };
-    for triangle in other.triangles() {
+/// A facet where it is.
+struct Placed<'a> {
+    facet: &'a Facet,
+    /// Its vertices, as many as it has.
+    points: [Point; 5],
+    bounds: Aabb<3>,
+}
+
+impl<'a> Placed<'a> {
+    fn new(skin: &'a Skin, facet: u32, bounds: Aabb<3>) -> Self {
+        let facet = &skin.facets[facet as usize];
+        let mut points = [(NONE, [0.0; 3]); 5];
+        for (point, &vertex) in points.iter_mut().zip(facet.all()) {
+            *point = (vertex, skin.x[vertex as usize]);
+        }
+        Self { facet, points, bounds }
+    }
+
+    fn points(&self) -> &[Point] {
+        &self.points[..self.facet.all().len()]
+    }
+}
+
+/// Rounding of a height over a plane, as a multiple of the product of the largest components of what it comes from: some forty products of
+/// up to four differences, each with at most twelve roundings.
+const ROUNDING: f64 = 1024.0 * f64::EPSILON;
+
+/// Whether points lie all on one side of a triangle's plane, or all beyond one of its edges, whatever rounds: then nothing between them meets it.
+fn are_beside([a, b, c]: [Point; 3], points: &[Point]) -> bool {
+    let size = |v: Vector| v[0].abs().max(v[1].abs()).max(v[2].abs());
+    // Whether all are farther along a direction from a place than what may round, where the direction is that of a product of this size.
+    let are_along = |direction: Vector, from: Point, product: f64| {
+        points.iter().all(|point| {
+            let away = minus(point.1, from.1);
+            dot(direction, away) > ROUNDING * product * size(away)
+        })
+    };
+    let rim = [minus(b.1, a.1), minus(c.1, b.1), minus(a.1, c.1)];
+    let normal = cross(rim[0], rim[1]);
+    let product = size(rim[0]) * size(rim[1]);
+    are_along(normal, a, product)
+        || are_along(normal.map(|c| -c), a, product)
+        || [a, b, c].into_iter().zip(rim).any(|(from, way)| are_along(cross(way, normal), from, product * size(way)))
+}
+
+/// Piercings of the edges of one facet through the triangles of another one.
+fn of_edges(skin: &Skin, own: &Placed<'_>, other: &Placed<'_>, found: &mut Vec<Piercing>) {
+    let points = own.points();
+    for triangle in other.facet.triangles() {
         let corners = skin.triangles[triangle as usize];
-        if !do_meet(own_box, &around(skin.corners(triangle))) {
+        let [a, b, c] = corners.map(|vertex| (vertex, skin.x[vertex as usize]));
+        if are_beside([a, b, c], points) || !do_meet(&own.bounds, &around([a.1, b.1, c.1])) {
             continue;
         }
-        let [a, b, c] = corners.map(point);
         let mut heights = [0.0; 5];
         let (mut any_before, mut any_behind) = (false, false);
-        for (height, &vertex) in heights.iter_mut().zip(own.all()) {
-            *height = volume([a, b, c, point(vertex)]);
+        for (height, &point) in heights.iter_mut().zip(points) {
+            *height = volume([a, b, c, point]);
             (any_before, any_behind) = (any_before || *height > 0.0, any_behind || *height < 0.0);
         }
         if !(any_before && any_behind) {
             continue;
         }
-        let height = |vertex: u32| own.vertices.iter().position(|other| *other == vertex).map_or(0.0, |k| heights[k]);
-        for number in own.edges() {
+        let height = |vertex: u32| points.iter().position(|other| other.0 == vertex).map_or(0.0, |k| heights[k]);
+        for number in own.facet.edges() {
             let ends = skin.edges[number as usize].ends;
             let [from, to] = ends.map(height);
             if (from > 0.0) == (to > 0.0) {
                 continue;
             }
-            let [p, q] = ends.map(point);
+            let [p, q] = ends.map(|vertex| (vertex, skin.x[vertex as usize]));
             let first = volume([p, q, a, b]) > 0.0;
             if first != (volume([p, q, b, c]) > 0.0) || first != (volume([p, q, c, a]) > 0.0) {
                 continue;
             }
             // An edge in the triangle's plane meets it anywhere: where it passes its middle.
             let is_flat = from.abs().max(to.abs()) <= f64::MIN_POSITIVE;
-            let along = if is_flat { beside([p.1, q.1], skin.corners(triangle)) } else { from / (from - to) };
+            let along = if is_flat { beside([p.1, q.1], [a.1, b.1, c.1]) } else { from / (from - to) };
             let along = along.clamp(0.0, 1.0);
             let place = [0, 1, 2].map(|d| (1.0 - along) * p.1[d] + along * q.1[d]);
             found.push(Piercing { edge: number, triangle, along, enters: from > 0.0, place, is_flat });

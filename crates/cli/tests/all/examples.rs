@@ -59,7 +59,9 @@ impl Results {
 /// Runs an example into a folder of the test's own.
 fn run(name: &str, folder: &str) -> Results {
     let model = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples").join(name);
-    run_model(&model, fresh(folder))
+    let results = run_model(&model, fresh(folder));
+    crate::hashes::is_as_before(&format!("examples/{name}"), results.summary["state_hash"].as_str().unwrap());
+    results
 }
 
 fn run_model(model: &Path, folder: PathBuf) -> Results {

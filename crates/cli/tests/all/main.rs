@@ -8,6 +8,7 @@ mod diff;
 mod estimates;
 mod examples;
 mod far;
+mod hashes;
 #[cfg(unix)]
 mod links;
 mod lock;

@@ -3,7 +3,8 @@
 //! `cargo test --release -p embate-solver --test embate-soak -- --seconds 7200 --first 1` (a minute from model 1 if nothing is said;
 //! `--count 1 --first N` for one model). Odd numbers are models of
 //! the plane, even ones of space; `--dimension 2` or `3` for one of them alone. Two of sixteen models run again with scalar lanes and two
-//! threads and must end with the same state hash.
+//! threads and must end with the same state hash. `hashes.txt` has that of the first models as it was: a change of the code that should
+//! change no result leaves it so, one that changes results makes it anew (`EMBATE_BLESS=1`, `--count 400`).
 //! What is found is told with the number of the model. In space, where all bodies meet in `double_pass`, elements tell whether nodes of one body
 //! are deep in another one (`inside.rs`): a run that does not say so is a finding.
 //!
@@ -39,6 +40,14 @@ const LOOKS: u64 = 24;
 const WARM: u64 = 64;
 const GROWTH: u64 = 64 << 20;
 
+/// State hashes of the first models, a line each: the number and the hash.
+const HASHES: &str = include_str!("hashes.txt");
+
+/// The state hash that is kept of a model.
+fn kept_hash(seed: u64) -> Option<&'static str> {
+    HASHES.lines().filter_map(|line| line.split_once(' ')).find(|(number, _)| *number == seed.to_string()).map(|(_, hash)| hash)
+}
+
 /// How one model ended.
 enum End {
     Refused(&'static Message),
@@ -63,13 +72,14 @@ fn main() {
     let begin = Instant::now();
     let (mut ends, mut found) = (BTreeMap::<String, u64>::new(), Vec::new());
     let (mut steps, mut warm, mut done, mut drifting, mut stepping) = (0, 0, 0, 0u64, 0u64);
+    let mut hashes = String::new();
     std::panic::set_hook(Box::new(|_| {}));
     let numbers = (first..u64::MAX).filter(|seed| dimension == 0 || dimension == dimension_of(*seed));
     for seed in numbers.take(count.try_into().unwrap_or(usize::MAX)) {
         if begin.elapsed() > Duration::from_secs_f64(seconds) {
             break;
         }
-        match catch_unwind(AssertUnwindSafe(|| run(seed, &mut steps))) {
+        match catch_unwind(AssertUnwindSafe(|| run(seed, &mut steps, &mut hashes))) {
             Ok((end, drift, faults)) => {
                 if let Some(Drift { told: drift, left }) = drift {
                     let by_step = left < LEFT;
@@ -112,8 +122,16 @@ fn main() {
     for (end, count) in &ends {
         println!("  {count:>6} {end}");
     }
+    if is_blessed() {
+        std::fs::write(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/soak/hashes.txt"), hashes).expect("the table can be written");
+    }
     found.iter().for_each(|fault| println!("FOUND {fault}"));
     assert!(found.is_empty(), "{} finding(s)", found.len());
+}
+
+/// Whether the table of hashes is to be made anew.
+fn is_blessed() -> bool {
+    std::env::var_os("EMBATE_BLESS").is_some()
 }
 
 /// Of which dimension a model is.
@@ -134,7 +152,7 @@ struct Drift {
 }
 
 /// Runs a model; its drift where that is large, and what is wrong with it.
-fn run(seed: u64, steps: &mut u64) -> (End, Option<Drift>, Vec<String>) {
+fn run(seed: u64, steps: &mut u64, hashes: &mut String) -> (End, Option<Drift>, Vec<String>) {
     let model = model(seed);
     let options = Options { threads: 1, simd: None };
     let mut simulation = match Simulation::new(&model, &options) {
@@ -148,6 +166,10 @@ fn run(seed: u64, steps: &mut u64) -> (End, Option<Drift>, Vec<String>) {
     let drift = drift(&summary, &result, simulation.sweeps().1 > 0).or_else(|| borrowed(&simulation));
     let drift = drift.map(|(size, told)| Drift { told, left: finer(&model, &simulation) / size });
     let mut faults = wrong(&summary, &result);
+    hashes.push_str(&format!("{seed} {}\n", summary.state_hash));
+    if let Some(kept) = kept_hash(seed).filter(|kept| **kept != summary.state_hash && !is_blessed()) {
+        faults.push(format!("ends in the state {}, not in {kept} as before", summary.state_hash));
+    }
     if let Some(inside::Deepest { parts: [own, other], ratio }) = deepest.filter(|deepest| deepest.ratio > SILENT)
         && summary.contact.unverified == 0
         && summary.erosion.is_none()

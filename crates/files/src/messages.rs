@@ -3,7 +3,8 @@
 //! Entries stand beside the code that raises them ([`embate_solver::message`]); the program adds its own and prints them (`embate explain`).
 
 use crate::{abaqus, checkpoint, gmsh, model_file, results, stl, sweep, verification};
-use embate_solver::message::{self, AREAS, BASE, Example, Message, SHOWN};
+use embate_solver::catalogue;
+use embate_solver::message::{AREAS, BASE, Example, Message, SHOWN};
 use std::fmt::Write;
 
 /// All entries of the solver and of the formats, by code.
@@ -19,7 +20,7 @@ pub fn all() -> Vec<&'static Message> {
         sweep::messages::MESSAGES,
         verification::messages::MESSAGES,
     ];
-    let mut all: Vec<&Message> = message::all().into_iter().chain(rooms.iter().copied().flatten().copied()).collect();
+    let mut all: Vec<&Message> = catalogue::all().into_iter().chain(rooms.iter().copied().flatten().copied()).collect();
     all.sort_by_key(|message| message.code);
     all
 }

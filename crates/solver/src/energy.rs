@@ -7,9 +7,9 @@
 //! damping and multipliers take is their work with its sign turned, by the same rule: the drift can't judge it, its sign can.
 
 use crate::archive::keep_all;
-use crate::contact::springs::Lost;
 
 keep_all!(Works { internal, contact, gravity, load, damping, constraint, drive });
+keep_all!(Lost { friction, damping, old, freed, let_go });
 keep_all!(Stores { kinetic, elastic, plastic, hourglass, bulk_viscosity, contact, friction, contact_damping, damping, eroded });
 keep_all!(Ledger { kinetic_start, total_start, works, external, halves, stores, largest, residual, drift });
 
@@ -51,6 +51,32 @@ impl Works {
         self.damping += other.damping;
         self.constraint += other.constraint;
         self.drive += other.drive;
+    }
+}
+
+/// Work in contact that no normal spring stores, J/m: positive is taken from the motion.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Lost {
+    /// By friction, energy of the elastic slip included.
+    pub friction: f64,
+    /// By damping, and by impacts on multipliers.
+    pub damping: f64,
+    /// The same two impulses times the old rates instead of the mean ones.
+    pub old: [f64; 2],
+    /// Energy at n + ½ of springs that are no more at n + 1: ties that broke, contacts that end.
+    pub freed: f64,
+    /// Energy at n − ½ of springs that were closed and are no more at n: their node or segment has left the surface.
+    pub let_go: f64,
+}
+
+impl std::ops::AddAssign for Lost {
+    fn add_assign(&mut self, other: Self) {
+        self.friction += other.friction;
+        self.damping += other.damping;
+        self.old[0] += other.old[0];
+        self.old[1] += other.old[1];
+        self.freed += other.freed;
+        self.let_go += other.let_go;
     }
 }
 

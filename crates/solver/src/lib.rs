@@ -2,9 +2,9 @@
 //!
 //! The contents are listed in the order in which the data walks through them.
 
+pub mod archive;
 pub mod message;
 pub mod error;
-pub mod archive;
 pub mod hash;
 pub mod quantity;
 pub mod tensor;
@@ -18,21 +18,23 @@ pub mod mesh;
 pub mod material;
 pub mod element;
 pub mod failure;
+pub mod load;
+pub mod energy;
+pub mod rigid;
 pub mod block;
 pub mod contact;
-pub mod load;
-pub mod rigid;
+pub mod output;
 pub mod assembly;
-pub mod energy;
 pub mod step;
 pub mod build;
 mod culprit;
-mod record;
 mod showing;
+mod record;
+mod shortest;
 mod watch;
+pub mod catalogue;
 pub mod hashes;
-pub mod parting;
-pub mod output;
 pub mod simulation;
+pub mod parting;
 pub mod post_mortem;
 pub mod bench;

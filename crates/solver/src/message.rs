@@ -1,9 +1,8 @@
 //! The catalogue of messages: each kind of error and warning has a code that stays, a title, an example, a cause and a cure.
 //!
-//! Entries stand beside the code that raises them, as statics that a `MESSAGES` list of their file names; [`all`] joins those of the solver, and the rooms above
+//! Entries stand beside the code that raises them, as statics that a `MESSAGES` list of their file names; [`crate::catalogue`] joins those of the solver, and the rooms above
 //! add theirs. Whatever tells an error takes a `&'static Message`, so there is none without an entry. `embate explain` and `docs/messages.md` print them.
 
-use crate::{contact, error, load, material, mesh, model, watch};
 use std::fmt;
 
 /// One kind of message.
@@ -98,19 +97,4 @@ impl fmt::Display for Message {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}[{}]", if self.is_warning() { "warning" } else { "error" }, self.code)
     }
-}
-
-/// All entries of the solver.
-#[must_use]
-pub fn all() -> Vec<&'static Message> {
-    let rooms = [
-        model::messages::MESSAGES,
-        mesh::messages::MESSAGES,
-        material::messages::MESSAGES,
-        contact::messages::MESSAGES,
-        load::messages::MESSAGES,
-        error::MESSAGES,
-        watch::MESSAGES,
-    ];
-    rooms.iter().copied().flatten().copied().chain(material::messages()).collect()
 }

@@ -7,7 +7,7 @@
 use crate::archive::Keep;
 use crate::contact::springs::friction::{self, Slid, Stick, cone};
 use crate::energy::Sums;
-use crate::load::tributary::Tributary;
+use crate::mesh::surface::tributary::Tributary;
 use crate::rigid::space::{Attitude, Turning};
 use crate::rigid::{self, Body};
 use crate::tensor::{Dim, cross as cross_space};

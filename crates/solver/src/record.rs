@@ -165,7 +165,7 @@ impl Recorded {
                 probe.nodes.iter().fold([0.0; D], |sum, &(node, weight)| plus(sum, times(weight, value(node as usize))))
             };
             row.extend(mean(&|node| system.positions[node]));
-            row.extend(mean(&|node| velocity(system, node)));
+            row.extend(mean(&|node| system.velocity(node)));
         }
         row
     }
@@ -177,21 +177,6 @@ impl Recorded {
     {
         Showing::new(system, &self.fields)
     }
-}
-
-/// Velocity at the whole step, m/s: v^{n-1/2} and v^{n+1/2} lie ½ dt^{n-1} before and ½ dt^n after it (v⁰ itself at time zero).
-pub(crate) fn velocity<const D: usize>(system: &System<D>, node: usize) -> [f64; D]
-where
-    Dim<D>: World<D>,
-{
-    let ([a, b], before) = (system.velocities_around(node), system.before());
-    plus(a, times(before, minus(b, a)))
-}
-
-/// Equivalent stress, Pa.
-pub(crate) fn von_mises(s: &[f64; 6]) -> f64 {
-    let differences = (s[0] - s[1]).powi(2) + (s[1] - s[2]).powi(2) + (s[2] - s[0]).powi(2);
-    (0.5 * differences + 3.0 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5])).sqrt()
 }
 
 fn resolve<const D: usize>(at: &ProbeAt, system: &System<D>) -> Result<(Vec<(u32, f64)>, String), String>

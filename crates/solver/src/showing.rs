@@ -7,9 +7,8 @@ use crate::contact::traces::{State, Traces};
 use crate::material::Variable;
 use crate::mesh::ElementGroup;
 use crate::output::{Field, FieldKind, Frame, Location, Shown};
-use crate::record::{velocity, von_mises};
 use crate::step::System;
-use crate::tensor::Dim;
+use crate::tensor::{Dim, von_mises};
 use crate::vector::minus;
 use crate::world::World;
 use std::borrow::Cow;
@@ -85,7 +84,7 @@ where
         };
         match name {
             "displacement" => self.by_node(users, values, |node| minus(system.positions[node], system.mesh.positions[node])),
-            "velocity" => self.by_node(users, values, |node| velocity(system, node)),
+            "velocity" => self.by_node(users, values, |node| self.system.velocity(node)),
             "contact_force" => self.by_node(users, values, |node| system.contact_forces.of(node)),
             "contact_pressure" => self.by_node(users, values, |node| [traction(node)[0]]),
             "contact_shear" => self.by_node(users, values, |node| [traction(node)[1]]),

@@ -4,7 +4,6 @@ mod clock;
 mod course;
 mod memory;
 pub(crate) mod run;
-mod shortest;
 mod state;
 mod steering;
 mod summary;
@@ -21,7 +20,6 @@ use crate::output::{Cells, Field, Frame, Shown, Summary};
 use crate::post_mortem::{Acting, Culprit, Neighbourhood, Suspect, Trace};
 use embate_lanes::Level;
 use run::Run;
-pub(crate) use shortest::Shortest;
 
 /// How a simulation is run; changes no result.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -16,9 +16,10 @@ use crate::build::Shares;
 use crate::contact::forces::ContactForces;
 use crate::contact::law::penalty::LIMIT;
 use crate::contact::obstacle::OutlineShape;
-use crate::contact::springs::{Lost, Springs, Update};
+use crate::contact::springs::{Springs, Update};
 use crate::contact::traces::Traces;
 use crate::contact::{Contact, Scene, Sweep};
+use crate::energy::Lost;
 use crate::energy::{Entry, Ledger, Stores, Sums, Works};
 use crate::error::Error;
 use crate::load::body_force::BodyForces;
@@ -31,7 +32,7 @@ use crate::load::non_reflecting::NonReflecting;
 use crate::mesh::Mesh;
 use crate::rigid::{Acting, Bodies};
 use crate::tensor::Dim;
-use crate::vector::{dot, plus, times};
+use crate::vector::{dot, minus, plus, times};
 use crate::world::World;
 use embate_lanes::{Chunks, Level, Team};
 use erosion::Erosion;
@@ -572,6 +573,12 @@ where
             }
             None => [self.velocities_old[node], self.velocities[node]],
         }
+    }
+
+    /// Velocity of a node at the whole step, m/s: v^{n-1/2} and v^{n+1/2} lie ½ dt^{n-1} before and ½ dt^n after it (v⁰ itself at time zero).
+    pub(crate) fn velocity(&self, node: usize) -> [f64; D] {
+        let ([a, b], before) = (self.velocities_around(node), self.before());
+        plus(a, times(before, minus(b, a)))
     }
 
     /// Kinetic energy of a node at the whole step by its mass, J/kg: its share in [`Stores::kinetic`] as the ledger books it.

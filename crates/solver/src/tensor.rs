@@ -458,6 +458,12 @@ impl Space<2> for Dim<2> {
     }
 }
 
+/// Equivalent stress of von Mises of (xx, yy, zz, xy, yz, zx), Pa: √(½ Σ (σ_ii − σ_jj)² + 3 Σ σ_ij²).
+pub(crate) fn von_mises(s: &[f64; 6]) -> f64 {
+    let differences = (s[0] - s[1]).powi(2) + (s[1] - s[2]).powi(2) + (s[2] - s[0]).powi(2);
+    (0.5 * differences + 3.0 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5])).sqrt()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

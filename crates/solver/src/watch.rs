@@ -9,7 +9,7 @@ use crate::error::Notice;
 use crate::material::{self, Parameters, Variable};
 use crate::message::{Example, Message};
 use crate::model::Model;
-use crate::simulation::Shortest;
+use crate::shortest::Shortest;
 use crate::step::System;
 use crate::tensor::Dim;
 use crate::world::{World, place};

@@ -16,7 +16,7 @@ use crate::contact::tracker::{SKIN, Tracker};
 use crate::contact::{self, Contact, ContactKind, Formulation, Tributary, Vector, initial, law, length};
 use crate::error::Fault;
 use crate::load::constraint::unit;
-use crate::load::tributary::Depth;
+use crate::mesh::surface::tributary::Depth;
 use crate::mesh::surface::{NONE, Surface};
 use crate::model::messages::NO_DIRECTION;
 use crate::model::{Obstacle, ObstacleShape};

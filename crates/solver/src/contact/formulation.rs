@@ -13,7 +13,7 @@ use super::search::Search;
 use super::tracker::Tracker;
 use super::{Formulation, Tributary, Vector, law, node_segment, pinball, segment, tied};
 use crate::error::Fault;
-use crate::load::tributary::Depth;
+use crate::mesh::surface::tributary::Depth;
 use crate::model::{self, Partners, Penalty, PenaltySource};
 use std::collections::BTreeSet;
 

@@ -33,8 +33,8 @@ pub mod mirror;
 pub mod traces;
 
 use crate::archive::{Archive, Kept, keep_each};
-use crate::load::tributary::Depth;
 use crate::mesh::surface::Surface;
+use crate::mesh::surface::tributary::Depth;
 use crate::motion::Motion;
 use crate::rigid::Bodies;
 use crate::tensor::Dim;

@@ -23,7 +23,7 @@ use super::springs::{Answers, Patch, Spring, Springs};
 use super::tracker::{Certificate, SearchReport, Tracker};
 use super::{Formulation, Scene, Sweep, Vector};
 use crate::archive::{Archive, Kept, keep_all, keep_each};
-use crate::load::tributary::Depth;
+use crate::mesh::surface::tributary::Depth;
 use crate::mesh::surface::{NONE, Surface};
 use crate::model::{ContactLaw, Penalty};
 use crate::rows::Rows;

@@ -3,9 +3,10 @@
 //! Springs come solved; fields go to the record. Each spring stands for a length of surface on both sides, and a node has its shares of the springs at it.
 
 use super::forces::ContactForces;
-use super::springs::{Answer, Lost, Springs};
+use super::springs::{Answer, Springs};
 use crate::archive::{Archive, Keep, Kept};
-use crate::load::tributary::{Depth, shares, vector_shares};
+use crate::energy::Lost;
+use crate::mesh::surface::tributary::{Depth, shares, vector_shares};
 use crate::mesh::surface::{Corners, Sided, Surface};
 use crate::motion::Motion;
 use crate::tensor::{Dim, dot};

@@ -6,9 +6,9 @@
 //! with a factor c(t) of a curve. Works are external. A closed surface under pressure feels no resultant.
 
 use super::curve::Curves;
-use super::tributary::{self, Depth, Tributary};
 use crate::archive::{Archive, Keep, Kept};
 use crate::error::Fault;
+use crate::mesh::surface::tributary::{self, Depth, Tributary};
 use crate::mesh::surface::{Corners, Facet, Sided};
 use crate::mesh::{Mesh, Meshed};
 use crate::model::messages::UNKNOWN_NAME;

@@ -11,4 +11,3 @@ pub mod force;
 pub mod join;
 pub(crate) mod messages;
 pub mod non_reflecting;
-pub mod tributary;

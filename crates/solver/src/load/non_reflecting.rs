@@ -7,9 +7,9 @@
 //! velocity of the update, v̄ = ½ (v^{n−½} + v^{n+½}): it only takes energy, whatever the step, and shortens none. A node gives way to an impulse J by
 //! (m + ½ Δt C)⁻¹ J with Δt = ½ (dt^{n−1} + dt^n).
 
-use super::tributary::{self, Depth, Tributary};
 use crate::error::Fault;
 use crate::mesh::Mesh;
+use crate::mesh::surface::tributary::{self, Depth, Tributary};
 use crate::mesh::surface::{Facet, Sided};
 use crate::model::Model;
 use crate::tensor::Dim;

@@ -6,7 +6,6 @@
 
 use super::run::Run;
 use crate::error::{Fault, STEERING};
-use crate::record::velocity;
 use crate::tensor::Dim;
 use crate::vector::{dot, minus, plus, times};
 use crate::world::World;
@@ -40,7 +39,7 @@ where
         let (mut half, mut whole, mut ahead) = (0.0, 0.0, 0.0);
         for (number, wanted) in given {
             let node = number as usize;
-            let change = minus(wanted, velocity(system, node));
+            let change = minus(wanted, system.velocity(node));
             let old = system.velocities[node];
             let free = plus(old, change);
             let new = system.constraints.of(node).map_or(free, |held| held.apply(free));

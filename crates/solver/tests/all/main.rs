@@ -54,6 +54,7 @@ mod rayleigh;
 mod restart;
 mod revolution;
 mod rigid;
+mod rooms;
 mod rubbers;
 mod run_control;
 mod search;

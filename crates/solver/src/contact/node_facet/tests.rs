@@ -349,7 +349,9 @@ fn two_blocks_with_like_meshes_that_are_pressed_carry_the_pressure_of_their_dept
     let areas = |surface: &SpaceSurface| {
         let mut areas = vec![0.0; surface.nodes.len()];
         for &facet in &surface.facets {
-            for (node, share) in crate::load::tributary::shares::<3>(crate::load::tributary::Depth::Plane, facet, &positions) {
+            for (node, share) in
+                crate::mesh::surface::tributary::shares::<3>(crate::mesh::surface::tributary::Depth::Plane, facet, &positions)
+            {
                 // Of the sides that meet only.
                 let flat = facet.iter().all(|&node| (positions[node as usize][2] - 0.5).abs() < 0.01);
                 areas[surface.nodes.binary_search(&node).unwrap()] += if flat { share } else { 0.0 };

@@ -2,7 +2,8 @@
 //!
 //! Springs and what was found of them come from [`super::answers`], which sums up what is booked here.
 
-use super::{Answer, Lost, Tangential, sum_along};
+use super::{Answer, Tangential, sum_along};
+use crate::energy::Lost;
 use crate::motion::Motion;
 use crate::tensor::Dim;
 

@@ -2,12 +2,10 @@
 //!
 //! They are kept as contacts found them, with what was found of each: how the solution has them in memory is its own affair.
 
-use super::{End, Lost, Solved, Spring, Springs, Totals};
-use crate::archive::{Archive, Keep, Kept, keep_all, keep_each};
+use super::{End, Solved, Spring, Springs, Totals};
+use crate::archive::{Archive, Keep, Kept, keep_each};
 use crate::motion::Motion;
 use crate::tensor::Dim;
-
-keep_all!(Lost { friction, damping, old, freed, let_go });
 
 impl<const D: usize> Keep for Totals<D> {
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {

@@ -43,6 +43,7 @@ pub use answers::{Answer, Answers};
 
 use super::law::Law;
 use crate::archive::keep_all;
+use crate::energy::Lost;
 use crate::motion::Motion;
 use crate::rigid::Bodies;
 use crate::tensor::Dim;
@@ -200,32 +201,6 @@ where
     pub rates: [f64; 2],
     /// The same of the slip along the tangent, m/s.
     pub slip_rates: [Along<D>; 2],
-}
-
-/// Work that no normal spring stores, J/m: positive is taken from the motion.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Lost {
-    /// By friction, energy of the elastic slip included.
-    pub friction: f64,
-    /// By damping, and by impacts on multipliers.
-    pub damping: f64,
-    /// The same two impulses times the old rates instead of the mean ones.
-    pub old: [f64; 2],
-    /// Energy at n + ½ of springs that are no more at n + 1: ties that broke, contacts that end.
-    pub freed: f64,
-    /// Energy at n − ½ of springs that were closed and are no more at n: their node or segment has left the surface.
-    pub let_go: f64,
-}
-
-impl std::ops::AddAssign for Lost {
-    fn add_assign(&mut self, other: Self) {
-        self.friction += other.friction;
-        self.damping += other.damping;
-        self.old[0] += other.old[0];
-        self.old[1] += other.old[1];
-        self.freed += other.freed;
-        self.let_go += other.let_go;
-    }
 }
 
 /// What a spring does to one node or rigid body: rows of the rates of gap and slip.

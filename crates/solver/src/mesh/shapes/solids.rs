@@ -1,9 +1,9 @@
 //! Contract tests of solids: every shape of space, and every shape of the plane that is pulled or turned.
 
 use super::*;
-use crate::load::tributary::vector_shares;
 use crate::mesh::Mesh;
 use crate::mesh::dimension::corner_volumes;
+use crate::mesh::surface::tributary::vector_shares;
 use crate::mesh::surface::{Corners, exterior};
 use crate::model::{ImportedMesh, MeshGroup, Model};
 use std::collections::{BTreeMap, BTreeSet};

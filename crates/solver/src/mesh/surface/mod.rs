@@ -5,6 +5,7 @@
 
 mod plane;
 pub(super) mod space;
+pub mod tributary;
 
 pub use plane::PlaneSurface;
 pub use space::{SpaceSurface, SurfaceEdge};

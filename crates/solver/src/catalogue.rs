@@ -1,0 +1,19 @@
+//! All messages of the solver: the rooms that raise them list their own.
+
+use crate::message::Message;
+use crate::{contact, error, load, material, mesh, model, watch};
+
+/// All entries of the solver.
+#[must_use]
+pub fn all() -> Vec<&'static Message> {
+    let rooms = [
+        model::messages::MESSAGES,
+        mesh::messages::MESSAGES,
+        material::messages::MESSAGES,
+        contact::messages::MESSAGES,
+        load::messages::MESSAGES,
+        error::MESSAGES,
+        watch::MESSAGES,
+    ];
+    rooms.iter().copied().flatten().copied().chain(material::messages()).collect()
+}

@@ -1,0 +1,113 @@
+//! Which room of the library imports which: one that stands above in `lib.rs` imports none that stands below it, but for those that are listed here.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Rooms that still import one below them, and how many of their files do. The list only shrinks.
+const UPWARD: &[(&str, &str, usize)] = &[
+    // The traits of the dimension, which belong to those whom they import.
+    ("motion", "mesh", 1),
+    ("motion", "load", 1),
+    ("motion", "energy", 1),
+    ("motion", "rigid", 1),
+    ("motion", "contact", 1),
+    ("world", "model", 3),
+    ("world", "mesh", 3),
+    ("world", "load", 1),
+    ("world", "rigid", 3),
+    ("world", "block", 1),
+    ("world", "contact", 3),
+    ("world", "output", 3),
+    ("world", "build", 3),
+    // Descriptions and checks of keys, which ask the registries.
+    ("model", "mesh", 5),
+    ("model", "material", 5),
+    ("model", "element", 4),
+    ("model", "failure", 2),
+    ("model", "load", 4),
+    ("model", "block", 4),
+    ("model", "contact", 5),
+    ("model", "output", 2),
+    ("rigid", "contact", 1),
+    ("contact", "output", 1),
+    // Erosion builds contacts anew within a step.
+    ("step", "build", 2),
+    ("simulation", "post_mortem", 2),
+];
+
+/// The modules of `lib.rs`, in their order.
+fn rooms(source: &Path) -> Vec<String> {
+    let library = fs::read_to_string(source.join("lib.rs")).unwrap();
+    let declared = library.lines().filter_map(|line| line.trim_start_matches("pub ").strip_prefix("mod ")?.strip_suffix(';'));
+    declared.map(String::from).collect()
+}
+
+/// The files of a folder and those below it.
+fn files(folder: &Path, found: &mut Vec<PathBuf>) {
+    for path in fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
+        if path.is_dir() {
+            files(&path, found);
+        } else {
+            found.push(path);
+        }
+    }
+}
+
+/// What a text imports from the library by `crate::name` and `crate::{name, ...}`, without its comments and its tests.
+fn imports(text: &str) -> BTreeSet<String> {
+    let text = text.split("#[cfg(test)]\nmod tests").next().unwrap_or_default();
+    let lines: Vec<&str> = text.lines().map(|line| line.split("//").next().unwrap_or_default()).collect();
+    let text = lines.join("\n");
+    let word = |text: &str| text.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect::<String>();
+    let mut found = BTreeSet::new();
+    for after in text.split("crate::").skip(1) {
+        let Some(list) = after.strip_prefix('{') else {
+            found.insert(word(after));
+            continue;
+        };
+        // Names at the first level of braces.
+        let mut depth = 0;
+        let mut names = String::new();
+        for c in list.chars() {
+            depth += i32::from(c == '{') - i32::from(c == '}');
+            if depth < 0 {
+                break;
+            }
+            if depth == 0 {
+                names.push(c);
+            }
+        }
+        found.extend(names.split(',').map(|name| word(name.trim())));
+    }
+    found
+}
+
+#[test]
+fn rooms_import_what_stands_above_them() {
+    assert_eq!(
+        imports("use crate::{a, b::{c, d}, e::f}; // crate::no\nlet x = crate::g::h;\n#[cfg(test)]\nmod tests { use crate::no; }"),
+        ["a", "b", "e", "g"].map(String::from).into()
+    );
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let rooms = rooms(&source);
+    let place = |room: &str| rooms.iter().position(|other| other == room);
+    let mut all = Vec::new();
+    files(&source, &mut all);
+    let mut upward = BTreeMap::<(String, String), usize>::new();
+    for path in all {
+        let inside = path.strip_prefix(&source).unwrap();
+        let first = inside.components().next().unwrap().as_os_str().to_str().unwrap();
+        let name = path.file_name().unwrap().to_str().unwrap();
+        let is_test = name.ends_with("tests.rs") || inside.components().any(|part| part.as_os_str() == "tests");
+        let room = first.trim_end_matches(".rs");
+        let Some(own) = place(room).filter(|_| !is_test) else { continue };
+        for other in imports(&fs::read_to_string(&path).unwrap()) {
+            if place(&other).is_some_and(|other| other > own) {
+                *upward.entry((room.into(), other)).or_default() += 1;
+            }
+        }
+    }
+    let listed = UPWARD.iter().map(|(room, other, count)| ((room.to_string(), other.to_string()), *count)).collect::<BTreeMap<_, _>>();
+    assert_eq!(upward, listed, "a room imports one that stands below it in lib.rs, or fewer do and the list here is too long");
+}

@@ -77,7 +77,7 @@ struct Known {
     bodies: [u32; 2],
     /// Area vector with which it began, turned with the bodies since, m²; zero: it has no direction.
     began: Vector,
-    /// Area, the mean of both sides, in the last look, and in the one before, m².
+    /// Area, the mean of both sides, now and when it was found the time before, m².
     size: f64,
     size_before: f64,
     /// V now and when it was found the time before, and how the net saw it grow since then, m³.

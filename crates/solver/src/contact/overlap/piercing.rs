@@ -41,21 +41,21 @@ pub(super) struct Piece {
 pub(super) fn find(skin: &Skin, tree: &mut Tree, near: &mut Near, travel: f64, found: &mut Vec<Piercing>) {
     found.clear();
     near.meeting(skin, tree, travel, |facets, boxes| {
-        let [a, b] = [0, 1].map(|of| Placed::new(skin, facets[of], *boxes[of]));
+        let [a, b] = [0, 1].map(|of| PlacedFacet::new(skin, facets[of], *boxes[of]));
         of_edges(skin, &a, &b, found);
         of_edges(skin, &b, &a, found);
     });
 }
 
 /// A facet where it is.
-struct Placed<'a> {
+struct PlacedFacet<'a> {
     facet: &'a Facet,
     /// Its vertices, as many as it has.
     points: [Point; 5],
     bounds: Aabb<3>,
 }
 
-impl<'a> Placed<'a> {
+impl<'a> PlacedFacet<'a> {
     fn new(skin: &'a Skin, facet: u32, bounds: Aabb<3>) -> Self {
         let facet = &skin.facets[facet as usize];
         let mut points = [(NONE, [0.0; 3]); 5];
@@ -93,7 +93,7 @@ fn are_beside([a, b, c]: [Point; 3], points: &[Point]) -> bool {
 }
 
 /// Piercings of the edges of one facet through the triangles of another one.
-fn of_edges(skin: &Skin, own: &Placed<'_>, other: &Placed<'_>, found: &mut Vec<Piercing>) {
+fn of_edges(skin: &Skin, own: &PlacedFacet<'_>, other: &PlacedFacet<'_>, found: &mut Vec<Piercing>) {
     let points = own.points();
     for triangle in other.facet.triangles() {
         let corners = skin.triangles[triangle as usize];

@@ -1,0 +1,167 @@
+"""Holds the pages of the book to docs/style.md: `style.py [--wrap] [PAGE...]`; without pages, all that are written by hand.
+
+Checked are the width of lines and the words that docs/style.md lists as not used; docs/build.py does so with every build.
+With --wrap, the text of the pages is wrapped at that width: tables, code, formulas, headings and HTML stay as they are.
+"""
+
+import re
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+STYLE = ROOT / "docs" / "style.md"
+WIDTH = 110
+# Pages that a program writes: their words are in its source.
+GENERATED = {
+    "docs/command-line.md",
+    "docs/elements-and-laws.md",
+    "docs/messages.md",
+    "docs/model-file.md",
+    "docs/verification-results.md",
+}
+# Pages with tables that a program writes.
+GENERATED_TABLES = {"docs/gallery.md", "docs/import.md", "docs/output.md", "docs/verification.md"}
+FENCE = re.compile(r"^ *(`{3,}|~{3,})")
+ITEM = re.compile(r"^( *)([-*+]|\d+\.) +")
+# What must not be broken over two lines: code, and the address of a link with the word before it.
+CODE = re.compile(r"`[^`\n]*`")
+ADDRESS = re.compile(r"\]\([^)\s]*\)|https?://\S+")
+UNITS = "[kMGmµn]?(?:m|s|g|Pa|J|N|W|K|Hz)|%|mm|GB|MB|kB|MiB|GiB|KiB"
+# A line that began with one of these would be a list, a heading, a quotation or a table.
+OPENS_BLOCK = re.compile(r"([-*+>|]|#+|\d+[.)]|=+|-+)(?=[\s\0]|$)")
+
+
+def pages() -> list[str]:
+    """The pages that are written by hand, relative to the repository."""
+    patterns = ["*.md", "docs/**/*.md", "examples/*/README.md", "verification/*/README.md", "failures/README.md", "fuzz/README.md"]
+    found = {str(path.relative_to(ROOT)) for pattern in patterns for path in ROOT.glob(pattern)}
+    return sorted(found - GENERATED)
+
+
+def blocks(lines: list[str]) -> list[tuple[str, list[str]]]:
+    """The lines of a page in blocks: ("text", lines) may be wrapped, ("kept", lines) may not."""
+    found: list[tuple[str, list[str]]] = []
+    fence, in_list, code = None, False, False
+    for line in lines:
+        bare = line.strip()
+        mark = FENCE.match(line)
+        before = found[-1] if found else ("kept", [""])
+        follows_text = before[0] == "text"
+        if fence is not None or mark:
+            found.append(("kept", [line]))
+            if fence is None and mark:
+                fence = mark[1]
+            elif fence is not None and bare.startswith(fence) and not bare.strip(fence[0]):
+                fence = None
+            code = False
+            continue
+        indent = len(line) - len(line.lstrip())
+        if not bare:
+            found.append(("kept", [line]))
+        elif indent >= 4 and not in_list and not follows_text:
+            found.append(("kept", [line]))
+            code = True
+        elif bare.startswith(("|", "#", "<", ">", "![")) or re.fullmatch(r"[-*_=]{3,}", bare):
+            found.append(("kept", [line]))
+            in_list = in_list and indent > 0
+        elif ITEM.match(line):
+            found.append(("text", [line]))
+            in_list = True
+        elif follows_text:
+            before[1].append(line)
+        else:
+            found.append(("text", [line]))
+            in_list = in_list and indent > 0
+    return found
+
+
+def words(text: str) -> list[str]:
+    """The pieces of a text between which a line may end: not within code, a number and its unit, or at a sign of equality."""
+    whole = CODE.sub(lambda code: code[0].replace(" ", "\0"), text)
+    whole = re.sub(rf"(?<=\d) (?=(?:{UNITS})(?:[²³.,;:)/]|\s|$))", "\0", whole)
+    whole = re.sub(r" ([=≈<≤>≥]) ", "\0\\1\0", whole)
+    made: list[str] = []
+    for word in whole.split():
+        if made and OPENS_BLOCK.match(word):
+            made[-1] += f" {word}"
+        else:
+            made.append(word)
+    return [word.replace("\0", " ") for word in made]
+
+
+def wrapped(lines: list[str]) -> list[str]:
+    """One paragraph or item of a list, wrapped."""
+    first = ITEM.match(lines[0])
+    indent = first[0] if first else " " * (len(lines[0]) - len(lines[0].lstrip()))
+    rest = " " * len(indent)
+    text = " ".join([lines[0][len(indent) :], *(line.strip() for line in lines[1:])])
+    made, line = [], indent
+    for word in words(text):
+        empty = line.strip() == indent.strip() and line in (indent, rest)
+        if not empty and len(line) + 1 + len(word) > WIDTH:
+            made.append(line)
+            line, empty = rest, True
+        line += word if empty else f" {word}"
+    return [*made, line]
+
+
+def wrap(text: str) -> str:
+    """A page with its text wrapped."""
+    made: list[str] = []
+    for kind, lines in blocks(text.splitlines()):
+        made += wrapped(lines) if kind == "text" else lines
+    return "\n".join(made) + "\n"
+
+
+def unused_words() -> dict[str, re.Pattern[str]]:
+    """The words that docs/style.md says are not used: the first column of the table below that heading."""
+    table = re.search(r"^## Words not used\n(.*?)(?=^## |\Z)", STYLE.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)[1]
+    cells = re.findall(r"^\| ([^|]+?) \|", table, re.MULTILINE)[1:]
+    listed = [word.strip() for cell in cells for word in cell.split(",")]
+    return {word: re.compile(r"(?<![\w-])" + r"\s+".join(map(re.escape, word.split())) + r"(?![\w-])", re.IGNORECASE) for word in listed}
+
+
+def check(names: list[str]) -> list[str]:
+    """What is not as docs/style.md has it, with page and line."""
+    faults, unused = [], unused_words()
+    for name in names:
+        if name in GENERATED:
+            continue
+        text = (ROOT / name).read_text(encoding="utf-8")
+        if name == "CHANGELOG.md":
+            # What was released stays as it was written.
+            text = "## ".join(text.split("\n## ")[:2])
+        lines, fence = text.splitlines(), False
+        for number, line in enumerate(lines):
+            mark = FENCE.match(line)
+            if mark or fence or line.startswith("    ") or (name in GENERATED_TABLES and line.startswith("|")):
+                fence = fence != bool(mark)
+                lines[number] = ""
+            elif len(ADDRESS.sub("", line)) > WIDTH and not line.lstrip().startswith(("|", "#", "<", "![")):
+                faults.append(f"{name}:{number + 1}: wider than {WIDTH} columns; docs/style.py --wrap {name}")
+        if name == str(STYLE.relative_to(ROOT)):
+            continue
+        plain = ADDRESS.sub("", CODE.sub("``", "\n".join(lines)))
+        for word, pattern in unused.items():
+            for hit in pattern.finditer(plain):
+                faults.append(f"{name}:{plain.count(chr(10), 0, hit.start()) + 1}: \"{word}\" is not used here: docs/style.md")
+    return faults
+
+
+def main() -> None:
+    arguments = [argument for argument in sys.argv[1:] if argument != "--wrap"]
+    names = [str(Path(argument).resolve().relative_to(ROOT)) for argument in arguments] or pages()
+    if "--wrap" in sys.argv[1:]:
+        for name in names:
+            path = ROOT / name
+            text = path.read_text(encoding="utf-8")
+            path.write_text(wrap(text), encoding="utf-8")
+    faults = check(names)
+    for fault in faults:
+        print(f"error: {fault}", file=sys.stderr)
+    print(f"{len(names)} pages; {len(faults)} faults of style")
+    sys.exit(1 if faults else 0)
+
+
+if __name__ == "__main__":
+    main()

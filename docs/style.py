@@ -130,7 +130,7 @@ def check(names: list[str]) -> list[str]:
         text = (ROOT / name).read_text(encoding="utf-8")
         if name == "CHANGELOG.md":
             # What was released stays as it was written.
-            text = "## ".join(text.split("\n## ")[:2])
+            text = "\n## ".join(text.split("\n## ")[:2])
         lines, fence = text.splitlines(), False
         for number, line in enumerate(lines):
             mark = FENCE.match(line)

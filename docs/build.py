@@ -1,4 +1,6 @@
-"""Builds the book into target/book/html and checks its links: `build.py [--check]`; with --check the links alone, without mdBook.
+"""Builds the book into target/book/html and checks its links, words and lines: `build.py [--check]`; with --check without mdBook.
+
+Words and lines are checked by docs/style.py, against docs/style.md.
 
 The pages stay where they are in the repository: docs/SUMMARY.md is the order, each verification case and each example comes below the page that lists them. What the pages link to is staged beside
 them in target/book/source, in the folders of the repository, so that one link serves on disk, where the code is hosted and in the book.
@@ -14,6 +16,8 @@ import subprocess
 import sys
 import urllib.parse
 from pathlib import Path
+
+import style
 
 ROOT = Path(__file__).resolve().parent.parent
 BOOK = ROOT / "target" / "book"
@@ -229,6 +233,7 @@ def main() -> None:
     forgotten = {path.relative_to(ROOT) for path in (ROOT / "docs").rglob("*.md")} - set(pages) - {SUMMARY.relative_to(ROOT)}
     faults, targets = check(pages)
     faults += [f"{page}: no line of docs/SUMMARY.md leads to it" for page in sorted(forgotten)]
+    faults += style.check(style.pages())
     if not faults and "--check" not in sys.argv[1:]:
         if shutil.which("mdbook") is None:
             sys.exit(f"error: {MISSING_PROGRAM}")

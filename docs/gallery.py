@@ -1,6 +1,6 @@
 """Makes the gallery: `gallery.py --embate PROGRAM [--runs N] [EXAMPLE...]`; `gallery.py --text` runs nothing and takes the text of the READMEs anew, `gallery.py --check` tells what is missing or stale.
 
-Each example (all, if none is named) is run in a folder of its own that is removed afterwards, N times for the least run time. Its section in docs/gallery.md is written anew: title and first paragraph and
+Each example (all, if none is named) is run in a folder of its own that is removed afterwards, N times for the least run time. Its section in docs/gallery.md is written again: title and first paragraph and
 `## What to look at` of its README, some moments of its `animation.gif` side by side in docs/images/gallery/EXAMPLE.png, the film itself where it is small, and figures of its `summary.json`.
 What stands before these sections, and sections of the page that are no example's, are kept. Python is enough, the command installs nothing.
 """
@@ -67,8 +67,8 @@ def image(example: str, suffix: str) -> str:
 def section(example: str, figures: str, film: bool) -> str:
     """The section of an example; `figures` is the line of its table."""
     title, paragraph, look = text_of(example)
-    links = [f"[model.toml](../examples/{example}/model.toml)", f"[figures and where they come from](../examples/{example}/README.md)"]
-    links += [f"[as a film]({image(example, '.gif')})"] if film else []
+    links = [f"[model.toml](../examples/{example}/model.toml)", f"[expected values and their sources](../examples/{example}/README.md)"]
+    links += [f"[animation]({image(example, '.gif')})"] if film else []
     return f"""## {title}
 
 ![{title}: moments of the run]({image(example, ".png")})
@@ -230,7 +230,7 @@ def faults(sections: dict[str, str]) -> list[str]:
             continue
         try:
             if part.strip() != again(example, part).strip():
-                found.append(f"docs/gallery.md: {example} does not say what examples/{example}/README.md says; `docs/gallery.py --text` writes it anew")
+                found.append(f"docs/gallery.md: {example} does not say what examples/{example}/README.md says; `docs/gallery.py --text` writes it again")
             for name in re.findall(rf"\((images/[\w/-]*{example}\.\w+)\)", part):
                 if not (PAGE.parent / name).is_file():
                     found.append(f"docs/{name} is missing")

@@ -1,7 +1,7 @@
-"""Holds the pages of the book to docs/style.md: `style.py [--wrap] [PAGE...]`; without pages, all that are written by hand.
+"""Checks pages against docs/style.md: `style.py [--wrap] [PAGE...]`; without pages, all handwritten ones.
 
-Checked are the width of lines and the words that docs/style.md lists as not used; docs/build.py does so with every build.
-With --wrap, the text of the pages is wrapped at that width: tables, code, formulas, headings and HTML stay as they are.
+It checks the width of lines and the words that docs/style.md lists as not used; docs/build.py calls it with
+every build. With --wrap it first wraps the text of the pages, but no tables, code, formulas, headings and HTML.
 """
 
 import re
@@ -26,6 +26,8 @@ ITEM = re.compile(r"^( *)([-*+]|\d+\.) +")
 # What must not be broken over two lines: code, and the address of a link with the word before it.
 CODE = re.compile(r"`[^`\n]*`")
 ADDRESS = re.compile(r"\]\([^)\s]*\)|https?://\S+")
+# Lines that are not wrapped: tables, headings, HTML, quotations and pictures.
+KEPT = ("|", "#", "<", ">", "![")
 UNITS = "[kMGmµn]?(?:m|s|g|Pa|J|N|W|K|Hz)|%|mm|GB|MB|kB|MiB|GiB|KiB"
 # A line that began with one of these would be a list, a heading, a quotation or a table.
 OPENS_BLOCK = re.compile(r"([-*+>|]|#+|\d+[.)]|=+|-+)(?=[\s\0]|$)")
@@ -33,35 +35,35 @@ OPENS_BLOCK = re.compile(r"([-*+>|]|#+|\d+[.)]|=+|-+)(?=[\s\0]|$)")
 
 def pages() -> list[str]:
     """The pages that are written by hand, relative to the repository."""
-    patterns = ["*.md", "docs/**/*.md", "examples/*/README.md", "verification/*/README.md", "failures/README.md", "fuzz/README.md"]
+    patterns = ["*.md", "docs/**/*.md"]
+    patterns += [f"{folder}/README.md" for folder in ("crates/*", "examples/*", "verification/*")]
+    patterns += ["failures/README.md", "fuzz/README.md"]
     found = {str(path.relative_to(ROOT)) for pattern in patterns for path in ROOT.glob(pattern)}
     return sorted(found - GENERATED)
 
 
 def blocks(lines: list[str]) -> list[tuple[str, list[str]]]:
-    """The lines of a page in blocks: ("text", lines) may be wrapped, ("kept", lines) may not."""
+    """The lines of a page in blocks: "text" may be wrapped; "kept" (tables, headings, ...) and "code" may not."""
     found: list[tuple[str, list[str]]] = []
-    fence, in_list, code = None, False, False
+    fence, in_list = None, False
     for line in lines:
         bare = line.strip()
         mark = FENCE.match(line)
         before = found[-1] if found else ("kept", [""])
         follows_text = before[0] == "text"
         if fence is not None or mark:
-            found.append(("kept", [line]))
+            found.append(("code", [line]))
             if fence is None and mark:
                 fence = mark[1]
             elif fence is not None and bare.startswith(fence) and not bare.strip(fence[0]):
                 fence = None
-            code = False
             continue
         indent = len(line) - len(line.lstrip())
         if not bare:
             found.append(("kept", [line]))
         elif indent >= 4 and not in_list and not follows_text:
-            found.append(("kept", [line]))
-            code = True
-        elif bare.startswith(("|", "#", "<", ">", "![")) or re.fullmatch(r"[-*_=]{3,}", bare):
+            found.append(("code", [line]))
+        elif bare.startswith(KEPT) or re.fullmatch(r"[-*_=]{3,}", bare):
             found.append(("kept", [line]))
             in_list = in_list and indent > 0
         elif ITEM.match(line):
@@ -76,7 +78,7 @@ def blocks(lines: list[str]) -> list[tuple[str, list[str]]]:
 
 
 def words(text: str) -> list[str]:
-    """The pieces of a text between which a line may end: not within code, a number and its unit, or at a sign of equality."""
+    """The pieces of a text between which a line may end: not in code, before a unit, or at a sign of equality."""
     whole = CODE.sub(lambda code: code[0].replace(" ", "\0"), text)
     whole = re.sub(rf"(?<=\d) (?=(?:{UNITS})(?:[²³.,;:)/]|\s|$))", "\0", whole)
     whole = re.sub(r" ([=≈<≤>≥]) ", "\0\\1\0", whole)
@@ -115,14 +117,19 @@ def wrap(text: str) -> str:
 
 def unused_words() -> dict[str, re.Pattern[str]]:
     """The words that docs/style.md says are not used: the first column of the table below that heading."""
-    table = re.search(r"^## Words not used\n(.*?)(?=^## |\Z)", STYLE.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)[1]
+    text = STYLE.read_text(encoding="utf-8")
+    table = re.search(r"^## Words not used\n(.*?)(?=^## |\Z)", text, re.MULTILINE | re.DOTALL)[1]
     cells = re.findall(r"^\| ([^|]+?) \|", table, re.MULTILINE)[1:]
     listed = [word.strip() for cell in cells for word in cell.split(",")]
-    return {word: re.compile(r"(?<![\w-])" + r"\s+".join(map(re.escape, word.split())) + r"(?![\w-])", re.IGNORECASE) for word in listed}
+    found = {}
+    for word in listed:
+        spaced = r"\s+".join(map(re.escape, word.split()))
+        found[word] = re.compile(rf"(?<![\w-]){spaced}(?![\w-])", re.IGNORECASE)
+    return found
 
 
 def check(names: list[str]) -> list[str]:
-    """What is not as docs/style.md has it, with page and line."""
+    """The deviations from docs/style.md, with page and line."""
     faults, unused = [], unused_words()
     for name in names:
         if name in GENERATED:
@@ -131,20 +138,20 @@ def check(names: list[str]) -> list[str]:
         if name == "CHANGELOG.md":
             # What was released stays as it was written.
             text = "\n## ".join(text.split("\n## ")[:2])
-        lines, fence = text.splitlines(), False
-        for number, line in enumerate(lines):
-            mark = FENCE.match(line)
-            if mark or fence or line.startswith("    ") or (name in GENERATED_TABLES and line.startswith("|")):
-                fence = fence != bool(mark)
-                lines[number] = ""
-            elif len(ADDRESS.sub("", line)) > WIDTH and not line.lstrip().startswith(("|", "#", "<", "![")):
-                faults.append(f"{name}:{number + 1}: wider than {WIDTH} columns; docs/style.py --wrap {name}")
+        shown = []
+        for kind, lines in blocks(text.splitlines()):
+            for line in lines:
+                generated = line.startswith("|") and name in GENERATED_TABLES
+                shown.append("" if kind == "code" or generated else line)
+                if kind == "text" and len(ADDRESS.sub("", line)) > WIDTH:
+                    faults.append(f"{name}:{len(shown)}: wider than {WIDTH} columns; docs/style.py --wrap {name}")
         if name == str(STYLE.relative_to(ROOT)):
             continue
-        plain = ADDRESS.sub("", CODE.sub("``", "\n".join(lines)))
+        plain = ADDRESS.sub("", CODE.sub("``", "\n".join(shown)))
         for word, pattern in unused.items():
             for hit in pattern.finditer(plain):
-                faults.append(f"{name}:{plain.count(chr(10), 0, hit.start()) + 1}: \"{word}\" is not used here: docs/style.md")
+                number = plain.count("\n", 0, hit.start()) + 1
+                faults.append(f"{name}:{number}: \"{word}\" is not used here: docs/style.md")
     return faults
 
 
@@ -152,10 +159,9 @@ def main() -> None:
     arguments = [argument for argument in sys.argv[1:] if argument != "--wrap"]
     names = [str(Path(argument).resolve().relative_to(ROOT)) for argument in arguments] or pages()
     if "--wrap" in sys.argv[1:]:
-        for name in names:
-            path = ROOT / name
-            text = path.read_text(encoding="utf-8")
-            path.write_text(wrap(text), encoding="utf-8")
+        # The gallery's sections are written by docs/gallery.py.
+        for path in (ROOT / name for name in names if name != "docs/gallery.md"):
+            path.write_text(wrap(path.read_text(encoding="utf-8")), encoding="utf-8")
     faults = check(names)
     for fault in faults:
         print(f"error: {fault}", file=sys.stderr)

@@ -20,7 +20,9 @@ GENERATED = {
     "docs/verification-results.md",
 }
 # Pages with tables that a program writes.
-GENERATED_TABLES = {"docs/gallery.md", "docs/import.md", "docs/output.md", "docs/verification.md"}
+GENERATED_TABLES = {"docs/gallery.md", "docs/import.md", "docs/output.md"}
+# The heading from which on a page is written by a program, and is neither wrapped nor checked.
+GENERATED_FROM = {"docs/verification.md": "### Above all sections\n"}
 FENCE = re.compile(r"^ *(`{3,}|~{3,})")
 ITEM = re.compile(r"^( *)([-*+]|\d+\.) +")
 # What must not be broken over two lines: code, and the address of a link with the word before it.
@@ -40,6 +42,12 @@ def pages() -> list[str]:
     patterns += ["failures/README.md", "fuzz/README.md"]
     found = {str(path.relative_to(ROOT)) for pattern in patterns for path in ROOT.glob(pattern)}
     return sorted(found - GENERATED)
+
+
+def handwritten(name: str, text: str) -> tuple[str, str]:
+    """The part of a page that is written by hand, and the rest."""
+    head, mark, rest = text.partition(GENERATED_FROM.get(name, "\0"))
+    return head, mark + rest
 
 
 def blocks(lines: list[str]) -> list[tuple[str, list[str]]]:
@@ -134,7 +142,7 @@ def check(names: list[str]) -> list[str]:
     for name in names:
         if name in GENERATED:
             continue
-        text = (ROOT / name).read_text(encoding="utf-8")
+        text, _ = handwritten(name, (ROOT / name).read_text(encoding="utf-8"))
         if name == "CHANGELOG.md":
             # What was released stays as it was written.
             text = "\n## ".join(text.split("\n## ")[:2])
@@ -161,7 +169,8 @@ def main() -> None:
     if "--wrap" in sys.argv[1:]:
         # The gallery's sections are written by docs/gallery.py.
         for path in (ROOT / name for name in names if name != "docs/gallery.md"):
-            path.write_text(wrap(path.read_text(encoding="utf-8")), encoding="utf-8")
+            own, rest = handwritten(str(path.relative_to(ROOT)), path.read_text(encoding="utf-8"))
+            path.write_text(wrap(own) + rest, encoding="utf-8")
     faults = check(names)
     for fault in faults:
         print(f"error: {fault}", file=sys.stderr)

@@ -74,7 +74,7 @@ impl Level {
     #[inline]
     pub fn run<K: Kernel>(self, kernel: K) -> K::Output {
         match self.0 {
-            Set::Scalar => kernel.run::<f64>(),
+            Set::Scalar => run_scalar(kernel),
             // SAFETY: a `Level` with this set is only made after the features of the called function were detected.
             #[cfg(target_arch = "x86_64")]
             Set::Avx2 => unsafe { run_avx2(kernel) },
@@ -83,6 +83,12 @@ impl Level {
             Set::Avx512 => unsafe { run_avx512(kernel) },
         }
     }
+}
+
+/// Not inlined, so that a kernel with several callers is compiled once.
+#[inline(never)]
+fn run_scalar<K: Kernel>(kernel: K) -> K::Output {
+    kernel.run::<f64>()
 }
 
 /// Begins the frame of the function that it is inlined into at a line of the cache, because something in it has to: else registers of 64 bytes that don't fit are kept across two lines each.

@@ -39,11 +39,7 @@ where
 
     /// The element, by group and number, whose squared step this is.
     pub(crate) fn governing_element(&self, squared: f64) -> Option<(usize, usize)> {
-        self.mesh.groups.iter().zip(&self.blocks).enumerate().find_map(|(g, (_, block))| {
-            // NaN equals nothing, so a block whose step is NaN is found by its own failure to compare.
-            let governs = |&element: &usize| block.is_alive(element) && block.time_step_squared(element).total_cmp(&squared).is_eq();
-            (0..block.elements()).find(governs).map(|element| (g, element))
-        })
+        self.blocks.iter().enumerate().find_map(|(g, block)| block.governing_element(squared).map(|element| (g, element)))
     }
 
     pub(crate) fn centre(&self, nodes: &[u32]) -> [f64; D] {

@@ -15,6 +15,9 @@ use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::OnceLock;
 
+/// Most elements whose states are asked for at once.
+const STATES: usize = 64;
+
 /// A system at an output time. What several pieces are taken from is found when the first of them asks.
 pub(crate) struct Showing<'a, const D: usize>
 where
@@ -99,21 +102,30 @@ where
     /// Values of several fields of cells: each element is asked for its state once.
     fn of_cells(&self, cells: Range<usize>, columns: &mut [Column<'_>]) {
         let (groups, blocks) = (&self.system.mesh.groups, &self.system.blocks);
-        // The group of the cell before, and what it has of all elements.
+        let mut states = [ElementState::default(); STATES];
+        let mut elements = Vec::with_capacity(STATES);
+        // The group of the cell before, and which of all elements it has.
         let (mut own, mut of_group) = (0, 0..0);
-        for (at, &stored) in self.elements()[cells].iter().enumerate() {
-            if !of_group.contains(&stored) {
+        let (stored, mut first) = (&self.elements()[cells], 0);
+        while first < stored.len() {
+            if !of_group.contains(&stored[first]) {
                 (own, of_group) = (0, 0..groups[0].elements() as u32);
-                while !of_group.contains(&stored) {
+                while !of_group.contains(&stored[first]) {
                     own += 1;
                     of_group = of_group.end..of_group.end + groups[own].elements() as u32;
                 }
             }
-            let element = (stored - of_group.start) as usize;
-            let (state, alive) = (blocks[own].state(element), f64::from(u8::from(groups[own].is_alive(element))));
-            for Column { width, of_element, values } in &mut *columns {
-                of_element(&state, alive, &mut values[*width * at..][..*width]);
+            let run = stored[first..].iter().take(STATES).take_while(|cell| of_group.contains(cell));
+            elements.clear();
+            elements.extend(run.map(|&cell| cell - of_group.start));
+            blocks[own].states(&elements, &mut states[..elements.len()]);
+            for (at, (&element, state)) in (first..).zip(elements.iter().zip(&states)) {
+                let alive = f64::from(u8::from(groups[own].is_alive(element as usize)));
+                for Column { width, of_element, values } in &mut *columns {
+                    of_element(state, alive, &mut values[*width * at..][..*width]);
+                }
             }
+            first += elements.len();
         }
     }
 }

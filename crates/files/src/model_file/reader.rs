@@ -280,7 +280,7 @@ fn extent(root: &Node) -> Extent {
         _ => Shape::is_solid_key(&key.key),
     };
     let is_round = |key: &Entry| {
-        let is = |name: &str| STRESS_STATES.iter().any(|kind| kind.name == name && kind.axisymmetric);
+        let is = |name: &str| STRESS_STATES.iter().any(|kind| kind.name == name && kind.state.is_axisymmetric);
         key.key == "stress_state" && matches!(&key.node.value, Value::Text(name) if is(name))
     };
     if keys().any(is_solid) {

@@ -12,13 +12,10 @@
 
 use super::batch::{ElementBatch, Resistance};
 use super::strain::Tensor;
-use super::stress_state::StressState;
 use super::strip::{Parts, Strip};
-use crate::element::Element;
 use crate::material::points::RESPONSE;
 use crate::tensor::{Dim, Space, SymmetricTensor, Turn};
 use embate_lanes::{Batch, Lane};
-use std::marker::PhantomData;
 
 /// Square of the stable step with damping from that without, s²: dt_d² of the head of the file.
 #[inline(always)]
@@ -33,7 +30,10 @@ pub(super) fn step_squared<L: Lane>(time_step_squared: L, damping: f64) -> L {
 }
 
 /// Points of a strip after their law has answered.
-pub(super) struct Damp<'a, E, S, const D: usize, const N: usize, const P: usize> {
+pub(super) struct Damp<'a, const D: usize> {
+    /// Points of an element, and whether the stress normal to the plane vanishes.
+    pub(super) points: usize,
+    pub(super) is_plane_stress: bool,
     /// β, s.
     pub(super) damping: f64,
     pub(super) time_step: f64,
@@ -46,10 +46,9 @@ pub(super) struct Damp<'a, E, S, const D: usize, const N: usize, const P: usize>
     pub(super) stress: &'a mut [Batch],
     pub(super) elements: &'a [ElementBatch],
     pub(super) resistance: &'a mut [Resistance],
-    pub(super) kind: PhantomData<(E, S)>,
 }
 
-impl<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize> Parts for Damp<'_, E, S, D, N, P>
+impl<const D: usize> Parts for Damp<'_, D>
 where
     Dim<D>: Space<D>,
 {
@@ -64,9 +63,10 @@ where
         let components = <Tensor<D, L> as SymmetricTensor<L>>::COMPONENTS;
         let turn = <<Tensor<D, L> as SymmetricTensor<L>>::Rotation as Turn<L>>::COMPONENTS;
         let factor = L::splat(if self.time_step > 0.0 { self.damping / self.time_step } else { 0.0 });
+        // Space has none.
+        let is_plane_stress = D == 2 && self.is_plane_stress;
         let mut work = zero;
-        for p in 0..P {
-            let point = batch * P + p;
+        for point in batch * self.points..(batch + 1) * self.points {
             let strain = Tensor::<D, L>::load(&self.strip.strain[point * components..(point + 1) * components], at);
             let rotation = <<Tensor<D, L> as SymmetricTensor<L>>::Rotation as Turn<L>>::load(
                 &self.strip.rotation[point * turn..(point + 1) * turn],
@@ -76,16 +76,16 @@ where
             let (bulk, shear) = (L::load(&response[2], at), L::load(&response[3], at));
             let twice = shear + shear;
             let lame = bulk - shear * L::splat(2.0 / 3.0);
-            let lame = if S::PLANE_STRESS { twice * lame / (lame + twice) } else { lame };
+            let lame = if is_plane_stress { twice * lame / (lame + twice) } else { lame };
             let mut new = strain.times(twice * factor).plus_isotropic(lame * factor * strain.trace());
-            if S::PLANE_STRESS {
+            if is_plane_stress {
                 new = new.plus_zz(-new.zz());
             }
             let kept = &mut self.stress[point * components..(point + 1) * components];
             let old = Tensor::<D, L>::load(kept, at).rotated(&rotation);
             new.store(kept, at);
             let mut volume = L::load(&self.strip.volume[point], at);
-            if S::PLANE_STRESS {
+            if is_plane_stress {
                 volume = volume * L::load(&self.history[point * self.history_width + self.thickness], at);
             }
             work += old.plus(new).contract(strain) * half * volume;

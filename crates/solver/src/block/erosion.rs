@@ -4,11 +4,9 @@
 //! energies count zero times. When that live element is eroded too, its copies become copies of another. The state that an element had at the end is kept for output.
 
 use super::batch::ElementBatch;
-use super::elements::{CHUNK, Elements};
-use super::stress_state::StressState;
+use super::store::{CHUNK, ElementStore};
 use super::{Block, ElementState, Report};
 use crate::archive::{Kept, Misfit, keep_all};
-use crate::element::{Element, map_of};
 use crate::failure::{Criterion, Seen, failing};
 use crate::material::Variable;
 use crate::tensor::{Dim, Space};
@@ -43,34 +41,35 @@ impl Eroded {
 }
 
 /// A batch of a block as criteria see it.
-struct Look<'a, E, S, const D: usize, const N: usize, const P: usize> {
-    block: &'a Elements<E, S, D, N, P>,
+struct Look<'a, const D: usize> {
+    block: &'a ElementStore<D>,
     batch: usize,
 }
 
-impl<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize> Look<'_, E, S, D, N, P>
+impl<const D: usize> Look<'_, D>
 where
     Dim<D>: Space<D>,
 {
     /// Mean over the points of value `value` of `width`.
     fn mean(&self, values: &[Batch], width: usize, value: usize) -> Batch {
         let mut mean = Batch::default();
-        for p in 0..P {
-            let of_point = &values[(self.batch * P + p) * width + value];
+        let points = self.block.facts().points;
+        for p in 0..points {
+            let of_point = &values[(self.batch * points + p) * width + value];
             for lane in 0..BATCH {
                 mean.0[lane] += of_point.0[lane];
             }
         }
-        Batch(mean.0.map(|sum| sum / P as f64))
+        Batch(mean.0.map(|sum| sum / points as f64))
     }
 }
 
-impl<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize> Seen for Look<'_, E, S, D, N, P>
+impl<const D: usize> Seen for Look<'_, D>
 where
     Dim<D>: Space<D>,
 {
     fn stress(&self) -> [Batch; 6] {
-        let components = Elements::<E, S, D, N, P>::COMPONENTS;
+        let components = self.block.facts().components;
         std::array::from_fn(|c| if c < components { self.mean(&self.block.stress, components, c) } else { Batch::default() })
     }
 
@@ -89,17 +88,17 @@ fn chunk_of(element: u32) -> usize {
     element as usize / (CHUNK * BATCH)
 }
 
-impl<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize> Elements<E, S, D, N, P>
+impl<const D: usize> ElementStore<D>
 where
     Dim<D>: Space<D>,
 {
     pub(super) fn make_heavier(&mut self, element: usize, factor: f64) {
-        let last = self.count - 1;
+        let (last, nodes) = (self.count - 1, self.facts().nodes);
         // The lanes that fill the last batch are copies of the last element.
         let lanes = if element == last { element..self.elements.len() * BATCH } else { element..element + 1 };
         for (batch, lane) in lanes.map(|element| (element / BATCH, element % BATCH)) {
-            for a in 0..N {
-                self.corner_mass[batch * N + a].0[lane] *= factor;
+            for a in 0..nodes {
+                self.corner_mass[batch * nodes + a].0[lane] *= factor;
             }
             self.elements[batch].mass_least.0[lane] *= factor;
         }
@@ -124,9 +123,9 @@ where
     }
 
     pub(super) fn least_determinant(&self, element: usize, positions: &[[f64; D]]) -> f64 {
-        let (batch, lane) = (element / BATCH, element % BATCH);
-        let x: [[f64; D]; N] = std::array::from_fn(|a| positions[self.nodes.node(batch * N + a, lane, N)]);
-        map_of::<E, f64, D, N, P>(&x).determinants.into_iter().fold(f64::INFINITY, |least, own| if own < least { own } else { least })
+        let mut corners = Vec::new();
+        self.corners(element / BATCH, element % BATCH, positions, &mut corners);
+        self.kernel.determinant(&corners)
     }
 
     /// Work that bulk viscosity and damping have taken of an element, J/m.
@@ -208,22 +207,25 @@ where
         Ok(())
     }
 
-    /// VectorSums the forces of a chunk again, without elements that are gone.
+    /// Sums the forces of a chunk again, without elements that are gone.
     fn sum_again(&mut self, chunk: usize, gone: &[u32], slots: &mut [[f64; D]]) {
         if !self.keeps_forces {
             return;
         }
+        let nodes = self.facts().nodes;
         for &element in gone {
-            let first = element as usize / BATCH * N * D;
-            self.kept[first..first + N * D].iter_mut().for_each(|batch| batch.0[element as usize % BATCH] = 0.0);
+            let first = element as usize / BATCH * nodes * D;
+            self.kept[first..first + nodes * D].iter_mut().for_each(|batch| batch.0[element as usize % BATCH] = 0.0);
         }
         let width = self.nodes.width();
         let mut pulls = VectorSums::default();
         pulls.clear(width);
         for batch in chunk * CHUNK..((chunk + 1) * CHUNK).min(self.elements.len()) {
             for lane in 0..BATCH {
-                let forces: [[f64; D]; N] = std::array::from_fn(|a| std::array::from_fn(|d| self.kept[(batch * N + a) * D + d].0[lane]));
-                Lane::scatter(&forces, &mut pulls, &self.nodes.places, batch * N, lane);
+                for row in batch * nodes..(batch + 1) * nodes {
+                    let force: [f64; D] = std::array::from_fn(|d| self.kept[row * D + d].0[lane]);
+                    Lane::scatter(&[force], &mut pulls, &self.nodes.places, row, lane);
+                }
             }
         }
         pulls.copy_to(&mut slots[chunk * width..(chunk + 1) * width]);
@@ -234,8 +236,9 @@ where
         let [stress, history, initial, hourglass] = self.widths();
         let damped = self.damped_width();
         let (source, place) = ([from / BATCH, from % BATCH], [to / BATCH, to % BATCH]);
-        for a in 0..N {
-            self.nodes.places.copy_lane([source[0] * N + a, source[1]], [place[0] * N + a, place[1]]);
+        let nodes = self.facts().nodes;
+        for a in 0..nodes {
+            self.nodes.places.copy_lane([source[0] * nodes + a, source[1]], [place[0] * nodes + a, place[1]]);
         }
         let lists = [
             (&mut self.stress, stress),

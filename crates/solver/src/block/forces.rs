@@ -11,7 +11,7 @@
 use super::Report;
 use super::batch::{ElementBatch, Resistance};
 use super::damping::step_squared;
-use super::strain::{Tensor, averages, circumference, deformation, initial_width, matrix};
+use super::strain::{Tensor, circumference, deformation, initial_width, matrix};
 use super::stress_state::StressState;
 use super::strip::{Parts, Strip};
 use crate::element::{Corners, Element, Held, Map, PATTERNS, Pulls, map};
@@ -20,11 +20,9 @@ use crate::material::points::RESPONSE;
 use crate::tensor::{Dim, Space, SymmetricTensor, product, scaled};
 use embate_lanes::{Batch, Indices, Lane, math};
 use std::f64::consts::TAU;
-use std::marker::PhantomData;
 
 /// Elements of a strip after their law has answered. Their forces, N/m in the plane, are added to those on the nodes of the chunk.
-pub(super) struct Forces<'a, E, S, const D: usize, const N: usize, const P: usize> {
-    pub(super) element: &'a E,
+pub(super) struct Forces<'a, const D: usize> {
     pub(super) family: Family,
     /// Whether the law bears shear at rest.
     pub(super) is_solid: bool,
@@ -57,7 +55,13 @@ pub(super) struct Forces<'a, E, S, const D: usize, const N: usize, const P: usiz
     /// Forces of the elements, where they are kept; else empty.
     pub(super) kept: &'a mut [Batch],
     pub(super) sums: &'a mut Sums,
-    pub(super) kind: PhantomData<S>,
+}
+
+/// [`Forces`] by an element.
+pub(super) struct ForcesKernel<'a, E, const D: usize, const N: usize, const P: usize> {
+    pub(super) element: &'a E,
+    pub(super) input: Forces<'a, D>,
+    pub(super) state: StressState,
 }
 
 /// Running minima and sums of a task, one per lane position so that the result does not depend on the lane width.
@@ -116,13 +120,13 @@ struct Geometry<L, const D: usize, const N: usize, const P: usize> {
     volume: L,
 }
 
-impl<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize> Parts for Forces<'_, E, S, D, N, P>
+impl<E: Element<D, N, P>, const D: usize, const N: usize, const P: usize> Parts for ForcesKernel<'_, E, D, N, P>
 where
     Dim<D>: Space<D>,
 {
     #[inline(always)]
     fn batches(&self) -> usize {
-        self.elements.len()
+        self.input.elements.len()
     }
 
     #[inline(always)]
@@ -134,14 +138,14 @@ where
         let mut shear_least = L::splat(f64::INFINITY);
         for p in 0..P {
             let point = batch * P + p;
-            let response = &self.strip.response[point * RESPONSE..(point + 1) * RESPONSE];
-            let volume = L::load(&self.strip.volume[point], at);
+            let response = &self.input.strip.response[point * RESPONSE..(point + 1) * RESPONSE];
+            let volume = L::load(&self.input.strip.volume[point], at);
             stored += L::load(&response[0], at) * volume;
-            let current = match self.family {
+            let current = match self.input.family {
                 Family::Rate => volume,
                 Family::Hyperelastic => {
                     let own = geometry.map.determinants[p] * L::splat(E::WEIGHTS[p]);
-                    if S::AXISYMMETRIC { own * geometry.depth[p] } else { own }
+                    if self.is_axisymmetric() { own * geometry.depth[p] } else { own }
                 }
             };
             dissipated += L::load(&response[1], at) * current;
@@ -150,22 +154,22 @@ where
             shear = shear.max(own);
             shear_least = shear_least.min(own);
         }
-        if matches!(self.family, Family::Rate) {
+        if matches!(self.input.family, Family::Rate) {
             stored = stored * L::splat(0.5);
         }
-        let live = L::load(&self.elements[batch].live, at);
+        let live = L::load(&self.input.elements[batch].live, at);
         // In the plane all counts as if it were dilatation; in space that thickness is for dampers, and for the start.
-        let dilates = D == 2 || !self.is_elastic || self.viscosity.is_some() || E::SWINGS > 0 || self.time_step <= 0.0;
+        let dilates = D == 2 || !self.input.is_elastic || self.input.viscosity.is_some() || E::SWINGS > 0 || self.input.time_step <= 0.0;
         let dilating_squared =
             if dilates { E::thickness_squared(&geometry.x, &geometry.map, geometry.area, zero) } else { [L::splat(1.0); 2] };
-        let thickness_squared = if D == 3 && self.is_elastic {
+        let thickness_squared = if D == 3 && self.input.is_elastic {
             E::thickness_squared(&geometry.x, &geometry.map, geometry.area, (shear_least + shear_least) / modulus)
         } else {
             dilating_squared
         };
-        let mass = L::load(&self.elements[batch].mass_least, at);
+        let mass = L::load(&self.input.elements[batch].mass_least, at);
         let (mut pressure, mut stiffening) = (zero, L::splat(1.0));
-        if let Some(coefficients) = self.viscosity {
+        if let Some(coefficients) = self.input.viscosity {
             (pressure, stiffening) = self.viscous(batch, at, coefficients, &geometry, modulus, [thickness_squared, dilating_squared]);
         }
         let mut held = Held { forces: [[zero; D]; N], flux: [[zero; D]; D], pulls: Pulls::none(), work: zero, stiffening };
@@ -183,7 +187,7 @@ where
         }
         // dt² = h² ρ / (K + 4µ/3) with ρ = m / V, as if all corners were as heavy as the lightest
         let time_step_squared = thickness_squared[0] * mass / (thickness_squared[1] * (geometry.volume * modulus) * stiffening);
-        let time_step_squared = step_squared(time_step_squared, self.damping);
+        let time_step_squared = step_squared(time_step_squared, self.input.damping);
         // Nearly every batch is whole.
         let is_whole = !L::any(live.less(L::splat(1.0)));
         if !is_whole {
@@ -193,17 +197,17 @@ where
                 }
             }
         }
-        if !self.kept.is_empty() {
+        if !self.input.kept.is_empty() {
             for a in 0..N {
                 for i in 0..D {
-                    nodal[a][i].store(&mut self.kept[(batch * N + a) * D + i], at);
+                    nodal[a][i].store(&mut self.input.kept[(batch * N + a) * D + i], at);
                 }
             }
         }
-        L::scatter(&nodal, &mut self.strip.pulls, self.places, (self.first + batch) * N, at);
-        let element = &mut self.elements[batch];
+        L::scatter(&nodal, &mut self.input.strip.pulls, self.input.places, (self.input.first + batch) * N, at);
+        let element = &mut self.input.elements[batch];
         time_step_squared.store(&mut element.time_step_squared, at);
-        let stored = match self.family {
+        let stored = match self.input.family {
             Family::Rate => L::load(&element.stored, at) + (stored - dissipated),
             Family::Hyperelastic => stored,
         };
@@ -211,17 +215,17 @@ where
         stored.store(&mut element.stored, at);
         dissipated.store(&mut element.dissipated, at);
 
-        let sums = &mut *self.sums;
+        let sums = &mut *self.input.sums;
         (L::load(&sums.stored, at) + stored * live).store(&mut sums.stored, at);
         (L::load(&sums.dissipated, at) + dissipated * live).store(&mut sums.dissipated, at);
         if E::HOURGLASS > 0 {
             (L::load(&sums.hourglass, at) + L::load(&element.hourglass, at) * live).store(&mut sums.hourglass, at);
         }
-        if self.viscosity.is_some() {
-            (L::load(&sums.viscous, at) + L::load(&self.resistance[batch].viscous, at) * live).store(&mut sums.viscous, at);
+        if self.input.viscosity.is_some() {
+            (L::load(&sums.viscous, at) + L::load(&self.input.resistance[batch].viscous, at) * live).store(&mut sums.viscous, at);
         }
-        if self.damping > 0.0 {
-            (L::load(&sums.damping, at) + L::load(&self.resistance[batch].damping, at) * live).store(&mut sums.damping, at);
+        if self.input.damping > 0.0 {
+            (L::load(&sums.damping, at) + L::load(&self.input.resistance[batch].damping, at) * live).store(&mut sums.damping, at);
         }
         time_step_squared.min(L::load(&sums.time_step_squared, at)).store(&mut sums.time_step_squared, at);
         let mut worst = L::load(&sums.determinant, at);
@@ -232,15 +236,31 @@ where
     }
 }
 
-impl<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize> Forces<'_, E, S, D, N, P>
+impl<E: Element<D, N, P>, const D: usize, const N: usize, const P: usize> ForcesKernel<'_, E, D, N, P>
 where
     Dim<D>: Space<D>,
 {
+    /// Whether x is the radius, and whether there is no stress normal to the plane; never in space.
+    #[inline(always)]
+    fn is_axisymmetric(&self) -> bool {
+        D == 2 && self.state.is_axisymmetric
+    }
+    #[inline(always)]
+    fn is_plane_stress(&self) -> bool {
+        D == 2 && self.state.is_plane_stress
+    }
+
+    /// Whether dilatations are averaged over the element.
+    #[inline(always)]
+    fn averages(&self) -> bool {
+        E::MEAN_DILATATION && !self.is_plane_stress()
+    }
+
     #[inline(always)]
     fn geometry<L: Lane>(&self, batch: usize, at: usize) -> Geometry<L, D, N, P> {
         let (zero, one) = (L::splat(0.0), L::splat(1.0));
         let mut x = [[zero; D]; N];
-        let parts = &self.strip.parts[batch * (E::PARTS * D)..][..E::PARTS * D];
+        let parts = &self.input.strip.parts[batch * (E::PARTS * D)..][..E::PARTS * D];
         for a in 0..E::PARTS {
             for i in 0..D {
                 x[a][i] = L::load(&parts[a * D + i], at);
@@ -251,12 +271,12 @@ where
         for p in 0..P {
             let own = geometry.map.determinants[p] * L::splat(E::WEIGHTS[p]);
             geometry.area += own;
-            if S::PLANE_STRESS {
-                geometry.depth[p] = L::load(&self.history[(batch * P + p) * self.history_width + self.thickness], at);
-            } else if S::AXISYMMETRIC {
-                geometry.depth[p] = circumference::<S, L, D, N>(one, &x, &E::shape(E::POINTS[p]));
+            if self.is_plane_stress() {
+                geometry.depth[p] = L::load(&self.input.history[(batch * P + p) * self.input.history_width + self.input.thickness], at);
+            } else if self.is_axisymmetric() {
+                geometry.depth[p] = circumference(&x, &E::shape(E::POINTS[p]));
             }
-            geometry.volume += if S::PLANE_STRESS || S::AXISYMMETRIC { own * geometry.depth[p] } else { own };
+            geometry.volume += if self.is_plane_stress() || self.is_axisymmetric() { own * geometry.depth[p] } else { own };
         }
         geometry
     }
@@ -266,10 +286,10 @@ where
     #[inline(always)]
     fn map<L: Lane>(&self, batch: usize, at: usize, x: &[[L; D]; N]) -> Map<L, D, P> {
         let mut map = map::<E, L, D, N, P>(E::gradients(x), &E::warp(x));
-        if E::WARPED && matches!(self.family, Family::Hyperelastic) {
-            let (width, jacobians) = (initial_width::<E, S, D, N, P>(), E::gradients(x));
+        if E::WARPED && matches!(self.input.family, Family::Hyperelastic) {
+            let (width, jacobians) = (initial_width::<E, D, N, P>(self.state), E::gradients(x));
             for p in 0..P {
-                let initial = &self.initial[(batch * P + p) * width..][..width];
+                let initial = &self.input.initial[(batch * P + p) * width..][..width];
                 let f = deformation::<E, L, D, N, P>(&jacobians[p], x, initial, at);
                 let (turn, size) = (Dim::<D>::adjugate(&f), L::load(&initial[D * D], at) * L::splat(1.0 / E::WEIGHTS[p]));
                 map.determinants[p] = Dim::<D>::determinant(&f) * size;
@@ -284,15 +304,15 @@ where
     #[inline(always)]
     fn stress_and_weight<L: Lane>(&self, point: usize, p: usize, at: usize, depth: &[L; P]) -> (Tensor<D, L>, L) {
         let components = <Tensor<D, L> as SymmetricTensor<L>>::COMPONENTS;
-        let mut stress = Tensor::<D, L>::load(&self.stress[point * components..(point + 1) * components], at);
-        if !self.damped.is_empty() {
-            stress = stress.plus(Tensor::<D, L>::load(&self.damped[point * components..(point + 1) * components], at));
+        let mut stress = Tensor::<D, L>::load(&self.input.stress[point * components..(point + 1) * components], at);
+        if !self.input.damped.is_empty() {
+            stress = stress.plus(Tensor::<D, L>::load(&self.input.damped[point * components..(point + 1) * components], at));
         }
-        let mut weight = match self.family {
+        let mut weight = match self.input.family {
             Family::Rate => L::splat(E::WEIGHTS[p]),
-            Family::Hyperelastic => L::load(&self.strip.weight[point], at),
+            Family::Hyperelastic => L::load(&self.input.strip.weight[point], at),
         };
-        if S::PLANE_STRESS || S::AXISYMMETRIC {
+        if self.is_plane_stress() || self.is_axisymmetric() {
             weight = weight * depth[p];
         }
         (stress, weight)
@@ -304,7 +324,7 @@ where
         let (zero, third) = (L::splat(0.0), L::splat(1.0 / 3.0));
         let Geometry { map: Map { adjugates, warped, determinants }, depth, .. } = geometry;
         let mut mean = L::splat(-0.0);
-        if averages::<E, S, D, N, P>() {
+        if self.averages() {
             for p in 0..P {
                 let (stress, weight) = self.stress_and_weight(batch * P + p, p, at, depth);
                 mean += stress.trace() * third * (determinants[p] * weight);
@@ -319,12 +339,12 @@ where
             let mut weighted = stress.times(-weight);
             let share = L::splat(E::WEIGHTS[p]);
             // In plane stress nothing is averaged, and the pressure of the bulk viscosity has the thickness.
-            let share = if S::AXISYMMETRIC { share * depth[p] } else { share };
-            if averages::<E, S, D, N, P>() {
+            let share = if self.is_axisymmetric() { share * depth[p] } else { share };
+            if self.averages() {
                 let own = stress.trace() * third * weight;
                 weighted = weighted.plus_isotropic(own - mean * share);
             }
-            if self.viscosity.is_some() {
+            if self.input.viscosity.is_some() {
                 weighted = weighted.plus_isotropic(pressure * share);
             }
             flux[p] = Dim::<D>::flux(&weighted, &adjugates[p]);
@@ -337,7 +357,7 @@ where
                     }
                 }
             }
-            if S::AXISYMMETRIC {
+            if self.is_axisymmetric() {
                 // The weight has 2πx already; the hoop strain is u/x.
                 hoop[p] = weighted.zz() * determinants[p] * (L::splat(TAU) / depth[p]);
             }
@@ -346,7 +366,7 @@ where
             pulls.rest[i] = -held.pulls.rest[i];
         }
         let mut nodal = if E::WARPED { E::divergence_warped(&flux, &pulls) } else { E::divergence(&flux) };
-        if S::AXISYMMETRIC {
+        if self.is_axisymmetric() {
             for p in 0..P {
                 let shape = E::shape(E::POINTS[p]);
                 for a in 0..N {
@@ -372,19 +392,20 @@ where
         [thickness_squared, dilating_squared]: [[L; 2]; 2],
     ) -> (L, L) {
         let (zero, one) = (L::splat(0.0), L::splat(1.0));
-        let element = &mut self.resistance[batch];
-        let (old, live) = (L::load(&element.volume, at), L::load(&self.elements[batch].live, at));
-        let (size, depth) = if S::PLANE_STRESS { (geometry.area, geometry.volume / geometry.area) } else { (geometry.volume, one) };
+        let is_plane_stress = self.is_plane_stress();
+        let element = &mut self.input.resistance[batch];
+        let (old, live) = (L::load(&element.volume, at), L::load(&self.input.elements[batch].live, at));
+        let (size, depth) = if is_plane_stress { (geometry.area, geometry.volume / geometry.area) } else { (geometry.volume, one) };
         let change = size - old;
         let shrinks = change.less(zero);
         let density = L::load(&element.mass, at) / geometry.volume;
         let length = if D == 2 { geometry.area.sqrt() } else { math::cbrt(geometry.volume) };
         let speed = (modulus / density).sqrt();
-        let dt = L::splat(if self.time_step > 0.0 { self.time_step } else { f64::INFINITY });
+        let dt = L::splat(if self.input.time_step > 0.0 { self.input.time_step } else { f64::INFINITY });
         let rate = (change / ((size + old) * L::splat(0.5) * dt)).abs();
         let [linear, growing] = [L::splat(linear), L::splat(quadratic * quadratic) * length * rate / speed];
         let pressure = L::select(shrinks, density * length * speed * rate * (linear + growing), zero);
-        let pressure = if S::PLANE_STRESS { pressure * depth } else { pressure };
+        let pressure = if is_plane_stress { pressure * depth } else { pressure };
         let damping = (linear + growing + growing) * length * (thickness_squared[1] / thickness_squared[0]).sqrt();
         // ζ = (…) l h / h₀² with the thickness h₀ of what dilates alone: the damping is that of the dilatation.
         let damping = if D == 2 {
@@ -413,8 +434,9 @@ where
         [modulus, shear, mass]: [L; 3],
         [thickness_squared, dilating_squared]: [[L; 2]; 2],
     ) -> Held<L, D, N> {
+        let is_plane_stress = self.is_plane_stress();
         let own = batch * E::HOURGLASS..(batch + 1) * E::HOURGLASS;
-        let (changes, keep) = (&self.strip.swing[own.clone()], &mut self.hourglass[own]);
+        let (changes, keep) = (&self.input.strip.swing[own.clone()], &mut self.input.hourglass[own]);
         let mut swing = [[L::splat(0.0); D]; PATTERNS];
         for pattern in 0..E::SWINGS {
             for i in 0..D {
@@ -422,7 +444,7 @@ where
             }
         }
         // Nothing else holds the shape of a fluid; of a solid that can't change its volume, K would lock it.
-        let shape_modulus = if self.is_solid { modulus.min(L::splat(4.0) * shear) } else { modulus };
+        let shape_modulus = if self.input.is_solid { modulus.min(L::splat(4.0) * shear) } else { modulus };
         let corners = Corners {
             x: geometry.x,
             swing,
@@ -434,12 +456,12 @@ where
             shear,
             shape_modulus,
             mass,
-            rate: L::splat(if self.time_step > 0.0 { 1.0 / self.time_step } else { 0.0 }),
-            is_start: self.time_step <= 0.0,
-            is_plane_stress: S::PLANE_STRESS,
+            rate: L::splat(if self.input.time_step > 0.0 { 1.0 / self.input.time_step } else { 0.0 }),
+            is_start: self.input.time_step <= 0.0,
+            is_plane_stress,
         };
         let held = self.element.hold_shape(&corners, keep, at);
-        let element = &mut self.elements[batch];
+        let element = &mut self.input.elements[batch];
         let booked = if E::SWINGS > 0 { L::load(&element.hourglass, at) + held.work } else { held.work };
         booked.store(&mut element.hourglass, at);
         held

@@ -3,10 +3,9 @@
 //! Values come from the part of the model; a stress is asked of the law before it is kept: strained by nothing, the law must leave it as it is (a stress beyond
 //! the yield surface would be gone before the first step). The elastic energy ½ σ:C⁻¹:σ of what is kept is in the books from the start.
 
-use super::elements::Elements;
+use super::kernel::{ElementGeometry, Facts};
+use super::store::ElementStore;
 use super::strain::Tensor;
-use super::stress_state::StressState;
-use crate::element::{Element, map_of};
 use crate::material::points::{PointLaw, Points, RESPONSE, Room};
 use crate::material::{Family, Variable};
 use crate::model::InitialStress;
@@ -98,7 +97,12 @@ pub(super) fn cannot_hold([x, y]: [f64; 2], [before, after]: [[f64; 6]; 2]) -> W
     )
 }
 
-impl<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize> Elements<E, S, D, N, P>
+/// x and y of a place.
+fn in_plane<const D: usize>(place: [f64; D]) -> [f64; 2] {
+    [place[0], place[1]]
+}
+
+impl<const D: usize> ElementStore<D>
 where
     Dim<D>: Space<D>,
 {
@@ -109,28 +113,26 @@ where
         }
         let Some(stress) = initial.stress else { return Ok(()) };
         keeps_stress(self.law.as_ref())?;
-        let components = Self::COMPONENTS;
-        let turn = <<Tensor<D, f64> as SymmetricTensor<f64>>::Rotation as Turn<f64>>::COMPONENTS;
+        let Facts { points, components, turn, .. } = *self.facts();
+        let (mut corners, mut geometries) = (Vec::new(), vec![ElementGeometry::default(); BATCH]);
         let mut rotation = vec![Batch::default(); turn];
         (0..BATCH).for_each(|lane| <<Tensor<D, f64> as SymmetricTensor<f64>>::Rotation as Turn<f64>>::none().store(&mut rotation, lane));
         for batch in 0..self.elements.len() {
-            for p in 0..P {
-                let mut places = [[0.0; 2]; BATCH];
-                let own = &mut self.stress[(batch * P + p) * components..][..components];
-                for (lane, place) in places.iter_mut().enumerate() {
-                    let x: [[f64; D]; N] = std::array::from_fn(|a| positions[self.nodes.node(batch * N + a, lane, N)]);
-                    let shape = E::shape(E::POINTS[p]);
-                    *place = std::array::from_fn(|d| (0..N).map(|a| shape[a] * x[a][d]).sum());
-                    let [xx, yy, zz, xy] = stress.at(*place);
+            for (lane, geometry) in geometries.iter_mut().enumerate() {
+                self.corners(batch, lane, positions, &mut corners);
+                self.kernel.geometry(&corners, geometry);
+            }
+            for p in 0..points {
+                let own = &mut self.stress[(batch * points + p) * components..][..components];
+                for (lane, geometry) in geometries.iter().enumerate() {
+                    let [xx, yy, zz, xy] = stress.at(in_plane(geometry.places[p]));
                     let all = [xx, yy, zz, xy, 0.0, 0.0];
                     Tensor::<D, f64>::from_components(all).store(own, lane);
-                    let determinant = map_of::<E, f64, D, N, P>(&x).determinants[p];
-                    let volume = super::strain::circumference::<S, f64, D, N>(determinant * E::WEIGHTS[p], &x, &shape);
-                    self.elements[batch].stored.0[lane] += self.law.energy(all) * volume;
+                    self.elements[batch].stored.0[lane] += self.law.energy(all) * geometry.volumes[p];
                 }
-                let history = &self.history[(batch * P + p) * width..][..width];
+                let history = &self.history[(batch * points + p) * width..][..width];
                 if let Some((lane, stresses)) = released(self.law.as_ref(), own, history, &rotation) {
-                    return Err(cannot_hold(places[lane], stresses));
+                    return Err(cannot_hold(in_plane(geometries[lane].places[p]), stresses));
                 }
             }
         }

@@ -5,7 +5,7 @@
 //! has it; [`crate::assembly`] adds the slots of a node.
 
 use super::batch::element_of;
-use super::elements::CHUNK;
+use super::store::CHUNK;
 use super::{Motion, NO_NODE};
 use embate_lanes::{BATCH, Indices, Moving};
 

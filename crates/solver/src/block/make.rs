@@ -1,14 +1,15 @@
-//! Makes a block from an element kind, a stress state, a law and a connectivity: the one place where element and stress state meet and are erased.
+//! Makes a block from an element kind, a stress state, a law and a connectivity.
 
 use super::Block;
 use super::bar::Bars;
-use super::elements::Elements;
-use super::stress_state::{InSpace, StressState, StressStateVisitor, with_stress_state};
-use crate::element::{BAR2, Element, ElementOptions, ElementVisitor, with_element};
+use super::kernel::{Compiled, ElementKernel};
+use super::store::ElementStore;
+use super::stress_state::StressState;
+use crate::element::{BAR2, Element, ElementOptions, ElementVisitor, Registered, with_element};
+use crate::material::points::PointLaw;
 use crate::material::{Parameters, points};
 use crate::model::Material;
 use crate::tensor::{Dim, Space};
-use std::marker::PhantomData;
 
 /// What a block is made from.
 #[derive(Clone, Copy, Debug)]
@@ -68,58 +69,51 @@ pub trait Blocks<const D: usize> {
 
 impl Blocks<2> for Dim<2> {
     fn make(input: &BlockInput<'_, 2>) -> Option<Box<dyn Block<2>>> {
-        if input.element == BAR2.name {
-            return Some(Box::new(Bars::new(input)?));
-        }
-        with_element(input.element, ChosenElement(input)).flatten().flatten()
+        let state = StressState::named(input.stress_state)?;
+        let law = if state.is_plane_stress { points::plane_stress } else { points::of::<2> };
+        of_elements(input, state, law)
     }
 }
 
 impl Blocks<3> for Dim<3> {
     fn make(input: &BlockInput<'_, 3>) -> Option<Box<dyn Block<3>>> {
-        if input.element == BAR2.name {
-            return Some(Box::new(Bars::new(input)?));
-        }
-        if !input.stress_state.is_empty() {
+        if !input.stress_state.is_empty() && input.element != BAR2.name {
             return None;
         }
-        with_element(input.element, SolidElement(input)).flatten()
+        of_elements(input, StressState::SPACE, points::of::<3>)
     }
 }
 
-struct SolidElement<'a>(&'a BlockInput<'a, 3>);
-
-impl ElementVisitor<3> for SolidElement<'_> {
-    type Output = Option<Box<dyn Block<3>>>;
-    fn visit<E: Element<3, N, P>, const N: usize, const P: usize>(self) -> Self::Output {
-        Some(Box::new(Elements::<E, InSpace, 3, N, P>::new(points::of::<3>(self.0.material)?, density(self.0), self.0)))
+/// A block of bars, or of elements in a stress state with the law that `law` makes of the material.
+fn of_elements<const D: usize>(
+    input: &BlockInput<'_, D>,
+    state: StressState,
+    law: fn(&Material) -> Option<Box<dyn PointLaw>>,
+) -> Option<Box<dyn Block<D>>>
+where
+    Dim<D>: Space<D> + Registered<D>,
+{
+    if input.element == BAR2.name {
+        return Some(Box::new(Bars::new(input)?));
     }
+    let kernel = with_element(input.element, Compile { options: &input.options, state })?;
+    // Every law has a density, and reads it the same way.
+    let density = Parameters::new(&[], &input.material.parameters, &input.material.lists).value("density");
+    Some(Box::new(ElementStore::new(law(input.material)?, kernel, density, input)))
 }
 
-/// Every law has a density, and reads it the same way.
-fn density<const D: usize>(input: &BlockInput<'_, D>) -> f64
+/// Makes the kernel of an element: the one place where elements are compiled into blocks.
+struct Compile<'a> {
+    options: &'a ElementOptions,
+    state: StressState,
+}
+
+impl<const D: usize> ElementVisitor<D> for Compile<'_>
 where
     Dim<D>: Space<D>,
 {
-    Parameters::new(&[], &input.material.parameters, &input.material.lists).value("density")
-}
-
-struct ChosenElement<'a>(&'a BlockInput<'a>);
-
-impl ElementVisitor for ChosenElement<'_> {
-    type Output = Option<Option<Box<dyn Block<2>>>>;
-    fn visit<E: Element<2, N, P>, const N: usize, const P: usize>(self) -> Self::Output {
-        with_stress_state(self.0.stress_state, ChosenState::<E, N, P>(self.0, PhantomData))
-    }
-}
-
-struct ChosenState<'a, E, const N: usize, const P: usize>(&'a BlockInput<'a>, PhantomData<E>);
-
-impl<E: Element<2, N, P>, const N: usize, const P: usize> StressStateVisitor for ChosenState<'_, E, N, P> {
-    type Output = Option<Box<dyn Block<2>>>;
-    fn visit<S: StressState>(self) -> Self::Output {
-        let input = self.0;
-        let law = if S::PLANE_STRESS { points::plane_stress(input.material) } else { points::plane(input.material) }?;
-        Some(Box::new(Elements::<E, S, 2, N, P>::new(law, density(input), input)))
+    type Output = Box<dyn ElementKernel<D>>;
+    fn visit<E: Element<D, N, P>, const N: usize, const P: usize>(self) -> Self::Output {
+        Box::new(Compiled::<E, D, N, P>::new(self.options, self.state))
     }
 }

@@ -1,29 +1,33 @@
 //! A block is one element kind times one material: it gathers node motion, updates strain and stress, and leaves forces.
 //!
-//! A step goes chunk by chunk (`local.rs`: nodes side by side, forces summed where they arise), and in it strip by strip (`strip.rs`): the element and its stress state strain the points (`strain.rs`), the law answers (`crate::material::points`), and
-//! the element makes forces of it (`forces.rs`). Element and stress state are compiled together, the law for itself, so kernels are as many as elements plus laws, not
-//! their product. All is erased once, as `Box<dyn Block>`: one virtual call per block and step, and one per strip of 64 elements.
-//! State lives in batches of eight (`batch.rs`). Forces go to the assembly, which sums those of all chunks in fixed order.
+//! The state of the elements lives in the store (`store.rs`), in batches of eight (`batch.rs`); it is the same type for every
+//! element and every law. A step goes chunk by chunk (`local.rs`: nodes side by side, forces summed where they arise), and
+//! in it strip by strip (`strip.rs`): the kernel of the element strains the points (`strain.rs`), the law responds
+//! (`crate::material::points`), and the kernel makes forces of the stresses (`forces.rs`). Only kernels are compiled for
+//! each element (`kernel.rs`), and laws for themselves, so there are as many as elements plus laws, not their product.
+//! A block is a `Box<dyn Block>`: one virtual call per block and step, and three per strip of 64 elements.
+//! Forces go to the assembly, which sums those of all chunks in fixed order.
 
 mod bar;
 mod batch;
 mod damping;
-mod elements;
 mod erosion;
 mod forces;
 mod initial;
+mod kernel;
 mod local;
 mod make;
 mod nodal;
 pub(crate) mod spring;
+mod store;
 mod strain;
 pub mod stress_state;
 mod strip;
 
-pub use elements::CHUNK;
 pub use initial::{Initial, Wrong};
 pub use local::LocalNodes;
 pub use make::{BlockInput, Blocks, make};
+pub use store::CHUNK;
 
 use crate::archive::{Archive, Kept, keep_all};
 use crate::failure::Criterion;
@@ -129,6 +133,19 @@ pub trait Block<const D: usize>: Send + Sync {
     fn time_step_squared(&self, element: usize) -> f64;
     /// Mean state of an element.
     fn state(&self, element: usize) -> ElementState;
+    /// Mean states of several elements, in their order: one call for all of them.
+    fn states(&self, elements: &[u32], states: &mut [ElementState]) {
+        states.iter_mut().zip(elements).for_each(|(state, &element)| *state = self.state(element as usize));
+    }
+    /// Squares of the stable steps of all elements, s², in the state of the last [`Block::advance`].
+    fn time_steps_squared(&self) -> Vec<f64> {
+        (0..self.elements()).map(|element| self.time_step_squared(element)).collect()
+    }
+    /// The first element that has not been eroded and whose stable step has this square, s²; not a number is found too.
+    fn governing_element(&self, squared: f64) -> Option<usize> {
+        let governs = |&element: &usize| self.is_alive(element) && self.time_step_squared(element).total_cmp(&squared).is_eq();
+        (0..self.elements()).find(governs)
+    }
     /// The law of its points; springs have none.
     fn law(&self) -> Option<&dyn PointLaw>;
     /// P-wave modulus K + 4µ/3 at rest, Pa: stiffness of the material under a contact surface.

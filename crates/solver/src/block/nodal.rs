@@ -6,19 +6,17 @@
 //! Source: Bonet and Burton, Commun. Numer. Meth. Engng 14 (1998) 437-449.
 
 use super::damping::Damp;
-use super::elements::{CHUNK, Elements, chunk};
 use super::forces::{Forces, Sums};
-use super::strain::{Measures, Strain, Tensor, circumference, initial_width};
-use super::stress_state::StressState;
+use super::kernel::Facts;
+use super::store::{CHUNK, ElementStore, chunk};
+use super::strain::{Measures, Strain, Tensor};
 use super::strip::{Every, Strip};
 use super::{Motion, Report};
-use crate::element::Element;
 use crate::material::Family;
 use crate::material::points::{Points, RESPONSE};
 use crate::rows::Rows;
 use crate::tensor::{Dim, Space, SymmetricTensor};
-use embate_lanes::{BATCH, Batch, Chunks, Lane, Level, Team, math};
-use std::marker::PhantomData;
+use embate_lanes::{BATCH, Batch, Chunks, Level, Team, math};
 
 /// Nodes that one task averages.
 const NODES: usize = 1024;
@@ -99,7 +97,7 @@ impl<const D: usize> Nodal<D> {
     }
 }
 
-impl<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize> Elements<E, S, D, N, P>
+impl<const D: usize> ElementStore<D>
 where
     Dim<D>: Space<D>,
 {
@@ -142,8 +140,8 @@ where
 
     /// Strains without averages; the volumes and dilatations (volume ratios) of the elements.
     fn strain_all(&mut self, nodal: &mut Nodal<D>, motion: &Motion<'_, D>, measures: Measures, level: Level, team: &mut Team) {
-        let components = Self::COMPONENTS;
-        let initial = if measures.family == Family::Hyperelastic { initial_width::<E, S, D, N, P>() } else { 0 };
+        let (kernel, components) = (self.kernel.as_ref(), self.facts().components);
+        let initial = if measures.family == Family::Hyperelastic { kernel.facts().initial } else { 0 };
         let (nodes, volume_initial, elements, all_initial) = (&self.nodes, &self.volume_initial, &self.elements, &self.initial);
         let (resists, resistance) = (self.resists(), &self.resistance);
         let parts = (
@@ -162,7 +160,7 @@ where
             let strip = &mut strips[0];
             let (first, last) = (index * CHUNK, index * CHUNK + weight.len());
             nodes.copy(index, motion, &mut strip.moving);
-            level.run(Every(Strain::<E, S, D, N, P> {
+            let strain = Strain {
                 time_step: motion.time_step,
                 measures,
                 first,
@@ -174,8 +172,8 @@ where
                 stress,
                 hourglass: &mut [],
                 strip,
-                kind: PhantomData,
-            }));
+            };
+            kernel.strain(level, strain);
             for batch in 0..weight.len() {
                 for lane in 0..BATCH {
                     let value = match measures.family {
@@ -191,7 +189,8 @@ where
 
     /// Stresses from the averaged strains; their pressures, to be averaged.
     fn respond_all(&mut self, nodal: &mut Nodal<D>, means: &[Batch], time_step: f64, family: Family, level: Level, team: &mut Team) {
-        let (components, width) = (Self::COMPONENTS, self.law.state_width());
+        let (kernel, width) = (self.kernel.as_ref(), self.law.state_width());
+        let Facts { points, components, is_plane_stress, .. } = *kernel.facts();
         let (law, damping, thickness) = (self.law.as_ref(), self.damping, self.law.thickness().unwrap_or(0));
         let (damped_chunk, resistance) = (chunk(self.damped_width()), chunk(self.resistance_width()));
         // A law without history has one batch per chunk, which stands for nothing.
@@ -233,7 +232,9 @@ where
                 },
             );
             if damping > 0.0 {
-                level.run(Every(Damp::<E, S, D, N, P> {
+                level.run(Every(Damp {
+                    points,
+                    is_plane_stress,
                     damping,
                     time_step,
                     strip,
@@ -243,8 +244,11 @@ where
                     stress: damped,
                     elements,
                     resistance,
-                    kind: PhantomData,
                 }));
+            }
+            match family {
+                Family::Rate => kernel.volumes(strip, weight),
+                Family::Hyperelastic => weight.copy_from_slice(&strip.volume[..count]),
             }
             for batch in 0..count {
                 for lane in 0..BATCH {
@@ -252,11 +256,7 @@ where
                     if damping > 0.0 {
                         pressure += Tensor::<D, f64>::load(&damped[batch * components..][..components], lane).trace() / 3.0;
                     }
-                    let volume = match family {
-                        Family::Rate => volume::<E, S, D, N, P>(strip, batch, lane),
-                        Family::Hyperelastic => strip.volume[batch].0[lane],
-                    };
-                    weight[batch].0[lane] = volume * elements[batch].live.0[lane];
+                    weight[batch].0[lane] *= elements[batch].live.0[lane];
                     moment[batch].0[lane] = weight[batch].0[lane] * pressure;
                 }
             }
@@ -273,8 +273,10 @@ where
         slots: &mut [[f64; D]],
         team: &mut Team,
     ) -> Report {
-        let (components, width, thickness) = (Self::COMPONENTS, self.law.state_width(), self.law.thickness().unwrap_or(0));
-        let (element, viscosity, all_stress, all_history) = (&self.element, self.viscosity, &self.stress, &self.history);
+        let (width, thickness) = (self.law.state_width(), self.law.thickness().unwrap_or(0));
+        let kernel = self.kernel.as_ref();
+        let Facts { components, weight: of_point, .. } = *kernel.facts();
+        let (viscosity, all_stress, all_history) = (self.viscosity, &self.stress, &self.history);
         let (damping, all_damped) = (self.damping, &self.damped);
         let is_elastic = self.law.is_elastic();
         let (means, places) = (&nodal.mean, &self.nodes.places);
@@ -305,7 +307,7 @@ where
                     let mut pressure = means[first + batch].0[lane];
                     if family == Family::Hyperelastic {
                         // The weight J̄/J belongs to the deviator alone.
-                        pressure = pressure * E::WEIGHTS[0] / strip.weight[batch].0[lane];
+                        pressure = pressure * of_point / strip.weight[batch].0[lane];
                     }
                     let mut unaveraged = Tensor::<D, f64>::load(own, lane);
                     if damping > 0.0 {
@@ -317,8 +319,7 @@ where
             }
             let mut sums = Sums::new();
             strip.pulls.clear(slots_of_chunk);
-            level.run(Every(Forces::<E, S, D, N, P> {
-                element,
+            let forces = Forces {
                 family,
                 is_solid: true,
                 is_elastic,
@@ -339,8 +340,8 @@ where
                 first,
                 kept: if keeps_forces { kept } else { &mut [] },
                 sums: &mut sums,
-                kind: PhantomData,
-            }));
+            };
+            kernel.forces(level, forces);
             strip.pulls.copy_to(pulls);
             report.fill(sums.report());
         });
@@ -366,18 +367,4 @@ where
             strip.weight[batch].0[lane] *= change;
         }
     }
-}
-
-/// Volume of an element now.
-fn volume<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize>(
-    strip: &Strip<D>,
-    batch: usize,
-    lane: usize,
-) -> f64
-where
-    Dim<D>: Space<D>,
-{
-    let x: [[f64; D]; N] = std::array::from_fn(|a| std::array::from_fn(|i| f64::load(&strip.parts[(batch * N + a) * D + i], lane)));
-    let area = Dim::<D>::determinant(&E::gradients(&x)[0]) * E::WEIGHTS[0];
-    circumference::<S, f64, D, N>(area, &x, &E::shape(E::POINTS[0]))
 }

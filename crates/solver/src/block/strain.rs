@@ -25,21 +25,13 @@ pub(super) struct Measures {
     pub(super) volume: bool,
 }
 
-/// Whether dilatations are averaged.
-pub(super) const fn averages<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize>() -> bool
-where
-    Dim<D>: Space<D>,
-{
-    E::MEAN_DILATATION && !S::PLANE_STRESS
-}
-
 /// Batches of initial geometry per point of a hyperelastic block: inverse Jacobian row by row, volume, and the radius of an axisymmetric body; of an element that is warped
 /// the second matrix.
-pub(super) const fn initial_width<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize>() -> usize
+pub(super) const fn initial_width<E: Element<D, N, P>, const D: usize, const N: usize, const P: usize>(state: StressState) -> usize
 where
     Dim<D>: Space<D>,
 {
-    D * D + 1 + S::AXISYMMETRIC as usize + if E::WARPED { D * D } else { 0 }
+    D * D + 1 + (D == 2 && state.is_axisymmetric) as usize + if E::WARPED { D * D } else { 0 }
 }
 
 /// Deformation gradient of a point from the Jacobian (and the second matrix of an element that is warped) and the inverse of the start.
@@ -89,15 +81,6 @@ where
     map::<E, L, D, N, P>(*jacobians, &E::warp(x)).determinants
 }
 
-/// Shape functions at a point, where the radius is asked for: in bodies of revolution.
-#[inline(always)]
-pub(super) fn shape_at<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize>(p: usize) -> [f64; N]
-where
-    Dim<D>: Space<D>,
-{
-    if S::AXISYMMETRIC { E::shape(E::POINTS[p]) } else { [0.0; N] }
-}
-
 /// Radius x of a point from the nodes.
 #[inline(always)]
 pub(super) fn radius<L: Lane, const D: usize, const N: usize>(x: &[[L; D]; N], shape: &[f64; N]) -> L {
@@ -108,14 +91,14 @@ pub(super) fn radius<L: Lane, const D: usize, const N: usize>(x: &[[L; D]; N], s
     sum
 }
 
-/// Volume per area: the circumference of an axisymmetric body, else one.
+/// Volume of an axisymmetric body per area of its section: the circumference.
 #[inline(always)]
-pub(super) fn circumference<S: StressState, L: Lane, const D: usize, const N: usize>(volume: L, x: &[[L; D]; N], shape: &[f64; N]) -> L {
-    if S::AXISYMMETRIC { volume * (radius(x, shape) * L::splat(std::f64::consts::TAU)) } else { volume }
+pub(super) fn circumference<L: Lane, const D: usize, const N: usize>(x: &[[L; D]; N], shape: &[f64; N]) -> L {
+    radius(x, shape) * L::splat(std::f64::consts::TAU)
 }
 
 /// Elements `first..first + batches` (in batches) of a block, ready to be strained.
-pub(super) struct Strain<'a, E, S, const D: usize, const N: usize, const P: usize> {
+pub(super) struct Strain<'a, const D: usize> {
     /// Step, s.
     pub(super) time_step: f64,
     pub(super) measures: Measures,
@@ -134,55 +117,79 @@ pub(super) struct Strain<'a, E, S, const D: usize, const N: usize, const P: usiz
     /// What hourglass control keeps, turned in place: [`Element::HOURGLASS`] per element.
     pub(super) hourglass: &'a mut [Batch],
     pub(super) strip: &'a mut Strip<D>,
-    pub(super) kind: PhantomData<(E, S)>,
 }
 
-impl<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize> Parts for Strain<'_, E, S, D, N, P>
+/// [`Strain`] by an element.
+pub(super) struct StrainKernel<'a, E, const D: usize, const N: usize, const P: usize> {
+    pub(super) input: Strain<'a, D>,
+    pub(super) state: StressState,
+    pub(super) kind: PhantomData<E>,
+}
+
+impl<E: Element<D, N, P>, const D: usize, const N: usize, const P: usize> Parts for StrainKernel<'_, E, D, N, P>
 where
     Dim<D>: Space<D>,
 {
     #[inline(always)]
     fn batches(&self) -> usize {
-        self.batches
+        self.input.batches
     }
 
     #[inline(always)]
     fn part<L: Lane>(&mut self, batch: usize, at: usize) {
-        let row = (self.first + batch) * N;
+        let row = (self.input.first + batch) * N;
         let (mut x, mut v) = ([[L::splat(0.0); D]; N], [[L::splat(0.0); D]; N]);
         if D == 2 {
             // Position and velocity of a node of the plane are one load.
             for a in 0..N {
-                [x[a], v[a]] = L::gather(&self.strip.moving, self.places, row + a, at);
+                [x[a], v[a]] = L::gather(&self.input.strip.moving, self.input.places, row + a, at);
             }
             (x, v) = (E::natural(&x), E::natural(&v));
         } else {
-            x = E::natural(&L::gather_one::<D, N, false>(&self.strip.moving, self.places, row, at));
-            v = E::natural(&L::gather_one::<D, N, true>(&self.strip.moving, self.places, row, at));
+            x = E::natural(&L::gather_one::<D, N, false>(&self.input.strip.moving, self.input.places, row, at));
+            v = E::natural(&L::gather_one::<D, N, true>(&self.input.strip.moving, self.input.places, row, at));
         }
         // One check of the bounds for all parts.
-        let parts = &mut self.strip.parts[batch * (E::PARTS * D)..][..E::PARTS * D];
+        let parts = &mut self.input.strip.parts[batch * (E::PARTS * D)..][..E::PARTS * D];
         for a in 0..E::PARTS {
             for i in 0..D {
                 x[a][i].store(&mut parts[a * D + i], at);
             }
         }
-        match self.measures.family {
+        match self.input.measures.family {
             Family::Rate => self.rate(batch, at, &x, &v),
             Family::Hyperelastic => self.hyperelastic(batch, at, &x, &v),
         }
     }
 }
 
-impl<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize> Strain<'_, E, S, D, N, P>
+impl<E: Element<D, N, P>, const D: usize, const N: usize, const P: usize> StrainKernel<'_, E, D, N, P>
 where
     Dim<D>: Space<D>,
 {
+    /// Whether x is the radius; never in space.
+    #[inline(always)]
+    fn is_axisymmetric(&self) -> bool {
+        D == 2 && self.state.is_axisymmetric
+    }
+
+    /// Whether dilatations are averaged over the element.
+    #[inline(always)]
+    fn averages(&self) -> bool {
+        E::MEAN_DILATATION && !(D == 2 && self.state.is_plane_stress)
+    }
+
+    /// Volume of a point from its area, in space from itself.
+    #[inline(always)]
+    fn volume<L: Lane>(&self, area: L, x: &[[L; D]; N], p: usize) -> L {
+        if self.is_axisymmetric() { area * circumference(x, &E::shape(E::POINTS[p])) } else { area }
+    }
+
     /// Strain increment and rotation from the mid-step configuration; turns the stresses.
     #[inline(always)]
     fn rate<L: Lane>(&mut self, batch: usize, at: usize, x: &[[L; D]; N], v: &[[L; D]; N]) {
         let (zero, half, third) = (L::splat(0.0), L::splat(0.5), L::splat(1.0 / 3.0));
-        let dt = L::splat(self.time_step);
+        let dt = L::splat(self.input.time_step);
         let mut step = [[zero; D]; N];
         let mut x_middle = *x;
         for a in 0..E::PARTS {
@@ -211,9 +218,8 @@ where
                 }
             }
             let ([adjugate, warped], determinant) = map_at::<E, L, D, N, P>(&middle, &warp);
-            let shape = shape_at::<E, S, D, N, P>(p);
-            let own = circumference::<S, L, D, N>(determinant * L::splat(E::WEIGHTS[p]), &x_middle, &shape);
-            own.store(&mut self.strip.volume[batch * P + p], at);
+            let own = self.volume(determinant * L::splat(E::WEIGHTS[p]), &x_middle, p);
+            own.store(&mut self.input.strip.volume[batch * P + p], at);
             let mut natural = product(&increments[p], &adjugate);
             if E::WARPED {
                 let more = product(&warp_step, &warped);
@@ -228,31 +234,32 @@ where
                 self.swing(batch, at, &E::swing(x, &step, &gradient), &turns);
             }
             let mut strain = Dim::<D>::symmetric(&gradient);
-            if S::AXISYMMETRIC {
+            if self.is_axisymmetric() {
+                let shape = E::shape(E::POINTS[p]);
                 strain = strain.plus_zz(radius(&step, &shape) / radius(&x_middle, &shape));
             }
-            if averages::<E, S, D, N, P>() {
+            if self.averages() {
                 traces[p] = strain.trace();
                 dilatation += traces[p] * own;
                 volume += own;
             }
             let (point, [half_way, rotation]) = (batch * P + p, turns);
             // Strain increment and old stress meet at the end of the step; without its half rotation the update is of first order only.
-            strain.rotated(&half_way).store(&mut self.strip.strain[point * components..(point + 1) * components], at);
-            let stress = &mut self.stress[point * components..(point + 1) * components];
+            strain.rotated(&half_way).store(&mut self.input.strip.strain[point * components..(point + 1) * components], at);
+            let stress = &mut self.input.stress[point * components..(point + 1) * components];
             Tensor::<D, L>::load(stress, at).rotated(&rotation).store(stress, at);
-            if self.measures.rotation {
-                rotation.store(&mut self.strip.rotation[point * turn..(point + 1) * turn], at);
+            if self.input.measures.rotation {
+                rotation.store(&mut self.input.strip.rotation[point * turn..(point + 1) * turn], at);
             }
         }
-        if averages::<E, S, D, N, P>() {
+        if self.averages() {
             dilatation = dilatation / volume;
             for p in 0..P {
-                let strain = &mut self.strip.strain[(batch * P + p) * components..][..components];
+                let strain = &mut self.input.strip.strain[(batch * P + p) * components..][..components];
                 Tensor::<D, L>::load(strain, at).plus_isotropic((dilatation - traces[p]) * third).store(strain, at);
             }
         }
-        if self.measures.volume {
+        if self.input.measures.volume {
             self.volume_ratio(batch, at, x);
         }
     }
@@ -266,10 +273,10 @@ where
             let change = changes[pattern];
             let all = Dim::<D>::turned(change, turns);
             let place = batch * E::HOURGLASS + pattern * D;
-            let kept = &mut self.hourglass[place..place + D];
+            let kept = &mut self.input.hourglass[place..place + D];
             let mut old = change;
             for i in 0..D {
-                ((change[i] + all[i]) * half).store(&mut self.strip.swing[place + i], at);
+                ((change[i] + all[i]) * half).store(&mut self.input.strip.swing[place + i], at);
                 old[i] = L::load(&kept[i], at);
             }
             let turned = Dim::<D>::turned(old, turns);
@@ -286,17 +293,17 @@ where
         let determinants = determinants::<E, L, D, N, P>(x, &E::gradients(x));
         for p in 0..P {
             let own = determinants[p] * L::splat(E::WEIGHTS[p]);
-            volume += circumference::<S, L, D, N>(own, x, &shape_at::<E, S, D, N, P>(p));
+            volume += self.volume(own, x, p);
         }
-        let initial = L::load(&self.volume_initial[batch], at);
+        let initial = L::load(&self.input.volume_initial[batch], at);
         let ratio = volume / initial;
-        let heat = match self.resistance.get(batch) {
+        let heat = match self.input.resistance.get(batch) {
             Some(resistance) => L::load(&resistance.viscous_step, at) / initial,
             None => L::splat(0.0),
         };
         for p in 0..P {
-            ratio.store(&mut self.strip.volume_ratio[batch * P + p], at);
-            heat.store(&mut self.strip.viscous_heat[batch * P + p], at);
+            ratio.store(&mut self.input.strip.volume_ratio[batch * P + p], at);
+            heat.store(&mut self.input.strip.viscous_heat[batch * P + p], at);
         }
     }
 
@@ -305,20 +312,20 @@ where
     fn hyperelastic<L: Lane>(&mut self, batch: usize, at: usize, x: &[[L; D]; N], v: &[[L; D]; N]) {
         let jacobians = &E::gradients(x);
         let one = L::splat(1.0);
-        let width = initial_width::<E, S, D, N, P>();
+        let width = initial_width::<E, D, N, P>(self.state);
         let components = <Tensor<D, L> as SymmetricTensor<L>>::COMPONENTS;
         let (mut volume, mut volume_initial) = (L::splat(-0.0), L::splat(-0.0));
         let determinants = determinants::<E, L, D, N, P>(x, jacobians);
         for p in 0..P {
             let own = determinants[p] * L::splat(E::WEIGHTS[p]);
-            volume += circumference::<S, L, D, N>(own, x, &shape_at::<E, S, D, N, P>(p));
-            let own_initial = L::load(&self.initial[(batch * P + p) * width + D * D], at);
-            own_initial.store(&mut self.strip.volume[batch * P + p], at);
+            volume += self.volume(own, x, p);
+            let own_initial = L::load(&self.input.initial[(batch * P + p) * width + D * D], at);
+            own_initial.store(&mut self.input.strip.volume[batch * P + p], at);
             volume_initial += own_initial;
         }
         let ratio_mean = volume / volume_initial;
         if E::SWINGS > 0 {
-            let (dt, half) = (L::splat(self.time_step), L::splat(0.5));
+            let (dt, half) = (L::splat(self.input.time_step), L::splat(0.5));
             let mut step = *v;
             for a in 0..E::PARTS {
                 for i in 0..D {
@@ -337,16 +344,16 @@ where
         }
         for p in 0..P {
             let point = batch * P + p;
-            let initial = &self.initial[point * width..(point + 1) * width];
+            let initial = &self.input.initial[point * width..(point + 1) * width];
             let f = deformation::<E, L, D, N, P>(&jacobians[p], x, initial, at);
             let mut stretch = one; // across the plane
-            if S::AXISYMMETRIC {
-                stretch = radius(x, &shape_at::<E, S, D, N, P>(p)) / L::load(&initial[D * D + 1], at);
+            if self.is_axisymmetric() {
+                stretch = radius(x, &E::shape(E::POINTS[p])) / L::load(&initial[D * D + 1], at);
             }
             let ratio_point = Dim::<D>::determinant(&f);
-            let ratio_point = if S::AXISYMMETRIC { ratio_point * stretch } else { ratio_point };
+            let ratio_point = if self.is_axisymmetric() { ratio_point * stretch } else { ratio_point };
             let (mut ratio, mut scale, mut weight) = (ratio_point, one, L::splat(E::WEIGHTS[p]));
-            if averages::<E, S, D, N, P>() {
+            if self.averages() {
                 // F̄ = (J̄/J)^{1/3} F; the deviatoric Kirchhoff stress τ̄ V₀ then weighs J̄ V₀ = (J̄/J) w det J.
                 let change = ratio_mean / ratio_point;
                 let root = embate_lanes::math::cbrt(change);
@@ -354,12 +361,12 @@ where
                 (ratio, scale) = (ratio_mean, root * root);
             }
             let mut b = Dim::<D>::left_cauchy_green(&f, scale);
-            if S::AXISYMMETRIC {
+            if self.is_axisymmetric() {
                 b = b.plus_zz(scale * (stretch * stretch - one));
             }
-            b.store(&mut self.strip.strain[point * components..(point + 1) * components], at);
-            ratio.store(&mut self.strip.volume_ratio[point], at);
-            weight.store(&mut self.strip.weight[point], at);
+            b.store(&mut self.input.strip.strain[point * components..(point + 1) * components], at);
+            ratio.store(&mut self.input.strip.volume_ratio[point], at);
+            weight.store(&mut self.input.strip.weight[point], at);
         }
     }
 }

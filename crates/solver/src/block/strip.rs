@@ -2,6 +2,7 @@
 //!
 //! The motion is gathered and strained ([`super::strain`]), the law answers ([`crate::material::points`]), the forces follow ([`super::forces`]).
 
+use super::kernel::Facts;
 use crate::material::points::{PointLaw, RESPONSE, Room};
 use embate_lanes::{BATCH, Batch, Kernel, Lane, Moving, VectorSums};
 
@@ -37,21 +38,11 @@ pub(super) struct Strip<const D: usize> {
     pub(super) law: Room,
 }
 
-/// Numbers of values that a strip holds.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Shape {
-    pub(super) parts: usize,
-    pub(super) points: usize,
-    pub(super) components: usize,
-    pub(super) turn: usize,
-    pub(super) hourglass: usize,
-}
-
 impl<const D: usize> Strip<D> {
     /// Room for so many batches of elements; `turns`: someone besides the law wants the rotations.
-    pub(super) fn new(shape: &Shape, law: &dyn PointLaw, turns: bool, batches: usize) -> Self {
+    pub(super) fn new(facts: &Facts, law: &dyn PointLaw, turns: bool, batches: usize) -> Self {
         let room = |values: usize| vec![Batch::default(); batches * values];
-        let Shape { parts, points, components, turn, hourglass } = *shape;
+        let Facts { parts, points, components, turn, hourglass, .. } = *facts;
         Self {
             moving: Moving::default(),
             pulls: VectorSums::default(),

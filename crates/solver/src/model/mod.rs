@@ -300,7 +300,7 @@ impl Part {
     /// Whether x is its radius.
     #[must_use]
     pub fn is_axisymmetric(&self) -> bool {
-        STRESS_STATES.iter().any(|kind| kind.name == self.stress_state && kind.axisymmetric)
+        STRESS_STATES.iter().any(|kind| kind.name == self.stress_state && kind.state.is_axisymmetric)
     }
 
     /// 3 where it is swept or has a solid shape, else 2; of a group of a mesh file its model knows ([`Model::dimension_of`]).

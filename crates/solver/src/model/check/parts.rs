@@ -2,7 +2,7 @@
 
 use super::Check;
 use super::warnings::parameters;
-use crate::block::stress_state::{PlaneStress, STRESS_STATES, StressState};
+use crate::block::stress_state::{PLANE_STRESS, STRESS_STATES};
 use crate::element;
 use crate::error::{Fault, MEMORY};
 use crate::material;
@@ -85,7 +85,7 @@ impl Check<'_> {
                 }
             }
             self.vector(&format!("{path}.point"), stress.point);
-            if part.stress_state == PlaneStress::KIND.name && !stress.lacks(2) {
+            if part.stress_state == PLANE_STRESS.name && !stress.lacks(2) {
                 self.fault(&INITIAL_STATE, format!("{path}.zz"), "in plane stress there is no stress across the plane", "leave it out");
             }
             if part.rigid.is_some() {
@@ -107,7 +107,7 @@ impl Check<'_> {
         let Some(softening) = parameters(it).and_then(|parameters| material::softening(&it.law, &parameters)) else { return };
         let (stiffness, of) = match part {
             part if part.is_of_bars() => (softening.bar, "a bar"),
-            part if part.stress_state == PlaneStress::KIND.name => (softening.plate, "plane stress"),
+            part if part.stress_state == PLANE_STRESS.name => (softening.plate, "plane stress"),
             _ => return,
         };
         if softening.is_too_steep(stiffness) && !softening.is_too_steep(softening.solid) {

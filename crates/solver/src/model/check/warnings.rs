@@ -2,7 +2,7 @@
 //!
 //! Only what is certain before a run: a warning that is wrong once is read no more. What needs the mesh is told by `build/idle.rs`.
 
-use crate::block::stress_state::{PlaneStress, StressState};
+use crate::block::stress_state::PLANE_STRESS;
 use crate::contact::messages::OPEN;
 use crate::element::{Element, Quad4, Quad4Full, Tri3};
 use crate::error::Warning;
@@ -62,7 +62,7 @@ impl Model {
             return None;
         };
         // An equation of state has a bulk modulus of its own.
-        if part.stress_state == PlaneStress::KIND.name || !it.eos.is_empty() || material::bears_uniaxial_stress(&it.law) != Some(true) {
+        if part.stress_state == PLANE_STRESS.name || !it.eos.is_empty() || material::bears_uniaxial_stress(&it.law) != Some(true) {
             return None;
         }
         let [bulk, shear] = material::stiffness(&it.law, &parameters(it)?)?;

@@ -1,35 +1,34 @@
-//! The elements of a block with their state; erased as [`Block`].
+//! The elements of a block with their state, in plain batches; erased as [`Block`].
 //!
-//! A step goes strip by strip: strain, law, forces, so that what passes from one to the next stays in the first-level cache. Strips belong to chunks, which
+//! Nothing here is compiled for an element or a law: both are asked through [`ElementKernel`] and [`PointLaw`], a strip of
+//! elements at a time. A step goes strip by strip: strain, law, forces, so that what passes from one to the next stays in the first-level cache. Strips belong to chunks, which
 //! are shared by threads and do not depend on their number.
 
-use super::batch::{ElementBatch, Resistance, element_of};
+use super::batch::{ElementBatch, Resistance};
 use super::damping::Damp;
 use super::erosion::Eroded;
 use super::forces::{Forces, Sums};
+use super::kernel::{ElementGeometry, ElementKernel, Facts};
 use super::local::LocalNodes;
 use super::make::BlockInput;
 use super::nodal::Nodal;
-use super::strain::{Measures, Strain, Tensor, circumference, initial_width, radius};
-use super::stress_state::StressState;
-use super::strip::{Every, STRIP, Shape, Strip};
+use super::strain::{Measures, Strain};
+use super::strip::{Every, STRIP, Strip};
 use super::{Block, ElementState, Initial, Motion, Report, Wrong};
 use crate::archive::{Archive, Keep, Kept};
-use crate::element::{Element, map_of};
 use crate::failure::Criterion;
 use crate::material::Family;
 use crate::material::points::{PointLaw, Points, RESPONSE};
-use crate::tensor::{Dim, Space, SymmetricTensor, Turn};
+use crate::tensor::{Dim, Space};
 use embate_lanes::{BATCH, Batch, Chunks, Level, Team};
-use std::marker::PhantomData;
 use std::sync::{Mutex, PoisonError};
 
 /// Batches that one task advances: small enough to share, large enough to be worth it; fixed, so that sums do not depend on threads.
 pub const CHUNK: usize = 64;
 
 /// The elements of a block with their state.
-pub(super) struct Elements<E, S, const D: usize, const N: usize, const P: usize> {
-    pub(super) element: E,
+pub(super) struct ElementStore<const D: usize> {
+    pub(super) kernel: Box<dyn ElementKernel<D>>,
     pub(super) law: Box<dyn PointLaw>,
     pub(super) viscosity: Option<[f64; 2]>,
     pub(super) count: usize,
@@ -51,7 +50,7 @@ pub(super) struct Elements<E, S, const D: usize, const N: usize, const P: usize>
     /// Forces of the elements in the last step, where they are kept.
     pub(super) kept: Vec<Batch>,
     pub(super) keeps_forces: bool,
-    /// Share of each corner in the element's mass: `N` batches per batch of elements; only until nodes have their masses.
+    /// Share of each corner in the element's mass: a batch per corner and batch of elements; only until nodes have their masses.
     pub(super) corner_mass: Vec<Batch>,
     /// Initial volume of each element, one batch per batch of elements.
     pub(super) volume_initial: Vec<Batch>,
@@ -61,7 +60,6 @@ pub(super) struct Elements<E, S, const D: usize, const N: usize, const P: usize>
     /// Averages over the nodes, for elements that want them.
     nodal: Option<Box<Nodal<D>>>,
     pub(super) eroded: Eroded,
-    state: PhantomData<S>,
 }
 
 /// What one task advances.
@@ -80,8 +78,8 @@ struct Chunk<'a, const D: usize> {
 }
 
 /// What is the same for all tasks.
-struct Common<'a, E, const D: usize> {
-    element: &'a E,
+struct Common<'a, const D: usize> {
+    kernel: &'a dyn ElementKernel<D>,
     law: &'a dyn PointLaw,
     measures: Measures,
     history_width: usize,
@@ -95,22 +93,25 @@ struct Common<'a, E, const D: usize> {
     level: Level,
 }
 
-impl<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize> Elements<E, S, D, N, P>
+/// Room for a step of so many batches of elements.
+pub(super) fn strip<const D: usize>(facts: &Facts, law: &dyn PointLaw, damping: f64, batches: usize) -> Strip<D> {
+    Strip::new(facts, law, damping > 0.0, batches)
+}
+
+impl<const D: usize> ElementStore<D>
 where
     Dim<D>: Space<D>,
 {
-    pub(super) const COMPONENTS: usize = <Tensor<D, f64> as SymmetricTensor<f64>>::COMPONENTS;
-
-    fn strip(law: &dyn PointLaw, damping: f64, batches: usize) -> Strip<D> {
-        let turn = <<Tensor<D, f64> as SymmetricTensor<f64>>::Rotation as Turn<f64>>::COMPONENTS;
-        let shape = Shape { parts: E::PARTS, points: P, components: Self::COMPONENTS, turn, hourglass: E::HOURGLASS };
-        Strip::new(&shape, law, damping > 0.0, batches)
+    /// The element by numbers.
+    pub(super) fn facts(&self) -> &Facts {
+        self.kernel.facts()
     }
 
     /// Widths of a batch in stress, history, initial geometry and hourglass memory.
     pub(super) fn widths(&self) -> [usize; 4] {
-        let initial = if self.law.family() == Family::Hyperelastic { P * initial_width::<E, S, D, N, P>() } else { 0 };
-        [P * Self::COMPONENTS, P * self.law.state_width(), initial, E::HOURGLASS]
+        let Facts { points, components, initial, hourglass, .. } = *self.facts();
+        let initial = if self.law.family() == Family::Hyperelastic { points * initial } else { 0 };
+        [points * components, points * self.law.state_width(), initial, hourglass]
     }
 
     /// Whether there is bulk viscosity or damping in proportion to the stiffness.
@@ -125,57 +126,35 @@ where
 
     /// Width of a batch in the forces that are kept.
     pub(super) fn kept_width(&self) -> usize {
-        if self.keeps_forces { N * D } else { 0 }
+        if self.keeps_forces { self.facts().nodes * D } else { 0 }
     }
 
     /// Width of a batch in the stresses of the damping.
     pub(super) fn damped_width(&self) -> usize {
-        if self.damping > 0.0 { P * Self::COMPONENTS } else { 0 }
+        if self.damping > 0.0 { self.facts().points * self.facts().components } else { 0 }
+    }
+
+    /// The positions of an element's nodes, from those of all.
+    pub(super) fn corners(&self, batch: usize, lane: usize, positions: &[[f64; D]], corners: &mut Vec<[f64; D]>) {
+        let nodes = self.facts().nodes;
+        corners.clear();
+        corners.extend((0..nodes).map(|a| positions[self.nodes.node(batch * nodes + a, lane, nodes)]));
     }
 
     /// Initial geometry and masses of one lane.
-    fn set_up(&mut self, batch: usize, lane: usize, density: f64, connectivity: &[u32], positions: &[[f64; D]]) {
-        let element = element_of(batch, lane, self.count);
-        let x: [[f64; D]; N] = std::array::from_fn(|a| positions[connectivity[element * N + a] as usize]);
-        let map = map_of::<E, f64, D, N, P>(&x);
-        let width = initial_width::<E, S, D, N, P>();
-        let (mut volume, mut corner_volumes) = (0.0, [0.0; N]);
-        for p in 0..P {
-            let determinant = map.determinants[p];
-            let shape = E::shape(E::POINTS[p]);
-            let point_volume = circumference::<S, f64, D, N>(determinant * E::WEIGHTS[p], &x, &shape);
-            volume += point_volume;
-            for a in 0..N {
-                corner_volumes[a] += point_volume * shape[a];
-            }
-            if self.law.family() == Family::Hyperelastic {
-                let adjugate = map.adjugates[p];
-                let initial = &mut self.initial[(batch * P + p) * width..][..width];
-                for i in 0..D {
-                    for j in 0..D {
-                        initial[i * D + j].0[lane] = adjugate[i][j] / determinant;
-                    }
-                }
-                initial[D * D].0[lane] = point_volume;
-                if E::WARPED {
-                    for i in 0..D {
-                        for j in 0..D {
-                            initial[D * D + 1 + i * D + j].0[lane] = map.warped[i][j] / determinant;
-                        }
-                    }
-                }
-                if S::AXISYMMETRIC {
-                    initial[D * D + 1].0[lane] = radius(&x, &shape);
-                }
-            }
+    fn set_up(&mut self, batch: usize, lane: usize, density: f64, geometry: &ElementGeometry<D>) {
+        let Facts { nodes, initial, points, .. } = *self.facts();
+        if self.law.family() == Family::Hyperelastic {
+            let own = &mut self.initial[batch * points * initial..][..points * initial];
+            own.iter_mut().zip(&geometry.initial).for_each(|(batch, &value)| batch.0[lane] = value);
         }
-        let corner_volumes = E::corner_volumes(&x, S::AXISYMMETRIC).unwrap_or(corner_volumes);
-        for (a, corner) in corner_volumes.into_iter().enumerate() {
-            self.corner_mass[batch * N + a].0[lane] = density * corner;
+        for (a, corner) in geometry.corner_volumes.iter().enumerate() {
+            self.corner_mass[batch * nodes + a].0[lane] = density * corner;
         }
-        let least = corner_volumes.into_iter().map(|corner| density * corner).fold(f64::INFINITY, f64::min);
+        let least = geometry.corner_volumes.iter().map(|corner| density * corner).fold(f64::INFINITY, f64::min);
+        let volume = geometry.volumes.iter().fold(0.0, |sum, volume| sum + volume);
         let values = &mut self.elements[batch];
-        values.mass_least.0[lane] = N as f64 * least;
+        values.mass_least.0[lane] = nodes as f64 * least;
         values.live.0[lane] = if batch * BATCH + lane < self.count { 1.0 } else { 0.0 };
         values.stored.0[lane] = self.law.stored() * volume;
         if self.resists() {
@@ -186,22 +165,23 @@ where
     }
 
     /// Advances a chunk, strip by strip.
-    fn advance_chunk(common: &Common<'_, E, D>, chunk: Chunk<'_, D>, strip: &mut Strip<D>) -> Report {
+    fn advance_chunk(common: &Common<'_, D>, chunk: Chunk<'_, D>, strip: &mut Strip<D>) -> Report {
         let Common { measures, history_width, level, .. } = *common;
-        let (stress_width, history_of_batch) = (P * Self::COMPONENTS, P * history_width);
-        let initial_of_batch = if measures.family == Family::Hyperelastic { P * initial_width::<E, S, D, N, P>() } else { 0 };
+        let Facts { nodes, points: of_element, components, hourglass, initial, is_plane_stress, .. } = *common.kernel.facts();
+        let (stress_width, history_of_batch) = (of_element * components, of_element * history_width);
+        let initial_of_batch = if measures.family == Family::Hyperelastic { of_element * initial } else { 0 };
         let mut sums = Sums::new();
         let count = chunk.elements.len();
         common.nodes.copy(chunk.index, common.motion, &mut strip.moving);
         strip.pulls.clear(common.nodes.width());
         for from in (0..count).step_by(STRIP) {
             let to = (from + STRIP).min(count);
-            let points = (to - from) * P;
+            let points = (to - from) * of_element;
             let stress = &mut chunk.stress[from * stress_width..to * stress_width];
             let history = &mut chunk.history[from * history_of_batch..to * history_of_batch];
             let elements = &mut chunk.elements[from..to];
             let resistance = if common.resists { &mut chunk.resistance[from..to] } else { &mut [][..] };
-            level.run(Every(Strain::<E, S, D, N, P> {
+            let strain = Strain {
                 time_step: common.motion.time_step,
                 measures,
                 first: chunk.index * CHUNK + from,
@@ -211,15 +191,15 @@ where
                 volume_initial: &chunk.volume_initial[from..to],
                 initial: &chunk.initial[from * initial_of_batch..to * initial_of_batch],
                 stress,
-                hourglass: &mut chunk.hourglass[from * E::HOURGLASS..to * E::HOURGLASS],
+                hourglass: &mut chunk.hourglass[from * hourglass..to * hourglass],
                 strip,
-                kind: PhantomData,
-            }));
+            };
+            common.kernel.strain(level, strain);
             common.law.respond(
                 level,
                 Points {
                     time_step: common.motion.time_step,
-                    strain: &strip.strain[..points * Self::COMPONENTS],
+                    strain: &strip.strain[..points * components],
                     rotation: &strip.rotation,
                     volume_ratio: &strip.volume_ratio[..points],
                     viscous_heat: &strip.viscous_heat[..points],
@@ -232,7 +212,9 @@ where
             // Without damping there is one batch, which stands for nothing.
             let damped = if common.damping > 0.0 { &mut chunk.damped[from * stress_width..to * stress_width] } else { &mut [][..] };
             if common.damping > 0.0 {
-                level.run(Every(Damp::<E, S, D, N, P> {
+                level.run(Every(Damp {
+                    points: of_element,
+                    is_plane_stress,
                     damping: common.damping,
                     time_step: common.motion.time_step,
                     strip,
@@ -242,11 +224,9 @@ where
                     stress: damped,
                     elements,
                     resistance,
-                    kind: PhantomData,
                 }));
             }
-            level.run(Every(Forces::<E, S, D, N, P> {
-                element: common.element,
+            let forces = Forces {
                 family: measures.family,
                 is_solid: common.law.stiffness()[1] > 0.0,
                 is_elastic: common.law.is_elastic(),
@@ -259,16 +239,16 @@ where
                 history_width,
                 thickness: common.thickness,
                 initial: &chunk.initial[from * initial_of_batch..to * initial_of_batch],
-                hourglass: &mut chunk.hourglass[from * E::HOURGLASS..to * E::HOURGLASS],
+                hourglass: &mut chunk.hourglass[from * hourglass..to * hourglass],
                 strip,
                 elements,
                 resistance,
                 places: &common.nodes.places,
                 first: chunk.index * CHUNK + from,
-                kept: if common.keeps_forces { &mut chunk.kept[from * N * D..to * N * D] } else { &mut [] },
+                kept: if common.keeps_forces { &mut chunk.kept[from * nodes * D..to * nodes * D] } else { &mut [] },
                 sums: &mut sums,
-                kind: PhantomData,
-            }));
+            };
+            common.kernel.forces(level, forces);
         }
         strip.pulls.copy_to(chunk.pulls);
         sums.report()
@@ -285,70 +265,67 @@ pub(super) fn chunk(width: usize) -> usize {
     if width == 0 { 1 } else { CHUNK * width }
 }
 
-impl<E: Element<D, N, P>, S: StressState, const N: usize, const P: usize, const D: usize> Elements<E, S, D, N, P>
+impl<const D: usize> ElementStore<D>
 where
     Dim<D>: Space<D>,
 {
-    fn empty(law: Box<dyn PointLaw>, element: E, input: &BlockInput<'_, D>) -> Self {
+    fn empty(law: Box<dyn PointLaw>, kernel: Box<dyn ElementKernel<D>>, input: &BlockInput<'_, D>) -> Self {
         let (connectivity, damping) = (input.connectivity, input.damping);
-        let count = connectivity.len() / N;
+        let Facts { nodes, points, components, hourglass, averages_at_nodes, .. } = *kernel.facts();
+        let count = connectivity.len() / nodes;
         let batches = count.div_ceil(BATCH);
         let room = |width: usize| vec![Batch::default(); length(batches, width)];
-        let strips = vec![Mutex::new(Self::strip(law.as_ref(), damping, STRIP))];
-        let averages = E::NODAL_DILATATION && !S::PLANE_STRESS;
-        let nodal = averages.then(|| Box::new(Nodal::new(connectivity, N, Self::COMPONENTS, || Self::strip(law.as_ref(), damping, CHUNK))));
+        let of_task = |batches: usize| strip(kernel.facts(), law.as_ref(), damping, batches);
+        let nodal = averages_at_nodes.then(|| Box::new(Nodal::new(connectivity, nodes, components, || of_task(CHUNK))));
         let mut block = Self {
-            element,
+            strips: vec![Mutex::new(of_task(STRIP))],
             viscosity: input.viscosity,
             damping,
-            damped: room(if damping > 0.0 { P * Self::COMPONENTS } else { 0 }),
+            damped: room(if damping > 0.0 { points * components } else { 0 }),
             count,
-            nodes: LocalNodes::new(connectivity, N),
-            stress: room(P * Self::COMPONENTS),
-            history: room(P * law.state_width()),
+            nodes: LocalNodes::new(connectivity, nodes),
+            stress: room(points * components),
+            history: room(points * law.state_width()),
             initial: Vec::new(),
             elements: vec![ElementBatch::default(); batches],
             resistance: Vec::new(),
-            hourglass: room(E::HOURGLASS),
+            hourglass: room(hourglass),
             kept: room(0),
             keeps_forces: false,
-            corner_mass: vec![Batch::default(); batches * N],
+            corner_mass: vec![Batch::default(); batches * nodes],
             volume_initial: vec![Batch::default(); batches],
             reports: vec![Report::NOTHING; batches.div_ceil(CHUNK)],
-            strips,
             nodal,
+            kernel,
             law,
             eroded: Eroded::default(),
-            state: PhantomData,
         };
         block.resistance = vec![Resistance::default(); length(batches, block.resistance_width())];
         block.initial = vec![Batch::default(); batches * block.widths()[2]];
-        for point in block.history.chunks_exact_mut(block.law.state_width().max(1)).take(batches * P) {
+        for point in block.history.chunks_exact_mut(block.law.state_width().max(1)).take(batches * points) {
             if block.law.state_width() > 0 {
                 block.law.start(point);
             }
         }
         block
     }
-}
 
-impl<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize> Elements<E, S, D, N, P>
-where
-    Dim<D>: Space<D>,
-{
     /// From what [`super::make`] was given.
-    pub(super) fn new(law: Box<dyn PointLaw>, density: f64, input: &BlockInput<'_, D>) -> Self {
-        let mut block = Self::empty(law, E::new(&input.options), input);
+    pub(super) fn new(law: Box<dyn PointLaw>, kernel: Box<dyn ElementKernel<D>>, density: f64, input: &BlockInput<'_, D>) -> Self {
+        let mut block = Self::empty(law, kernel, input);
+        let (mut corners, mut geometry) = (Vec::new(), ElementGeometry::default());
         for batch in 0..block.elements.len() {
             for lane in 0..BATCH {
-                block.set_up(batch, lane, density, input.connectivity, input.positions);
+                block.corners(batch, lane, input.positions, &mut corners);
+                block.kernel.geometry(&corners, &mut geometry);
+                block.set_up(batch, lane, density, &geometry);
             }
         }
         block
     }
 }
 
-impl<E: Element<D, N, P>, S: StressState, const D: usize, const N: usize, const P: usize> Block<D> for Elements<E, S, D, N, P>
+impl<const D: usize> Block<D> for ElementStore<D>
 where
     Dim<D>: Space<D>,
 {
@@ -367,13 +344,13 @@ where
             return report;
         }
         while self.strips.len() < team.threads() {
-            self.strips.push(Mutex::new(Self::strip(self.law.as_ref(), self.damping, STRIP)));
+            self.strips.push(Mutex::new(strip(self.kernel.facts(), self.law.as_ref(), self.damping, STRIP)));
         }
         let (widths, damped_width) = (self.widths(), self.damped_width());
         let (kept_width, resistance_width) = (self.kept_width(), self.resistance_width());
         let law = self.law.as_ref();
         let common = Common {
-            element: &self.element,
+            kernel: self.kernel.as_ref(),
             law,
             measures: Measures { family: law.family(), rotation: law.needs_rotation() || self.damping > 0.0, volume: law.needs_volume() },
             history_width: law.state_width(),
@@ -417,11 +394,11 @@ where
     }
 
     fn mass(&self, element: usize) -> f64 {
-        (0..N).map(|corner| self.corner_mass(element, corner)).sum()
+        (0..self.facts().nodes).map(|corner| self.corner_mass(element, corner)).sum()
     }
 
     fn corner_mass(&self, element: usize, corner: usize) -> f64 {
-        self.corner_mass.get(element / BATCH * N + corner).map_or(f64::NAN, |batch| batch.0[element % BATCH])
+        self.corner_mass.get(element / BATCH * self.facts().nodes + corner).map_or(f64::NAN, |batch| batch.0[element % BATCH])
     }
 
     fn release_corner_masses(&mut self) {
@@ -437,13 +414,13 @@ where
             return *last;
         }
         let (batch, lane) = (element / BATCH, element % BATCH);
-        let width = self.law.state_width();
+        let (width, Facts { points, components, .. }) = (self.law.state_width(), *self.facts());
         let mean = |values: &[Batch], width: usize, value: usize| {
-            (0..P).map(|p| values[(batch * P + p) * width + value].0[lane]).sum::<f64>() / P as f64
+            (0..points).map(|p| values[(batch * points + p) * width + value].0[lane]).sum::<f64>() / points as f64
         };
         let mut state = ElementState::default();
-        for c in 0..Self::COMPONENTS {
-            state.stress[c] = mean(&self.stress, Self::COMPONENTS, c);
+        for c in 0..components {
+            state.stress[c] = mean(&self.stress, components, c);
         }
         for &(variable, index) in self.law.variables() {
             state.variables[variable as usize] = mean(&self.history, width, index);
@@ -478,11 +455,11 @@ where
 
     fn keep_forces(&mut self) {
         self.keeps_forces = true;
-        self.kept = vec![Batch::default(); self.elements.len() * N * D];
+        self.kept = vec![Batch::default(); self.elements.len() * self.facts().nodes * D];
     }
 
     fn force(&self, element: usize, corner: usize, _slots: &[[f64; D]]) -> [f64; D] {
-        let at = (element / BATCH * N + corner) * D;
+        let at = (element / BATCH * self.facts().nodes + corner) * D;
         std::array::from_fn(|d| self.kept.get(at + d).map_or(0.0, |batch| batch.0[element % BATCH]))
     }
 
@@ -498,8 +475,8 @@ where
         // Of the model, or worked out anew in each step.
         #[rustfmt::skip]
         let Self {
-            element: _, law: _, viscosity: _, damping: _, count: _, nodes: _, initial: _, kept: _, keeps_forces: _, corner_mass: _, volume_initial: _,
-            reports: _, strips: _, nodal: _, state: _,
+            kernel: _, law: _, viscosity: _, damping: _, count: _, nodes: _, initial: _, kept: _, keeps_forces: _, corner_mass: _, volume_initial: _,
+            reports: _, strips: _, nodal: _,
             stress, damped, history, elements, resistance, hourglass, eroded,
         } = self;
         for list in [stress, damped, history, hourglass] {

@@ -1,0 +1,166 @@
+//! The only part of a block that is compiled for each element: [`ElementKernel`].
+//!
+//! The store ([`super::store`]) holds the state of the elements in plain batches and knows an element by numbers
+//! alone ([`Facts`]). A kernel has no state: it turns the motion of the nodes into strains and stresses into forces,
+//! strip by strip. Another way to do that (a shell, a device) is another implementation.
+
+use super::forces::{Forces, ForcesKernel};
+use super::strain::{Strain, StrainKernel, Tensor, circumference, initial_width, radius};
+use super::stress_state::StressState;
+use super::strip::{Every, Strip};
+use crate::element::{Element, ElementOptions, map_of};
+use crate::tensor::{Dim, Space, SymmetricTensor, Turn};
+use embate_lanes::{BATCH, Batch, Lane, Level};
+use std::marker::PhantomData;
+
+/// An element in a stress state, by numbers.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Facts {
+    /// Nodes and quadrature points of an element.
+    pub(super) nodes: usize,
+    pub(super) points: usize,
+    /// Natural parts of its positions that mean something ([`Element::PARTS`]).
+    pub(super) parts: usize,
+    /// Components of its stress, and of its rotation.
+    pub(super) components: usize,
+    pub(super) turn: usize,
+    /// Batches that hourglass control keeps per element.
+    pub(super) hourglass: usize,
+    /// Batches of initial geometry per point, for hyperelastic laws.
+    pub(super) initial: usize,
+    /// Weight of its first point.
+    pub(super) weight: f64,
+    /// Whether dilatations are averaged over the nodes of the block ([`super::nodal`]).
+    pub(super) averages_at_nodes: bool,
+    /// Whether the stress normal to the plane vanishes.
+    pub(super) is_plane_stress: bool,
+}
+
+/// Geometry of one element: what an [`ElementKernel`] finds from the positions of its nodes.
+#[derive(Clone, Debug, Default)]
+pub(super) struct ElementGeometry<const D: usize> {
+    /// Of each point: place, m, and volume, m² (m³).
+    pub(super) places: Vec<[f64; D]>,
+    pub(super) volumes: Vec<f64>,
+    /// What hyperelastic laws need of each point: [`Facts::initial`] values.
+    pub(super) initial: Vec<f64>,
+    /// Share of each node in the volume, m² (m³).
+    pub(super) corner_volumes: Vec<f64>,
+}
+
+/// What an element does in a step. Positions of nodes are in the order of the element.
+pub(super) trait ElementKernel<const D: usize>: Send + Sync {
+    /// The element by numbers.
+    fn facts(&self) -> &Facts;
+    /// Geometry from the initial positions, m, of its nodes.
+    fn geometry(&self, positions: &[[f64; D]], geometry: &mut ElementGeometry<D>);
+    /// Smallest Jacobian determinant over the points.
+    fn determinant(&self, positions: &[[f64; D]]) -> f64;
+    /// From the motion of the nodes to what the law wants to know, for a strip of elements.
+    fn strain(&self, level: Level, strain: Strain<'_, D>);
+    /// From the stresses to the forces, for a strip of elements.
+    fn forces(&self, level: Level, forces: Forces<'_, D>);
+    /// Volumes, m² (m³), of the elements of a strip at the end of the step; for elements with one point that average at nodes.
+    fn volumes(&self, strip: &Strip<D>, volumes: &mut [Batch]);
+}
+
+/// An element, compiled, in a stress state.
+pub(super) struct Compiled<E, const D: usize, const N: usize, const P: usize> {
+    element: E,
+    facts: Facts,
+    state: StressState,
+}
+
+impl<E: Element<D, N, P>, const D: usize, const N: usize, const P: usize> Compiled<E, D, N, P>
+where
+    Dim<D>: Space<D>,
+{
+    /// With the options of the element, in a stress state.
+    pub(super) fn new(options: &ElementOptions, state: StressState) -> Self {
+        let facts = Facts {
+            nodes: N,
+            points: P,
+            parts: E::PARTS,
+            components: <Tensor<D, f64> as SymmetricTensor<f64>>::COMPONENTS,
+            turn: <<Tensor<D, f64> as SymmetricTensor<f64>>::Rotation as Turn<f64>>::COMPONENTS,
+            hourglass: E::HOURGLASS,
+            initial: initial_width::<E, D, N, P>(state),
+            weight: E::WEIGHTS[0],
+            averages_at_nodes: E::NODAL_DILATATION && !state.is_plane_stress,
+            is_plane_stress: state.is_plane_stress,
+        };
+        Self { element: E::new(options), facts, state }
+    }
+}
+
+/// The positions of an element's nodes as a list of their number.
+fn corners<const D: usize, const N: usize>(positions: &[[f64; D]]) -> [[f64; D]; N] {
+    std::array::from_fn(|a| positions[a])
+}
+
+impl<E: Element<D, N, P>, const D: usize, const N: usize, const P: usize> ElementKernel<D> for Compiled<E, D, N, P>
+where
+    Dim<D>: Space<D>,
+{
+    fn facts(&self) -> &Facts {
+        &self.facts
+    }
+
+    fn geometry(&self, positions: &[[f64; D]], geometry: &mut ElementGeometry<D>) {
+        let x: [[f64; D]; N] = corners(positions);
+        let map = map_of::<E, f64, D, N, P>(&x);
+        let ElementGeometry { places, volumes, initial, corner_volumes } = geometry;
+        places.clear();
+        volumes.clear();
+        initial.clear();
+        let mut corner_sums = [0.0; N];
+        for p in 0..P {
+            let determinant = map.determinants[p];
+            let shape = E::shape(E::POINTS[p]);
+            let area = determinant * E::WEIGHTS[p];
+            let volume = if self.state.is_axisymmetric { area * circumference(&x, &shape) } else { area };
+            places.push(std::array::from_fn(|d| (0..N).map(|a| shape[a] * x[a][d]).sum()));
+            volumes.push(volume);
+            for a in 0..N {
+                corner_sums[a] += volume * shape[a];
+            }
+            initial.extend(map.adjugates[p].as_flattened().iter().map(|adjugate| adjugate / determinant));
+            initial.push(volume);
+            if E::WARPED {
+                initial.extend(map.warped.as_flattened().iter().map(|warped| warped / determinant));
+            }
+            if self.state.is_axisymmetric {
+                initial.push(radius(&x, &shape));
+            }
+        }
+        corner_volumes.clear();
+        corner_volumes.extend(E::corner_volumes(&x, self.state.is_axisymmetric).unwrap_or(corner_sums));
+    }
+
+    fn determinant(&self, positions: &[[f64; D]]) -> f64 {
+        let determinants = map_of::<E, f64, D, N, P>(&corners(positions)).determinants;
+        determinants.into_iter().fold(f64::INFINITY, |least, own| if own < least { own } else { least })
+    }
+
+    fn strain(&self, level: Level, input: Strain<'_, D>) {
+        level.run(Every(StrainKernel::<E, D, N, P> { input, state: self.state, kind: PhantomData }));
+    }
+
+    fn forces(&self, level: Level, input: Forces<'_, D>) {
+        level.run(Every(ForcesKernel::<E, D, N, P> { element: &self.element, input, state: self.state }));
+    }
+
+    fn volumes(&self, strip: &Strip<D>, volumes: &mut [Batch]) {
+        if !self.facts.averages_at_nodes {
+            return;
+        }
+        for (batch, volumes) in volumes.iter_mut().enumerate() {
+            for lane in 0..BATCH {
+                let x: [[f64; D]; N] =
+                    std::array::from_fn(|a| std::array::from_fn(|i| f64::load(&strip.parts[(batch * N + a) * D + i], lane)));
+                let area = Dim::<D>::determinant(&E::gradients(&x)[0]) * E::WEIGHTS[0];
+                volumes.0[lane] = if self.state.is_axisymmetric { area * circumference(&x, &E::shape(E::POINTS[0])) } else { area };
+            }
+        }
+    }
+}

@@ -291,6 +291,10 @@ macro_rules! keep_each {
 
 pub(crate) use {keep_all, keep_each};
 
+/// A plain value: copied, compared and kept.
+pub trait Plain: Copy + std::fmt::Debug + Default + PartialEq + Keep + Send + Sync + 'static {}
+impl<T: Copy + std::fmt::Debug + Default + PartialEq + Keep + Send + Sync + 'static> Plain for T {}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,6 +1,6 @@
 //! Contact forces on nodes: few nodes of a model have any, so they are kept with what tells where they are, eight nodes at a time.
 //!
-//! Solved springs add to them ([`super::Contact::collect`]); the velocity update, rigid bodies and records read them. A step costs as much as there are nodes in contact.
+//! Solved springs add to them ([`crate::contact::Contact::collect`]); the velocity update, rigid bodies and records read them. A step costs as much as there are nodes in contact.
 
 use crate::archive::{Archive, Keep, Kept};
 use embate_lanes::BATCH;

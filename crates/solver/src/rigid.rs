@@ -10,17 +10,19 @@
 
 use crate::angle::cos_sin;
 use crate::archive::{Archive, Keep, Kept, keep_each};
-use crate::contact::forces::ContactForces;
+use crate::contact_forces::ContactForces;
 use crate::energy::Sums;
 use crate::load::body_force::BodyForces;
 use crate::load::curve::{Curves, Speed};
 use crate::load::damping::Damping;
-use crate::motion::Motion;
 use crate::tensor::Dim;
 use crate::vector::{dot, plus};
 use crate::world::World;
 
+pub mod motion;
 pub mod space;
+
+pub use motion::RigidMotion;
 
 /// What prescribes a velocity; `None`: it is free.
 pub type Drive = Option<Speed>;
@@ -29,7 +31,7 @@ pub type Drive = Option<Speed>;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Bodies<const D: usize = 2>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: RigidMotion<D>,
 {
     /// Rigid body of each node; `u32::MAX`: none. Empty where no body has nodes.
     of_node: Vec<u32>,
@@ -40,7 +42,7 @@ where
 #[derive(Clone, Debug, PartialEq)]
 pub struct Body<const D: usize = 2>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: RigidMotion<D>,
 {
     /// Angle since the start, rad; in space a rotation.
     pub angle: Angle<D>,
@@ -61,7 +63,7 @@ where
     /// Contact forces (N/m) and their moment about the reference point (N).
     pub force: Row<D>,
     /// What prescribes each velocity; `None`: free.
-    pub drives: <Dim<D> as Motion<D>>::Drives,
+    pub drives: <Dim<D> as RigidMotion<D>>::Drives,
     /// What it weighs.
     pub weight: Weight<D>,
     /// Forces of loads on its nodes (N/m) and their moment (N).
@@ -79,13 +81,13 @@ where
     /// a = ½ rate · ½ (dt^{n−1} + dt^n) of the damping.
     pub slowing: Row<D>,
     /// What it knows of its rotation in space.
-    pub turning: <Dim<D> as Motion<D>>::Turning,
+    pub turning: <Dim<D> as RigidMotion<D>>::Turning,
 }
 
 /// A value for each velocity.
-type Row<const D: usize> = <Dim<D> as Motion<D>>::Row<f64>;
+type Row<const D: usize> = <Dim<D> as RigidMotion<D>>::Generalized<f64>;
 /// Where a body is turned to.
-type Angle<const D: usize> = <Dim<D> as Motion<D>>::Angle;
+type Angle<const D: usize> = <Dim<D> as RigidMotion<D>>::Angle;
 
 /// A node of a rigid body.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -100,17 +102,17 @@ pub struct Member<const D: usize = 2> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Weight<const D: usize = 2>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: RigidMotion<D>,
 {
     /// Force, N/m.
     pub force: [f64; D],
     /// Σ r × f and Σ r · f of what is not uniform, N: the moment at angle θ is cos θ times the first less sin θ times the second. In space Σ r fᵀ.
-    pub moments: <Dim<D> as Motion<D>>::Moments,
+    pub moments: <Dim<D> as RigidMotion<D>>::Moments,
 }
 
 impl<const D: usize> Default for Weight<D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: RigidMotion<D>,
 {
     fn default() -> Self {
         Self { force: [0.0; D], moments: Default::default() }
@@ -119,16 +121,16 @@ where
 
 impl<const D: usize> Weight<D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: RigidMotion<D>,
 {
     fn at(&self, angle: &Angle<D>) -> Row<D> {
-        Dim::<D>::row_with(self.force, Dim::<D>::weight_moment(&self.moments, angle))
+        Dim::<D>::generalized_with(self.force, Dim::<D>::weight_moment(&self.moments, angle))
     }
 }
 
 impl<const D: usize> Default for Body<D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: RigidMotion<D>,
 {
     fn default() -> Self {
         let ((angle, turning), (drives, weight)) = Default::default();
@@ -144,7 +146,7 @@ where
 
 impl<const D: usize> Keep for Body<D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: RigidMotion<D>,
 {
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
         // Weight and damping follow from loads and time, in the step.
@@ -160,7 +162,7 @@ where
 
 impl<const D: usize> Keep for Bodies<D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: RigidMotion<D>,
 {
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
         let Self { of_node: _, list } = self;
@@ -170,7 +172,7 @@ where
 
 impl<const D: usize> Body<D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: RigidMotion<D>,
 {
     /// A point seen from the body: relative to its reference point, turned back by its angle.
     #[must_use]
@@ -228,7 +230,7 @@ where
     /// The part of a velocity that has mass in the books: that which is not driven.
     #[must_use]
     pub fn free_part(&self, velocity: &Row<D>) -> Row<D> {
-        Dim::<D>::row(|k| if self.drives()[k].is_none() { velocity[k] } else { 0.0 })
+        Dim::<D>::generalized(|k| if self.drives()[k].is_none() { velocity[k] } else { 0.0 })
     }
 
     /// ½ M V² + ½ I ω², J/m; without what is driven.
@@ -244,11 +246,11 @@ where
 
     /// A force at a point, and its moment about the reference point.
     fn force_at(&self, x: [f64; D], force: [f64; D]) -> Row<D> {
-        Dim::<D>::row_of(force, Some(self.arm(x)))
+        Dim::<D>::generalized_of(force, Some(self.arm(x)))
     }
 
     fn add_force(sums: &mut Row<D>, force: &Row<D>) {
-        (0..Dim::<D>::ROW).for_each(|k| sums[k] += force[k]);
+        (0..Dim::<D>::FREEDOMS).for_each(|k| sums[k] += force[k]);
     }
 
     /// Velocities without contact forces, and what a contact force will change.
@@ -267,7 +269,7 @@ where
         }
         self.load = load;
         self.velocity_old = self.velocity;
-        for k in 0..Dim::<D>::ROW {
+        for k in 0..Dim::<D>::FREEDOMS {
             self.slowing[k] = 0.5 * self.damping[k] * acting.mean_step;
             if let Some(speed) = &self.drives.as_ref()[k] {
                 self.velocity_free[k] = acting.curves.mean(speed, acting.from, acting.to);
@@ -347,7 +349,7 @@ where
 
 fn to_local<const D: usize>(x: [f64; D], (angle, centre): &(Angle<D>, [f64; D])) -> [f64; D]
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: RigidMotion<D>,
 {
     Dim::<D>::turned_back(angle, std::array::from_fn(|d| x[d] - centre[d]))
 }
@@ -388,7 +390,7 @@ pub struct Acting<'a, F: Fn(usize) -> [f64; D], const D: usize = 2> {
 
 impl<const D: usize> Bodies<D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: RigidMotion<D>,
 {
     /// Adds a body; returns its number.
     pub fn add(&mut self, body: Body<D>) -> usize {
@@ -473,7 +475,7 @@ where
     pub fn damp(&mut self, damping: &Damping, mass: &[f64]) {
         for body in &mut self.list {
             if !body.of_elements {
-                body.damping = Dim::<D>::row(|_| damping.rate_everywhere());
+                body.damping = Dim::<D>::generalized(|_| damping.rate_everywhere());
                 continue;
             }
             let mut sums = [[0.0; 2]; 2];
@@ -484,7 +486,7 @@ where
                 }
             }
             let [straight, round] = sums.map(|[whole, damped]| damped / whole);
-            body.damping = Dim::<D>::row(|k| if k < D { straight } else { round });
+            body.damping = Dim::<D>::generalized(|k| if k < D { straight } else { round });
         }
     }
 
@@ -498,7 +500,7 @@ where
     /// Velocities at time zero: those of the model where the bodies are free, else those that drive them. Their nodes get them too.
     pub fn start(&mut self, curves: &Curves, positions: &[[f64; D]], velocities: &mut [[f64; D]]) {
         for body in &mut self.list {
-            for k in 0..Dim::<D>::ROW {
+            for k in 0..Dim::<D>::FREEDOMS {
                 if let Some(speed) = &body.drives.as_ref()[k] {
                     body.velocity[k] = curves.mean(speed, 0.0, 0.0);
                 }

@@ -12,13 +12,12 @@ pub(crate) mod relaxation;
 use crate::assembly::Assembly;
 use crate::block::spring::together;
 use crate::block::{Block, Motion, Report};
-use crate::build::Shares;
-use crate::contact::forces::ContactForces;
 use crate::contact::law::penalty::LIMIT;
 use crate::contact::obstacle::OutlineShape;
 use crate::contact::springs::{Springs, Update};
 use crate::contact::traces::Traces;
 use crate::contact::{Contact, Scene, Sweep};
+use crate::contact_forces::ContactForces;
 use crate::energy::Lost;
 use crate::energy::{Entry, Ledger, Stores, Sums, Works};
 use crate::error::Error;
@@ -29,6 +28,7 @@ use crate::load::damping::Damping;
 use crate::load::force::Forces;
 use crate::load::join::Joins;
 use crate::load::non_reflecting::NonReflecting;
+use crate::masses::PartMasses;
 use crate::mesh::Mesh;
 use crate::rigid::{Acting, Bodies};
 use crate::tensor::Dim;
@@ -123,7 +123,7 @@ where
     /// Whether the last block is one of springs, beyond those of the mesh.
     pub(crate) has_springs: bool,
     /// What parts weigh.
-    pub(crate) shares: Shares,
+    pub(crate) shares: PartMasses,
     /// Shapes of the obstacles, for pictures.
     pub(crate) outlines: Vec<OutlineShape<D>>,
     /// What contacts leave on the surfaces.

@@ -64,3 +64,29 @@ pub(crate) fn cross<L: Lane>(a: [L; 2], b: [L; 2]) -> L {
 pub(crate) fn bound<L: Lane>(a: [L; 2]) -> L {
     a[0].abs() + a[1].abs()
 }
+
+/// Where the entry i, j of a symmetric matrix is in its upper triangle, row by row.
+pub(crate) const SYMMETRIC: [[usize; 3]; 3] = [[0, 1, 2], [1, 3, 4], [2, 4, 5]];
+
+/// A symmetric matrix (its upper triangle row by row) times a vector.
+#[inline(always)]
+pub(crate) fn times_symmetric(&[xx, xy, xz, yy, yz, zz]: &[f64; 6], [x, y, z]: [f64; 3]) -> [f64; 3] {
+    [xx * x + xy * y + xz * z, xy * x + yy * y + yz * z, xz * x + yz * y + zz * z]
+}
+
+/// A unit vector at right angles to a unit vector.
+#[must_use]
+pub(crate) fn any_tangent(normal: [f64; 3]) -> [f64; 3] {
+    // The axis that is farthest from it.
+    let [x, y, z] = normal.map(f64::abs);
+    let axis = if x <= y && x <= z {
+        [1.0, 0.0, 0.0]
+    } else if y <= z {
+        [0.0, 1.0, 0.0]
+    } else {
+        [0.0, 0.0, 1.0]
+    };
+    let across = crate::tensor::cross(normal, axis);
+    let length = dot(across, across).sqrt();
+    if length > 0.0 { across.map(|c| c / length) } else { [0.0; 3] }
+}

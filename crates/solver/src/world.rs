@@ -8,16 +8,17 @@ mod space;
 use crate::block::Blocks;
 use crate::build::Builder;
 use crate::contact::Contact;
-use crate::contact::forces::ContactForces;
+use crate::contact::springs::TangentSpace;
 use crate::contact::traces::Traces;
+use crate::contact_forces::ContactForces;
 use crate::error::Fault;
 use crate::mesh::surface::Facet;
 use crate::mesh::surface::tributary::Tributary;
 use crate::mesh::{Mesh, Meshed};
 use crate::model::{self, Model};
-use crate::motion::Motion;
 use crate::output::CellKind;
 use crate::rigid::Body;
+use crate::rigid::RigidMotion;
 use crate::tensor::{Dim, Space};
 use crate::vector::{dot, first};
 
@@ -25,7 +26,7 @@ use crate::vector::{dot, first};
 pub type Square<const D: usize> = [[f64; D]; D];
 
 /// What the system needs of a dimension.
-pub trait World<const D: usize>: Space<D> + Meshed<D> + Tributary<D> + Motion<D> + Blocks<D> + Send + Sync + 'static {
+pub trait World<const D: usize>: Space<D> + Meshed<D> + Tributary<D> + TangentSpace<D> + Blocks<D> + Send + Sync + 'static {
     /// Velocity (m/s) that leads the point `arm` (m) from a centre that rests along the chord of an arc about `axis` (a unit vector), with `spin` (rad/s) over `time_step` (s); without a
     /// step that along the tangent.
     fn led(arm: [f64; D], axis: [f64; 3], spin: f64, time_step: f64) -> [f64; D];
@@ -55,11 +56,11 @@ pub trait World<const D: usize>: Space<D> + Meshed<D> + Tributary<D> + Motion<D>
     /// Pressure and shear stress of every node, Pa.
     fn tractions(traces: &Traces<D>, forces: &ContactForces<D>, positions: &[[f64; D]]) -> Vec<[f64; 2]>
     where
-        Dim<D>: Motion<D>;
+        Dim<D>: TangentSpace<D>;
     /// Columns of the moment on an obstacle.
     const MOMENT: &[&str];
     /// Their values.
-    fn moments(moment: &<Self as Motion<D>>::Spin) -> Vec<f64>;
+    fn moments(moment: &<Self as RigidMotion<D>>::Spin) -> Vec<f64>;
     /// Columns of a rigid body that moves: its reference point, in the plane its angle, and their velocities.
     const MOTION: &[&str];
     /// Their values at the whole step; `before` is the part of the last update that lies before it.
@@ -75,7 +76,7 @@ pub trait World<const D: usize>: Space<D> + Meshed<D> + Tributary<D> + Motion<D>
     where
         Dim<D>: World<D>;
     /// The image of a motion that a join turns, as springs in contact take it.
-    fn image(turn: &Square<D>) -> <Self as Motion<D>>::Turn;
+    fn image(turn: &Square<D>) -> <Self as TangentSpace<D>>::ImageRotation;
     /// The model with what its mesh asks for besides: the axis of a body of revolution that touches it.
     ///
     /// # Errors

@@ -4,17 +4,15 @@
 //! handed over by [`Contact::renew`].
 
 use super::{Builder, Fans};
+use crate::contact::rebuild::{ContactParts, ContactSource};
 use crate::contact::{Contact, ContactKind};
-use crate::load::constraint::Constraints;
-use crate::mesh::Mesh;
 use crate::model::Model;
-use crate::rigid::Bodies;
 use crate::tensor::Dim;
 use crate::world::World;
 use std::mem::take;
 
 /// What contacts are made from beyond the mesh, kept for when surfaces change.
-pub(crate) struct Origin<const D: usize> {
+pub(super) struct Origin<const D: usize> {
     pub(super) model: Model,
     pub(super) fans: Fans,
     pub(super) moduli: Vec<[f64; 2]>,
@@ -23,41 +21,29 @@ pub(crate) struct Origin<const D: usize> {
     pub(super) positions: Vec<[f64; D]>,
 }
 
-/// Parts of the system that contacts are made from; lent for the time that takes.
-pub(crate) struct Lent<'a, const D: usize>
+impl<const D: usize> ContactSource<D> for Origin<D>
 where
     Dim<D>: World<D>,
 {
-    pub(crate) mesh: &'a mut Mesh<D>,
-    pub(crate) constraints: &'a mut Constraints<D>,
-    pub(crate) mass: &'a mut Vec<f64>,
-    pub(crate) bodies: &'a mut Bodies<D>,
-}
-
-impl<const D: usize> Origin<D>
-where
-    Dim<D>: World<D>,
-{
-    /// Gives every contact new surfaces; one that has none any more ends.
-    pub(crate) fn renew(&mut self, lent: Lent<'_, D>, contacts: &mut [Contact<D>]) {
+    fn rebuild(&mut self, parts: ContactParts<'_, D>, contacts: &mut [Contact<D>]) {
         let made = contacts.iter().filter_map(|contact| match contact.kind {
             ContactKind::Obstacle(body) => Some((contact.name.clone(), body)),
             ContactKind::Contact => None,
         });
         let mut builder = Builder {
             model: &self.model,
-            body_of_node: lent.mesh.bodies(),
-            mesh: take(lent.mesh),
-            constraints: take(lent.constraints),
+            body_of_node: parts.mesh.bodies(),
+            mesh: take(parts.mesh),
+            constraints: take(parts.constraints),
             joins: Default::default(),
             curves: Default::default(),
             faults: Vec::new(),
             positions: take(&mut self.positions),
-            mass: take(lent.mass),
+            mass: take(parts.mass),
             fans: take(&mut self.fans).into(),
             moduli: take(&mut self.moduli),
             time_step: self.time_step,
-            bodies: take(lent.bodies),
+            bodies: take(parts.bodies),
             body_parts: Vec::new(),
             terms: Vec::new(),
             outlines: Vec::new(),
@@ -66,7 +52,7 @@ where
         };
         <Dim<D>>::renew(&mut builder, contacts);
         let Builder { mesh, constraints, positions, mass, fans, moduli, bodies, .. } = builder;
-        (*lent.mesh, *lent.constraints, *lent.mass, *lent.bodies) = (mesh, constraints, mass, bodies);
+        (*parts.mesh, *parts.constraints, *parts.mass, *parts.bodies) = (mesh, constraints, mass, bodies);
         (self.positions, self.fans, self.moduli) = (positions, fans.into_inner().unwrap_or_default(), moduli);
     }
 }

@@ -4,6 +4,7 @@ use super::Builder;
 use crate::block::{Block, Motion};
 use crate::error::Fault;
 use crate::error::MASS_SCALING;
+use crate::masses::PartMasses;
 use crate::mesh::Mesh;
 use crate::tensor::Dim;
 use crate::world::World;
@@ -34,8 +35,8 @@ where
                 let mut slots = vec![[0.0; D]; block.slots().len()];
                 block.advance(&motion, level, &mut slots, &mut Team::alone());
                 let needed = (scaling.time_step / self.model.run.safety).powi(2);
-                for element in 0..block.elements() {
-                    let factor = needed / block.time_step_squared(element);
+                for (element, squared) in block.time_steps_squared().into_iter().enumerate() {
+                    let factor = needed / squared;
                     if factor > 1.0 {
                         block.scale_mass(element, factor);
                     }
@@ -95,37 +96,18 @@ where
     (0..mesh.parts.len()).map(of).collect()
 }
 
-/// What parts weigh: as a whole, and on their nodes.
-pub(crate) struct Shares {
-    /// Mass of the elements of each part, kg/m.
-    pub(crate) whole: Vec<f64>,
-    /// Share of each part in nodes that weigh more than it gives them, kg/m: other parts have them too, or there are point masses. Nodes ascend.
-    shared: Vec<Vec<(u32, f64)>>,
-}
-
-impl Shares {
-    /// Mass of the elements of a part on one of its nodes, which weighs `mass` in all, kg/m.
-    pub(crate) fn of(&self, part: usize, node: u32, mass: f64) -> f64 {
-        let shared = &self.shared[part];
-        if shared.is_empty() {
-            return mass;
-        }
-        shared.binary_search_by_key(&node, |&(node, _)| node).map_or(mass, |at| shared[at].1)
-    }
-}
-
 impl<const D: usize> Builder<'_, D>
 where
     Dim<D>: World<D>,
 {
     /// What is kept of the masses of parts; `part_mass` has those of all nodes, with point masses.
-    pub(super) fn shares(&self, blocks: &[Box<dyn Block<D>>], part_mass: &[Vec<(u32, f64)>]) -> Shares {
+    pub(super) fn shares(&self, blocks: &[Box<dyn Block<D>>], part_mass: &[Vec<(u32, f64)>]) -> PartMasses {
         let of = |part: usize| self.mesh.groups.iter().zip(blocks).filter(move |(group, _)| group.part == part).map(|(_, block)| block);
         let whole = |part: usize| of(part).flat_map(|block| (0..block.elements()).map(move |element| block.mass(element))).sum();
         let of_elements = (!self.model.point_masses.is_empty()).then(|| part_masses(&self.mesh, blocks));
         let weighs_more = |&&(node, share): &&(u32, f64)| self.mass[node as usize] != share;
         let shared = |masses: &Vec<(u32, f64)>| masses.iter().filter(weighs_more).copied().collect();
         let masses = of_elements.as_deref().unwrap_or(part_mass);
-        Shares { whole: (0..self.mesh.parts.len()).map(whole).collect(), shared: masses.iter().map(shared).collect() }
+        PartMasses::new((0..self.mesh.parts.len()).map(whole).collect(), masses.iter().map(shared).collect())
     }
 }

@@ -1,8 +1,8 @@
 //! Outlines of obstacles of space for pictures and files: points and facets, outward by the right-hand rule.
 
 use crate::angle::cos_sin;
-use crate::motion::any_tangent;
 use crate::tensor::cross;
+use crate::vector::any_tangent;
 use crate::vector::{plus, times};
 use std::f64::consts::{PI, TAU};
 

@@ -4,14 +4,14 @@ use super::findings::Findings;
 use super::springs::{Answers, Springs};
 use super::{Formulation, Scene};
 use crate::archive::{Archive, Kept};
-use crate::motion::Motion;
+use crate::contact::springs::TangentSpace;
 use crate::tensor::Dim;
 use std::any::Any;
 
 /// Looks at bodies.
 pub trait Look<const D: usize>: Send + Sync + 'static
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// Looks at the step, if it is time.
     fn see_step(&mut self, scene: &Scene<'_, D>);
@@ -38,7 +38,7 @@ where
 /// The contact.
 pub struct Judged<J, const D: usize>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     contact: Box<dyn Formulation<D>>,
     judge: J,
@@ -46,7 +46,7 @@ where
 
 impl<J: Look<D>, const D: usize> Judged<J, D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// A contact, and what looks at its bodies.
     #[must_use]
@@ -57,7 +57,7 @@ where
 
 impl<J: Look<D>, const D: usize> Formulation<D> for Judged<J, D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     fn detect(&mut self, scene: &Scene<'_, D>, springs: &mut Springs<D>) {
         self.judge.see_step(scene);

@@ -6,7 +6,7 @@
 use super::springs::{Answers, End, Spring, Springs};
 use super::{Formulation, Scene};
 use crate::archive::{Archive, Kept};
-use crate::motion::Motion;
+use crate::contact::springs::TangentSpace;
 use crate::tensor::Dim;
 use crate::vector::{dot, length, minus};
 use std::any::Any;
@@ -40,7 +40,7 @@ pub struct Mirror<const D: usize = 2> {
 /// A contact of bodies with each other and themselves, and with their images.
 pub struct Mirrored<const D: usize = 2>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     contact: Box<dyn Formulation<D>>,
     mirrors: Vec<Mirror<D>>,
@@ -52,7 +52,7 @@ where
 
 impl<const D: usize> Mirrored<D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// From a contact; springs to the images follow the terms number `terms`, which act on half of the gap.
     #[must_use]
@@ -63,7 +63,7 @@ where
 
 impl<const D: usize> Formulation<D> for Mirrored<D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     fn detect(&mut self, scene: &Scene<'_, D>, springs: &mut Springs<D>) {
         let begin = springs.list.len();

@@ -12,7 +12,6 @@ pub mod initial;
 pub mod law;
 pub mod springs;
 mod spin;
-pub mod forces;
 pub mod formulation;
 pub mod edge_edge;
 pub mod node_facet;
@@ -31,15 +30,17 @@ mod closed;
 pub mod judged;
 pub mod mirror;
 pub mod traces;
+pub(crate) mod rebuild;
 
 use crate::archive::{Archive, Kept, keep_each};
+use crate::contact::springs::TangentSpace;
+use crate::contact_forces::ContactForces;
 use crate::mesh::surface::Surface;
 use crate::mesh::surface::tributary::Depth;
-use crate::motion::Motion;
 use crate::rigid::Bodies;
+use crate::rigid::RigidMotion;
 use crate::tensor::Dim;
 use findings::{CAST, Findings, Overlap};
-use forces::ContactForces;
 use springs::{Answer, Answers, Springs, Totals};
 use std::any::Any;
 use std::ops::Range;
@@ -53,7 +54,7 @@ pub type Vector = [f64; 2];
 /// What makes springs of surfaces: nodes against segments, segments against segments, pinballs, nodes against obstacles.
 pub trait Formulation<const D: usize = 2>: Any + Send + Sync
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// Adds the springs of the step: of everything that is inside or may come in during the next update, so that a spring is there before it is
     /// needed (one that closes unseen would give back what it never took).
@@ -123,7 +124,7 @@ where
 #[derive(Clone, Copy)]
 pub struct Scene<'a, const D: usize = 2>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// Paths of the nodes in the step that led here.
     pub sweep: Sweep<'a, D>,
@@ -175,7 +176,7 @@ impl ContactKind {
 /// A contact between surfaces, or between surfaces and an obstacle.
 pub struct Contact<const D: usize = 2>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// Name.
     pub name: String,
@@ -204,7 +205,7 @@ where
 
 impl<const D: usize> Contact<D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// A contact that has not acted yet. Its springs follow the terms number `terms`; it acts between the times `active`, s.
     #[must_use]
@@ -357,7 +358,13 @@ where
 
     /// Moment (N) of the forces that the last step's springs put on what is not the rigid body `body`, about its reference point.
     #[must_use]
-    pub fn moment(&self, body: usize, bodies: &Bodies<D>, springs: &Springs<D>, positions: &[[f64; D]]) -> <Dim<D> as Motion<D>>::Spin {
+    pub fn moment(
+        &self,
+        body: usize,
+        bodies: &Bodies<D>,
+        springs: &Springs<D>,
+        positions: &[[f64; D]],
+    ) -> <Dim<D> as RigidMotion<D>>::Spin {
         let centre = bodies.state(body).centre;
         let ends = springs.answers(self.found.clone()).flat_map(|answer| answer.ends().map(move |end| (answer, end)));
         let moment = |(answer, end): (Answer<'_, D>, springs::End<D>)| {
@@ -392,7 +399,7 @@ struct Nothing;
 
 impl<const D: usize> Formulation<D> for Nothing
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     fn detect(&mut self, _: &Scene<'_, D>, _: &mut Springs<D>) {}
     fn remember(&mut self, _: Answers<'_, D>) {}

@@ -2,20 +2,20 @@
 //!
 //! Springs come solved; fields go to the record. Each spring stands for a length of surface on both sides, and a node has its shares of the springs at it.
 
-use super::forces::ContactForces;
 use super::springs::{Answer, Springs};
 use crate::archive::{Archive, Keep, Kept};
+use crate::contact::springs::TangentSpace;
+use crate::contact_forces::ContactForces;
 use crate::energy::Lost;
 use crate::mesh::surface::tributary::{Depth, shares, vector_shares};
 use crate::mesh::surface::{Corners, Sided, Surface};
-use crate::motion::Motion;
 use crate::tensor::{Dim, dot};
 
 /// Sums over the run, and the outside that they belong to.
 #[derive(Clone, Debug)]
 pub struct Traces<const D: usize = 2>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     outside: Surface<D>,
     depth: Depth,
@@ -45,7 +45,7 @@ pub struct State {
 
 impl<const D: usize> Default for Traces<D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     fn default() -> Self {
         Self { outside: Surface::<D>::default(), depth: Depth::default(), area: Vec::new(), slip: Vec::new(), heat: Vec::new() }
@@ -54,7 +54,7 @@ where
 
 impl<const D: usize> Keep for Traces<D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
         let Self { outside: _, depth: _, area: _, slip, heat } = self;
@@ -125,7 +125,7 @@ impl Traces<2> {
 
 impl<const D: usize> Traces<D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// For `outside`, the outside of all bodies; `positions` are the initial ones. Of a model without contacts both are empty: nothing is remembered.
     #[must_use]

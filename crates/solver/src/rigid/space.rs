@@ -15,8 +15,8 @@ use super::Body;
 use crate::angle::cos_sin;
 use crate::archive::{Archive, Keep, Kept, keep_all};
 use crate::energy::Sums;
-use crate::motion::{Motion, times_symmetric};
-use crate::tensor::{Dim, cross, dot};
+use crate::tensor::{cross, dot};
+use crate::vector::{SYMMETRIC, times_symmetric};
 
 /// A rotation as a unit quaternion: w, x, y, z.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -125,7 +125,7 @@ impl Turning {
     }
 }
 
-const AT: [[usize; 3]; 3] = <Dim<3> as Motion<3>>::AT;
+const AT: [[usize; 3]; 3] = SYMMETRIC;
 
 /// Inverse of the part of a symmetric matrix that belongs to the axes `of`; zero elsewhere.
 #[must_use]
@@ -274,9 +274,11 @@ pub(crate) fn chords(body: &Body<3>, time_step: f64) -> [[f64; 3]; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::forces::ContactForces;
+    use crate::contact_forces::ContactForces;
     use crate::load::curve::Curves;
+    use crate::rigid::RigidMotion;
     use crate::rigid::{Acting, Bodies, Member};
+    use crate::tensor::Dim;
 
     /// A lopsided body of four masses about its centre of mass, at a corner of the frame of the nodes.
     fn lopsided(spin: [f64; 3], positions: &mut Vec<[f64; 3]>) -> (Body<3>, Vec<f64>) {

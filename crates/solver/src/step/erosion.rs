@@ -7,7 +7,7 @@
 use super::System;
 use crate::archive::{Archive, Keep, Kept, Misfit, keep_each};
 use crate::block::Report;
-use crate::build::{Lent, Origin};
+use crate::contact::rebuild::{ContactParts, ContactSource};
 use crate::failure::{Criterion, by_name};
 use crate::mesh::surface::{Corners, Facet};
 use crate::model::in_space;
@@ -16,11 +16,14 @@ use crate::tensor::Dim;
 use crate::world::World;
 
 /// What fails and what has failed.
-pub(crate) struct Erosion<const D: usize> {
+pub(crate) struct Erosion<const D: usize>
+where
+    Dim<D>: World<D>,
+{
     /// Criteria of each block.
     criteria: Vec<Vec<Criterion>>,
-    /// What contacts are made from.
-    origin: Origin<D>,
+    /// Makes contacts again.
+    source: Box<dyn ContactSource<D>>,
     /// Energy that went with elements and springs, J/m.
     pub(crate) energy: f64,
     /// Blocks without elements.
@@ -35,10 +38,13 @@ pub(crate) struct Erosion<const D: usize> {
 /// What fails in a step: block, element, criterion.
 type Failed = (usize, u32, &'static str);
 
-impl<const D: usize> Erosion<D> {
-    pub(crate) fn new(criteria: Vec<Vec<Criterion>>, origin: Origin<D>) -> Self {
+impl<const D: usize> Erosion<D>
+where
+    Dim<D>: World<D>,
+{
+    pub(crate) fn new(criteria: Vec<Vec<Criterion>>, source: Box<dyn ContactSource<D>>) -> Self {
         let gone = vec![false; criteria.len()];
-        Self { criteria, origin, energy: 0.0, gone, springs: None, by_part: Vec::new(), first: None }
+        Self { criteria, source, energy: 0.0, gone, springs: None, by_part: Vec::new(), first: None }
     }
 
     pub(crate) fn is_gone(&self, block: usize) -> bool {
@@ -53,9 +59,12 @@ impl<const D: usize> Erosion<D> {
     }
 }
 
-impl<const D: usize> Keep for Erosion<D> {
+impl<const D: usize> Keep for Erosion<D>
+where
+    Dim<D>: World<D>,
+{
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
-        let Self { criteria: _, origin: _, energy, gone, springs, by_part, first } = self;
+        let Self { criteria: _, source: _, energy, gone, springs, by_part, first } = self;
         energy.keep(archive)?;
         gone[..].keep(archive)?;
         keep_each!(archive; springs, by_part);
@@ -192,8 +201,9 @@ where
         let outside = self.mesh.outside_without(&[], |segment| self.constraints.is_mirror(segment)).unwrap_or_default();
         self.traces.renew(outside, &self.mesh.positions);
         erosion.springs = Some(self.contacts.iter().map(|contact| contact.stored(&self.springs)).sum());
-        let lent = Lent { mesh: &mut self.mesh, constraints: &mut self.constraints, mass: &mut self.mass, bodies: &mut self.bodies };
-        erosion.origin.renew(lent, &mut self.contacts);
+        let parts =
+            ContactParts { mesh: &mut self.mesh, constraints: &mut self.constraints, mass: &mut self.mass, bodies: &mut self.bodies };
+        erosion.source.rebuild(parts, &mut self.contacts);
         self.find_free_nodes();
     }
 

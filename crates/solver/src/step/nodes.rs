@@ -4,14 +4,14 @@
 //! [`crate::contact::springs`]. With m̃ = m (1 + a) I + ½ Δt C of damping (a) and dashpots (C), Δt = ½ (dt^{n−1} + dt^n), an impulse J changes the velocity by m̃⁻¹ J.
 
 use crate::assembly::Assembly;
-use crate::contact::forces::ContactForces;
+use crate::contact::springs::TangentSpace;
 use crate::contact::springs::{Mover, Movers};
+use crate::contact_forces::ContactForces;
 use crate::energy::Sums;
 use crate::load::constraint::{Constraints, Held};
 use crate::load::damping::Damping;
 use crate::load::join::{Group, Joins};
 use crate::load::non_reflecting::NonReflecting;
-use crate::motion::Motion;
 use crate::rigid::Bodies;
 use crate::step::free::Free;
 use crate::tensor::{Dim, product};
@@ -233,7 +233,7 @@ where
         self.mass.len()
     }
 
-    fn leader(&self, node: u32) -> (u32, Option<<Dim<D> as Motion<D>>::Turn>) {
+    fn leader(&self, node: u32) -> (u32, Option<<Dim<D> as TangentSpace<D>>::ImageRotation>) {
         let (leader, turn) = self.joins.leader(node);
         (leader, (turn != unit_matrix()).then(|| <Dim<D>>::image(&turn)))
     }
@@ -245,7 +245,7 @@ where
         if let Some(load) = pull.load {
             free = plus(free, times(self.dt / pull.mass, load));
         }
-        let mut mobility = <Dim<D> as Motion<D>>::Symmetric::default();
+        let mut mobility = <Dim<D> as TangentSpace<D>>::Symmetric::default();
         for (i, row) in self.mobility(&pull).into_iter().enumerate() {
             row.into_iter().enumerate().skip(i).for_each(|(j, value)| mobility[<Dim<D>>::AT[i][j]] = value);
         }

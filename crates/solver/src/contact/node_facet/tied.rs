@@ -9,11 +9,11 @@ use super::{NodeFacet, PassInput, ends, first_edge, tangent};
 use crate::archive::{Archive, Kept, keep_all, keep_each};
 use crate::contact::projection::node_facet::{Feature, Placed, Projection, Vector};
 use crate::contact::search::{Query, Search};
+use crate::contact::springs::TangentSpace;
 use crate::contact::springs::{Answers, Spring, Springs};
 use crate::contact::tied::{NEAR, Ties};
 use crate::contact::{Formulation, Scene};
 use crate::mesh::surface::{Corners, SpaceSurface};
-use crate::motion::Motion;
 use crate::tensor::{Dim, dot};
 use std::any::Any;
 

@@ -8,9 +8,9 @@
 use super::super::Scene;
 use super::super::findings::{BETWEEN_LOOKS, CAST, DEEPEST_IN_PLANE, Findings, MOST_STEPS, Overlap, SEEN, way_until_next};
 use crate::archive::{Archive, Kept, keep_each};
+use crate::contact::springs::TangentSpace;
 use crate::mesh::surface::NONE;
 use crate::model::in_space;
-use crate::motion::Motion;
 use crate::rigid::Body;
 use crate::tensor::Dim;
 use crate::vector::{length, minus};
@@ -86,7 +86,7 @@ pub(super) fn may_be_between(divisions: f64) -> bool {
 
 impl<const D: usize> Behind<D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// For bodies in their initial places, and an obstacle of a thickness, m.
     #[must_use]

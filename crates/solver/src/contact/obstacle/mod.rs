@@ -17,9 +17,9 @@ use super::springs::{Answers, End, Spring, Springs, Stiffening};
 use super::tracker::{Certificate, SearchReport};
 use super::{Formulation, Scene, Vector};
 use crate::archive::{Archive, Keep, Kept, Misfit, keep_all, keep_each};
+use crate::contact::springs::TangentSpace;
 use crate::model::in_space;
-use crate::motion::Motion;
-use crate::output::Outline;
+use crate::outline::Outline;
 use crate::rigid::Bodies;
 use crate::tensor::Dim;
 use crate::vector::{bound_of, dot};
@@ -98,7 +98,7 @@ pub struct OutlineShape<const D: usize = 2> {
 
 impl<const D: usize> OutlineShape<D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// Where it is now.
     #[must_use]

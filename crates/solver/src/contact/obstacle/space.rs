@@ -16,9 +16,10 @@ use super::Manner;
 use super::behind::{Behind, Thick, divisions, may_be_between};
 use super::points::{Point, points};
 use crate::archive::{Archive, Kept, keep_all, keep_each};
+use crate::contact::springs::TangentSpace;
 use crate::mesh::surface::Corners;
-use crate::motion::{Motion, any_tangent};
 use crate::tensor::{Dim, cross, dot};
+use crate::vector::any_tangent;
 use crate::vector::{length, minus, plus, times};
 use std::any::Any;
 use std::collections::BTreeMap;
@@ -355,13 +356,13 @@ impl Formulation<3> for NodeSolid {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::forces::ContactForces;
     use crate::contact::law::penalty::Penalty;
     use crate::contact::obstacle::behind::Unknown;
     use crate::contact::springs::friction::Friction;
     use crate::contact::springs::{Mover, Movers, Tangential, Terms, Update};
     use crate::contact::traces::Traces;
     use crate::contact::{Contact, ContactKind, Sweep};
+    use crate::contact_forces::ContactForces;
     use crate::load::curve::{Curves, Speed};
     use crate::rigid::space::Turning;
     use crate::rigid::{Acting, Bodies, Body};

@@ -10,8 +10,8 @@ use super::super::search::{Pair, Query, Search};
 use super::super::springs::Spring;
 use super::super::tracker::{SKIN, SearchReport};
 use crate::archive::{Archive, Keep, Kept, keep_each};
+use crate::contact::springs::TangentSpace;
 use crate::model;
-use crate::motion::Motion;
 use crate::tensor::Dim;
 use crate::vector::{length, minus};
 
@@ -20,7 +20,7 @@ use crate::vector::{length, minus};
 const SAME: f64 = 0.500001;
 
 /// What differs between the dimensions.
-pub(super) trait Round<const D: usize>: Motion<D> {
+pub(super) trait Round<const D: usize>: TangentSpace<D> {
     /// What is kept of the elastic slip of two balls, m.
     type Slip: Copy + Default + Keep;
     /// So many times the last motion is searched ahead.

@@ -4,9 +4,9 @@
 
 use super::book::Books;
 use super::{End, Solved, Spring, Springs, Terms, Totals};
-use crate::contact::forces::ContactForces;
+use crate::contact::springs::TangentSpace;
 use crate::contact::traces::Traces;
-use crate::motion::Motion;
+use crate::contact_forces::ContactForces;
 use crate::rigid::Bodies;
 use crate::tensor::Dim;
 use std::ops::Range;
@@ -15,7 +15,7 @@ use std::ops::Range;
 #[derive(Clone)]
 pub struct Answers<'a, const D: usize = 2>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     pub(super) springs: &'a Springs<D>,
     pub(super) range: Range<usize>,
@@ -25,7 +25,7 @@ where
 #[derive(Clone, Copy)]
 pub struct Answer<'a, const D: usize = 2>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     springs: &'a Springs<D>,
     /// The spring.
@@ -37,7 +37,7 @@ where
 
 impl<const D: usize> Answers<'_, D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// Those of the springs from number `from` on and before number `to`, as far as there are so many.
     #[must_use]
@@ -49,7 +49,7 @@ where
 
 impl<'a, const D: usize> Iterator for Answers<'a, D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     type Item = Answer<'a, D>;
 
@@ -63,7 +63,7 @@ where
 
 impl<'a, const D: usize> Answer<'a, D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// What acts in it.
     pub(super) fn terms(&self) -> &'a Terms {
@@ -126,7 +126,7 @@ where
 
 impl<const D: usize> Answers<'_, D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// Sums the springs up: adds their forces to `forces` (of nodes) and `bodies` (of bodies without nodes at the ends), and what they did in the coming update to `traces`.
     pub fn collect_into(self, forces: &mut ContactForces<D>, bodies: &mut Bodies<D>, traces: &mut Traces<D>) -> Totals<D> {

@@ -2,9 +2,8 @@
 //!
 //! Springs and what was found of them come from [`super::answers`], which sums up what is booked here.
 
-use super::{Answer, Tangential, sum_along};
+use super::{Answer, TangentSpace, Tangential, sum_along};
 use crate::energy::Lost;
-use crate::motion::Motion;
 use crate::tensor::Dim;
 
 /// The books of a spring, J/m.
@@ -26,7 +25,7 @@ pub struct Books {
 
 impl<const D: usize> Answer<'_, D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// Energies and works of the spring.
     #[must_use]
@@ -46,7 +45,7 @@ where
         };
         let bend = gap_new + gap_old - 2.0 * solved.gap;
         let rate_mean = 0.5 * (rate_old + rate);
-        let slip_mean = Dim::<D>::along(|a| 0.5 * (slip_rate_old[a] + slip_rate[a]));
+        let slip_mean = Dim::<D>::tangent_vector(|a| 0.5 * (slip_rate_old[a] + slip_rate[a]));
         let inelastic = solved.force - elastic;
         let mut lost = Lost { damping: -mean_step * inelastic * rate_mean, ..Lost::default() };
         lost.old[1] = -mean_step * inelastic * rate_old;
@@ -71,8 +70,8 @@ where
             Tangential::Tied => {
                 let stiffness = terms.law.slip_stiffness(&patch);
                 if stiffness.is_finite() {
-                    let old = Dim::<D>::along(|a| slip[a] - 0.5 * before * slip_rate_old[a]);
-                    let new = Dim::<D>::along(|a| slip[a] + 0.5 * after * slip_rate[a]);
+                    let old = Dim::<D>::tangent_vector(|a| slip[a] - 0.5 * before * slip_rate_old[a]);
+                    let new = Dim::<D>::tangent_vector(|a| slip[a] + 0.5 * after * slip_rate[a]);
                     books.stored[1] = sum_along::<D>(|a| 0.5 * stiffness * new[a] * new[a]);
                     books.stored_before += sum_along::<D>(|a| 0.5 * stiffness * old[a] * old[a]);
                     books.energy += 0.25 * stiffness * sum_along::<D>(|a| old[a] * old[a] + new[a] * new[a])

@@ -6,7 +6,8 @@
 //! on it) pairs would be too many: such hubs keep what the springs have added to their velocity.
 
 use super::link::{Arm, Link, Slips, Slot};
-use crate::motion::Motion;
+use crate::contact::springs::TangentSpace;
+use crate::rigid::RigidMotion;
 use crate::rows::Rows;
 use crate::tensor::Dim;
 use crate::vector::dot;
@@ -34,7 +35,7 @@ impl<const D: usize> Default for Touch<D> {
 #[derive(Default)]
 pub(super) struct Couplings<const D: usize>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// What touches each slot, in the order of the links.
     touches: Rows<Touch<D>>,
@@ -53,19 +54,19 @@ where
 #[derive(Clone, Copy)]
 struct Cross<const D: usize>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// Rate of the gap per friction along each tangent.
-    gap: <Dim<D> as Motion<D>>::Along<f64>,
+    gap: <Dim<D> as TangentSpace<D>>::TangentVector<f64>,
     /// Rate of each slip per normal force.
-    slip: <Dim<D> as Motion<D>>::Along<f64>,
+    slip: <Dim<D> as TangentSpace<D>>::TangentVector<f64>,
     /// The same per friction along each tangent.
-    along: <Dim<D> as Motion<D>>::Along<<Dim<D> as Motion<D>>::Along<f64>>,
+    along: <Dim<D> as TangentSpace<D>>::TangentVector<<Dim<D> as TangentSpace<D>>::TangentVector<f64>>,
 }
 
 impl<const D: usize> Default for Cross<D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     fn default() -> Self {
         Self { gap: Default::default(), slip: Default::default(), along: Default::default() }
@@ -79,7 +80,7 @@ pub(super) type Rates<const D: usize> = [f64; D];
 
 impl<const D: usize> Couplings<D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// Finds who touches which slot, which slots are hubs, and what springs do to each other; `slides`: whether any of them cares for slip.
     pub(super) fn find(&mut self, links: &mut [Link<D>], arms: &[Arm<D>], slips: &[Slips<D>], slots: &mut [Slot<D>], slides: bool) {

@@ -2,7 +2,7 @@
 //! their cost.
 
 use super::End;
-use crate::motion::Motion;
+use crate::contact::springs::TangentSpace;
 use crate::tensor::Dim;
 
 /// No more.
@@ -12,11 +12,11 @@ const NONE: u32 = u32::MAX;
 #[derive(Default)]
 pub(super) struct Ends<const D: usize>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     list: Vec<Kept>,
     /// As far as any end has one.
-    turns: Vec<<Dim<D> as Motion<D>>::Tangents>,
+    turns: Vec<<Dim<D> as TangentSpace<D>>::Tangents>,
     more: Vec<More<D>>,
 }
 
@@ -33,16 +33,16 @@ struct Kept {
 #[derive(Clone, Copy, PartialEq)]
 struct More<const D: usize>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     lean: [f64; D],
     point: [f64; D],
-    image: Option<<Dim<D> as Motion<D>>::Turn>,
+    image: Option<<Dim<D> as TangentSpace<D>>::ImageRotation>,
 }
 
 impl<const D: usize> Default for More<D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     fn default() -> Self {
         Self { lean: [0.0; D], point: [0.0; D], image: None }
@@ -51,7 +51,7 @@ where
 
 impl<const D: usize> Ends<D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     pub(super) fn clear(&mut self) {
         self.list.clear();
@@ -102,7 +102,7 @@ where
     }
 
     /// Lets another node move in the stead of the end's, turned so.
-    pub(super) fn set_image(&mut self, k: usize, image: <Dim<D> as Motion<D>>::Turn) {
+    pub(super) fn set_image(&mut self, k: usize, image: <Dim<D> as TangentSpace<D>>::ImageRotation) {
         self.more_of(k).image = Some(image);
     }
 

@@ -11,7 +11,7 @@
 pub mod cone;
 
 use super::Along;
-use crate::motion::Motion;
+use crate::contact::springs::TangentSpace;
 use crate::tensor::Dim;
 
 /// Coulomb friction: T_max = min(µ(v) F + c A v, τ_max A) at slip rate v, µ(v) = µ_d + (µ_s − µ_d) exp(−β v).
@@ -49,14 +49,14 @@ impl Friction {
 #[derive(Clone, Copy, Debug)]
 pub struct Stick<const D: usize = 2>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// ṡ^{n−½} along each tangent, m/s.
     pub old: Along<D>,
     /// ṡ^{n+½} without the force, m/s.
     pub free: Along<D>,
     /// Change of ṡ^{n+½} per force: a symmetric matrix.
-    pub compliance: <Dim<D> as Motion<D>>::Along<Along<D>>,
+    pub compliance: <Dim<D> as TangentSpace<D>>::TangentVector<Along<D>>,
     /// k, N/m per metre of depth; infinite: the slip stops at once.
     pub stiffness: f64,
     /// dt^{n−1}, dt^n, s.
@@ -65,7 +65,7 @@ where
 
 impl<const D: usize> Stick<D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// Change of the slip rate per friction that sticks, beside `compliance`, m/s per N/m.
     #[must_use]
@@ -84,7 +84,7 @@ where
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Slid<const D: usize = 2>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// T along each tangent, N/m.
     pub friction: Along<D>,

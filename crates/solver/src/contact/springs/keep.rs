@@ -4,7 +4,7 @@
 
 use super::{End, Solved, Spring, Springs, Totals};
 use crate::archive::{Archive, Keep, Kept, keep_each};
-use crate::motion::Motion;
+use crate::contact::springs::TangentSpace;
 use crate::tensor::Dim;
 
 impl<const D: usize> Keep for Totals<D> {
@@ -17,7 +17,7 @@ impl<const D: usize> Keep for Totals<D> {
 
 impl<const D: usize> Keep for Solved<D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
         let Self { gap, force, friction, slip_new, slides, rates, slip_rates } = self;
@@ -28,7 +28,7 @@ where
 
 impl<const D: usize> Keep for End<D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
         let Self { at, share, lean, turn, point, image } = self;
@@ -41,7 +41,7 @@ where
 #[derive(Default)]
 struct Whole<const D: usize>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     spring: Spring<D>,
     terms: u32,
@@ -51,7 +51,7 @@ where
 
 impl<const D: usize> Keep for Whole<D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
         let Self {
@@ -67,7 +67,7 @@ where
 
 impl<const D: usize> Keep for Springs<D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
         keep_each!(archive; &mut self.time_steps, &mut self.sweeps_max, &mut self.unsolved);

@@ -6,35 +6,35 @@
 use super::couple::{Couplings, Forces};
 use super::ends::Ends;
 use super::islands::NONE;
-use super::{Along, End, Mover, Movers, Spring, Tangential, Terms, Update, sum_along};
+use super::{Along, End, Mover, Movers, Spring, TangentSpace, Tangential, Terms, Update, sum_along};
 use crate::contact::law::Law;
-use crate::motion::Motion;
+use crate::rigid::RigidMotion;
 use crate::tensor::Dim;
 use std::ops::Range;
 
 /// A value for each velocity of a node or rigid body.
-pub(super) type Row<const D: usize> = <Dim<D> as Motion<D>>::Row<f64>;
+pub(super) type Row<const D: usize> = <Dim<D> as RigidMotion<D>>::Generalized<f64>;
 /// Rows of the slip along each tangent.
-pub(super) type Slips<const D: usize> = <Dim<D> as Motion<D>>::Along<Row<D>>;
+pub(super) type Slips<const D: usize> = <Dim<D> as TangentSpace<D>>::TangentVector<Row<D>>;
 
 /// A node or rigid body that springs act on.
 #[derive(Clone, Copy)]
 pub(super) struct Movable<const D: usize>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// x, y (and z) and, of a rigid body, angular.
     velocity_old: Row<D>,
     /// v^{n+½} without springs.
     velocity_free: Row<D>,
-    mobility: <Dim<D> as Motion<D>>::Mobility,
+    mobility: <Dim<D> as TangentSpace<D>>::Mobility,
     /// Centre of a rigid body; `None`: a node.
     centre: Option<[f64; D]>,
 }
 
 impl<const D: usize> Default for Movable<D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     fn default() -> Self {
         Self { velocity_old: Default::default(), velocity_free: Default::default(), mobility: Default::default(), centre: None }
@@ -43,7 +43,7 @@ where
 
 impl<const D: usize> Movable<D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// The node or (from `nodes` on) rigid body `at` at the beginning of the solution.
     pub(super) fn new<M: Movers<D>>(at: u32, nodes: usize, update: &Update<'_, M, D>) -> Self {
@@ -55,7 +55,7 @@ where
             return Self { velocity_old, velocity_free, mobility: Dim::<D>::mobility_of_body(body, mean_step), centre: Some(body.centre) };
         }
         let Mover { velocity_old, velocity, mobility } = update.nodes.mover(node);
-        let [velocity_old, velocity_free] = [velocity_old, velocity].map(|velocity| Dim::<D>::row_of(velocity, None));
+        let [velocity_old, velocity_free] = [velocity_old, velocity].map(|velocity| Dim::<D>::generalized_of(velocity, None));
         Self { velocity_old, velocity_free, mobility: Dim::<D>::mobility_of_node(&mobility), centre: None }
     }
 
@@ -71,10 +71,10 @@ where
     #[inline]
     fn row(&self, mut row: [f64; D], end: &End<D>) -> Row<D> {
         if let Some(turn) = &end.image {
-            row = Dim::<D>::back(turn, row);
+            row = Dim::<D>::pull_back(turn, row);
         }
         let arm = |centre: [f64; D]| std::array::from_fn(|d| end.point[d] - centre[d]);
-        Dim::<D>::row_of(row, self.centre.map(arm))
+        Dim::<D>::generalized_of(row, self.centre.map(arm))
     }
 }
 
@@ -82,11 +82,11 @@ where
 #[derive(Clone, Copy)]
 pub(super) struct Slot<const D: usize>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// Of a hub, what the springs have added to the velocity.
     pub(super) change: Row<D>,
-    pub(super) mobility: <Dim<D> as Motion<D>>::Mobility,
+    pub(super) mobility: <Dim<D> as TangentSpace<D>>::Mobility,
     pub(super) is_body: bool,
     /// Whether springs there know the slot instead of each other; see [`super::couple`].
     pub(super) is_hub: bool,
@@ -96,7 +96,7 @@ where
 #[derive(Clone, Copy)]
 pub(super) struct Arm<const D: usize>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     pub(super) slot: u32,
     pub(super) row: Row<D>,
@@ -106,7 +106,7 @@ where
 #[derive(Clone, Copy)]
 pub(super) struct Link<const D: usize>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// Number of the spring.
     pub(super) spring: u32,
@@ -116,7 +116,7 @@ where
     /// Change of g^{n+½} per normal force.
     pub(super) compliance: f64,
     /// What its own forces do to its rates, arm by arm: the gap's per normal force, either per the other, the slips' per friction.
-    pub(super) own: <Dim<D> as Motion<D>>::Symmetric,
+    pub(super) own: <Dim<D> as TangentSpace<D>>::Symmetric,
     pub(super) is_at_hub: bool,
     /// g^n, g^{n−½}.
     pub(super) gap: f64,
@@ -137,7 +137,7 @@ where
 
 impl<const D: usize> Link<D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// Of a spring whose arms begin at number `first`.
     fn new(spring: u32, first: u32) -> Self {
@@ -170,7 +170,7 @@ where
 /// Ends of springs, and what is at them.
 pub(super) struct Joints<'a, M: Movers<D>, const D: usize>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     pub(super) list: &'a [Spring<D>],
     /// Where springs ended; see [`super::Springs::goes_on`].
@@ -189,7 +189,7 @@ where
 #[derive(Default)]
 pub(super) struct Bench<const D: usize>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     pub(super) links: Vec<Link<D>>,
     pub(super) arms: Vec<Arm<D>>,
@@ -206,7 +206,7 @@ where
 
 impl<const D: usize> Bench<D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     pub(super) fn clear(&mut self) {
         self.links.clear();
@@ -227,7 +227,7 @@ where
 
 impl<M: Movers<D>, const D: usize> Joints<'_, M, D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// Adds the link of a spring, with its arms and the slots that come with it.
     pub(super) fn link(&self, number: u32, terms: &Terms, bench: &mut Bench<D>) {
@@ -317,7 +317,7 @@ where
 /// iteration; energies are convex.
 fn gap_of<const D: usize>(law: &dyn Law, spring: &Spring<D>, half: f64, stored: f64) -> f64
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     let (patch, mut gap) = (spring.patch(), half);
     for _ in 0..50 {

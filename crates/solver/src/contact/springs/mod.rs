@@ -38,13 +38,14 @@ mod newton;
 mod relax;
 mod skyline;
 mod solve;
+mod tangent_space;
 
 pub use answers::{Answer, Answers};
+pub use tangent_space::TangentSpace;
 
 use super::law::Law;
 use crate::archive::keep_all;
 use crate::energy::Lost;
-use crate::motion::Motion;
 use crate::rigid::Bodies;
 use crate::tensor::Dim;
 use ends::Ends;
@@ -55,14 +56,14 @@ use std::ops::Range;
 const BOTH: f64 = 2.2;
 
 /// A value for each direction along a surface.
-pub type Along<const D: usize> = <Dim<D> as Motion<D>>::Along<f64>;
+pub type Along<const D: usize> = <Dim<D> as TangentSpace<D>>::TangentVector<f64>;
 
 /// A spring between two surfaces: it pushes along `normal` on the ends with positive shares and against it on the others. In the plane a cache line: there is one for every node that
 /// touches.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spring<const D: usize = 2>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// Unit vector.
     pub normal: [f64; D],
@@ -79,14 +80,14 @@ where
     /// Friction: elastic slip at n − ½ (memory of the contact), m. Tie: slip at n, m.
     pub slip: Along<D>,
     /// In space the first of the tangents along which the slip is; zero: any.
-    pub tangent: <Dim<D> as Motion<D>>::Tangent,
+    pub tangent: <Dim<D> as TangentSpace<D>>::FirstTangent,
     pub(super) first: u32,
     pub(super) count: u32,
 }
 
 impl<const D: usize> Default for Spring<D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     fn default() -> Self {
         let (slip, tangent) = Default::default();
@@ -158,7 +159,7 @@ impl Default for Patch {
 
 impl<const D: usize> Spring<D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// What laws see of it.
     #[must_use]
@@ -170,7 +171,7 @@ where
     /// The directions along the surface.
     #[must_use]
     #[inline]
-    pub fn tangents(&self) -> <Dim<D> as Motion<D>>::Tangents {
+    pub fn tangents(&self) -> <Dim<D> as TangentSpace<D>>::Tangents {
         Dim::<D>::tangents(self.normal, &self.tangent)
     }
 
@@ -185,7 +186,7 @@ where
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Solved<const D: usize = 2>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// g^n, m.
     pub gap: f64,
@@ -209,7 +210,7 @@ where
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct End<const D: usize = 2>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// Node, or number of nodes + rigid body.
     pub at: u32,
@@ -218,16 +219,16 @@ where
     /// What the gap's rate has beyond: of points that move along segments which are inclined to the tangent.
     pub lean: [f64; D],
     /// What makes the rate of each slip blind to rotation of both surfaces together, and friction keep the angular momentum.
-    pub turn: <Dim<D> as Motion<D>>::Tangents,
+    pub turn: <Dim<D> as TangentSpace<D>>::Tangents,
     /// Where the forces act on a rigid body without nodes, m.
     pub point: [f64; D],
     /// Rotation from the motion of the node that moves in its stead; `None`: no rotation.
-    pub image: Option<<Dim<D> as Motion<D>>::Turn>,
+    pub image: Option<<Dim<D> as TangentSpace<D>>::ImageRotation>,
 }
 
 impl<const D: usize> Default for End<D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     fn default() -> Self {
         Self { at: 0, share: 0.0, lean: [0.0; D], turn: Default::default(), point: [0.0; D], image: None }
@@ -236,7 +237,7 @@ where
 
 impl<const D: usize> End<D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// A node with a share of the gap.
     #[must_use]
@@ -259,7 +260,7 @@ where
 
     /// The same with friction along the spring's `tangents`.
     #[inline]
-    fn drag(&self, spring: &Spring<D>, tangents: &<Dim<D> as Motion<D>>::Tangents, solved: &Solved<D>) -> [f64; D] {
+    fn drag(&self, spring: &Spring<D>, tangents: &<Dim<D> as TangentSpace<D>>::Tangents, solved: &Solved<D>) -> [f64; D] {
         let (gap_row, slip_rows) = (self.gap_row(spring.normal), self.slip_rows(tangents));
         std::array::from_fn(|d| {
             let mut sum = gap_row[d] * solved.force;
@@ -289,7 +290,7 @@ where
 
     /// Rows of the slip's rates.
     #[inline]
-    fn slip_rows(&self, tangents: &<Dim<D> as Motion<D>>::Tangents) -> <Dim<D> as Motion<D>>::Tangents {
+    fn slip_rows(&self, tangents: &<Dim<D> as TangentSpace<D>>::Tangents) -> <Dim<D> as TangentSpace<D>>::Tangents {
         Dim::<D>::vectors(|a| std::array::from_fn(|d| self.share * tangents[a][d] + self.turn[a][d]))
     }
 }
@@ -325,7 +326,7 @@ pub enum Tangential {
 #[derive(Default)]
 pub struct Springs<const D: usize = 2>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// In the order in which contacts and obstacles found them.
     pub list: Vec<Spring<D>>,
@@ -348,7 +349,7 @@ where
 /// What the solution needs of the model.
 pub struct Update<'a, M: Movers<D>, const D: usize = 2>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// Steps before and after, s: v^{n+½} = v^{n−½} + ½ (dt^{n−1} + dt^n) F / m, x^{n+1} = x^n + dt^n v^{n+½}.
     pub time_steps: [f64; 2],
@@ -363,12 +364,12 @@ where
 /// Nodes as springs see them.
 pub trait Movers<const D: usize = 2>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// How many nodes there are.
     fn count(&self) -> usize;
     /// The node that moves in the stead of `node`, and the rotation from its motion to that of `node`, if any.
-    fn leader(&self, node: u32) -> (u32, Option<<Dim<D> as Motion<D>>::Turn>);
+    fn leader(&self, node: u32) -> (u32, Option<<Dim<D> as TangentSpace<D>>::ImageRotation>);
     /// Motion of a node that leads itself.
     fn mover(&self, leader: usize) -> Mover<D>;
     /// Whether forces move it at all.
@@ -381,14 +382,14 @@ where
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mover<const D: usize = 2>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// v^{n−½}, m/s.
     pub velocity_old: [f64; D],
     /// v^{n+½} without springs, prescribed motion included, m/s.
     pub velocity: [f64; D],
     /// Change of v^{n+½} per force: xx, xy, yy; in space xx, xy, xz, yy, yz, zz.
-    pub mobility: <Dim<D> as Motion<D>>::Symmetric,
+    pub mobility: <Dim<D> as TangentSpace<D>>::Symmetric,
 }
 
 /// A spring as laws of the normal force see it.
@@ -429,7 +430,7 @@ impl<const D: usize> Default for Totals<D> {
 
 impl<const D: usize> Springs<D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// For `nodes` nodes and `bodies` rigid bodies; springs follow one of the `terms`.
     #[must_use]

@@ -15,8 +15,8 @@ use super::friction::Stick;
 use super::link::Link;
 use super::relax::Island;
 use super::skyline::Skyline;
-use super::{Tangential, sum_along};
-use crate::motion::Motion;
+use super::{TangentSpace, Tangential, sum_along};
+use crate::rigid::RigidMotion;
 use crate::tensor::Dim;
 
 /// Least d of an unknown, as a fraction of its c.
@@ -34,14 +34,14 @@ const NONE: u32 = u32::MAX;
 #[derive(Default)]
 pub(super) struct Newton<const D: usize>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     state: Vec<State<D>>,
     /// Links in the order of the unknowns.
     order: Vec<u32>,
     seen: Vec<bool>,
     /// Unknowns of a rigid body by slot, one for each velocity.
-    bodies: Vec<<Dim<D> as Motion<D>>::Row<u32>>,
+    bodies: Vec<<Dim<D> as RigidMotion<D>>::Generalized<u32>>,
     first: Vec<u32>,
     matrix: Skyline,
     right: Vec<f64>,
@@ -51,7 +51,7 @@ where
 #[derive(Clone, Copy)]
 struct State<const D: usize>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// Unknowns of the normal force and of the friction along each tangent.
     unknown: [u32; D],
@@ -62,14 +62,14 @@ where
     /// What is wanted, in units of the gap.
     wanted: [f64; D],
     /// Change of a sliding friction per normal force.
-    follow: <Dim<D> as Motion<D>>::Along<f64>,
+    follow: <Dim<D> as TangentSpace<D>>::TangentVector<f64>,
     /// Direction of each unknown of the friction along the surface.
-    along: <Dim<D> as Motion<D>>::Along<<Dim<D> as Motion<D>>::Along<f64>>,
+    along: <Dim<D> as TangentSpace<D>>::TangentVector<<Dim<D> as TangentSpace<D>>::TangentVector<f64>>,
 }
 
 impl<const D: usize> Newton<D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// Moves the forces of an island by a `fraction` of the way to where its springs agree, were they as they are now; `false`: the island is far too wide for that, and stays so.
     pub(super) fn predict(&mut self, island: &mut Island<'_, D>, fraction: f64) -> bool {
@@ -185,7 +185,7 @@ where
                     if found.slides && force > 0.0 {
                         let limits = [force, more * force].map(|force| island.limit(i, force));
                         let direction = Dim::<D>::direction(&found.friction);
-                        state.follow = Dim::<D>::along(|a| direction[a] * (limits[1] - limits[0]) / (DIFFERENCE * force));
+                        state.follow = Dim::<D>::tangent_vector(|a| direction[a] * (limits[1] - limits[0]) / (DIFFERENCE * force));
                         self.look_aside(island, i, &stick, &found.friction, state);
                     }
                     return;
@@ -214,12 +214,12 @@ where
         island: &Island<'_, D>,
         i: usize,
         stick: &Stick<D>,
-        friction: &<Dim<D> as Motion<D>>::Along<f64>,
+        friction: &<Dim<D> as TangentSpace<D>>::TangentVector<f64>,
         state: &mut State<D>,
     ) {
         let link = &island.links[i];
         let slip = island.list[link.spring as usize].slip;
-        let Some((direction, softness)) = Dim::<D>::gives_aside(stick, slip, friction) else { return };
+        let Some((direction, softness)) = Dim::<D>::lateral_compliance(stick, slip, friction) else { return };
         let (half, own) = (0.5 * island.time_steps[1], link.own_along(&direction));
         if own > 0.0 {
             let softness = (softness + link.lent[1]).max(SOFTNESS * own);
@@ -321,7 +321,7 @@ where
             begin_at(&mut self.first, self.state[link as usize].unknown, low);
         }
         for (slot, hub) in island.slots.iter().enumerate() {
-            self.bodies.push(Dim::<D>::row(|_| NONE));
+            self.bodies.push(Dim::<D>::generalized(|_| NONE));
             if !hub.is_hub {
                 continue;
             }
@@ -334,7 +334,7 @@ where
                 touches.iter().for_each(|touch| begin_at(&mut self.first, self.state[touch.link as usize].unknown, low));
                 continue;
             }
-            for axis in (0..Dim::<D>::ROW).filter(|&axis| Dim::<D>::gives(&hub.mobility, axis)) {
+            for axis in (0..Dim::<D>::FREEDOMS).filter(|&axis| Dim::<D>::is_free(&hub.mobility, axis)) {
                 self.bodies[slot][axis] = self.first.len() as u32;
                 self.first.push(low);
             }
@@ -431,8 +431,9 @@ where
             if !matches!(island.terms_of(i).tangential, Tangential::Tied) {
                 step[0] = step[0].max(-forces[0]);
                 let limit = island.limit(i, forces[0] + step[0]);
-                let wanted =
-                    Dim::<D>::along(|a| forces[a + 1] + sum_along::<D>(|u| step[u + 1] * state.along[u][a]) + state.follow[a] * step[0]);
+                let wanted = Dim::<D>::tangent_vector(|a| {
+                    forces[a + 1] + sum_along::<D>(|u| step[u + 1] * state.along[u][a]) + state.follow[a] * step[0]
+                });
                 let within = Dim::<D>::within(wanted, limit);
                 (1..D).for_each(|axis| step[axis] = within[axis - 1] - forces[axis]);
             }
@@ -443,7 +444,7 @@ where
 
 impl<const D: usize> State<D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// Of a spring without unknowns.
     fn none() -> Self {
@@ -453,14 +454,14 @@ where
             scale: [0.0; D],
             wanted: [0.0; D],
             follow: Default::default(),
-            along: Dim::<D>::along(|a| Dim::<D>::along(|b| f64::from(u8::from(a == b)))),
+            along: Dim::<D>::tangent_vector(|a| Dim::<D>::tangent_vector(|b| f64::from(u8::from(a == b)))),
         }
     }
 
     /// Notes what friction would change, as far as it is unknown.
     fn want_along(&mut self, link: &Link<D>, half: f64, change: impl Fn(usize) -> f64) {
         let known = self.softness;
-        let part = |along: &<Dim<D> as Motion<D>>::Along<f64>| sum_along::<D>(|a| along[a] * change(a));
+        let part = |along: &<Dim<D> as TangentSpace<D>>::TangentVector<f64>| sum_along::<D>(|a| along[a] * change(a));
         for u in (0..D - 1).filter(|&u| !known[u + 1].is_nan()) {
             let others =
                 (0..D - 1).filter(|&v| v != u && !known[v + 1].is_nan()).map(|v| half * link.own(u + 1, v + 1) * part(&self.along[v]));
@@ -490,7 +491,7 @@ fn begin_at<const D: usize>(first: &mut [u32], unknowns: [u32; D], low: u32) {
 #[inline]
 fn add<const D: usize>(matrix: &mut Skyline, [on, by]: [&State<D>; 2], half: f64, pair: [[f64; D]; D])
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     for axis in 0..D {
         let row = on.unknown[axis];
@@ -516,7 +517,7 @@ where
 /// Gives a spring the friction that is named along its tangents.
 fn give<const D: usize>(island: &mut Island<'_, D>, i: usize, named: impl Fn(usize) -> Option<f64>)
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     let (mut step, before): (Forces<D>, Forces<D>) = ([0.0; D], island.forces[i]);
     (0..D - 1).for_each(|a| step[a + 1] = named(a).map_or(0.0, |friction| friction - before[a + 1]));
@@ -527,7 +528,7 @@ where
 /// What the forces of a spring do to its own rates by way of what is no hub.
 fn own<const D: usize>(island: &Island<'_, D>, i: usize) -> [[f64; D]; D]
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     let link = &island.links[i];
     if !link.is_at_hub {

@@ -7,9 +7,9 @@ use super::couple::{Couplings, Forces, Rates};
 use super::friction::{Slid, Stick};
 use super::link::{Arm, Link, Row, Slips, Slot};
 use super::newton::Newton;
-use super::{Along, Closing, Patch, Solved, Spring, Tangential, Terms};
+use super::{Along, Closing, Patch, Solved, Spring, TangentSpace, Tangential, Terms};
 use crate::contact::law;
-use crate::motion::Motion;
+use crate::rigid::RigidMotion;
 use crate::tensor::Dim;
 use embate_lanes::math;
 
@@ -27,7 +27,7 @@ const LENT: f64 = 1e-7;
 /// Springs that share what they move.
 pub(super) struct Island<'a, const D: usize>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     pub(super) links: &'a mut [Link<D>],
     pub(super) arms: &'a [Arm<D>],
@@ -125,7 +125,7 @@ impl Effort {
 
 impl<const D: usize> Island<'_, D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// Finds the forces; `newton` and `live` are memory to work in.
     pub(super) fn solve(&mut self, newton: &mut Newton<D>, live: &mut Vec<u32>) -> Effort {
@@ -269,7 +269,7 @@ where
                 let slot = &self.slots[self.arms[k].slot as usize];
                 if slot.is_hub {
                     let own = Dim::<D>::response(&slot.mobility, &self.pull(k, self.forces[i]));
-                    let others = Dim::<D>::row(|d| slot.change[d] - own[d]);
+                    let others = Dim::<D>::generalized(|d| slot.change[d] - own[d]);
                     rates[0] += Dim::<D>::dot(&self.arms[k].row, &others);
                     if let Some(slips) = self.slips.get(k) {
                         for a in 0..D - 1 {
@@ -292,7 +292,7 @@ where
     /// Force of a spring on what is at its arm `k`.
     fn pull(&self, k: usize, forces: Forces<D>) -> Row<D> {
         let rows = self.rows(k);
-        Dim::<D>::row(|d| {
+        Dim::<D>::generalized(|d| {
             let mut sum = rows[0][d] * forces[0];
             for axis in 1..D {
                 sum += rows[axis][d] * forces[axis];
@@ -308,7 +308,7 @@ where
             let slot = &mut self.slots[self.arms[k].slot as usize];
             if slot.is_hub {
                 let response = Dim::<D>::response(&slot.mobility, &pull);
-                (0..Dim::<D>::ROW).for_each(|d| slot.change[d] += response[d]);
+                (0..Dim::<D>::FREEDOMS).for_each(|d| slot.change[d] += response[d]);
             }
         }
     }
@@ -346,8 +346,8 @@ where
         let compliance = |a: usize, b: usize| if a == b { link.own(a + 1, a + 1) + link.lent[1] } else { link.own(a + 1, b + 1) };
         Stick {
             old: link.slip_rate_old,
-            free: Dim::<D>::along(free),
-            compliance: Dim::<D>::along(|a| Dim::<D>::along(|b| compliance(a, b))),
+            free: Dim::<D>::tangent_vector(free),
+            compliance: Dim::<D>::tangent_vector(|a| Dim::<D>::tangent_vector(|b| compliance(a, b))),
             stiffness: self.terms_of(i).law.slip_stiffness(&self.list[link.spring as usize].patch()),
             time_steps: self.time_steps,
         }
@@ -387,8 +387,8 @@ where
             let (others, forces) = (self.rates(i), self.forces[i]);
             let own = |axis: usize| (1..D).fold(link.own(axis, 0) * forces[0], |sum, by| sum + link.own(axis, by) * forces[by]);
             let rate = link.rate_free + (others[0] + own(0));
-            let slip_rate = Dim::<D>::along(|a| if is_free { 0.0 } else { link.slip_rate_free[a] + (others[a + 1] + own(a + 1)) });
-            let (force, friction) = (forces[0], Dim::<D>::along(|a| forces[a + 1]));
+            let slip_rate = Dim::<D>::tangent_vector(|a| if is_free { 0.0 } else { link.slip_rate_free[a] + (others[a + 1] + own(a + 1)) });
+            let (force, friction) = (forces[0], Dim::<D>::tangent_vector(|a| forces[a + 1]));
             let slides = if is_free { force != 0.0 } else { link.slides };
             let Link { gap, slip_new, rate_old, slip_rate_old, .. } = *link;
             *solved = Solved { gap, force, friction, slip_new, slides, rates: [rate_old, rate], slip_rates: [slip_rate_old, slip_rate] };

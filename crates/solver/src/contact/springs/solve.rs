@@ -8,7 +8,7 @@ use super::link::{Bench, Joints, Movable};
 use super::newton::Newton;
 use super::relax::{Effort, Island};
 use super::{Movers, Solved, Springs, Terms, Update};
-use crate::motion::Motion;
+use crate::contact::springs::TangentSpace;
 use crate::tensor::Dim;
 
 /// Springs (at least) of the islands that one task solves.
@@ -20,7 +20,7 @@ const SERIAL: usize = 4 * CHUNK;
 #[derive(Default)]
 pub(super) struct Workspace<const D: usize>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// Place of each node (then of each rigid body) in `at`; `NONE`: not touched.
     place: Vec<u32>,
@@ -44,7 +44,7 @@ where
 #[derive(Default)]
 struct Desk<const D: usize>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     bench: Bench<D>,
     newton: Newton<D>,
@@ -57,7 +57,7 @@ const MOVES: u32 = NONE - 1;
 
 impl<const D: usize> Workspace<D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     pub(super) fn new(places: usize) -> Self {
         Self { place: vec![NONE; places], ..Self::default() }
@@ -66,7 +66,7 @@ where
 
 impl<const D: usize> Springs<D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// Finds the forces of every spring and the rates that they lead to.
     pub fn solve<M: Movers<D> + Sync>(&mut self, update: &Update<'_, M, D>) {
@@ -172,7 +172,7 @@ where
 /// What all tasks see.
 struct Plan<'a, M: Movers<D>, const D: usize>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     joints: Joints<'a, M, D>,
     islands: &'a Islands,
@@ -183,7 +183,7 @@ where
 
 impl<M: Movers<D> + Sync, const D: usize> Plan<'_, M, D>
 where
-    Dim<D>: Motion<D>,
+    Dim<D>: TangentSpace<D>,
 {
     /// The first island of a chunk.
     fn begin(&self, chunk: usize) -> usize {

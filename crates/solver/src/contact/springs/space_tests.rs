@@ -1,7 +1,7 @@
 use super::*;
-use crate::contact::forces::ContactForces;
 use crate::contact::law::penalty::Penalty;
 use crate::contact::law::tie::Tie;
+use crate::contact_forces::ContactForces;
 use crate::load::curve::Curves;
 use crate::rigid::space::Turning;
 use crate::rigid::{Acting, Body};

@@ -10,7 +10,7 @@
 //! inside, and at least 2 (λ − e)(σ − λ), ½ (σ² − e²) or (e − σ)(3e − σ)/2 for σ beyond λ, between, below e where it is not.) What sticks gives back exactly what it took.
 
 use super::{Slid, Stick};
-use crate::motion::Motion;
+use crate::contact::springs::TangentSpace;
 use crate::tensor::{Dim, dot};
 
 /// Newton's steps for λ: each squares the error, and far away they are exact.
@@ -94,7 +94,7 @@ pub fn slide(stick: &Stick<3>, slip: [f64; 2], limit: f64) -> Slid<3> {
 /// The direction p across a friction that slides, and the change of the slip rate along p per friction along p: d and with it T turn with the mean slip, as a spring of the stiffness
 /// T_max / λ would have them do. `None` where nothing slides.
 #[must_use]
-pub fn gives_aside(stick: &Stick<3>, slip: [f64; 2], friction: &[f64; 2]) -> Option<([f64; 2], f64)> {
+pub fn lateral_compliance(stick: &Stick<3>, slip: [f64; 2], friction: &[f64; 2]) -> Option<([f64; 2], f64)> {
     let Stick { old, free, compliance, stiffness, time_steps: [before, after] } = *stick;
     let size = Dim::<3>::size(friction);
     if !(size > 0.0) {

@@ -69,7 +69,7 @@ impl VtuWriter {
     /// A writer for the frames of `cells`.
     #[must_use]
     pub fn new(cells: &Cells, threads: &Threads) -> Self {
-        let types = cells.kinds.iter().map(|&kind| vtk_cell_type(kind)).collect();
+        let types = cells.kinds.iter().map(|&kind| kind.facts().vtk).collect();
         let parts = cells.parts.iter().flat_map(|&p| p.to_le_bytes()).collect();
         let packers = Rooms::default();
         let packed = |attributes, data| zlib_blocks(&[&plain(attributes, data)], &packers, threads).next().expect("an array was put in");
@@ -277,7 +277,7 @@ pub(crate) fn write_surfaces(surfaces: &[Surface], time: f64, out: &mut (impl Wr
             let corners = if facet[2] == facet[3] { &facet[..3] } else { &facet[..] };
             cells.connectivity.extend(corners.iter().map(|corner| first + corner));
             cells.offsets.push(cells.connectivity.len() as u32);
-            cells.types.push(vtk_cell_type(if corners.len() == 3 { CellKind::Triangle } else { CellKind::Quadrilateral }));
+            cells.types.push(if corners.len() == 3 { CellKind::Triangle } else { CellKind::Quadrilateral }.facts().vtk);
             cells.indices.push(index);
         }
         first += surface.points.len() as u32;
@@ -332,18 +332,6 @@ const VTK_LINE: u8 = 3;
 
 /// VTK's mark of cells that are not shown (`vtkDataSetAttributes::HIDDENCELL`).
 const HIDDEN_CELL: u8 = 32;
-
-/// VTK's number of a cell shape.
-fn vtk_cell_type(kind: CellKind) -> u8 {
-    match kind {
-        CellKind::Line => 3,
-        CellKind::Triangle => 5,
-        CellKind::Quadrilateral => 9,
-        CellKind::Tetrahedron => 10,
-        CellKind::Hexahedron => 12,
-        CellKind::Wedge => 13,
-    }
-}
 
 /// Readers draw arrows only for three components, so plane vectors get a third one.
 fn is_plane_vector(kind: &FieldKind) -> bool {

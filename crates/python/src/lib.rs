@@ -18,7 +18,7 @@ mod _embate {
     #[pymodule_export]
     use super::simulation::Simulation;
     #[pymodule_export]
-    use super::{fields, sections};
+    use super::{cells, fields, sections};
     #[pymodule_export]
     #[expect(non_upper_case_globals, reason = "a name of Python")]
     const __version__: &str = env!("CARGO_PKG_VERSION");
@@ -53,6 +53,26 @@ fn fields(dimension: usize) -> Vec<(&'static str, Vec<&'static str>, &'static st
         (kind.name, kind.components.to_vec(), kind.unit, kind.location == Location::Node, kind.doc)
     };
     fields_of(dimension).iter().map(of).collect()
+}
+
+/// The kinds of cells: name, dimension, number of nodes, number in .msh files and in VTK, corners of each face.
+#[pyfunction]
+fn cells(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
+    use embate_solver::mesh::cell::CellKind;
+    let of = |kind: CellKind| {
+        let facts = kind.facts();
+        let corners = |face: &[u8; 4]| face[..if face[2] == face[3] { 3 } else { 4 }].iter().map(|&k| usize::from(k)).collect();
+        let faces: Vec<Vec<usize>> = facts.faces.iter().map(corners).collect();
+        let dict = PyDict::new(py);
+        dict.set_item("name", facts.name)?;
+        dict.set_item("dimension", facts.dimension)?;
+        dict.set_item("nodes", facts.nodes)?;
+        dict.set_item("gmsh", facts.gmsh)?;
+        dict.set_item("vtk", facts.vtk)?;
+        dict.set_item("faces", faces)?;
+        Ok(dict)
+    };
+    CellKind::ALL.into_iter().map(of).collect()
 }
 
 /// Numbers as the bytes of this machine.

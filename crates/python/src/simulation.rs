@@ -12,7 +12,7 @@ use embate_files::results::{Checkpoints, Recorder, Report, ResultFolder};
 use embate_files::threads::Threads;
 use embate_solver::error::Error;
 use embate_solver::model::ImportedMesh;
-use embate_solver::output::{CellKind, Frame, Shown};
+use embate_solver::output::{Frame, Shown};
 use embate_solver::simulation::{self, Control, Observer, ObserverError, Options, Progress, State};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -304,16 +304,8 @@ impl Simulation {
         py: Python<'py>,
     ) -> PyResult<(Bound<'py, PyBytes>, Bound<'py, PyBytes>, Vec<&'static str>, Bound<'py, PyBytes>, Vec<String>)> {
         let cells = self.without_lock(py, |inner| Ok(inner.simulation.cells()))?;
-        let kind = |kind: &CellKind| match kind {
-            CellKind::Line => "line",
-            CellKind::Triangle => "triangle",
-            CellKind::Quadrilateral => "quad",
-            CellKind::Tetrahedron => "tetra",
-            CellKind::Wedge => "wedge",
-            CellKind::Hexahedron => "hexahedron",
-        };
         let of = |values: &[u32]| bytes(py, values, u32::to_ne_bytes);
-        Ok((of(&cells.nodes)?, of(&cells.offsets)?, cells.kinds.iter().map(kind).collect(), of(&cells.parts)?, cells.part_names.clone()))
+        Ok((of(&cells.nodes)?, of(&cells.offsets)?, cells.kinds.iter().map(|kind| kind.facts().name).collect(), of(&cells.parts)?, cells.part_names.clone()))
     }
 
     /// Of each mesh from a file or from memory: its name, and where its nodes are among those of the state (u32, the largest number: nowhere).

@@ -4,26 +4,10 @@
 use crate::contact::tracker::Certificate;
 use crate::error::Notice;
 use crate::material::Variable;
+pub use crate::mesh::cell::CellKind;
 pub use crate::outline::Outline;
 use std::borrow::Cow;
 use std::ops::Range;
-
-/// Shape of a cell.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CellKind {
-    /// Line of two nodes: a bar.
-    Line,
-    /// Three-node triangle, counter-clockwise.
-    Triangle,
-    /// Four-node quadrilateral, counter-clockwise.
-    Quadrilateral,
-    /// Four-node tetrahedron; seen from the fourth node the first three run counter-clockwise.
-    Tetrahedron,
-    /// Six-node wedge: two triangles, seen from the second one the first runs counter-clockwise.
-    Wedge,
-    /// Eight-node hexahedron: two quadrilaterals, seen from the second one the first runs counter-clockwise.
-    Hexahedron,
-}
 
 /// The cells of all parts; does not change during a run.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -32,7 +16,7 @@ pub struct Cells {
     pub nodes: Vec<u32>,
     /// Where each cell's nodes start in `nodes`, and the total at the end: `cells + 1` values.
     pub offsets: Vec<u32>,
-    /// Shape of each cell.
+    /// Kind of each cell.
     pub kinds: Vec<CellKind>,
     /// Part index of each cell.
     pub parts: Vec<u32>,

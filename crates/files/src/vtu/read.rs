@@ -218,7 +218,7 @@ impl VtuReader {
         let tag = self.expected("Cells", "types")?;
         let types = self.inflated(&tag, self.cells, 0..self.cells)?;
         let offsets: Vec<u32> = std::iter::once(0).chain(ends).collect();
-        let kinds: Option<Vec<CellKind>> = types.iter().map(|&kind| cell_kind(kind)).collect();
+        let kinds: Option<Vec<CellKind>> = types.iter().map(|&kind| CellKind::of_vtk(kind)).collect();
         let is_sound = offsets.is_sorted() && offsets.last().is_some_and(|&end| end as usize == corners);
         let kinds = kinds.filter(|_| is_sound).ok_or_else(|| self.unreadable("its cells are damaged"))?;
         Ok(Cells { nodes, offsets, kinds, parts: self.numbers_of_cells("part")?, part_names: Vec::new() })
@@ -263,9 +263,8 @@ impl VtuReader {
 
     /// Components of a position that its fields tell of: 2 in the plane, 3 in space.
     pub(crate) fn dimension(&self, cells: &Cells) -> usize {
-        let is_solid = |kind: &CellKind| matches!(kind, CellKind::Tetrahedron | CellKind::Wedge | CellKind::Hexahedron);
         let has_six = self.tag("CellData", "stress").is_some_and(|tag| tag.components == 6);
-        if has_six || cells.kinds.iter().any(is_solid) { 3 } else { 2 }
+        if has_six || cells.kinds.iter().any(|kind| kind.dimension() == 3) { 3 } else { 2 }
     }
 
     /// Positions and some fields; those that the file has not are left out. Its step is not known.
@@ -361,10 +360,4 @@ fn attribute<'a>(tag: &'a str, name: &str) -> Option<&'a str> {
 
 fn number(tag: &str, name: &str) -> Result<usize, String> {
     attribute(tag, name).and_then(|text| text.parse().ok()).ok_or_else(|| format!("{name} is not a number"))
-}
-
-/// The shape of VTK's number.
-fn cell_kind(number: u8) -> Option<CellKind> {
-    let all = [CellKind::Line, CellKind::Triangle, CellKind::Quadrilateral, CellKind::Tetrahedron, CellKind::Hexahedron, CellKind::Wedge];
-    all.into_iter().find(|&kind| super::vtk_cell_type(kind) == number)
 }

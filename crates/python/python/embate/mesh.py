@@ -11,16 +11,11 @@ from typing import Any
 
 import numpy as np
 
-#: Names of cells -> number of the type in .msh files, nodes, dimension. meshio's names, VTK's and some that people use.
-KINDS: dict[str, tuple[int, int, int]] = {
-    "vertex": (15, 1, 0),
-    "line": (1, 2, 1),
-    "triangle": (2, 3, 2),
-    "quad": (3, 4, 2),
-    "tetra": (4, 4, 3),
-    "hexahedron": (5, 8, 3),
-    "wedge": (6, 6, 3),
-}
+from . import _embate
+
+#: Names of cells (meshio's) -> number of the type in .msh files, nodes, dimension.
+KINDS: dict[str, tuple[int, int, int]] = {kind["name"]: (kind["gmsh"], kind["nodes"], kind["dimension"]) for kind in _embate.cells()}
+#: Other names: VTK's and some that people use.
 OTHER_NAMES = {
     "point": "vertex",
     "points": "vertex",
@@ -36,8 +31,8 @@ OTHER_NAMES = {
     "wedges": "wedge",
     "prism": "wedge",
 }
-#: Types of VTK cells.
-VTK = {1: "vertex", 3: "line", 5: "triangle", 8: "quad", 9: "quad", 10: "tetra", 11: "hexahedron", 12: "hexahedron", 13: "wedge"}
+#: Types of VTK cells, pixels and voxels among them.
+VTK: dict[int, str] = {kind["vtk"]: kind["name"] for kind in _embate.cells()} | {8: "quad", 11: "hexahedron"}
 #: Pixels and voxels count their nodes row by row, not around.
 ROWS = {8: [0, 1, 3, 2], 11: [0, 1, 3, 2, 4, 5, 7, 6]}
 

@@ -6,16 +6,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from . import _embate
+
 if TYPE_CHECKING:
     from .simulation import Simulation
 
 #: Faces of solids, outward.
-FACES: dict[str, list[tuple[int, ...]]] = {
-    "hexahedron": [(0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)],
-    "wedge": [(0, 2, 1), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5)],
-    "tetra": [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)],
-}
-VTK = {"line": 3, "triangle": 5, "quad": 9, "tetra": 10, "hexahedron": 12, "wedge": 13}
+FACES: dict[str, list[list[int]]] = {kind["name"]: kind["faces"] for kind in _embate.cells() if kind["dimension"] == 3}
+#: Surfaces, which are polygons as they are.
+POLYGONS: set[str] = {kind["name"] for kind in _embate.cells() if kind["dimension"] == 2}
+VTK: dict[str, int] = {kind["name"]: kind["vtk"] for kind in _embate.cells()}
 
 
 def plot(
@@ -117,11 +117,11 @@ def _faces(
     for kind, nodes in cells.items():
         is_there = alive[index[kind]]
         nodes, own = nodes[is_there], index[kind][is_there]
-        if kind in ("triangle", "quad"):
+        if kind in POLYGONS:
             polygons.append(nodes)
             owners.append(own)
         for face in FACES.get(kind, []):
-            outside.setdefault(len(face), []).append((nodes[:, list(face)], own))
+            outside.setdefault(len(face), []).append((nodes[:, face], own))
     for found in outside.values():
         corners, own = np.concatenate([c for c, _ in found]), np.concatenate([o for _, o in found])
         _, first, count = np.unique(np.sort(corners, axis=1), axis=0, return_index=True, return_counts=True)

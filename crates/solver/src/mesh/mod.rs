@@ -3,6 +3,7 @@
 //! [`Mesh::new`] puts the bodies of a model side by side with one node numbering; names (`part`, `part.side`, groups of a mesh file) are
 //! resolved to nodes and surfaces here and nowhere else.
 
+pub mod cell;
 pub mod placement;
 pub mod shapes;
 pub(crate) mod messages;

@@ -71,7 +71,7 @@ impl Registry {
 #[must_use]
 pub fn registries() -> Vec<Registry> {
     let elements =
-        element::registry().into_iter().map(|kind| Entry::new(kind.name, &format!("{} ({} nodes)", kind.doc, kind.nodes), kind.source));
+        element::registry().into_iter().map(|kind| Entry::new(kind.name, &format!("{} ({} nodes)", kind.doc, kind.nodes()), kind.source));
     let states = STRESS_STATES.iter().map(|kind| Entry::new(kind.name, kind.doc, kind.source));
     let materials = material::registry().into_iter().map(|law| Entry::new(law.name, law.doc, law.source).with(law.parameters, "required"));
     let criteria = failure::CRITERIA.iter().map(|kind| {

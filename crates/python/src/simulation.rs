@@ -305,7 +305,13 @@ impl Simulation {
     ) -> PyResult<(Bound<'py, PyBytes>, Bound<'py, PyBytes>, Vec<&'static str>, Bound<'py, PyBytes>, Vec<String>)> {
         let cells = self.without_lock(py, |inner| Ok(inner.simulation.cells()))?;
         let of = |values: &[u32]| bytes(py, values, u32::to_ne_bytes);
-        Ok((of(&cells.nodes)?, of(&cells.offsets)?, cells.kinds.iter().map(|kind| kind.facts().name).collect(), of(&cells.parts)?, cells.part_names.clone()))
+        Ok((
+            of(&cells.nodes)?,
+            of(&cells.offsets)?,
+            cells.kinds.iter().map(|kind| kind.facts().name).collect(),
+            of(&cells.parts)?,
+            cells.part_names.clone(),
+        ))
     }
 
     /// Of each mesh from a file or from memory: its name, and where its nodes are among those of the state (u32, the largest number: nowhere).

@@ -48,12 +48,9 @@ fn main() {
     }
     println!("in space, in cache: 1,000 hexahedra, 686 wedges, 750 tetrahedra");
     for kind in ELEMENTS_OF_SPACE {
-        let n = match kind.nodes {
-            8 => 10,
-            6 => 7,
-            _ => 5,
-        };
-        let patch = Patch::solid(kind.nodes, n);
+        let in_cube = kind.cell.facts().division.len() / kind.nodes();
+        let n = (1..).take_while(|n| n * n * n * in_cube <= 1000).last().unwrap_or(1);
+        let patch = Patch::solid(kind.cell, n);
         for law in FEW {
             if wanted(kind.name, law) {
                 measure(kind.name, law, &patch);

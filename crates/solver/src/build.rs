@@ -283,7 +283,7 @@ where
                 ));
                 continue;
             };
-            let element = part.element_in(D, group.nodes_per_element).map_or("", |kind| kind.name);
+            let element = part.element_in(D, group.kind).map_or("", |kind| kind.name);
             let viscosity = self.model.run.bulk_viscosity;
             let input = BlockInput {
                 area: part.area.unwrap_or(0.0),

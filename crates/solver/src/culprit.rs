@@ -25,7 +25,7 @@ where
     /// An element by group and number, with its part and place, in words.
     pub(crate) fn element_name(&self, g: usize, element: usize) -> String {
         let group = &self.mesh.groups[g];
-        let at = place(self.centre(group.cell(element)));
+        let at = place(self.centre(group.nodes_of(element)));
         format!("element {} of part \"{}\" {at}", group.user_elements[element], self.mesh.parts[group.part].name)
     }
 
@@ -50,7 +50,7 @@ where
     pub(crate) fn inverted(&self) -> Error {
         let (g, element) = self.most_inverted();
         let group = &self.mesh.groups[g];
-        let at = self.centre(group.cell(element)).to_vec();
+        let at = self.centre(group.nodes_of(element)).to_vec();
         let (part, element) = (self.mesh.parts[group.part].name.clone(), group.user_elements[element] as usize);
         Error::Inverted { part, element, at, time: self.time, step: self.step }
     }
@@ -62,7 +62,7 @@ where
             for (element, cell) in group.cells().enumerate().filter(|(element, _)| group.is_alive(*element)) {
                 let corners = <Dim<D>>::least_corner(cell, &self.positions).unwrap_or_else(|| {
                     let determinant = block.determinant(element, &self.positions);
-                    if cell.len() == 2 && determinant <= 0.0 { f64::NEG_INFINITY } else { determinant }
+                    if cell.kind.dimension() == 1 && determinant <= 0.0 { f64::NEG_INFINITY } else { determinant }
                 });
                 if corners < worst.0 {
                     worst = (corners, g, element);

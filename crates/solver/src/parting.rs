@@ -5,6 +5,7 @@
 
 use crate::hash::mixed;
 use crate::hashes::{self, CONTACT};
+use crate::mesh::cell::Cell;
 use crate::simulation::{Either, Simulation};
 use crate::step::System;
 use crate::tensor::Dim;
@@ -279,8 +280,8 @@ where
     for (&node, number) in system.mesh.parts[part].nodes.iter().zip(0..) {
         place[node as usize] = number;
     }
-    let of_cell = |(&user, cell): (&u32, &[u32])| {
-        let mut places: Vec<u32> = cell.iter().map(|&node| place[node as usize]).collect();
+    let of_cell = |(&user, cell): (&u32, Cell<'_>)| {
+        let mut places: Vec<u32> = cell.nodes.iter().map(|&node| place[node as usize]).collect();
         // Elements are stored from whichever of their corners came first.
         let lowest = (0..places.len()).min_by_key(|&corner| places[corner]).unwrap_or(0);
         places.rotate_left(lowest);

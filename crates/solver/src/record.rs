@@ -237,9 +237,9 @@ where
         }
         for (of_part, element) in places {
             let cell = groups[usize::from(of_part)].cell(element as usize);
-            cells.nodes.extend(cell.iter().map(|&node| system.mesh.user_nodes[node as usize]));
+            cells.nodes.extend(cell.nodes.iter().map(|&node| system.mesh.user_nodes[node as usize]));
             cells.offsets.push(cells.nodes.len() as u32);
-            cells.kinds.push(<Dim<D>>::cell_kind(cell.len()));
+            cells.kinds.push(cell.kind);
             cells.parts.push(index as u32);
         }
     }

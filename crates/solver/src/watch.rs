@@ -267,7 +267,7 @@ impl Watch {
             }
             let part = group.part;
             let mut note = |kind: &'static Message, element: usize, what: String| {
-                let at = place(system.centre(group.cell(element)));
+                let at = place(system.centre(group.nodes_of(element)));
                 let (name, user) = (&system.mesh.parts[part].name, group.user_elements[element]);
                 let text = || format!("element {user} of part \"{name}\" at {at} m has {what} at {:.6e} s", system.time);
                 found.entry((kind.code, part)).or_insert_with(|| (kind, 0, text())).1 += 1;

@@ -12,11 +12,11 @@ use crate::contact::springs::TangentSpace;
 use crate::contact::traces::Traces;
 use crate::contact_forces::ContactForces;
 use crate::error::Fault;
+use crate::mesh::cell::Cell;
 use crate::mesh::surface::Facet;
 use crate::mesh::surface::tributary::Tributary;
 use crate::mesh::{Mesh, Meshed};
 use crate::model::{self, Model};
-use crate::output::CellKind;
 use crate::rigid::Body;
 use crate::rigid::RigidMotion;
 use crate::tensor::{Dim, Space};
@@ -37,20 +37,20 @@ pub trait World<const D: usize>: Space<D> + Meshed<D> + Tributary<D> + TangentSp
     /// The cross product `spin` × `arm`; in the plane the spin is its third component.
     fn swept(spin: [f64; 3], arm: [f64; D]) -> [f64; D];
     /// Smallest Jacobian determinant of a cell, times that of its natural corner, over its corners (m², in space m³): positive in all of them where the cell is sound; `None` of lines.
-    fn least_corner(cell: &[u32], positions: &[[f64; D]]) -> Option<f64>;
+    fn least_corner(cell: Cell<'_>, positions: &[[f64; D]]) -> Option<f64>;
     /// That over the square (in space: the third power) of the longest side: 1 of squares and cubes, less of what is long, sheared or folded; lines have the best.
-    fn shape(cell: &[u32], positions: &[[f64; D]]) -> f64;
+    fn shape(cell: Cell<'_>, positions: &[[f64; D]]) -> f64;
     /// One over the height of a cell over a piece of its outside, 1/m: its length over the area, in space its area over the volume.
-    fn flatness(facet: Facet<D>, cell: &[u32], positions: &[[f64; D]]) -> f64
+    fn flatness(facet: Facet<D>, cell: Cell<'_>, positions: &[[f64; D]]) -> f64
     where
         Dim<D>: Meshed<D>;
     /// Length of a line, area of what has more corners; in space the volume of a cell; m, m², m³.
-    fn size(cell: &[u32], positions: &[[f64; D]]) -> f64;
+    fn size(cell: Cell<'_>, positions: &[[f64; D]]) -> f64;
     /// Largest and smallest principal logarithmic strain at the centre of a cell, from the positions at the start to those now: half the logarithms of the eigenvalues of FᵀF. Of a line
     /// its one strain twice.
-    fn strains(cell: &[u32], from: &[[f64; D]], to: &[[f64; D]]) -> [f64; 2];
+    fn strains(cell: Cell<'_>, from: &[[f64; D]], to: &[[f64; D]]) -> [f64; 2];
     /// The pieces of the outside that a cell alone would have: in the plane they run against its own direction; in the form in which surfaces have them.
-    fn facets(cell: &[u32]) -> Vec<Facet<D>>
+    fn facets(cell: Cell<'_>) -> Vec<Facet<D>>
     where
         Dim<D>: Meshed<D>;
     /// Pressure and shear stress of every node, Pa.
@@ -104,8 +104,6 @@ pub trait World<const D: usize>: Space<D> + Meshed<D> + Tributary<D> + TangentSp
     fn renew(builder: &mut Builder<'_, D>, contacts: &mut [Contact<D>])
     where
         Dim<D>: World<D>;
-    /// The shape of a cell of so many nodes.
-    fn cell_kind(nodes: usize) -> CellKind;
     /// The moment `arm` × `force`; in the plane its third component, and no other.
     fn moment(arm: [f64; D], force: [f64; D]) -> [f64; 3];
 }
@@ -155,6 +153,7 @@ pub fn axis(of: [f64; 3]) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::cell::CellKind;
 
     #[test]
     fn a_point_is_led_around_an_axis_on_its_circle() {
@@ -186,7 +185,8 @@ mod tests {
         where
             Dim<D>: World<D>,
         {
-            <Dim<D>>::shape(&(0..positions.len() as u32).collect::<Vec<_>>(), positions)
+            let kind = CellKind::of(D, positions.len()).unwrap();
+            <Dim<D>>::shape(kind.cell(&(0..positions.len() as u32).collect::<Vec<_>>()), positions)
         }
         assert_eq!(of(&[[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]]), 1.0);
         assert_eq!(of(&[[0.0, 0.0], [10.0, 0.0], [10.0, 1.0], [0.0, 1.0]]), 0.1);

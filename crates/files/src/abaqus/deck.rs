@@ -7,6 +7,7 @@ use super::element_kind::{self, ElementKind, Found};
 use super::text::{Block, Line, Text, folded, shown};
 use crate::abaqus::messages::{DECK_MESH, SYNTAX, UNKNOWN};
 use embate_solver::error::Fault;
+use embate_solver::mesh::cell::MOST_NODES;
 use std::collections::BTreeMap;
 
 /// A node in its place, in the file's unit.
@@ -17,27 +18,24 @@ pub(super) struct Node {
     pub(super) line: Line,
 }
 
-/// Nodes of the largest element.
-const MOST_NODES: usize = 8;
-
 /// An element of a body.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Element {
     pub(super) kind: &'static ElementKind,
     pub(super) tag: u64,
-    /// Indices of nodes; the first `kind.nodes` count.
+    /// Indices of nodes; as many count as its kind has.
     pub(super) nodes: [u32; MOST_NODES],
     pub(super) line: Line,
 }
 
 impl Element {
     pub(super) fn nodes(&self) -> &[u32] {
-        &self.nodes[..self.kind.nodes]
+        &self.nodes[..self.kind.nodes()]
     }
 
-    /// The nodes of a side (an edge, of a solid a face) from 0.
+    /// The nodes of a side from 0; see [`ElementKind::side`].
     pub(super) fn side(&self, side: usize) -> impl Iterator<Item = u32> {
-        self.kind.sides[side].iter().map(|&k| self.nodes[k])
+        self.kind.side(side).map(|corner| self.nodes[corner])
     }
 }
 
@@ -371,13 +369,13 @@ impl Deck {
         while let Some(&line) = lines.next() {
             let mut fields = text.fields(line);
             let mut last = line;
-            while fields.len() <= kind.nodes && text.goes_on(last) {
+            while fields.len() <= kind.nodes() && text.goes_on(last) {
                 let Some(&next) = lines.next() else { break };
                 fields.extend(text.fields(next));
                 last = next;
             }
-            if fields.len() != kind.nodes + 1 {
-                let message = format!("an element {} of {} numbers; it has a number and {} nodes", kind.name, fields.len(), kind.nodes);
+            if fields.len() != kind.nodes() + 1 {
+                let message = format!("an element {} of {} numbers; it has a number and {} nodes", kind.name, fields.len(), kind.nodes());
                 return Err(text.fault(&SYNTAX, line, message, "look at the type of the elements, and at the line"));
             }
             let tag = text.tag(line, fields[0], "the number of an element")?;

@@ -2,14 +2,14 @@
 //!
 //! Names are those of Abaqus and CalculiX. `deck.rs` looks types up; the import takes stress state and element from here.
 
+use embate_solver::mesh::cell::CellKind;
+
 /// A type that can be computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct ElementKind {
     pub(super) name: &'static str,
-    /// Number of nodes.
-    pub(super) nodes: usize,
-    /// The nodes of each side, from S1 on: edges in the plane, in space faces.
-    pub(super) sides: &'static [&'static [usize]],
+    /// Which kind of cell it is.
+    pub(super) cell: CellKind,
     /// Stress state of the part, as in the model file; empty: a solid.
     pub(super) state: &'static str,
     /// Element of the part, as in the model file.
@@ -27,18 +27,12 @@ const REDUCED: &str = "hourglass control by stiffness after Flanagan and Belytsc
 const BENT: &str = "no incompatible modes: an assumed strain keeps bending from locking";
 const SHELL: &str = "taken as a membrane in plane stress; bending out of the plane is not computed";
 
-const fn kind(name: &'static str, nodes: usize, state: &'static str, element: &'static str, differs: &'static str) -> ElementKind {
-    let sides = if nodes == 3 { TRIANGLE } else { QUADRILATERAL };
-    ElementKind { name, nodes, sides, state, element, shell: matches!(name.as_bytes()[0], b'S' | b'M'), differs }
+const fn kind(name: &'static str, cell: CellKind, state: &'static str, element: &'static str, differs: &'static str) -> ElementKind {
+    ElementKind { name, cell, state, element, shell: matches!(name.as_bytes()[0], b'S' | b'M'), differs }
 }
 
-const fn solid(name: &'static str, sides: &'static [&'static [usize]], element: &'static str, differs: &'static str) -> ElementKind {
-    let nodes = match sides.len() {
-        4 => 4,
-        5 => 6,
-        _ => 8,
-    };
-    ElementKind { name, nodes, sides, state: "", element, shell: false, differs }
+const fn solid(name: &'static str, cell: CellKind, element: &'static str, differs: &'static str) -> ElementKind {
+    ElementKind { name, cell, state: "", element, shell: false, differs }
 }
 
 impl ElementKind {
@@ -46,40 +40,53 @@ impl ElementKind {
     pub(super) fn dimension(&self) -> u8 {
         if self.state.is_empty() { 3 } else { 2 }
     }
-}
 
-const TRIANGLE: &[&[usize]] = &[&[0, 1], &[1, 2], &[2, 0]];
-const QUADRILATERAL: &[&[usize]] = &[&[0, 1], &[1, 2], &[2, 3], &[3, 0]];
-const TETRAHEDRON: &[&[usize]] = &[&[0, 1, 2], &[0, 3, 1], &[1, 3, 2], &[2, 3, 0]];
-const WEDGE: &[&[usize]] = &[&[0, 1, 2], &[3, 5, 4], &[0, 3, 4, 1], &[1, 4, 5, 2], &[2, 5, 3, 0]];
-const HEXAHEDRON: &[&[usize]] = &[&[0, 1, 2, 3], &[4, 7, 6, 5], &[0, 4, 5, 1], &[1, 5, 6, 2], &[2, 6, 7, 3], &[3, 7, 4, 0]];
+    /// Number of nodes.
+    pub(super) fn nodes(&self) -> usize {
+        self.cell.nodes()
+    }
+
+    /// How many sides it has: edges in the plane, in space faces.
+    pub(super) fn sides(&self) -> usize {
+        if self.dimension() == 3 { self.cell.facts().faces.len() } else { self.cell.facts().edges.len() }
+    }
+
+    /// Corners of a side: from 0, in the order of S1, S2, ...; those of a face run clockwise seen from
+    /// outside.
+    pub(super) fn side(&self, side: usize) -> impl Iterator<Item = usize> {
+        let (facts, is_face) = (self.cell.facts(), self.dimension() == 3);
+        let corners = if is_face { &facts.faces[side][..] } else { &facts.edges[side][..] };
+        let n = if is_face && corners[2] == corners[3] { 3 } else { corners.len() };
+        (0..n).map(move |k| usize::from(corners[if is_face { (n - k) % n } else { k }]))
+    }
+}
 
 /// One line a type.
 pub(super) static KINDS: &[ElementKind] = &[
-    kind("CPE3", 3, STRAIN, "tri3", ""),
-    kind("CPE4", 4, STRAIN, "quad4", ""),
-    kind("CPE4R", 4, STRAIN, "quad4_reduced", REDUCED),
-    kind("CPE4I", 4, STRAIN, "quad4_reduced_assumed_strain", BENT),
-    kind("CPS3", 3, STRESS, "tri3", ""),
-    kind("CPS4", 4, STRESS, "quad4", ""),
-    kind("CPS4R", 4, STRESS, "quad4_reduced", REDUCED),
-    kind("CPS4I", 4, STRESS, "quad4_reduced_assumed_strain", BENT),
-    kind("CAX3", 3, ROUND, "tri3", ""),
-    kind("CAX4", 4, ROUND, "quad4", ""),
-    kind("CAX4R", 4, ROUND, "quad4_reduced", REDUCED),
-    kind("CAX4I", 4, ROUND, "quad4_reduced_assumed_strain", BENT),
-    kind("S3", 3, STRESS, "tri3", SHELL),
-    kind("S3R", 3, STRESS, "tri3", SHELL),
-    kind("S4", 4, STRESS, "quad4", SHELL),
-    kind("S4R", 4, STRESS, "quad4_reduced", SHELL),
-    kind("M3D3", 3, STRESS, "tri3", ""),
-    kind("M3D4", 4, STRESS, "quad4", ""),
-    kind("M3D4R", 4, STRESS, "quad4_reduced", REDUCED),
-    solid("C3D4", TETRAHEDRON, "tet4", ""),
-    solid("C3D6", WEDGE, "wedge6", ""),
-    solid("C3D8", HEXAHEDRON, "hex8", ""),
-    solid("C3D8R", HEXAHEDRON, "hex8_reduced", REDUCED),
-    solid("C3D8I", HEXAHEDRON, "hex8_reduced_assumed_strain", BENT),
+    kind("CPE3", CellKind::Triangle, STRAIN, "tri3", ""),
+    kind("CPE4", CellKind::Quadrilateral, STRAIN, "quad4", ""),
+    kind("CPE4R", CellKind::Quadrilateral, STRAIN, "quad4_reduced", REDUCED),
+    kind("CPE4I", CellKind::Quadrilateral, STRAIN, "quad4_reduced_assumed_strain", BENT),
+    kind("CPS3", CellKind::Triangle, STRESS, "tri3", ""),
+    kind("CPS4", CellKind::Quadrilateral, STRESS, "quad4", ""),
+    kind("CPS4R", CellKind::Quadrilateral, STRESS, "quad4_reduced", REDUCED),
+    kind("CPS4I", CellKind::Quadrilateral, STRESS, "quad4_reduced_assumed_strain", BENT),
+    kind("CAX3", CellKind::Triangle, ROUND, "tri3", ""),
+    kind("CAX4", CellKind::Quadrilateral, ROUND, "quad4", ""),
+    kind("CAX4R", CellKind::Quadrilateral, ROUND, "quad4_reduced", REDUCED),
+    kind("CAX4I", CellKind::Quadrilateral, ROUND, "quad4_reduced_assumed_strain", BENT),
+    kind("S3", CellKind::Triangle, STRESS, "tri3", SHELL),
+    kind("S3R", CellKind::Triangle, STRESS, "tri3", SHELL),
+    kind("S4", CellKind::Quadrilateral, STRESS, "quad4", SHELL),
+    kind("S4R", CellKind::Quadrilateral, STRESS, "quad4_reduced", SHELL),
+    kind("M3D3", CellKind::Triangle, STRESS, "tri3", ""),
+    kind("M3D4", CellKind::Quadrilateral, STRESS, "quad4", ""),
+    kind("M3D4R", CellKind::Quadrilateral, STRESS, "quad4_reduced", REDUCED),
+    solid("C3D4", CellKind::Tetrahedron, "tet4", ""),
+    solid("C3D6", CellKind::Wedge, "wedge6", ""),
+    solid("C3D8", CellKind::Hexahedron, "hex8", ""),
+    solid("C3D8R", CellKind::Hexahedron, "hex8_reduced", REDUCED),
+    solid("C3D8I", CellKind::Hexahedron, "hex8_reduced_assumed_strain", BENT),
 ];
 
 /// What a type is.
@@ -137,16 +144,19 @@ mod tests {
     }
 
     #[test]
-    fn sides_of_solids_close_them_and_look_outwards() {
-        for kind in KINDS.iter().filter(|kind| kind.dimension() == 3) {
-            let mut edges: Vec<[usize; 2]> =
-                kind.sides.iter().flat_map(|side| (0..side.len()).map(|k| [side[k], side[(k + 1) % side.len()]])).collect();
-            edges.sort_unstable();
-            // Each edge once in either direction.
-            assert!(edges.windows(2).all(|pair| pair[0] != pair[1]), "{}", kind.name);
-            assert!(edges.iter().all(|&[a, b]| edges.binary_search(&[b, a]).is_ok()), "{}", kind.name);
-            assert_eq!(kind.sides.iter().flat_map(|side| side.iter()).max(), Some(&(kind.nodes - 1)));
-        }
+    fn sides_are_numbered_as_in_the_manual() {
+        // As the manual of CalculiX numbers the faces of its solid elements (those of Abaqus), with the nodes
+        // from 1.
+        let of = |name: &str| match named(name) {
+            Found::Body(kind) => (0..kind.sides()).map(|side| kind.side(side).map(|k| k + 1).collect()).collect::<Vec<Vec<usize>>>(),
+            _ => Vec::new(),
+        };
+        assert_eq!(of("CPE3"), [[1, 2], [2, 3], [3, 1]]);
+        assert_eq!(of("CPS4R"), [[1, 2], [2, 3], [3, 4], [4, 1]]);
+        assert_eq!(of("C3D4"), [[1, 2, 3], [1, 4, 2], [2, 4, 3], [3, 4, 1]]);
+        let wedge: [&[usize]; 5] = [&[1, 2, 3], &[4, 6, 5], &[1, 4, 5, 2], &[2, 5, 6, 3], &[3, 6, 4, 1]];
+        assert_eq!(of("C3D6"), wedge);
+        assert_eq!(of("C3D8"), [[1, 2, 3, 4], [5, 8, 7, 6], [1, 5, 6, 2], [2, 6, 7, 3], [3, 7, 8, 4], [4, 8, 5, 1]]);
     }
 
     #[test]

@@ -87,8 +87,8 @@ pub(super) fn mesh(deck: &Deck, text: &Text, scale: f64) -> Result<ImportedMesh,
     let cell = |element: &u32| {
         let element = &deck.elements[*element as usize];
         let mut nodes: Vec<u32> = element.nodes().iter().map(|&node| dense[node as usize]).collect();
-        if form::is_turned(dimension, &corners(deck, element)) {
-            form::turn(dimension, &mut nodes);
+        if form::is_turned(element.kind.cell, &corners(deck, element)) {
+            element.kind.cell.reflect(&mut nodes);
         }
         nodes
     };
@@ -130,7 +130,7 @@ fn corners(deck: &Deck, element: &Element) -> Vec<[f64; 3]> {
 fn check_volumes(deck: &Deck, text: &Text) -> Result<(), Vec<Fault>> {
     let mut faults = Faults::default();
     for element in deck.elements.iter().filter(|element| element.kind.dimension() == 3) {
-        if !(signed_volume(&corners(deck, element)).abs() > 0.0) {
+        if !(signed_volume(element.kind.cell, &corners(deck, element)).abs() > 0.0) {
             faults.add("elements without volume", || {
                 let message = format!("element {} has no volume", element.tag);
                 text.fault(&CELL, element.line, message, "its nodes lie in a plane, or not in order; mesh again")

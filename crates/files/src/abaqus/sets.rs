@@ -171,7 +171,7 @@ impl Deck {
                 if face.is_empty() {
                     let counts = counts.get_or_insert_with(|| self.side_counts());
                     let it = &self.elements[element as usize];
-                    let free = (0..it.kind.sides.len()).filter(|&side| counts.get(&key(it.side(side))) == Some(&1));
+                    let free = (0..it.kind.sides()).filter(|&side| counts.get(&key(it.side(side))) == Some(&1));
                     sides.extend(free.map(|side| (element, side as u8)));
                 } else {
                     sides.push((element, self.face(text, line, element, face)?));
@@ -189,12 +189,12 @@ impl Deck {
         let mut letters = face.chars();
         let letter = letters.next().map(|c| c.to_ascii_uppercase());
         let fits = matches!((letter, kind.shell), (Some('S' | 'P'), false) | (Some('E'), true));
-        let number = letters.as_str().parse::<u8>().ok().filter(|number| fits && (1..=kind.sides.len() as u8).contains(number));
+        let number = letters.as_str().parse::<u8>().ok().filter(|number| fits && (1..=kind.sides() as u8).contains(number));
         number.map(|number| number - 1).ok_or_else(|| {
             let letter = if kind.shell { 'E' } else { 'S' };
             let side = if kind.dimension() == 3 { "face" } else { "edge" };
             let message = format!("an element {} has no {side} {}", kind.name, shown(face));
-            text.fault(&SYNTAX, line, message, format!("its {side}s are {letter}1 to {letter}{}", kind.sides.len()))
+            text.fault(&SYNTAX, line, message, format!("its {side}s are {letter}1 to {letter}{}", kind.sides()))
         })
     }
 
@@ -202,7 +202,7 @@ impl Deck {
     fn side_counts(&self) -> BTreeMap<[u32; 4], u32> {
         let mut counts = BTreeMap::new();
         for element in &self.elements {
-            for side in 0..element.kind.sides.len() {
+            for side in 0..element.kind.sides() {
                 *counts.entry(key(element.side(side))).or_insert(0) += 1;
             }
         }

@@ -6,8 +6,8 @@ use super::faults::Faults;
 use super::form::{area, cross, cross_in_space};
 use super::mesh::{AGAIN, Cell, Nodes, described};
 use super::reader::Reader;
-use crate::gmsh::contents::MOST_NODES;
 use crate::gmsh::messages::CELL;
+use embate_solver::mesh::cell::{CellKind, MOST_NODES};
 use embate_solver::mesh::signed_volume;
 
 /// Area (volume), as a fraction of the square (cube) of an element's longest diagonal or side, below which it counts as none.
@@ -55,17 +55,17 @@ impl<'a> Check<'a> {
                 self.fault("lines without length", cell, message, "remove it, or merge the nodes and mesh again");
             }
             (2, 2) => {
-                let area = area(&x);
-                let n = x.len();
+                let area = area(cell.file.shape, &x);
+                let n = cell.file.shape.corners();
                 let turns_left = (0..n).filter(|&k| cross(x[k], x[(k + 1) % n], x[(k + 1) % n], x[(k + 2) % n]) > 0.0).count();
-                self.surface(cell, n == 4 && turns_left == 2, area, longest);
+                self.surface(cell, cell.file.shape == CellKind::Quadrilateral && turns_left == 2, area, longest);
             }
             (2, 3) => {
-                let (crosses, area) = of_space(&x);
+                let (crosses, area) = of_space(cell.file.shape, &x);
                 self.surface(cell, crosses, area, longest);
             }
             (3, _) => {
-                let volume = signed_volume(&x);
+                let volume = signed_volume(cell.file.shape, &x);
                 if volume.abs() <= NOTHING * longest * longest.sqrt() {
                     let message = || format!("has no volume ({volume:e} m³)");
                     let help = "its nodes lie in a plane, on one another, or not in order; mesh again";
@@ -114,14 +114,14 @@ impl<'a> Check<'a> {
 
 /// Whether the sides of a quadrilateral of space cross (seen along the normal at its first corner two corners turn each way), and the area of a
 /// triangle or quadrilateral, m².
-fn of_space(x: &[[f64; 3]]) -> (bool, f64) {
-    let n = x.len();
+fn of_space(kind: CellKind, x: &[[f64; 3]]) -> (bool, f64) {
+    let (n, is_quadrilateral) = (kind.corners(), kind == CellKind::Quadrilateral);
     let turn = |k: usize| cross_in_space(x[k], x[(k + 1) % n], x[(k + 1) % n], x[(k + 2) % n]);
     let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     let first = turn(0);
     let like_the_first = (0..n).filter(|&k| dot(first, turn(k)) > 0.0).count();
-    let twice = if n == 4 { cross_in_space(x[0], x[2], x[1], x[3]) } else { first };
-    (n == 4 && like_the_first == 2, 0.5 * dot(twice, twice).sqrt())
+    let twice = if is_quadrilateral { cross_in_space(x[0], x[2], x[1], x[3]) } else { first };
+    (is_quadrilateral && like_the_first == 2, 0.5 * dot(twice, twice).sqrt())
 }
 
 /// The nodes of a cell in ascending order, filled up with the largest number.

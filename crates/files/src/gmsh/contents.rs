@@ -6,10 +6,8 @@ use super::element_kind::ElementKind;
 use super::reader::{Least, Reader};
 use crate::gmsh::messages::{DAMAGED, ELEMENT_TYPE};
 use embate_solver::error::Fault;
+use embate_solver::mesh::cell::{CellKind, MOST_NODES};
 use std::collections::BTreeMap;
-
-/// Nodes of the largest cell, a hexahedron.
-pub(super) const MOST_NODES: usize = 8;
 
 /// A node as in the file.
 #[derive(Clone, Copy, Debug)]
@@ -25,6 +23,8 @@ pub(super) struct FileNode {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FileCell {
     pub(super) kind: &'static ElementKind,
+    /// The kind of cell that it becomes.
+    pub(super) shape: CellKind,
     /// Number in the file.
     pub(super) tag: u64,
     /// Node tags; the first `kind.nodes` count.
@@ -62,8 +62,8 @@ pub(super) struct Contents {
 impl Contents {
     /// Adds an element to each of the physical `groups` of its dimension. `nodes` is needed for cells only.
     pub(super) fn add_element(&mut self, kind: &'static ElementKind, tag: u64, groups: &[u64], nodes: [u64; MOST_NODES], at: usize) {
-        if kind.is_computed() {
-            let cell = FileCell { kind, tag, nodes, at };
+        if let Some(shape) = kind.cell() {
+            let cell = FileCell { kind, shape, tag, nodes, at };
             for &group in groups {
                 self.groups.entry((kind.dimension, group)).or_default().push(cell);
             }

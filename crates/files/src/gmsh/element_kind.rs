@@ -2,6 +2,8 @@
 //! can be stepped over in a binary file and named in a message. Source: "Node ordering" and "MSH file format" of the Gmsh reference
 //! manual; the numbers of nodes are those that Gmsh 4.15 reports for each type.
 
+use embate_solver::mesh::cell::CellKind;
+
 /// An element type of the format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct ElementKind {
@@ -21,9 +23,9 @@ impl ElementKind {
         KINDS.binary_search_by_key(&number, |kind| kind.number).ok().map(|index| &KINDS[index])
     }
 
-    /// Whether it can become a cell: a point, or a line, triangle, quadrilateral, tetrahedron, hexahedron or prism with nodes at its corners only.
-    pub(super) fn is_computed(&self) -> bool {
-        matches!(self.number, POINT | LINE | TRIANGLE | QUADRILATERAL | TETRAHEDRON | HEXAHEDRON | PRISM)
+    /// The kind of cell that it becomes; `None`: it can't be computed.
+    pub(super) fn cell(&self) -> Option<CellKind> {
+        CellKind::of_gmsh(self.number)
     }
 
     /// Whether it is a pyramid, for which there is no element, of whatever order.
@@ -31,14 +33,6 @@ impl ElementKind {
         self.name.ends_with("pyramid")
     }
 }
-
-const LINE: i64 = 1;
-const TRIANGLE: i64 = 2;
-const QUADRILATERAL: i64 = 3;
-const TETRAHEDRON: i64 = 4;
-const HEXAHEDRON: i64 = 5;
-const PRISM: i64 = 6;
-const POINT: i64 = 15;
 
 const fn kind(number: i64, name: &'static str, dimension: u8, nodes: usize) -> ElementKind {
     ElementKind { number, name, dimension, nodes }
@@ -173,8 +167,12 @@ mod tests {
 
     #[test]
     fn only_cells_with_nodes_at_their_corners_are_computed_and_no_pyramids() {
-        let cells: Vec<_> = KINDS.iter().filter(|kind| kind.is_computed()).map(|kind| (kind.dimension, kind.nodes)).collect();
-        assert_eq!(cells, [(1, 2), (2, 3), (2, 4), (3, 4), (3, 8), (3, 6), (0, 1)]);
-        assert!(KINDS.iter().all(|kind| !(kind.is_computed() && kind.is_pyramid())));
+        let computed: Vec<_> = KINDS.iter().filter(|kind| kind.cell().is_some()).collect();
+        assert_eq!(computed.iter().map(|kind| kind.number).collect::<Vec<_>>(), [1, 2, 3, 4, 5, 6, 15]);
+        for kind in &computed {
+            let cell = kind.cell().unwrap();
+            assert_eq!((cell.dimension(), cell.nodes(), cell.corners()), (kind.dimension.into(), kind.nodes, kind.nodes), "{}", kind.name);
+        }
+        assert!(!computed.iter().any(|kind| kind.is_pyramid()));
     }
 }

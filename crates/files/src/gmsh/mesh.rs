@@ -3,12 +3,13 @@
 //! [`super::parse`] calls [`mesh`] once the whole file is read; what comes out goes into the model.
 
 use super::check::Check;
-use super::contents::{Contents, FileCell, FileNode, GroupKey, MOST_NODES, Occurrence};
+use super::contents::{Contents, FileCell, FileNode, GroupKey, Occurrence};
 use super::faults::Faults;
 use super::form;
 use super::reader::Reader;
 use crate::gmsh::messages::{ELEMENT_TYPE, NODE, PHYSICAL_GROUP};
 use embate_solver::error::Fault;
+use embate_solver::mesh::cell::MOST_NODES;
 use embate_solver::model::{ImportedMesh, MeshGroup};
 use std::collections::BTreeMap;
 
@@ -255,9 +256,8 @@ impl<'a> Nodes<'a> {
         }
         let oriented = |cell: &Cell| {
             let mut nodes: Vec<u32> = cell.nodes().iter().map(|&node| dense[node as usize]).collect();
-            let dimension = cell.file.kind.dimension;
-            if dimension == self.dimension && form::is_turned(dimension, &self.corners(cell)) {
-                form::turn(dimension, &mut nodes);
+            if cell.file.kind.dimension == self.dimension && form::is_turned(cell.file.shape, &self.corners(cell)) {
+                cell.file.shape.reflect(&mut nodes);
             }
             nodes
         };

@@ -6,6 +6,7 @@ use super::Failed;
 use super::page::shown;
 use crate::model_file::Loaded;
 use embate_solver::error::Error;
+use embate_solver::mesh::cell::CellKind;
 use embate_solver::model::describe::{self, Need};
 use embate_solver::model::{ContactLaw, Drive, Formulation, Interface, Load, Model, Penalty};
 use embate_solver::post_mortem::{Acting, Culprit, Moment, Trace};
@@ -234,7 +235,7 @@ impl<'a> Case<'a> {
                 all.push(Advice::new(format!("material.{}.failure.time_step", part.material), what));
             }
         }
-        if part.element == "quad4_reduced" && self.trace.near.cells.first().is_some_and(|cell| cell.nodes.len() == 4) {
+        if part.element == "quad4_reduced" && self.trace.near.cells.first().is_some_and(|cell| cell.kind == CellKind::Quadrilateral) {
             let what = "try `quad4`: elements with one point fold into zigzags that nothing but hourglass control resists";
             all.push(Advice::new(format!("part[{index}].element"), what));
         }

@@ -1,6 +1,7 @@
 //! Bodies to measure with: a patch in a given motion for the kernels alone, a spinning block for whole steps, a stack of strips for contact.
 
 use crate::material;
+use crate::mesh::cell::CellKind;
 use crate::model::{Cuboid, Material, Model, Output, Part, Rectangle, Run, Shape};
 
 /// Parameters of any law: steel that flows at once and hardens strongly; rubbers and orthotropic bodies of its stiffness.
@@ -71,29 +72,21 @@ pub struct Patch<const D: usize = 2> {
 }
 
 impl Patch<3> {
-    /// `n` × `n` × `n` cells of 1 mm: one hexahedron each, two wedges or six tetrahedra, by the nodes of an element.
+    /// `n` × `n` × `n` cubes of 1 mm, each divided into cells of a kind: one hexahedron, two wedges or six
+    /// tetrahedra.
     #[must_use]
-    pub fn solid(nodes: usize, n: usize) -> Self {
-        const HEXAHEDRON: [usize; 8] = [0, 1, 2, 3, 4, 5, 6, 7];
-        const WEDGES: [usize; 12] = [0, 1, 2, 4, 5, 6, 0, 2, 3, 4, 6, 7];
-        // Around the diagonal from corner 0 to corner 6.
-        const TETRAHEDRA: [usize; 24] = [0, 1, 2, 6, 0, 2, 3, 6, 0, 3, 7, 6, 0, 7, 4, 6, 0, 4, 5, 6, 0, 5, 1, 6];
+    pub fn solid(kind: CellKind, n: usize) -> Self {
         let side = n + 1;
         let place = |k: usize| [k % side, k / side % side, k / (side * side)].map(|i| i as f64 * 1e-3);
         let positions: Vec<[f64; 3]> = (0..side * side * side).map(place).collect();
         let velocities = positions.iter().map(|[x, y, z]| [100.0 * y + 20.0 * x, 60.0 * z - 80.0 * x + 5.0 * y, 10.0 * z - 50.0 * y]);
-        let corners: &[usize] = match nodes {
-            8 => &HEXAHEDRON,
-            6 => &WEDGES,
-            _ => &TETRAHEDRA,
-        };
         let cells = (0..n * n * n).flat_map(|cell| {
             let first = (cell / (n * n) * side + cell / n % n) * side + cell % n;
             let node = move |corner: usize| {
                 let [i, j, k] = [usize::from(matches!(corner % 4, 1 | 2)), corner % 4 / 2, corner / 4];
                 (first + (k * side + j) * side + i) as u32
             };
-            corners.iter().map(move |&corner| node(corner))
+            kind.facts().division.iter().map(move |&corner| node(usize::from(corner)))
         });
         Self { velocities: velocities.collect(), connectivity: cells.collect(), positions }
     }

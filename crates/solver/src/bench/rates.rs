@@ -174,7 +174,7 @@ mod tests {
     #[test]
     fn every_element_of_space_can_be_measured_in_a_kernel() {
         for kind in crate::element::ELEMENTS_OF_SPACE {
-            let patch = Patch::solid(kind.nodes, 3);
+            let patch = Patch::solid(kind.cell, 3);
             let rate = kernel(kind.name, "j2", &patch, Level::best(), 0.0).unwrap();
             assert!(rate.is_finite() && rate > 0.0, "{}", kind.name);
         }

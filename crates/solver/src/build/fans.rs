@@ -22,7 +22,7 @@ pub(super) struct Under {
 pub(crate) struct Fans(Rows<u32>);
 
 impl Fans {
-    /// Of the elements that have a surface.
+    /// Of the continuum elements.
     pub(super) fn of<const D: usize>(mesh: &Mesh<D>) -> Self
     where
         Dim<D>: World<D>,
@@ -32,9 +32,9 @@ impl Fans {
             *next += group.elements() as u32;
             Some(first)
         });
-        let groups = mesh.groups.iter().zip(firsts).filter(|(group, _)| group.has_surface());
+        let groups = mesh.groups.iter().zip(firsts).filter(|(group, _)| group.is_continuum(D));
         let cells = groups.flat_map(|(group, first)| (first..).zip(group.cells()));
-        Self(Rows::new(mesh.positions.len(), cells.flat_map(|(number, cell)| cell.iter().map(move |&node| (node, number)))))
+        Self(Rows::new(mesh.positions.len(), cells.flat_map(|(number, cell)| cell.nodes.iter().map(move |&node| (node, number)))))
     }
 
     /// Group and element behind a piece of the outside.

@@ -77,7 +77,7 @@ where
         own.iter().for_each(|&node| (sums[node as usize], is_own[node as usize]) = (0.0, true));
         for (group, block) in mesh.groups.iter().zip(blocks).filter(|(group, _)| group.part == part) {
             for (element, cell) in group.cells().enumerate() {
-                for (corner, &node) in cell.iter().enumerate() {
+                for (corner, &node) in cell.nodes.iter().enumerate() {
                     sums[node as usize] += block.corner_mass(element, corner);
                 }
             }

@@ -55,7 +55,8 @@ impl Builder<'_, 2> {
             let of = |node: u32| surface.nodes.binary_search(&node).map_or(0.0, |at| nodes[at].stiffness);
             segments = surface.segments.iter().map(|&[a, b]| 0.5 * (of(a) + of(b))).collect();
         }
-        let cell = |&segment: &[u32; 2]| self.under(segment).map_or(&[][..], |under| self.mesh.groups[under.group].cell(under.element));
+        let cell =
+            |&segment: &[u32; 2]| self.under(segment).map_or(&[][..], |under| self.mesh.groups[under.group].cell(under.element).corners());
         let cells = surface.segments.iter().map(cell).collect();
         let parts = surface
             .segments

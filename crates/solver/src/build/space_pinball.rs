@@ -17,7 +17,7 @@ impl Builder<'_, 3> {
         let mirrors = self.mirrors_of(contact, &surfaces[0].nodes, &nodes);
         let layers = surfaces.iter().map(|surface| {
             let Sided { facets: stiffness, .. } = self.sided(surface, &contact.interface);
-            let cell = |&facet: &[u32; 4]| self.under(facet).map_or(&[][..], |under| self.mesh.groups[under.group].cell(under.element));
+            let cell = |&facet: &[u32; 4]| self.under(facet).map(|under| self.mesh.groups[under.group].cell(under.element));
             Layer { surface, cells: surface.facets.iter().map(cell).collect(), stiffness }
         });
         let layers: Vec<Layer<'_>> = layers.collect();

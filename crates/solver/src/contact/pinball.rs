@@ -174,10 +174,10 @@ mod tests {
     use crate::mesh::surface::Surface;
 
     fn disks_of(body: &Body) -> Vec<Disk> {
-        let surface = Surface::<2>::outside(body.quads.iter().map(<[u32; 4]>::as_slice)).unwrap();
+        let surface = Surface::<2>::outside(body.cells()).unwrap();
         let cell = |segment: &[u32; 2]| {
-            let quad = body.quads.iter().find(|quad| (0..4).any(|k| [quad[(k + 1) % 4], quad[k]] == *segment));
-            quad.unwrap().as_slice()
+            let quad = body.cells().find(|quad| quad.edges().any(|[a, b]| [b, a] == *segment));
+            quad.unwrap().nodes
         };
         let cells = surface.segments.iter().map(cell).collect();
         let side =

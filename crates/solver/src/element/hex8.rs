@@ -15,6 +15,7 @@
 
 use super::stiffest::{Metric, stiffest};
 use super::{Element, ElementKind, ElementOptions, Map};
+use crate::mesh::cell::CellKind;
 use crate::tensor::Matrix;
 use embate_lanes::Lane;
 
@@ -129,8 +130,10 @@ impl Element<3, 8, 8> for Hex8 {
         name: "hex8",
         doc: "eight-node hexahedron, 2 x 2 x 2 points, mean dilatation; no locking in plastic flow or rubber",
         source: "Hughes, The Finite Element Method (1987), 3.5 and 4.5",
-        nodes: 8,
+        cell: CellKind::Hexahedron,
         dimension: 3,
+        extruded: None,
+        is_default: false,
     };
     const POINTS: [[f64; 3]; 8] = POINTS;
     const WEIGHTS: [f64; 8] = [1.0; 8];

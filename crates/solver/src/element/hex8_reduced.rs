@@ -28,6 +28,7 @@ use super::hex8::{self, Hex8, Parts};
 use super::hex8_assumed_strain::{self, bend};
 use super::stiffest::{Metric, stiffest};
 use super::{Corners, Element, ElementKind, ElementOptions, Held, Map, PATTERNS, Pulls};
+use crate::mesh::cell::CellKind;
 use crate::tensor::{Dim, Matrix, Space, cross, dot, scaled};
 use embate_lanes::{Batch, Lane};
 
@@ -323,8 +324,10 @@ reduced!(
         name: "hex8_reduced",
         doc: "eight-node hexahedron, one point, hourglass control by stiffness (coefficient 0.05)",
         source: "Flanagan and Belytschko, Int. J. Numer. Meth. Engng 17 (1981) 679-706",
-        nodes: 8,
+        cell: CellKind::Hexahedron,
         dimension: 3,
+        extruded: None,
+        is_default: false,
     }
 );
 
@@ -337,8 +340,10 @@ reduced!(
         name: "hex8_reduced_viscous",
         doc: "eight-node hexahedron, one point, hourglass control by damping (coefficient 0.05): for high rates; shapes that are there remain",
         source: "Flanagan and Belytschko, Int. J. Numer. Meth. Engng 17 (1981) 679-706",
-        nodes: 8,
+        cell: CellKind::Hexahedron,
         dimension: 3,
+        extruded: None,
+        is_default: false,
     }
 );
 
@@ -351,8 +356,10 @@ reduced!(
         name: "hex8_reduced_assumed_strain",
         doc: "eight-node hexahedron, one point, hourglass control by assumed strain (coefficient 1): right in elastic bending with one element through the thickness",
         source: "Belytschko and Bindeman, Comput. Meth. Appl. Mech. Engng 105 (1993) 225-260 (ASQBI)",
-        nodes: 8,
+        cell: CellKind::Hexahedron,
         dimension: 3,
+        extruded: None,
+        is_default: false,
     }
 );
 

@@ -22,6 +22,7 @@ pub use tet4::{Tet4, Tet4Anp};
 pub use tri3::{Tri3, Tri3Anp};
 pub use wedge6::Wedge6;
 
+use crate::mesh::cell::CellKind;
 use crate::tensor::{Dim, Matrix, Space};
 use embate_lanes::{Batch, Lane};
 
@@ -34,10 +35,28 @@ pub struct ElementKind {
     pub doc: &'static str,
     /// Where its equations come from.
     pub source: &'static str,
-    /// Nodes per element.
-    pub nodes: usize,
-    /// 2 in the plane, 3 in space.
+    /// Which kind of cell it is.
+    pub cell: CellKind,
+    /// Of the models that it is for: 2 in the plane (bars: in space too), 3 in space.
     pub dimension: usize,
+    /// Name of the element that takes its place where a part of it is extruded or revolved, if there is one.
+    pub extruded: Option<&'static str>,
+    /// Whether it is taken for the cells of its kind where a part names no element for them.
+    pub is_default: bool,
+}
+
+impl ElementKind {
+    /// Nodes per element.
+    #[must_use]
+    pub const fn nodes(&self) -> usize {
+        self.cell.nodes()
+    }
+
+    /// Whether `element_triangles` of a part names it.
+    #[must_use]
+    pub const fn is_triangle(&self) -> bool {
+        matches!(self.cell, CellKind::Triangle)
+    }
 }
 
 /// An element of dimension `D` with `N` nodes and `P` quadrature points. The functions must be `#[inline(always)]`.
@@ -276,6 +295,8 @@ where
 /// The registry: by dimension one line per element, with its nodes and points.
 macro_rules! elements {
     ($($dimension:literal { $($element:ident: $nodes:literal nodes, $points:literal points),* $(,)? })*) => {
+        $($(const _: () = assert!(<$element as Element<$dimension, $nodes, $points>>::KIND.nodes() == $nodes);)*)*
+
         $(impl Registered<$dimension> for Dim<$dimension> {
             const ELEMENTS: &'static [ElementKind] = &[$(<$element as Element<$dimension, $nodes, $points>>::KIND),*];
 

@@ -12,6 +12,7 @@
 //! Source: Hughes, The Finite Element Method (1987), 3.2 and 4.5 (mean dilatation).
 
 use super::{Element, ElementKind, ElementOptions, Map};
+use crate::mesh::cell::CellKind;
 use crate::tensor::Matrix;
 use embate_lanes::Lane;
 
@@ -128,8 +129,10 @@ quadrilateral!(
         name: "quad4",
         doc: "four-node quadrilateral, 2 x 2 points, mean dilatation; the default: no locking in plastic flow or rubber",
         source: "Hughes, The Finite Element Method (1987), 4.5; the paper's 4-node linear isoparametric",
-        nodes: 4,
+        cell: CellKind::Quadrilateral,
         dimension: 2,
+        extruded: Some("hex8"),
+        is_default: false,
     }
 );
 
@@ -141,7 +144,9 @@ quadrilateral!(
         name: "quad4_full",
         doc: "four-node quadrilateral, 2 x 2 points, full integration; locks in plastic flow and rubber: for teaching and comparison only",
         source: "Hughes, The Finite Element Method (1987), 3.2",
-        nodes: 4,
+        cell: CellKind::Quadrilateral,
         dimension: 2,
+        extruded: None,
+        is_default: false,
     }
 );

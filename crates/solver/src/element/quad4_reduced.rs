@@ -24,6 +24,7 @@
 
 use super::quad4::{Quad4Full, distance_squared, shape};
 use super::{Corners, Element, ElementKind, ElementOptions, Held, Map, PATTERNS, Pulls};
+use crate::mesh::cell::CellKind;
 use crate::tensor::{Dim, Matrix, Space, scaled};
 use embate_lanes::{Batch, Lane};
 use std::f64::consts::{SQRT_2, TAU};
@@ -398,8 +399,10 @@ reduced!(
         name: "quad4_reduced",
         doc: "four-node quadrilateral, one point, hourglass control by stiffness (coefficient 0.05)",
         source: "Flanagan and Belytschko, Int. J. Numer. Meth. Engng 17 (1981) 679-706",
-        nodes: 4,
+        cell: CellKind::Quadrilateral,
         dimension: 2,
+        extruded: Some("hex8_reduced"),
+        is_default: false,
     }
 );
 
@@ -412,8 +415,10 @@ reduced!(
         name: "quad4_reduced_viscous",
         doc: "four-node quadrilateral, one point, hourglass control by damping (coefficient 0.05): for high rates; shapes that are there remain",
         source: "Flanagan and Belytschko, Int. J. Numer. Meth. Engng 17 (1981) 679-706",
-        nodes: 4,
+        cell: CellKind::Quadrilateral,
         dimension: 2,
+        extruded: Some("hex8_reduced_viscous"),
+        is_default: false,
     }
 );
 
@@ -426,7 +431,9 @@ reduced!(
         name: "quad4_reduced_assumed_strain",
         doc: "four-node quadrilateral, one point, hourglass control by assumed strain (coefficient 1): right in elastic bending with one element through the thickness",
         source: "Belytschko and Bindeman, Comput. Meth. Appl. Mech. Engng 88 (1991) 311-340 (ASQBI)",
-        nodes: 4,
+        cell: CellKind::Quadrilateral,
         dimension: 2,
+        extruded: Some("hex8_reduced_assumed_strain"),
+        is_default: false,
     }
 );

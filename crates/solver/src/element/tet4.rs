@@ -13,6 +13,7 @@
 
 use super::stiffest::{Metric, stiffest};
 use super::{Element, ElementKind, ElementOptions, Map};
+use crate::mesh::cell::CellKind;
 use crate::tensor::Matrix;
 use embate_lanes::Lane;
 
@@ -70,8 +71,10 @@ tetrahedron!(
         name: "tet4",
         doc: "four-node tetrahedron, one point; stiff in bending, locks in plastic flow and rubber",
         source: "Hughes, The Finite Element Method (1987), 3.I",
-        nodes: 4,
+        cell: CellKind::Tetrahedron,
         dimension: 3,
+        extruded: None,
+        is_default: true,
     }
 );
 
@@ -83,8 +86,10 @@ tetrahedron!(
         name: "tet4_anp",
         doc: "four-node tetrahedron, one point, pressure averaged over the nodes: for tetrahedra in plastic flow and rubber",
         source: "Bonet and Burton, Commun. Numer. Meth. Engng 14 (1998) 437-449",
-        nodes: 4,
+        cell: CellKind::Tetrahedron,
         dimension: 3,
+        extruded: None,
+        is_default: false,
     }
 );
 

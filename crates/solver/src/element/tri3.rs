@@ -11,6 +11,7 @@
 
 use super::quad4::distance_squared;
 use super::{Element, ElementKind, ElementOptions, Map};
+use crate::mesh::cell::CellKind;
 use crate::tensor::Matrix;
 use embate_lanes::Lane;
 use std::f64::consts::TAU;
@@ -73,8 +74,10 @@ triangle!(
         name: "tri3",
         doc: "three-node triangle, one point; stiff in bending, locks in plastic flow and rubber",
         source: "Hughes, The Finite Element Method (1987), 3.I",
-        nodes: 3,
+        cell: CellKind::Triangle,
         dimension: 2,
+        extruded: Some("wedge6"),
+        is_default: false,
     }
 );
 
@@ -86,8 +89,10 @@ triangle!(
         name: "tri3_anp",
         doc: "three-node triangle, one point, pressure averaged over the nodes: for triangles in plastic flow and rubber",
         source: "Bonet and Burton, Commun. Numer. Meth. Engng 14 (1998) 437-449",
-        nodes: 3,
+        cell: CellKind::Triangle,
         dimension: 2,
+        extruded: Some("wedge6"),
+        is_default: false,
     }
 );
 

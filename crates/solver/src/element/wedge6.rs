@@ -17,6 +17,7 @@
 
 use super::stiffest::{Metric, stiffest};
 use super::{Element, ElementKind, ElementOptions, Map};
+use crate::mesh::cell::CellKind;
 use crate::tensor::Matrix;
 use embate_lanes::Lane;
 
@@ -33,8 +34,10 @@ impl Element<3, 6, 6> for Wedge6 {
         name: "wedge6",
         doc: "six-node wedge, 3 x 2 points, mean dilatation: where hexahedra do not fit",
         source: "Hughes, The Finite Element Method (1987), 3.I and 4.5",
-        nodes: 6,
+        cell: CellKind::Wedge,
         dimension: 3,
+        extruded: None,
+        is_default: true,
     };
     const POINTS: [[f64; 3]; 6] = [[S, S, -G], [T, S, -G], [S, T, -G], [S, S, G], [T, S, G], [S, T, G]];
     const WEIGHTS: [f64; 6] = [S; 6];

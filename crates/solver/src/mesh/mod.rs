@@ -18,6 +18,7 @@ use crate::mesh::messages::{BAD_ELEMENT, GROUP, TOO_MANY};
 use crate::model::messages::{NOTHING, UNKNOWN_NAME};
 use crate::model::{ImportedMesh, Model, Part, Shape, Sweep};
 use crate::tensor::Dim;
+use cell::{Cell, CellKind, MOST_NODES};
 use shapes::Body;
 use shapes::sweep::SweptMesh;
 use std::collections::BTreeMap;
@@ -53,42 +54,48 @@ pub struct PartMesh {
     pub nodes: Vec<u32>,
 }
 
-/// The elements of one part that have the same number of nodes: what a block is made of.
-#[derive(Clone, Debug, Default, PartialEq)]
+/// The elements of one part that are the same kind of cell: what a block is made of.
+#[derive(Clone, Debug, PartialEq)]
 pub struct ElementGroup {
     /// Index of the part.
     pub part: usize,
-    /// Nodes per element.
-    pub nodes_per_element: usize,
-    /// Node indices, `nodes_per_element` per element: counter-clockwise in the plane; in space the lower ones counter-clockwise seen from the upper ones, then those.
+    /// Which kind of cell they are.
+    pub kind: CellKind,
+    /// Node indices, as many per element as its kind has.
     pub connectivity: Vec<u32>,
-    /// The user's number of each element: its place in the part as it was made or read, whatever its number of nodes.
+    /// The user's number of each element: its place in the part as it was made or read, whatever its kind.
     pub user_elements: Vec<u32>,
     /// Whether each element has been eroded: then it is no part of surfaces and bodies. Empty while all are there.
     pub eroded: Vec<bool>,
 }
 
 impl ElementGroup {
+    /// No elements yet.
+    fn new(part: usize, kind: CellKind) -> Self {
+        Self { part, kind, connectivity: Vec::new(), user_elements: Vec::new(), eroded: Vec::new() }
+    }
+
     /// Number of elements.
     #[must_use]
     pub fn elements(&self) -> usize {
         self.user_elements.len()
     }
 
-    /// Nodes of each element.
-    pub fn cells(&self) -> impl Iterator<Item = &[u32]> + Clone {
-        self.connectivity.chunks_exact(self.nodes_per_element)
+    /// Each element.
+    pub fn cells(&self) -> impl Iterator<Item = Cell<'_>> + Clone {
+        self.kind.cells(&self.connectivity)
     }
 
-    /// Nodes of each element that has not been eroded.
-    pub fn live_cells(&self) -> impl Iterator<Item = &[u32]> + Clone {
+    /// Each element that has not been eroded.
+    pub fn live_cells(&self) -> impl Iterator<Item = Cell<'_>> + Clone {
         self.cells().enumerate().filter(|(element, _)| self.is_alive(*element)).map(|(_, cell)| cell)
     }
 
-    /// Whether its elements have an area (in space a volume), and so a surface: bars have none.
+    /// Whether its elements are continuum elements in so many dimensions, which together bound a body:
+    /// surfaces in 2D, volumes in 3D; no bars.
     #[must_use]
-    pub fn has_surface(&self) -> bool {
-        self.nodes_per_element > 2
+    pub fn is_continuum(&self, dimension: usize) -> bool {
+        self.kind.dimension() == dimension
     }
 
     /// Whether an element has not been eroded.
@@ -103,10 +110,17 @@ impl ElementGroup {
         self.eroded[element] = true;
     }
 
+    /// An element.
+    #[must_use]
+    pub fn cell(&self, element: usize) -> Cell<'_> {
+        self.kind.cell(self.nodes_of(element))
+    }
+
     /// Nodes of an element.
     #[must_use]
-    pub fn cell(&self, element: usize) -> &[u32] {
-        &self.connectivity[element * self.nodes_per_element..][..self.nodes_per_element]
+    pub fn nodes_of(&self, element: usize) -> &[u32] {
+        let nodes = self.kind.nodes();
+        &self.connectivity[element * nodes..][..nodes]
     }
 }
 
@@ -120,7 +134,7 @@ where
     pub positions: Vec<[f64; D]>,
     /// Parts in model order.
     pub parts: Vec<PartMesh>,
-    /// Elements: part by part, of each part those with the most nodes first.
+    /// Elements: part by part, of each part those of the kind with the most nodes first.
     pub groups: Vec<ElementGroup>,
     /// The user's number of each node: its place in the parts as they were made or read.
     pub user_nodes: Vec<u32>,
@@ -209,18 +223,18 @@ where
     }
 
     /// Adds the elements of the part that comes next, in the user's order; `number` is the mesh's number of a node.
-    fn add_elements<'c>(&mut self, cells: impl Iterator<Item = &'c [u32]>, number: impl Fn(&u32) -> u32) {
+    fn add_elements<'c>(&mut self, cells: impl Iterator<Item = Cell<'c>>, number: impl Fn(&u32) -> u32) {
         let part = self.parts.len();
         let mut groups: Vec<ElementGroup> = Vec::new();
         for (user, cell) in (0..).zip(cells) {
-            let at = groups.iter().position(|group| group.nodes_per_element == cell.len()).unwrap_or_else(|| {
-                groups.push(ElementGroup { part, nodes_per_element: cell.len(), ..ElementGroup::default() });
+            let at = groups.iter().position(|group| group.kind == cell.kind).unwrap_or_else(|| {
+                groups.push(ElementGroup::new(part, cell.kind));
                 groups.len() - 1
             });
-            groups[at].connectivity.extend(cell.iter().map(&number));
+            groups[at].connectivity.extend(cell.nodes.iter().map(&number));
             groups[at].user_elements.push(user);
         }
-        groups.sort_by_key(|group| std::cmp::Reverse(group.nodes_per_element));
+        groups.sort_by_key(|group| std::cmp::Reverse((group.kind.nodes(), group.kind)));
         self.groups.extend(groups);
     }
 
@@ -248,7 +262,7 @@ where
             }
         }
         let number = |node: &u32| numbers[*node as usize];
-        self.add_elements(group.cells.iter().map(Vec::as_slice), number);
+        self.add_elements(group.elements().flatten(), number);
         self.parts.push(PartMesh { name: part.name.clone(), nodes: sorted(group.cells.iter().flatten().map(number)) });
     }
 
@@ -293,9 +307,10 @@ where
         self.groups_of(part).map(ElementGroup::elements).sum()
     }
 
-    /// Nodes of each element with a surface of the parts (all when `parts` is empty) that has not been eroded.
-    fn cells(&self, parts: &[String]) -> impl Iterator<Item = &[u32]> + Clone {
-        let is_of = move |group: &&ElementGroup| group.has_surface() && (parts.is_empty() || parts.contains(&self.parts[group.part].name));
+    /// Each continuum element of the parts (all when `parts` is empty) that has not been eroded.
+    fn cells(&self, parts: &[String]) -> impl Iterator<Item = Cell<'_>> + Clone {
+        let is_of =
+            move |group: &&ElementGroup| group.is_continuum(D) && (parts.is_empty() || parts.contains(&self.parts[group.part].name));
         self.groups.iter().filter(is_of).flat_map(ElementGroup::live_cells)
     }
 
@@ -326,7 +341,7 @@ where
         let Some(PartMesh { name, .. }) = self.parts.get(part) else { return };
         let cells = self.groups_of(part).flat_map(|group| group.user_elements.iter().zip(group.cells()));
         let mut bad: Vec<(u32, &[u32], [&str; 2])> =
-            cells.filter_map(|(&user, cell)| Some((user, cell, self.what_is_wrong_with(cell)?))).collect();
+            cells.filter_map(|(&user, cell)| Some((user, cell.nodes, self.what_is_wrong_with(cell)?))).collect();
         bad.sort_unstable();
         for &(user, cell, [wrong, help]) in bad.iter().take(TOLD) {
             let place = self.positions[cell[0] as usize].map(|x| format!("{x:.6e}")).join(", ");
@@ -347,10 +362,10 @@ where
     }
 
     /// What is wrong with the form of an element, if anything, and what to do about it.
-    fn what_is_wrong_with(&self, cell: &[u32]) -> Option<[&'static str; 2]> {
-        let mut corners = [[0.0; D]; 8];
-        cell.iter().zip(&mut corners).for_each(|(&node, corner)| *corner = self.positions[node as usize]);
-        Dim::<D>::wrong_form(&corners[..cell.len().min(8)])
+    fn what_is_wrong_with(&self, cell: Cell<'_>) -> Option<[&'static str; 2]> {
+        let mut places = [[0.0; D]; MOST_NODES];
+        cell.nodes.iter().zip(&mut places).for_each(|(&node, place)| *place = self.positions[node as usize]);
+        Dim::<D>::wrong_form(cell.kind, &places[..cell.nodes.len()])
     }
 
     /// Elements that are degenerate or not convex, after nodes have been moved.
@@ -385,7 +400,7 @@ where
             node
         }
         for cell in self.groups.iter().flat_map(ElementGroup::live_cells) {
-            for pair in cell.windows(2) {
+            for pair in cell.nodes.windows(2) {
                 let (a, b) = (top(&mut root, pair[0]), top(&mut root, pair[1]));
                 root[a.max(b) as usize] = a.min(b);
             }

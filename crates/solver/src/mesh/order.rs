@@ -88,8 +88,8 @@ impl ElementGroup {
     where
         Dim<D>: Meshed<D>,
     {
-        let n = self.nodes_per_element;
-        self.connectivity.chunks_exact_mut(n).for_each(Dim::<D>::begin_with_lowest);
+        let n = self.kind.nodes();
+        self.connectivity.chunks_exact_mut(n).for_each(|nodes| self.kind.begin_with_lowest(nodes));
         let centre = |cell: &[u32]| {
             let sum = cell.iter().fold([0.0; D], |sum: [f64; D], &node| {
                 let x = positions[node as usize];

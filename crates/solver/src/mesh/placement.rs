@@ -105,11 +105,9 @@ where
 {
     /// Numbers the nodes of elements and sides anew after positions were mirrored: what was on the left is on the right now.
     fn turn_over(&mut self) {
-        self.quads.iter_mut().for_each(|cell| Dim::<D>::turn_over(cell));
-        self.triangles.iter_mut().for_each(|cell| Dim::<D>::turn_over(cell));
-        self.hexahedra.iter_mut().for_each(|cell| Dim::<D>::turn_over(cell));
-        self.wedges.iter_mut().for_each(|cell| Dim::<D>::turn_over(cell));
-        self.tetrahedra.iter_mut().for_each(|cell| Dim::<D>::turn_over(cell));
+        for (kind, nodes) in &mut self.elements {
+            nodes.chunks_exact_mut(kind.nodes()).for_each(|cell| kind.reflect(cell));
+        }
         for (_, facets) in &mut self.sides {
             facets.reverse();
             facets.iter_mut().for_each(|facet| *facet = facet.reversed());
@@ -120,12 +118,9 @@ where
     fn append(&mut self, other: Self) {
         let first = self.positions.len() as u32;
         self.positions.extend(other.positions);
-        self.quads.extend(other.quads.iter().map(|cell| cell.map(|node| node + first)));
-        self.triangles.extend(other.triangles.iter().map(|cell| cell.map(|node| node + first)));
-        self.hexahedra.extend(other.hexahedra.iter().map(|cell| cell.map(|node| node + first)));
-        self.wedges.extend(other.wedges.iter().map(|cell| cell.map(|node| node + first)));
-        self.tetrahedra.extend(other.tetrahedra.iter().map(|cell| cell.map(|node| node + first)));
-        self.bars.extend(other.bars.iter().map(|bar| bar.map(|node| node + first)));
+        for (kind, nodes) in &other.elements {
+            self.elements.entry(*kind).or_default().extend(nodes.iter().map(|node| node + first));
+        }
         for ((_, all), (_, own)) in self.points.iter_mut().zip(other.points) {
             all.extend(own.iter().map(|node| node + first));
         }
@@ -173,9 +168,10 @@ mod tests {
 
     fn is_sound(body: &Body) {
         for cell in body.cells() {
-            let x = |k: usize| body.positions[cell[k % cell.len()] as usize];
-            for k in 0..cell.len() {
-                let (a, b, d) = (x(k), x(k + 1), x(k + cell.len() - 1));
+            let n = cell.nodes.len();
+            let x = |k: usize| body.positions[cell.nodes[k % n] as usize];
+            for k in 0..n {
+                let (a, b, d) = (x(k), x(k + 1), x(k + n - 1));
                 assert!((b[0] - a[0]) * (d[1] - a[1]) - (b[1] - a[1]) * (d[0] - a[0]) > 0.0);
             }
         }
@@ -215,7 +211,7 @@ mod tests {
         let cuboid = || Cuboid { corner: [1.0, 0.0, 0.0], size: [1.0, 2.0, 3.0], elements: [2, 2, 2], ..Cuboid::default() }.body().unwrap();
         let is_sound = |body: &Body<3>| {
             let at = |cell: &[u32]| cell.iter().map(|&node| body.positions[node as usize]).collect::<Vec<_>>();
-            assert!(body.cells().all(|cell| Dim::<3>::wrong_form(&at(cell)).is_none()));
+            assert!(body.cells().all(|cell| Dim::<3>::wrong_form(cell.kind, &at(cell.nodes)).is_none()));
             let mut outside = exterior::<3>(body.cells()).unwrap();
             let mut sides: Vec<_> = body.sides.iter().flat_map(|side| side.1.iter().map(|facet| facet.canonical())).collect();
             outside.sort_unstable();
@@ -246,8 +242,8 @@ mod tests {
         let around = Copies { count: 4, angle, ..Copies::default() };
         let body = Placement { copies: Some(around), ..Placement::default() }.applied(one.clone());
         is_sound(&body);
-        let (nodes, elements) = (one.positions.len(), one.quads.len());
-        assert_eq!((body.positions.len(), body.quads.len()), (4 * nodes, 4 * elements));
+        let (nodes, elements) = (one.positions.len(), one.cells().count());
+        assert_eq!((body.positions.len(), body.cells().count()), (4 * nodes, 4 * elements));
         assert_eq!(body.positions[2 * nodes], [-one.positions[0][0], 0.0 - one.positions[0][1]]);
         let row = Copies { count: 3, translation: [2.0, 0.25, 0.0], ..Copies::default() };
         let body = Placement { copies: Some(row), ..Placement::default() }.applied(one.clone());

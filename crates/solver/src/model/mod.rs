@@ -24,6 +24,7 @@ pub use triangles::TriangleSurface;
 
 use crate::block::stress_state::STRESS_STATES;
 use crate::element::{BARS, ELEMENTS, ElementKind, elements_of};
+use crate::mesh::cell::{Cell, CellKind};
 pub use crate::mesh::placement::{Copies, Mirror, Placement};
 use crate::mesh::shapes::Count;
 pub use crate::mesh::shapes::{
@@ -235,7 +236,7 @@ pub struct Material {
     pub failure: BTreeMap<String, f64>,
 }
 
-/// `[[part]]`: a body of one material and one element kind for each number of nodes.
+/// `[[part]]`: a body of one material and one element kind for each kind of cell.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Part {
     /// Unique name.
@@ -323,26 +324,15 @@ impl Part {
         Some(one.times(self.placement.copies.map_or(1, |copies| copies.count)))
     }
 
-    /// The element of a model of so many dimensions that has so many nodes; `None` when the part names none. In space an element of the plane stands for its counterpart (`quad4_reduced` for
-    /// `hex8_reduced`), and wedges and tetrahedra are the usual ones where none of them is named.
+    /// What its cells of a kind are in a model of so many dimensions: the element that it names, in space
+    /// also the one that takes its place there ([`ElementKind::extruded`]), else the default one
+    /// ([`ElementKind::is_default`]); `None` when there is none of them.
     #[must_use]
-    pub fn element_in(&self, dimension: usize, nodes: usize) -> Option<&'static ElementKind> {
-        if dimension == 2 {
-            return self.element_of(nodes);
-        }
-        let counterpart = self.element.replacen("quad4", "hex8", 1);
-        if nodes == 2 {
-            return BARS.iter().find(|kind| kind.name == self.element);
-        }
-        let mut kinds = elements_of(dimension).iter().filter(|kind| kind.nodes == nodes);
-        let usual = kinds.clone().next().filter(|_| nodes < 8);
-        kinds.find(|kind| [&self.element, &counterpart, &self.element_triangles].iter().any(|name| *name == kind.name)).or(usual)
-    }
-
-    /// The element of the plane that has so many nodes; `None` when the part names none.
-    #[must_use]
-    pub fn element_of(&self, nodes: usize) -> Option<&'static ElementKind> {
-        ELEMENTS.iter().chain(BARS).find(|kind| kind.nodes == nodes && (kind.name == self.element || kind.name == self.element_triangles))
+    pub fn element_in(&self, dimension: usize, cell: CellKind) -> Option<&'static ElementKind> {
+        let is_named = |kind: &&ElementKind| [&self.element, &self.element_triangles].iter().any(|name| *name == kind.name);
+        let kinds = || elements_of(dimension).iter().chain(BARS).filter(|kind| kind.cell == cell);
+        let stands_in = |kind: &&ElementKind| dimension == 3 && ELEMENTS.iter().filter(is_named).any(|own| own.extruded == Some(kind.name));
+        kinds().find(|kind| is_named(kind) || stands_in(kind)).or_else(|| kinds().find(|kind| kind.is_default))
     }
 }
 
@@ -364,9 +354,16 @@ pub struct MeshGroup {
     pub name: String,
     /// 0 points, 1 lines, 2 surfaces, 3 volumes.
     pub dimension: u8,
-    /// Node indices of each cell: 1 for a point, 2 for a line, 3 for a triangle, 4 for a quadrilateral (counter-clockwise or not) or a tetrahedron, 6 for a wedge,
-    /// 8 for a hexahedron.
+    /// Node indices of each cell, which with the dimension say of which kind it is. Surfaces run
+    /// counter-clockwise or not.
     pub cells: Vec<Vec<u32>>,
+}
+
+impl MeshGroup {
+    /// Each of its cells; `None` for one that has a number of nodes that no cell of its dimension has.
+    pub fn elements(&self) -> impl Iterator<Item = Option<Cell<'_>>> + Clone {
+        self.cells.iter().map(|nodes| Cell::of(self.dimension.into(), nodes))
+    }
 }
 
 /// `[[probe]]`: what is recorded in the history.

@@ -128,9 +128,9 @@ where
         }
         let Some(sums) = parts.last_mut() else { continue };
         for (element, cell) in group.cells().enumerate() {
-            let at = in_space(system.centre(cell));
+            let at = in_space(system.centre(cell.nodes));
             let depth = if part.is_axisymmetric() { std::f64::consts::TAU * at[0] } else { 1.0 };
-            let area = part.area.filter(|_| cell.len() == 2).unwrap_or(1.0);
+            let area = part.area.filter(|_| cell.kind.dimension() == 1).unwrap_or(1.0);
             let mass = density * area * depth * <Dim<D>>::size(cell, &system.positions) * part.mass_scale;
             let time_step = safety * block.time_step_squared(element).sqrt();
             let added = added(scaling.time_step, [time_step, mass]);

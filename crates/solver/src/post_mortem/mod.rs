@@ -156,7 +156,7 @@ where
         let mut worst: Option<((usize, usize), f64)> = None;
         for (g, (group, block)) in self.mesh.groups.iter().zip(&self.blocks).enumerate() {
             for (element, _) in
-                group.cells().enumerate().filter(|(element, cell)| cell.contains(&(node as u32)) && group.is_alive(*element))
+                group.cells().enumerate().filter(|(element, cell)| cell.nodes.contains(&(node as u32)) && group.is_alive(*element))
             {
                 let squared = block.time_step_squared(element);
                 if worst.is_none_or(|(_, least)| !(squared >= least)) {
@@ -226,7 +226,11 @@ where
             Suspect { element: Some((g, element)), .. } => {
                 let group = &self.mesh.groups[g];
                 let part = self.mesh.parts[group.part].name.clone();
-                Culprit::Element { part, element: group.user_elements[element] as usize, at: in_space(self.centre(group.cell(element))) }
+                Culprit::Element {
+                    part,
+                    element: group.user_elements[element] as usize,
+                    at: in_space(self.centre(group.nodes_of(element))),
+                }
             }
             _ => Culprit::Nobody,
         }

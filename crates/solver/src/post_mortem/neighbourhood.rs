@@ -4,6 +4,7 @@
 
 use super::Suspect;
 use crate::material::Variable;
+use crate::mesh::cell::CellKind;
 use crate::simulation::run::Run;
 use crate::step::System;
 use crate::tensor::Dim;
@@ -28,6 +29,8 @@ pub struct NearCell {
     pub element: usize,
     /// Elements that lie between it and the culprit, plus one; zero: the culprit's own; `None`: it does not hang together with the culprit so closely, but is near.
     pub ring: Option<u8>,
+    /// Which kind of cell it is.
+    pub kind: CellKind,
     /// Its nodes, as places in [`Neighbourhood::nodes`], in the order of the element.
     pub nodes: Vec<usize>,
 }
@@ -80,8 +83,14 @@ where
                 }
                 *at
             };
-            let nodes = group.cell(element).iter().map(&mut local).collect();
-            near.shown.cells.push(NearCell { part: group.part, element: group.user_elements[element] as usize, ring, nodes });
+            let nodes = group.nodes_of(element).iter().map(&mut local).collect();
+            near.shown.cells.push(NearCell {
+                part: group.part,
+                element: group.user_elements[element] as usize,
+                ring,
+                kind: group.kind,
+                nodes,
+            });
             near.cells.push((g, element));
         }
         near.shown.nodes = near.nodes.iter().map(|&node| self.mesh.user_nodes[node as usize] as usize).collect();
@@ -92,7 +101,7 @@ where
         near.next = found
             .iter()
             .filter(|(_, ring)| is_next(*ring))
-            .flat_map(|((g, element), _)| self.mesh.groups[*g].cell(*element))
+            .flat_map(|((g, element), _)| self.mesh.groups[*g].nodes_of(*element))
             .copied()
             .collect();
         near.next.sort_unstable();
@@ -110,7 +119,7 @@ where
         match *suspect {
             Suspect { node: Some(node), .. } if node < is_marked.len() => is_marked[node] = true,
             Suspect { element: Some((g, element)), .. } => {
-                self.mesh.groups[g].cell(element).iter().for_each(|&node| is_marked[node as usize] = true);
+                self.mesh.groups[g].nodes_of(element).iter().for_each(|&node| is_marked[node as usize] = true);
                 is_taken[g][element] = true;
                 found.push(((g, element), Some(0)));
             }
@@ -122,14 +131,14 @@ where
             let from = found.len();
             for (g, group) in self.mesh.groups.iter().enumerate() {
                 for (element, cell) in group.cells().enumerate() {
-                    if !is_taken[g][element] && group.is_alive(element) && cell.iter().any(|&node| is_marked[node as usize]) {
+                    if !is_taken[g][element] && group.is_alive(element) && cell.nodes.iter().any(|&node| is_marked[node as usize]) {
                         is_taken[g][element] = true;
                         found.push(((g, element), Some(ring)));
                     }
                 }
             }
             for &((g, element), _) in &found[from..] {
-                self.mesh.groups[g].cell(element).iter().for_each(|&node| is_marked[node as usize] = true);
+                self.mesh.groups[g].nodes_of(element).iter().for_each(|&node| is_marked[node as usize] = true);
             }
         }
         found.extend(self.cells_beside(&found, &is_taken).into_iter().map(|cell| (cell, None)));
@@ -140,7 +149,7 @@ where
     fn cells_beside(&self, found: &[((usize, usize), Option<u8>)], is_taken: &[Vec<bool>]) -> Vec<(usize, usize)> {
         let seen = |node: u32| Some(self.positions[node as usize]).filter(|x| x.iter().all(|v| v.is_finite()));
         let (mut low, mut high) = ([f64::INFINITY; D], [f64::NEG_INFINITY; D]);
-        for x in found.iter().flat_map(|&((g, element), _)| self.mesh.groups[g].cell(element)).filter_map(|&node| seen(node)) {
+        for x in found.iter().flat_map(|&((g, element), _)| self.mesh.groups[g].nodes_of(element)).filter_map(|&node| seen(node)) {
             for d in 0..D {
                 (low[d], high[d]) = (low[d].min(x[d]), high[d].max(x[d]));
             }
@@ -151,8 +160,8 @@ where
         let mut beside = Vec::new();
         for (g, group) in self.mesh.groups.iter().enumerate() {
             for (element, cell) in group.cells().enumerate() {
-                if !is_taken[g][element] && group.is_alive(element) && cell.iter().any(|&node| seen(node).is_some_and(is_inside)) {
-                    let x = self.centre(cell);
+                if !is_taken[g][element] && group.is_alive(element) && cell.nodes.iter().any(|&node| seen(node).is_some_and(is_inside)) {
+                    let x = self.centre(cell.nodes);
                     let away: [f64; D] = std::array::from_fn(|k| x[k] - 0.5 * (low[k] + high[k]));
                     beside.push((dot(away, away), (g, element)));
                 }

@@ -183,7 +183,7 @@ where
         let norm = |v: [f64; D]| dot(v, v).sqrt();
         let own: Vec<usize> = match (suspect.node, suspect.element) {
             (Some(node), _) => vec![node],
-            (None, Some((g, element))) => self.mesh.groups[g].cell(element).iter().map(|&node| node as usize).collect(),
+            (None, Some((g, element))) => self.mesh.groups[g].nodes_of(element).iter().map(|&node| node as usize).collect(),
             (None, None) => Vec::new(),
         };
         let most = |value: &dyn Fn(usize) -> f64| own.iter().map(|&node| value(node)).fold(f64::NAN, f64::max);

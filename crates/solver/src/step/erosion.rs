@@ -156,7 +156,7 @@ where
         let group = &self.mesh.groups[index];
         for &(_, element, criterion) in failed {
             let mut work = 0.0;
-            for (corner, &node) in group.cell(element as usize).iter().enumerate() {
+            for (corner, &node) in group.nodes_of(element as usize).iter().enumerate() {
                 let force = self.blocks[index].force(element as usize, corner, &self.slots[slots.clone()]);
                 let [x, x_old] = [self.positions[node as usize], self.positions_old[node as usize]];
                 for d in 0..D {
@@ -169,7 +169,7 @@ where
             erosion.first.get_or_insert_with(|| Eroded {
                 part: self.mesh.parts[group.part].name.clone(),
                 element: group.user_elements[element as usize] as usize,
-                at: in_space(self.centre(group.cell(element as usize))),
+                at: in_space(self.centre(group.nodes_of(element as usize))),
                 time: self.time,
                 criterion,
             });
@@ -189,7 +189,7 @@ where
     fn renew_surfaces(&mut self, erosion: &mut Erosion<D>) {
         if !self.forces.is_empty() {
             let has_elements = self.has_elements();
-            let cells = self.mesh.groups.iter().filter(|group| group.has_surface()).flat_map(|group| group.live_cells());
+            let cells = self.mesh.groups.iter().filter(|group| group.is_continuum(D)).flat_map(|group| group.live_cells());
             let mut backed: Vec<Facet<D>> = cells.flat_map(<Dim<D>>::facets).collect();
             backed.sort_unstable();
             self.forces.renew(|node| !has_elements[node as usize], |facet| backed.binary_search(&facet.canonical()).is_ok());
@@ -217,7 +217,12 @@ where
     /// Whether each node has an element.
     fn has_elements(&self) -> Vec<bool> {
         let mut has_elements = vec![false; self.positions.len()];
-        self.mesh.groups.iter().flat_map(|group| group.live_cells()).flatten().for_each(|&node| has_elements[node as usize] = true);
+        self.mesh
+            .groups
+            .iter()
+            .flat_map(|group| group.live_cells())
+            .flat_map(|cell| cell.nodes)
+            .for_each(|&node| has_elements[node as usize] = true);
         has_elements
     }
 }

@@ -8,20 +8,21 @@ use crate::contact::traces::Traces;
 use crate::contact_forces::ContactForces;
 use crate::error::Fault;
 use crate::mesh::Mesh;
+use crate::mesh::cell::Cell;
+use crate::mesh::surface::Corners;
 use crate::model::{Model, Motion};
-use crate::output::CellKind;
 use crate::rigid::{self, Body};
 use crate::tensor::Dim;
-use crate::vector::{cross as cross_plane, dot, minus};
+use crate::vector::{cross as cross_plane, dot, minus, plus, times};
 
 impl World<2> for Dim<2> {
     const MOMENT: &[&str] = &["moment"];
     const MOTION: &[&str] = &["x", "y", "angle", "vx", "vy", "spin"];
 
-    fn facets(cell: &[u32]) -> Vec<[u32; 2]> {
-        (0..cell.len()).map(|c| [cell[(c + 1) % cell.len()], cell[c]]).collect()
+    fn facets(cell: Cell<'_>) -> Vec<[u32; 2]> {
+        cell.edges().map(Corners::reversed).collect()
     }
-    fn flatness(segment: [u32; 2], cell: &[u32], positions: &[[f64; 2]]) -> f64 {
+    fn flatness(segment: [u32; 2], cell: Cell<'_>, positions: &[[f64; 2]]) -> f64 {
         let [b, a] = segment.map(|node| positions[node as usize]);
         let side = minus(b, a);
         dot(side, side).sqrt() / size(cell, positions)
@@ -65,13 +66,6 @@ impl World<2> for Dim<2> {
     fn renew(builder: &mut Builder<'_, 2>, contacts: &mut [Contact]) {
         builder.renew(contacts);
     }
-    fn cell_kind(nodes: usize) -> CellKind {
-        match nodes {
-            2 => CellKind::Line,
-            3 => CellKind::Triangle,
-            _ => CellKind::Quadrilateral,
-        }
-    }
     fn led(arm: [f64; 2], _axis: [f64; 3], spin: f64, time_step: f64) -> [f64; 2] {
         rigid::chord(arm, spin, time_step)
     }
@@ -85,19 +79,19 @@ impl World<2> for Dim<2> {
     fn swept([_, _, spin]: [f64; 3], [a, b]: [f64; 2]) -> [f64; 2] {
         [-spin * b, spin * a]
     }
-    fn least_corner(cell: &[u32], positions: &[[f64; 2]]) -> Option<f64> {
-        let n = cell.len();
-        let x = |corner: usize| positions[cell[corner % n] as usize];
+    fn least_corner(cell: Cell<'_>, positions: &[[f64; 2]]) -> Option<f64> {
+        let n = cell.kind.corners();
+        let x = |corner: usize| positions[cell.nodes[corner % n] as usize];
         let turn = |c: usize| cross_plane(minus(x(c + 1), x(c)), minus(x(c + n - 1), x(c)));
-        (n > 2).then(|| (0..n).map(turn).fold(f64::INFINITY, f64::min))
+        (cell.kind.dimension() == 2).then(|| (0..n).map(turn).fold(f64::INFINITY, f64::min))
     }
-    fn shape(cell: &[u32], positions: &[[f64; 2]]) -> f64 {
-        let n = cell.len();
-        if n < 3 {
+    fn shape(cell: Cell<'_>, positions: &[[f64; 2]]) -> f64 {
+        let n = cell.kind.corners();
+        if cell.kind.dimension() == 1 {
             return 1.0;
         }
         let side = |corner: usize| {
-            let [a, b] = [corner, corner + 1].map(|corner| positions[cell[corner % n] as usize]);
+            let [a, b] = [corner, corner + 1].map(|corner| positions[cell.nodes[corner % n] as usize]);
             minus(b, a)
         };
         let (mut least, mut longest) = (f64::INFINITY, 0.0f64);
@@ -111,18 +105,19 @@ impl World<2> for Dim<2> {
     fn moment(arm: [f64; 2], force: [f64; 2]) -> [f64; 3] {
         [0.0, 0.0, arm[0] * force[1] - arm[1] * force[0]]
     }
-    fn size(cell: &[u32], positions: &[[f64; 2]]) -> f64 {
+    fn size(cell: Cell<'_>, positions: &[[f64; 2]]) -> f64 {
         size(cell, positions)
     }
-    fn strains(cell: &[u32], from: &[[f64; 2]], to: &[[f64; 2]]) -> [f64; 2] {
+    fn strains(cell: Cell<'_>, from: &[[f64; 2]], to: &[[f64; 2]]) -> [f64; 2] {
         strains(cell, from, to)
     }
 }
 
 /// Length of a line, area of what has more corners; m, m².
-fn size(cell: &[u32], positions: &[[f64; 2]]) -> f64 {
-    let x = |corner: usize| positions[cell[corner % cell.len()] as usize];
-    if cell.len() == 2 {
+fn size(cell: Cell<'_>, positions: &[[f64; 2]]) -> f64 {
+    let n = cell.kind.corners();
+    let x = |corner: usize| positions[cell.nodes[corner % n] as usize];
+    if cell.kind.dimension() == 1 {
         let [a, b] = [x(0), x(1)];
         return ((b[0] - a[0]) * (b[0] - a[0]) + (b[1] - a[1]) * (b[1] - a[1])).sqrt();
     }
@@ -131,26 +126,22 @@ fn size(cell: &[u32], positions: &[[f64; 2]]) -> f64 {
         let (a, b) = (x(corner), x(corner + 1));
         (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0])
     };
-    0.5 * (0..cell.len()).map(cross).sum::<f64>()
+    0.5 * (0..n).map(cross).sum::<f64>()
 }
 
 /// Principal logarithmic strains at the centre, the larger first: half the logarithms of the eigenvalues of FᵀF. Of a line its one strain twice.
-fn strains(cell: &[u32], from: &[[f64; 2]], to: &[[f64; 2]]) -> [f64; 2] {
-    if cell.len() == 2 {
+fn strains(cell: Cell<'_>, from: &[[f64; 2]], to: &[[f64; 2]]) -> [f64; 2] {
+    if cell.kind.dimension() == 1 {
         return [(size(cell, to) / size(cell, from)).ln(); 2];
     }
     // Of a triangle two sides, of a quadrilateral the means of two opposite sides: F maps those at the start to those now.
-    let sides = |x: &[[f64; 2]]| {
-        let p = |corner: usize| x[cell[corner] as usize];
-        if cell.len() == 3 {
-            let (a, b, c) = (p(0), p(1), p(2));
-            [[b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]]
-        } else {
-            let (a, b, c, d) = (p(0), p(1), p(2), p(3));
-            [[0, 1].map(|k| 0.5 * (b[k] + c[k] - a[k] - d[k])), [0, 1].map(|k| 0.5 * (c[k] + d[k] - a[k] - b[k]))]
-        }
+    let axis = |axis: usize, x: &[[f64; 2]]| {
+        let [from, to] = cell.kind.facts().axes[axis];
+        let at = |corner: u8| x[cell.nodes[usize::from(corner)] as usize];
+        let sum = to[1..].iter().fold(at(to[0]), |sum, &corner| plus(sum, at(corner)));
+        times(1.0 / from.len() as f64, from.iter().fold(sum, |sum, &corner| minus(sum, at(corner))))
     };
-    let ([u, v], [a, b]) = (sides(from), sides(to));
+    let ([u, v], [a, b]) = ([0, 1].map(|k| axis(k, from)), [0, 1].map(|k| axis(k, to)));
     let inverse = 1.0 / (u[0] * v[1] - u[1] * v[0]);
     // F = [a b] [u v]⁻¹, row by row.
     let f: [[f64; 2]; 2] = [0, 1].map(|k| [(a[k] * v[1] - b[k] * u[1]) * inverse, (b[k] * u[0] - a[k] * v[0]) * inverse]);
@@ -163,6 +154,7 @@ fn strains(cell: &[u32], from: &[[f64; 2]], to: &[[f64; 2]]) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::cell::CellKind;
 
     #[test]
     fn strains_are_those_of_the_stretch_whatever_the_rotation() {
@@ -170,13 +162,13 @@ mod tests {
         let (c, s) = (0.6, 0.8);
         // x stretched to twice, y to half, then turned.
         let to = from.map(|[x, y]| [2.0 * x * c - 0.5 * y * s, 2.0 * x * s + 0.5 * y * c]);
-        for cell in [&[0, 1, 2, 3][..], &[0, 1, 2]] {
+        for cell in [CellKind::Quadrilateral.cell(&[0, 1, 2, 3]), CellKind::Triangle.cell(&[0, 1, 2])] {
             let [most, least] = strains(cell, &from, &to);
             assert!((most - 2f64.ln()).abs() < 1e-12 && (least + 2f64.ln()).abs() < 1e-12, "{most} {least}");
             assert!((size(cell, &to) / size(cell, &from) - 1.0).abs() < 1e-12);
         }
-        assert!((strains(&[0, 1], &from, &to)[0] - 2f64.ln()).abs() < 1e-12);
+        assert!((strains(CellKind::Line.cell(&[0, 1]), &from, &to)[0] - 2f64.ln()).abs() < 1e-12);
         let flat = from.map(|[x, _]| [x, 0.0]);
-        assert_eq!(strains(&[0, 1, 2, 3], &from, &flat)[1], f64::NEG_INFINITY);
+        assert_eq!(strains(CellKind::Quadrilateral.cell(&[0, 1, 2, 3]), &from, &flat)[1], f64::NEG_INFINITY);
     }
 }

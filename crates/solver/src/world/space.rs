@@ -9,10 +9,10 @@ use crate::contact::traces::Traces;
 use crate::contact_forces::ContactForces;
 use crate::error::Fault;
 use crate::mesh::Mesh;
+use crate::mesh::cell::{Cell, CellKind};
 use crate::mesh::surface::Corners;
 use crate::mesh::surface::tributary::{Depth, Tributary};
 use crate::model::{self, Model};
-use crate::output::CellKind;
 use crate::rigid::Body;
 use crate::tensor::{Dim, Space, SymmetricTensor, cross, product};
 use crate::vector::{dot, minus, plus, times};
@@ -21,10 +21,10 @@ impl World<3> for Dim<3> {
     const MOMENT: &[&str] = &["moment_x", "moment_y", "moment_z"];
     const MOTION: &[&str] = &["x", "y", "z", "vx", "vy", "vz", "spin_x", "spin_y", "spin_z"];
 
-    fn facets(cell: &[u32]) -> Vec<[u32; 4]> {
-        quadrilaterals(cell.len()).iter().map(|facet| facet.map(|corner| cell[corner]).canonical()).collect()
+    fn facets(cell: Cell<'_>) -> Vec<[u32; 4]> {
+        cell.faces().map(Corners::canonical).collect()
     }
-    fn flatness(facet: [u32; 4], cell: &[u32], positions: &[[f64; 3]]) -> f64 {
+    fn flatness(facet: [u32; 4], cell: Cell<'_>, positions: &[[f64; 3]]) -> f64 {
         let areas = <Self as Tributary<3>>::shares(Depth::Plane, facet, positions);
         areas.into_iter().sum::<f64>() / size(cell, positions)
     }
@@ -67,14 +67,6 @@ impl World<3> for Dim<3> {
     fn renew(builder: &mut Builder<'_, 3>, contacts: &mut [Contact<3>]) {
         builder.renew_in_space(contacts);
     }
-    fn cell_kind(nodes: usize) -> CellKind {
-        match nodes {
-            2 => CellKind::Line,
-            4 => CellKind::Tetrahedron,
-            6 => CellKind::Wedge,
-            _ => CellKind::Hexahedron,
-        }
-    }
     fn led(arm: [f64; 3], axis: [f64; 3], spin: f64, time_step: f64) -> [f64; 3] {
         let sweep = cross(axis, arm);
         if time_step == 0.0 {
@@ -103,70 +95,55 @@ impl World<3> for Dim<3> {
     fn swept(spin: [f64; 3], arm: [f64; 3]) -> [f64; 3] {
         cross(spin, arm)
     }
-    fn least_corner(cell: &[u32], positions: &[[f64; 3]]) -> Option<f64> {
-        let corners = corners(cell.len());
-        let of = |corner: usize| {
-            let [a, b, c] = edges(cell, corner, corners[corner], positions);
+    fn least_corner(cell: Cell<'_>, positions: &[[f64; 3]]) -> Option<f64> {
+        let of = |(corner, others): (usize, [u8; 3])| {
+            let [a, b, c] = edges(cell, corner, others, positions);
             dot(cross(a, b), c)
         };
-        (!corners.is_empty()).then(|| (0..corners.len()).map(of).fold(f64::INFINITY, f64::min))
+        corners(cell.kind).map(of).fold(None, |least: Option<f64>, own| Some(least.unwrap_or(f64::INFINITY).min(own)))
     }
-    fn shape(cell: &[u32], positions: &[[f64; 3]]) -> f64 {
+    fn shape(cell: Cell<'_>, positions: &[[f64; 3]]) -> f64 {
         let Some(least) = Self::least_corner(cell, positions) else { return 1.0 };
-        let all = corners(cell.len()).iter().enumerate().flat_map(|(corner, &others)| edges(cell, corner, others, positions));
+        let all = corners(cell.kind).flat_map(|(corner, others)| edges(cell, corner, others, positions));
         let longest = all.map(|edge| dot(edge, edge)).fold(0.0, f64::max);
         least / (longest * longest.sqrt())
     }
     fn moment(arm: [f64; 3], force: [f64; 3]) -> [f64; 3] {
         cross(arm, force)
     }
-    fn size(cell: &[u32], positions: &[[f64; 3]]) -> f64 {
+    fn size(cell: Cell<'_>, positions: &[[f64; 3]]) -> f64 {
         size(cell, positions)
     }
-    fn strains(cell: &[u32], from: &[[f64; 3]], to: &[[f64; 3]]) -> [f64; 2] {
+    fn strains(cell: Cell<'_>, from: &[[f64; 3]], to: &[[f64; 3]]) -> [f64; 2] {
         strains(cell, from, to)
     }
 }
 
-/// Facets of a cell of so many nodes, outward by the right-hand rule; a triangle repeats its last corner. Empty: there is no such cell.
-fn quadrilaterals(nodes: usize) -> &'static [[usize; 4]] {
-    match nodes {
-        4 => &[[0, 2, 1, 1], [0, 1, 3, 3], [1, 2, 3, 3], [2, 0, 3, 3]],
-        6 => &[[0, 2, 1, 1], [3, 4, 5, 5], [0, 1, 4, 3], [1, 2, 5, 4], [2, 0, 3, 5]],
-        8 => &[[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]],
-        _ => &[],
-    }
-}
-
 /// Volume enclosed by the facets, bilinear where they have four corners (the mean of both ways to halve them); of a line its length.
-fn size(cell: &[u32], positions: &[[f64; 3]]) -> f64 {
-    let o = positions[cell[0] as usize];
-    let x = |corner: usize| minus(positions[cell[corner] as usize], o);
-    if cell.len() == 2 {
-        return dot(x(1), x(1)).sqrt();
+fn size(cell: Cell<'_>, positions: &[[f64; 3]]) -> f64 {
+    let o = positions[cell.nodes[0] as usize];
+    let x = |node: u32| minus(positions[node as usize], o);
+    if cell.kind.dimension() == 1 {
+        return dot(x(cell.nodes[1]), x(cell.nodes[1])).sqrt();
     }
-    let wedge = |a: usize, b: usize, c: usize| dot(x(a), cross(x(b), x(c)));
-    let facet = |&[a, b, c, d]: &[usize; 4]| 0.5 * (wedge(a, b, c) + wedge(a, c, d) + wedge(a, b, d) + wedge(b, c, d));
-    quadrilaterals(cell.len()).iter().map(facet).sum::<f64>() / 6.0
+    let wedge = |a: u32, b: u32, c: u32| dot(x(a), cross(x(b), x(c)));
+    let facet = |[a, b, c, d]: [u32; 4]| 0.5 * (wedge(a, b, c) + wedge(a, c, d) + wedge(a, b, d) + wedge(b, c, d));
+    cell.faces().map(facet).sum::<f64>() / 6.0
 }
 
 /// Three vectors that a cell carries with it: the edges of a tetrahedron at a corner, else means of opposite sides.
-fn frame(cell: &[u32], x: &[[f64; 3]]) -> Square<3> {
-    let mean = |corners: &[usize]| {
-        let sum = corners.iter().fold([0.0; 3], |sum, &corner| plus(sum, x[cell[corner] as usize]));
+fn frame(cell: Cell<'_>, x: &[[f64; 3]]) -> Square<3> {
+    let mean = |corners: &[u8]| {
+        let sum = corners.iter().fold([0.0; 3], |sum, &corner| plus(sum, x[cell.nodes[usize::from(corner)] as usize]));
         sum.map(|component| component / corners.len() as f64)
     };
-    let between = |[from, to]: [&[usize]; 2]| minus(mean(to), mean(from));
-    match cell.len() {
-        4 => [[&[0][..], &[1]], [&[0], &[2]], [&[0], &[3]]].map(between),
-        6 => [[&[0, 3][..], &[1, 4]], [&[0, 3], &[2, 5]], [&[0, 1, 2], &[3, 4, 5]]].map(between),
-        _ => [[&[0, 3, 4, 7][..], &[1, 2, 5, 6]], [&[0, 1, 4, 5], &[2, 3, 6, 7]], [&[0, 1, 2, 3], &[4, 5, 6, 7]]].map(between),
-    }
+    let axes = cell.kind.facts().axes;
+    std::array::from_fn(|k| axes.get(k).map_or([0.0; 3], |[from, to]| minus(mean(to), mean(from))))
 }
 
 /// See [`World::strains`].
-fn strains(cell: &[u32], from: &[[f64; 3]], to: &[[f64; 3]]) -> [f64; 2] {
-    if cell.len() == 2 {
+fn strains(cell: Cell<'_>, from: &[[f64; 3]], to: &[[f64; 3]]) -> [f64; 2] {
+    if cell.kind.dimension() == 1 {
         return [(size(cell, to) / size(cell, from)).ln(); 2];
     }
     // Rows of both are the vectors: F maps those at the start to those now.
@@ -178,19 +155,17 @@ fn strains(cell: &[u32], from: &[[f64; 3]], to: &[[f64; 3]]) -> [f64; 2] {
     [0.5 * most.ln(), 0.5 * least.max(0.0).ln()]
 }
 
-/// The three other ends of the edges at each corner of a cell of so many nodes, right-handed; of a tetrahedron one corner says it all. Empty: there is no such cell.
-fn corners(nodes: usize) -> &'static [[usize; 3]] {
-    match nodes {
-        4 => &[[1, 2, 3]],
-        6 => &[[1, 2, 3], [2, 0, 4], [0, 1, 5], [5, 4, 0], [3, 5, 1], [4, 3, 2]],
-        8 => &[[1, 3, 4], [2, 0, 5], [3, 1, 6], [0, 2, 7], [7, 5, 0], [4, 6, 1], [5, 7, 2], [6, 4, 3]],
-        _ => &[],
-    }
+/// A corner of a cell that is a volume and the other ends of its edges, right-handed; of a simplex one corner
+/// says it all.
+fn corners(kind: CellKind) -> impl Iterator<Item = (usize, [u8; 3])> + Clone {
+    let is_simplex = kind.corners() == kind.dimension() + 1;
+    let three = kind.facts().neighbours.iter().map_while(|neighbours| neighbours.first_chunk::<3>().copied());
+    three.take(if is_simplex { 1 } else { kind.corners() }).enumerate()
 }
 
 /// The edges from a corner of a cell to `others`, m.
-fn edges(cell: &[u32], corner: usize, others: [usize; 3], positions: &[[f64; 3]]) -> [[f64; 3]; 3] {
-    others.map(|other| minus(positions[cell[other] as usize], positions[cell[corner] as usize]))
+fn edges(cell: Cell<'_>, corner: usize, others: [u8; 3], positions: &[[f64; 3]]) -> [[f64; 3]; 3] {
+    others.map(|other| minus(positions[cell.nodes[usize::from(other)] as usize], positions[cell.nodes[corner] as usize]))
 }
 
 #[cfg(test)]
@@ -213,7 +188,13 @@ mod tests {
         .into();
         let turn = <Dim<3>>::rotation(axis([1.0, -2.0, 0.5]), 1.1);
         let to: Vec<[f64; 3]> = from.iter().map(|[x, y, z]| applied(&turn, [2.0 * x, 0.5 * y, 1.1 * z])).collect();
-        for (cell, volume) in [(&[0, 1, 2, 3, 4, 5, 6, 7][..], 6.0), (&[0, 1, 2, 4, 5, 6], 3.0), (&[0, 1, 2, 4], 1.0)] {
+        let cells: [(CellKind, &[u32], f64); 3] = [
+            (CellKind::Hexahedron, &[0, 1, 2, 3, 4, 5, 6, 7], 6.0),
+            (CellKind::Wedge, &[0, 1, 2, 4, 5, 6], 3.0),
+            (CellKind::Tetrahedron, &[0, 1, 2, 4], 1.0),
+        ];
+        for (kind, nodes, volume) in cells {
+            let cell = kind.cell(nodes);
             assert!((size(cell, &from) - volume).abs() < 1e-14 && (size(cell, &to) - 1.1 * volume).abs() < 1e-13);
             let [most, least] = strains(cell, &from, &to);
             assert!((most - 2f64.ln()).abs() < 1e-12 && (least + 2f64.ln()).abs() < 1e-12, "{most} {least}");

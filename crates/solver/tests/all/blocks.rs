@@ -145,7 +145,7 @@ fn corner_masses_are_positive_and_have_the_mass_and_its_centre() {
                 let moment: f64 = body.masses().iter().zip(&x).map(|(m, x)| m * x[d]).sum();
                 assert!((moment / expected - place).abs() < 1e-12, "{}: row sums keep the centre", kind.name);
             }
-            assert!(body.masses().iter().all(|&m| m > 0.1 * expected / kind.nodes as f64));
+            assert!(body.masses().iter().all(|&m| m > 0.1 * expected / kind.nodes() as f64));
         }
     }
 }

@@ -7,6 +7,7 @@ use embate_solver::contact::Sweep;
 use embate_solver::contact::projection::node_segment::{Target, Vector};
 use embate_solver::contact::search::registry;
 use embate_solver::contact::tracker::Tracker;
+use embate_solver::mesh::cell::CellKind;
 use embate_solver::mesh::surface::Surface;
 use embate_solver::model::{Contact, Cuboid, Disk, Part, Partners, Shape};
 use proptest::prelude::*;
@@ -35,7 +36,7 @@ fn rings(count: usize, around: usize, inner: f64, flat: f64) -> Rings {
             cells.push([at(i, 0), at(i, 1), at(i + 1, 1), at(i + 1, 0)]);
         }
     }
-    let surface = Surface::<2>::outside(cells.iter().map(<[u32; 4]>::as_slice)).unwrap();
+    let surface = Surface::<2>::outside(CellKind::Quadrilateral.cells(cells.as_flattened())).unwrap();
     Rings { target: Target { surface, mirrors: vec![] }, bodies, shapes }
 }
 
@@ -139,7 +140,7 @@ fn runs_certify_themselves() {
 
 /// A tracker of the outside of these cells against itself, and the positions.
 fn tracker_of(cells: &[[u32; 4]], bodies: &[u32], positions: &[Vector]) -> Tracker {
-    let surface = Surface::<2>::outside(cells.iter().map(<[u32; 4]>::as_slice)).unwrap();
+    let surface = Surface::<2>::outside(CellKind::Quadrilateral.cells(cells.as_flattened())).unwrap();
     Tracker::new(vec![Target { surface, mirrors: vec![] }], &[(0, 0)], (registry::<2>()[0].make)(), positions).with_bodies(bodies, &[])
 }
 

@@ -12,6 +12,7 @@ use embate_solver::contact::search::{Pair, Query, Search, registry};
 use embate_solver::contact::springs::{Springs, Tangential, Terms};
 use embate_solver::contact::tracker::Certificate;
 use embate_solver::contact::{Formulation, Scene, Sweep};
+use embate_solver::mesh::cell::CellKind;
 use embate_solver::mesh::surface::{Corners, SpaceSurface, Surface};
 use embate_solver::model::Interface;
 use embate_solver::rigid::Bodies;
@@ -88,7 +89,7 @@ fn two(first: impl Fn(u32) -> (Vec<Vec<u32>>, Vec<Vector>), second: impl Fn(u32)
 impl Pairing {
     fn new((cells, positions, count): &Two, is_blind: bool, with_edges: bool, is_known: bool) -> Self {
         let surfaces: Vec<SpaceSurface> =
-            cells.iter().map(|cells| Surface::<3>::outside(cells.iter().map(Vec::as_slice)).unwrap()).collect();
+            cells.iter().map(|cells| Surface::<3>::outside(cells.iter().map(|cell| CellKind::Hexahedron.cell(cell))).unwrap()).collect();
         let bodies: Vec<u32> = (0..positions.len()).map(|node| u32::from(node >= *count)).collect();
         let is_blind = Arc::new(AtomicBool::new(is_blind));
         let search = || Box::new(Eye { is_blind: is_blind.clone(), search: (registry::<3>()[0].make)() });
@@ -325,7 +326,7 @@ proptest! {
         let cube = |first: u32| grid(first, [2, 1, 1], |[x, y, z]| [0.3 * x + start[0], 0.3 * y + start[1], 0.3 * z + 0.7 + start[2]]);
         let plate = |first: u32| grid(first, [2, 2, 1], |[x, y, z]| [0.7 * x - 0.7, 0.6 * y - 0.6, thickness * z]);
         let bodies = two(cube, plate);
-        let surfaces: Vec<SpaceSurface> = bodies.0.iter().map(|cells| Surface::<3>::outside(cells.iter().map(Vec::as_slice)).unwrap()).collect();
+        let surfaces: Vec<SpaceSurface> = bodies.0.iter().map(|cells| Surface::<3>::outside(cells.iter().map(|cell| CellKind::Hexahedron.cell(cell))).unwrap()).collect();
         let mut sighted = Pairing::new(&bodies, false, with_edges, true);
         let mut blind = Pairing::new(&bodies, true, false, true);
         sighted.go([0.0; 3]);
@@ -372,7 +373,7 @@ proptest! {
         let mut blind = Pairing::new(&bodies, true, false, true);
         let mut awake = Pairing::new(&bodies, true, false, false);
         let count = bodies.2;
-        let surfaces: Vec<SpaceSurface> = bodies.0.iter().map(|cells| Surface::<3>::outside(cells.iter().map(Vec::as_slice)).unwrap()).collect();
+        let surfaces: Vec<SpaceSurface> = bodies.0.iter().map(|cells| Surface::<3>::outside(cells.iter().map(|cell| CellKind::Hexahedron.cell(cell))).unwrap()).collect();
         let mut all = 0;
         blind.go([0.0; 3]);
         awake.go([0.0; 3]);

@@ -40,7 +40,7 @@ fn random_element<E: Element<2, N, P>, const N: usize, const P: usize>(numbers: 
 }
 
 fn partition_of_unity<E: Element<2, N, P>, const N: usize, const P: usize>() {
-    assert_eq!(E::KIND.nodes, N);
+    assert_eq!(E::KIND.nodes(), N);
     let mut numbers = Spread::new(1);
     for a in 0..N {
         let shape = E::shape(E::NODES[a]);

@@ -4,6 +4,7 @@ use crate::bodies::*;
 use embate_solver::contact::node_segment::ends;
 use embate_solver::contact::projection::node_segment::Target;
 use embate_solver::contact::springs::tangent;
+use embate_solver::mesh::cell::CellKind;
 use embate_solver::mesh::surface::Surface;
 use embate_solver::model::{ContactLaw, Formulation, Friction, Interface, Model, Obstacle, Penalty};
 
@@ -28,7 +29,7 @@ fn history_end(simulation: &embate_solver::simulation::Simulation, column: &str)
 fn the_slip_rate_does_not_see_rotation_of_both_surfaces_together() {
     // A node above and below a segment, beyond its end too; every point moves as in a rigid rotation about some centre.
     let cell: [u32; 3] = [1, 2, 3];
-    let surface = Surface::<2>::outside([cell.as_slice()]).unwrap();
+    let surface = Surface::<2>::outside([CellKind::Triangle.cell(&cell)]).unwrap();
     let target = Target { surface, mirrors: vec![] };
     for x in [[0.3, 0.2], [0.7, -0.01], [1.4, 0.5], [-0.2, 0.1]] {
         let positions = [x, [0.0, 0.0], [1.0, 0.1], [0.4, 0.9]];

@@ -45,7 +45,7 @@ fn faults(model: &Model) -> Vec<String> {
 }
 
 fn has_triangles() -> bool {
-    ELEMENTS.iter().any(|kind| kind.nodes == 3)
+    ELEMENTS.iter().any(|kind| kind.nodes() == 3)
 }
 
 #[test]

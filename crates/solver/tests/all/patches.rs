@@ -160,7 +160,7 @@ pub(crate) fn is_damped(element: &str) -> bool {
 }
 
 pub(crate) fn nodes_of(element: &str) -> usize {
-    ELEMENTS.iter().chain(ELEMENTS_OF_SPACE).find(|kind| kind.name == element).unwrap().nodes
+    ELEMENTS.iter().chain(ELEMENTS_OF_SPACE).find(|kind| kind.name == element).unwrap().nodes()
 }
 
 struct ReferenceNodes;

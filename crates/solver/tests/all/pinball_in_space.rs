@@ -28,7 +28,7 @@ fn add_box(
     let number = move |i: usize, j: usize, k: usize| ((k * (ny + 1) + j) * (nx + 1) + i) as u32;
     let places = (0..=nz).flat_map(|k| (0..=ny).flat_map(move |j| (0..=nx).map(move |i| [i, j, k])));
     let positions = places.map(|at| place([0, 1, 2].map(|d| size[d] * at[d] as f64 / cells[d] as f64))).collect();
-    let nodes = ELEMENTS_OF_SPACE.iter().find(|kind| kind.name == element).unwrap().nodes;
+    let nodes = ELEMENTS_OF_SPACE.iter().find(|kind| kind.name == element).unwrap().nodes();
     let mut all: Vec<Vec<u32>> = Vec::new();
     for (i, j, k) in (0..nx * ny * nz).map(|cell| (cell % nx, cell / nx % ny, cell / nx / ny)) {
         let corner = |c: [usize; 3]| number(i + c[0], j + c[1], k + c[2]);

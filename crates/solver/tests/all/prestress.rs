@@ -31,7 +31,7 @@ fn a_block_under_the_pressure_that_its_stress_asks_for_stays_at_rest() {
                 continue;
             }
             let mut model = model(1e-3);
-            let shape = if kind.nodes == 3 {
+            let shape = if kind.nodes() == 3 {
                 let outline = vec![[0.0, 0.0], [0.08, 0.0], [0.08, 0.05], [0.0, 0.05]];
                 Shape::Polygon(Polygon { outline, size: 0.01, ..Polygon::default() })
             } else {
@@ -44,7 +44,7 @@ fn a_block_under_the_pressure_that_its_stress_asks_for_stays_at_rest() {
             // Radial and hoop stress of a body of revolution are alike, or it would not rest.
             let zz = if state == "plane_stress" { 0.0 } else { -3e6 };
             part.stress_initial = Some(InitialStress::uniform([-3e6, -5e6, zz, 0.0]));
-            if kind.nodes == 3 {
+            if kind.nodes() == 3 {
                 push(&mut model, "block", 3e6);
                 model.parts[0].stress_initial = Some(InitialStress::uniform([-3e6, -3e6, zz, 0.0]));
             } else {
@@ -66,7 +66,7 @@ fn a_block_under_the_pressure_that_its_stress_asks_for_stays_at_rest() {
 #[test]
 fn soil_under_its_own_weight_and_the_stress_that_bears_it_stays_at_rest() {
     let (density, gravity_, depth) = (1000.0, 9.81, 0.05);
-    for kind in ELEMENTS.iter().filter(|kind| kind.nodes == 4) {
+    for kind in ELEMENTS.iter().filter(|kind| kind.nodes() == 4) {
         let mut model = model(2e-3);
         add(&mut model, "soil", mapped_rectangle(), [0.0; 2]);
         model.parts[0].element = kind.name.into();

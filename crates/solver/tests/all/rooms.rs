@@ -14,7 +14,6 @@ const UPWARD: &[(&str, &str, usize)] = &[
     ("world", "block", 1),
     ("world", "contact_forces", 3),
     ("world", "contact", 3),
-    ("world", "output", 3),
     ("world", "build", 3),
     // Descriptions and checks of keys, which ask the registries.
     ("model", "mesh", 5),

@@ -107,7 +107,7 @@ pub(crate) fn model(seed: u64) -> Model {
 
 /// Names of the elements with so many nodes.
 pub(crate) fn elements_of(kinds: &[ElementKind], nodes: usize) -> Vec<String> {
-    kinds.iter().filter(|kind| kind.nodes == nodes).map(|kind| kind.name.to_string()).collect()
+    kinds.iter().filter(|kind| kind.nodes() == nodes).map(|kind| kind.name.to_string()).collect()
 }
 
 fn shape(dice: &mut Dice, centre: [f64; 2]) -> Shape {

@@ -8,6 +8,7 @@ use crate::abaqus::element_kind::ElementKind;
 use crate::abaqus::messages::{INCOMPLETE, NO_COUNTERPART, UNKNOWN};
 use crate::abaqus::text::{folded, shown};
 use embate_solver::error::Fault;
+use embate_solver::mesh::cell::CellKind;
 use embate_solver::quantity::Dimension;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
@@ -191,9 +192,9 @@ impl Importer<'_> {
 
     /// The element of the quadrilaterals or hexahedra of a part, if it is not the usual one; what differs is noted. Triangles, wedges and tetrahedra are the usual ones.
     fn element(&mut self, part: &Part, kinds: &BTreeMap<&str, &'static ElementKind>) -> Option<&'static str> {
-        let (largest, usual, of) = if self.is_solid() { (8, "hex8", 3) } else { (4, "quad4", 2) };
+        let (largest, usual, of) = if self.is_solid() { (CellKind::Hexahedron, "hex8", 3) } else { (CellKind::Quadrilateral, "quad4", 2) };
         let known = |name: &str| embate_solver::element::elements_of(of).iter().any(|kind| kind.name == name);
-        let mut largest = kinds.values().filter(|kind| kind.nodes == largest);
+        let mut largest = kinds.values().filter(|kind| kind.cell == largest);
         let first = largest.next().copied();
         for other in largest {
             self.approximated(

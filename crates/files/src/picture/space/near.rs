@@ -19,7 +19,7 @@ use crate::picture::neighbourhood::{
 use crate::picture::svg::{hex, write_text};
 use crate::picture::view::{joined, nothing};
 use embate_solver::model::Camera;
-use embate_solver::output::{CellKind, Cells, Frame};
+use embate_solver::output::{Cells, Frame};
 use embate_solver::post_mortem::{Moment, Neighbourhood};
 use std::fmt::Write;
 
@@ -78,12 +78,7 @@ fn cells(near: &Neighbourhood) -> Cells {
         cells.nodes.extend(cell.nodes.iter().map(|&node| node as u32));
         cells.offsets.push(cells.nodes.len() as u32);
         cells.parts.push(cell.part as u32);
-        cells.kinds.push(match cell.nodes.len() {
-            2 => CellKind::Line,
-            4 => CellKind::Tetrahedron,
-            6 => CellKind::Wedge,
-            _ => CellKind::Hexahedron,
-        });
+        cells.kinds.push(cell.kind);
     }
     cells
 }

@@ -93,7 +93,7 @@ fn two_bars(example: &Model) -> String {
     }
     for (part, name) in ["left", "right"].iter().enumerate() {
         let mut cells: Vec<(u32, &[u32])> =
-            mesh.groups_of(part).flat_map(|group| group.user_elements.iter().copied().zip(group.cells())).collect();
+            mesh.groups_of(part).flat_map(|group| group.user_elements.iter().copied().zip(group.cells().map(|cell| cell.nodes))).collect();
         cells.sort_unstable();
         writeln!(deck, "*ELEMENT, TYPE=CPE4, ELSET={name}").unwrap();
         writeln!(ends, "*SURFACE, NAME=end of {name}").unwrap();

@@ -4,6 +4,7 @@ use super::{group, read};
 use embate_files::Reach;
 use embate_files::abaqus::import::{Units, import};
 use embate_files::model_file::load_text;
+use embate_solver::mesh::cell::CellKind;
 use embate_solver::mesh::{Mesh, signed_volume};
 use embate_solver::model::{Constraint, CurveShape, Drive, ImportedMesh, InitialPenetration, Load, Model, Motion, Partners};
 use std::fs;
@@ -91,7 +92,8 @@ fn solids_of_negative_volume_are_turned_and_flat_ones_refused() {
         .replace("5,6,8,11", "5,8,6,11");
     let mesh = read(&swapped).unwrap();
     for name in ["cube", "wedge", "tip"] {
-        assert!(signed_volume(&positions(&mesh, &group(&mesh, name).cells[0])) > 0.0, "{name}");
+        let cell = group(&mesh, name).elements().flatten().next().unwrap();
+        assert!(signed_volume(cell.kind, &positions(&mesh, cell.nodes)) > 0.0, "{name}");
     }
     // S1 is still the face of the first nodes that are written.
     assert!(positions(&mesh, &group(&mesh, "bottom").cells[0]).iter().all(|x| x[2] == 1.0));
@@ -243,7 +245,11 @@ fn a_deck_of_solids_becomes_a_model_of_space() {
     let part = |name: &str| model.parts.iter().find(|part| part.name == name).unwrap_or_else(|| panic!("{name}: {text}"));
     let elements: Vec<&str> = ["CUBE", "PLATE"].iter().map(|name| part(name).element.as_str()).collect();
     assert_eq!(elements, ["hex8_reduced", "hex8_reduced_assumed_strain"]);
-    let bar: Vec<&str> = [6, 4].iter().filter_map(|&nodes| part("BAR").element_in(3, nodes)).map(|kind| kind.name).collect();
+    let bar: Vec<&str> = [CellKind::Wedge, CellKind::Tetrahedron]
+        .into_iter()
+        .filter_map(|cell| part("BAR").element_in(3, cell))
+        .map(|kind| kind.name)
+        .collect();
     assert_eq!(bar, ["wedge6", "tet4"]);
     assert!([[0.01, 0.0, -5.0]].iter().all(|v| part("CUBE").velocity.iter().zip(v).all(|(a, b)| (a - b).abs() < 1e-12)), "{text}");
     assert_eq!(part("BAR").velocity, [0.0; 3]);

@@ -4,6 +4,7 @@ use super::{faults, group, mesh};
 use embate_files::gmsh::parse;
 use embate_files::model_file::load_text;
 use embate_solver::error::Fault;
+use embate_solver::mesh::cell::Cell;
 use embate_solver::mesh::{Mesh, signed_volume};
 use embate_solver::model::ImportedMesh;
 
@@ -121,12 +122,12 @@ fn read(elements: &[Element]) -> ImportedMesh {
 }
 
 fn volume(mesh: &ImportedMesh, name: &str) -> f64 {
-    let of = |cell: &Vec<u32>| {
-        let volume = signed_volume(&cell.iter().map(|&node| mesh.positions[node as usize]).collect::<Vec<_>>());
+    let of = |cell: Cell<'_>| {
+        let volume = signed_volume(cell.kind, &cell.nodes.iter().map(|&node| mesh.positions[node as usize]).collect::<Vec<_>>());
         assert!(volume > 0.0, "a cell of {name} is inside out");
         volume
     };
-    group(mesh, name).cells.iter().map(of).sum()
+    group(mesh, name).elements().flatten().map(of).sum()
 }
 
 #[test]

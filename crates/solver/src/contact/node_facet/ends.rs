@@ -153,6 +153,7 @@ fn spins(x: [Vector; 3], shares: impl Fn(usize) -> [f64; 4]) -> [Spin; 4] {
 mod tests {
     use super::*;
     use crate::bench::Random;
+    use crate::mesh::cell::CellKind;
     use crate::mesh::surface::{NONE, SpaceSurface};
     use std::collections::BTreeMap;
 
@@ -165,7 +166,7 @@ mod tests {
             [square(k), square(k + 1)].concat()
         };
         let cells = [cell(0, 0), cell(1, 0), cell(0, 1)];
-        let surface = SpaceSurface::outside(cells.iter().map(|cell| &cell[..])).unwrap();
+        let surface = SpaceSurface::outside(cells.iter().map(|cell| CellKind::Hexahedron.cell(cell))).unwrap();
         let mut random = Random::new(5);
         let place = |k: u32| [k % 3, k / 3 % 2, k / 6].map(|c| f64::from(c) + 0.2 * (random.unit() - 0.5));
         let mut positions: Vec<Vector> = (0..18).map(place).collect();

@@ -74,6 +74,7 @@ impl Candidates<'_> {
 mod tests {
     use super::*;
     use crate::bench::Random;
+    use crate::mesh::cell::CellKind;
     use crate::mesh::surface::SpaceSurface;
 
     #[test]
@@ -81,7 +82,7 @@ mod tests {
         let mut random = Random::new(7);
         // Four crooked bodies in a row, six facets each.
         let cells: Vec<u32> = (0..32).collect();
-        let surface = SpaceSurface::outside(cells.chunks(8)).unwrap();
+        let surface = SpaceSurface::outside(CellKind::Hexahedron.cells(&cells)).unwrap();
         let facets: Vec<u32> = (0..24).collect();
         let mut vector = |size: f64| [0, 1, 2].map(|_| size * (2.0 * random.unit() - 1.0));
         let mut positions: Vec<Vector> = (0..32).map(|k| [3.0 * f64::from(k / 8), 0.0, 0.0]).collect();

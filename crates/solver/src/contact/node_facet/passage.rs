@@ -137,11 +137,12 @@ pub(super) fn led(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::cell::CellKind;
     use crate::mesh::surface::Surface;
 
     /// What a node does that goes straight from one place to another, with the unit cube that stands still (or a plate of the same width), and was outside.
     fn fate_of(from: Vector, to: Vector, height: f64) -> Fate {
-        let cells: [&[u32]; 1] = [&[0, 1, 2, 3, 4, 5, 6, 7]];
+        let cells = [CellKind::Hexahedron.cell(&[0, 1, 2, 3, 4, 5, 6, 7])];
         let surface = Surface::<3>::outside(cells).unwrap();
         let corner = |k: u32| [f64::from(k & 1 ^ (k >> 1 & 1)), f64::from(k >> 1 & 1), height * f64::from(k >> 2)];
         let mut old: Vec<Vector> = (0..8).map(corner).collect();

@@ -9,6 +9,7 @@ use crate::contact::springs::{Mover, Movers, Tangential, Terms, Update};
 use crate::contact::traces::Traces;
 use crate::contact::{Contact, ContactKind, Sweep};
 use crate::contact_forces::ContactForces;
+use crate::mesh::cell::CellKind;
 use crate::mesh::surface::{SpaceSurface, Surface};
 use crate::rigid::Bodies;
 use crate::tensor::cross;
@@ -132,7 +133,7 @@ fn grid(corner: Vector, size: Vector, [nx, ny, nz]: [usize; 3], is_there: impl F
 impl Blocks {
     fn surface(&self, first: u32) -> SpaceSurface {
         let cells: Vec<Vec<u32>> = self.cells.iter().map(|cell| cell.iter().map(|node| node + first).collect()).collect();
-        Surface::<3>::outside(cells.iter().map(|cell| &cell[..])).unwrap()
+        Surface::<3>::outside(cells.iter().map(|cell| CellKind::Hexahedron.cell(cell))).unwrap()
     }
 
     /// Springs between all nodes of each cell.
@@ -293,7 +294,9 @@ fn nodes_on_a_symmetry_plane_that_fly_through_a_plate_in_one_step_are_seen_at_it
         let before = [&slaves.positions[..], &plate.positions[..]].concat();
         let cells: Vec<Vec<u32>> = plate.cells.iter().map(|cell| cell.iter().map(|node| node + first as u32).collect()).collect();
         let on = |nodes: &[u32], d: usize| nodes.iter().all(|&node| before[node as usize][d] == 0.0);
-        let target = Surface::<3>::outside_without(cells.iter().map(|cell| &cell[..]), |facet| on(&facet, 0) || on(&facet, 1)).unwrap();
+        let target =
+            Surface::<3>::outside_without(cells.iter().map(|cell| CellKind::Hexahedron.cell(cell)), |facet| on(&facet, 0) || on(&facet, 1))
+                .unwrap();
         let axis = |d: usize| [0, 1, 2].map(|e| if d == e { 1.0 } else { 0.0 });
         let target = target.with_mirrors(|edge| (0..2).filter(|&d| on(&edge, d)).map(axis).collect::<Vec<_>>(), &before);
         let of: Vec<u32> = (0..before.len()).map(|k| u32::from(k >= first)).collect();

@@ -220,10 +220,11 @@ impl Skin {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::cell::CellKind;
 
     #[test]
     fn each_edge_of_a_closed_skin_has_two_triangles_and_runs_both_ways() {
-        let cells: [&[u32]; 2] = [&[0, 1, 2, 3, 4, 5, 6, 7], &[9, 10, 11, 12]];
+        let cells = [CellKind::Hexahedron.cell(&[0, 1, 2, 3, 4, 5, 6, 7]), CellKind::Tetrahedron.cell(&[9, 10, 11, 12])];
         let surface = SpaceSurface::outside(cells).unwrap();
         let bodies = Bodies { outside: &surface, is_mirror: &|_| false, body_of: &|node| u32::from(node > 8), side_of: None };
         let skin = Skin::new(&bodies);

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::contact::springs::Springs;
+use crate::mesh::cell::Cell;
 use crate::mesh::surface::SpaceSurface;
 use crate::tensor::cross;
 use crate::vector::minus;
@@ -48,7 +49,7 @@ fn two(size: Vector, [low, high]: [Vector; 2], counts: [[usize; 3]; 2], are_tets
     block([0.0; 3], size, counts[0], are_tets[0], &mut nodes, &mut cells);
     let second = nodes.len() as u32;
     block(low, high, counts[1], are_tets[1], &mut nodes, &mut cells);
-    let surface = SpaceSurface::outside(cells.iter().map(|cell| &cell[..])).unwrap();
+    let surface = SpaceSurface::outside(cells.iter().filter_map(|nodes| Cell::of(3, nodes))).unwrap();
     let body_of = |node: u32| u32::from(node >= second);
     let bodies = Bodies { outside: &surface, is_mirror: &|_| false, body_of: &body_of, side_of: None };
     (Judge::new(&bodies, &nodes, false), nodes)
@@ -322,7 +323,7 @@ fn pairs_that_are_kept_and_sleep_are_those_of_a_search_anew_in_each_look() {
 
 /// The surface of some elements that are one body, and its judge.
 fn one(nodes: &[Vector], cells: &[Vec<u32>]) -> Judge {
-    let surface = SpaceSurface::outside(cells.iter().map(|cell| &cell[..])).unwrap();
+    let surface = SpaceSurface::outside(cells.iter().filter_map(|nodes| Cell::of(3, nodes))).unwrap();
     let bodies = Bodies { outside: &surface, is_mirror: &|_| false, body_of: &|_| 0, side_of: None };
     Judge::new(&bodies, nodes, false)
 }

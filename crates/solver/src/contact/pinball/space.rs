@@ -19,6 +19,7 @@ use super::super::{Formulation, Scene, Sweep};
 use super::follower::{self, Follower};
 use crate::archive::{Archive, Kept, keep_each};
 use crate::contact::springs::TangentSpace;
+use crate::mesh::cell::Cell;
 use crate::mesh::surface::{Corners, SpaceSurface};
 use crate::model;
 use crate::tensor::{Dim, cross, dot};
@@ -38,8 +39,8 @@ const START: f64 = 0.02;
 pub struct Layer<'a> {
     /// The surface.
     pub surface: &'a SpaceSurface,
-    /// Nodes of the element behind each facet; empty where it is not known.
-    pub cells: Vec<&'a [u32]>,
+    /// The element behind each facet; `None` where it is not known.
+    pub cells: Vec<Option<Cell<'a>>>,
     /// κ of these elements, Pa/m.
     pub stiffness: Vec<f64>,
 }

@@ -153,12 +153,13 @@ impl Placed<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::cell::CellKind;
     use crate::mesh::surface::Surface;
     use proptest::prelude::*;
 
     #[test]
     fn edges_of_a_cube_are_ridges_and_those_of_a_notch_are_not() {
-        let cells: [&[u32]; 1] = [&[0, 1, 2, 3, 4, 5, 6, 7]];
+        let cells = [CellKind::Hexahedron.cell(&[0, 1, 2, 3, 4, 5, 6, 7])];
         let surface = Surface::<3>::outside(cells).unwrap();
         let mut x: Vec<Vector> = (0..8).map(|k| [f64::from(k & 1 ^ (k >> 1 & 1)), f64::from(k >> 1 & 1), f64::from(k >> 2)]).collect();
         let placed = Placed { surface: &surface, positions: &x };

@@ -15,14 +15,8 @@ where
         std::array::from_fn(|d| nodes.iter().map(|&node| body.positions[node as usize][d]).sum::<f64>() / nodes.len() as f64)
     };
     let keeps = |nodes: &[u32]| is_kept(centre(nodes));
-    let mut left: Body<D> = Body {
-        quads: body.quads.iter().filter(|cell| keeps(*cell)).copied().collect(),
-        triangles: body.triangles.iter().filter(|cell| keeps(*cell)).copied().collect(),
-        hexahedra: body.hexahedra.iter().filter(|cell| keeps(*cell)).copied().collect(),
-        wedges: body.wedges.iter().filter(|cell| keeps(*cell)).copied().collect(),
-        tetrahedra: body.tetrahedra.iter().filter(|cell| keeps(*cell)).copied().collect(),
-        ..Body::default()
-    };
+    let mut left = Body::default();
+    left.add(body.cells().filter(|cell| keeps(cell.nodes)));
     let outside: Vec<_> = exterior::<D>(left.cells()).unwrap_or_default();
     let all: BTreeSet<_> = outside.iter().map(|facet| facet.canonical()).collect();
     let mut old = BTreeSet::new();
@@ -51,7 +45,7 @@ where
     /// Takes the positions of the nodes that elements have, in their order, and numbers everything so.
     fn only_used(&mut self, positions: &[[f64; D]]) {
         let mut used = vec![false; positions.len()];
-        self.cells().flatten().for_each(|&node| used[node as usize] = true);
+        self.cells().flat_map(|cell| cell.nodes).for_each(|&node| used[node as usize] = true);
         let mut numbers = vec![0; positions.len()];
         for (node, (number, &position)) in numbers.iter_mut().zip(positions).enumerate() {
             if used[node] {
@@ -60,11 +54,7 @@ where
             }
         }
         let number = |node: &mut u32| *node = numbers[*node as usize];
-        self.quads.iter_mut().flatten().for_each(number);
-        self.triangles.iter_mut().flatten().for_each(number);
-        self.hexahedra.iter_mut().flatten().for_each(number);
-        self.wedges.iter_mut().flatten().for_each(number);
-        self.tetrahedra.iter_mut().flatten().for_each(number);
+        self.elements.values_mut().flatten().for_each(number);
         for (_, facets) in &mut self.sides {
             facets.iter_mut().for_each(|facet| *facet = facet.renamed(|node| numbers[node as usize]));
         }

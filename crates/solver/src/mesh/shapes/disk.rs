@@ -1,5 +1,6 @@
 //! A full disk without needle elements.
 
+use crate::mesh::cell::CellKind;
 use super::numbers::{between, cos_sin};
 use super::{Body, BuiltIn, CheckOf, Count, ELEMENTS, Values, Wrong, node, shape_key};
 use crate::model::describe::Kind::{Integer, Quantity, Vector};
@@ -74,7 +75,7 @@ impl BuiltIn for Disk {
         }
         let core = |i: usize, j: usize| j * (n + 1) + i;
         for j in 0..n {
-            body.quads.extend((0..n).map(|i| [core(i, j), core(i + 1, j), core(i + 1, j + 1), core(i, j + 1)].map(node)));
+            body.extend(CellKind::Quadrilateral, (0..n).map(|i| [core(i, j), core(i + 1, j), core(i + 1, j + 1), core(i, j + 1)].map(node)));
         }
         // The core's outside, counter-clockwise from its lower left corner; it is layer 0.
         let outside: Vec<[usize; 2]> = (0..n)
@@ -94,7 +95,7 @@ impl BuiltIn for Disk {
                 let [x, y] = [0, 1].map(|d| between(inside[d], circle[d], layer, layers));
                 body.positions.push([centre[0] + radius * x, centre[1] + radius * y]);
             }
-            body.quads.extend((0..around).map(|k| [at(layer - 1, k), at(layer, k), at(layer, k + 1), at(layer - 1, k + 1)]));
+            body.extend(CellKind::Quadrilateral, (0..around).map(|k| [at(layer - 1, k), at(layer, k), at(layer, k + 1), at(layer - 1, k + 1)]));
         }
         body.sides = vec![("outer".into(), (0..around).rev().map(|k| [at(layers, k + 1), at(layers, k)]).collect())];
         Ok(body)
@@ -188,7 +189,7 @@ mod tests {
     /// Smallest corner angle in degrees, largest ratio of two sides of an element, largest over smallest side of the mesh.
     fn quality(body: &Body) -> [f64; 3] {
         let (mut angle, mut aspect, mut shortest, mut longest) = (180.0_f64, 1.0_f64, f64::MAX, 0.0_f64);
-        for quad in &body.quads {
+        for quad in body.all::<4>(CellKind::Quadrilateral) {
             let x = quad.map(|n| body.positions[n as usize]);
             let (mut low, mut high) = (f64::MAX, 0.0_f64);
             for k in 0..4 {

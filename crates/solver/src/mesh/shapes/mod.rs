@@ -16,6 +16,7 @@ pub use quadrilateral::Edge;
 pub use sweep::{Extrude, Revolve, Sweep};
 
 use super::Meshed;
+use super::cell::{Cell, CellKind};
 use super::messages::UNMESHABLE;
 use super::surface::Facet;
 use crate::error::Fault;
@@ -27,9 +28,10 @@ use crate::quantity::Range::Positive;
 use crate::tensor::Dim;
 use cut::cut;
 use numbers::Steps;
+use std::collections::BTreeMap;
 
-/// The mesh of one body: nodes, elements, and named sides. In the plane it has quadrilaterals and triangles, in space hexahedra, wedges and tetrahedra; elements are
-/// numbered in this order.
+/// The mesh of one body: nodes, elements, and named sides. Elements are numbered kind by kind, those of the
+/// last kind first.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Body<const D: usize = 2>
 where
@@ -37,18 +39,8 @@ where
 {
     /// Node positions, m.
     pub positions: Vec<[f64; D]>,
-    /// Quadrilaterals, counter-clockwise.
-    pub quads: Vec<[u32; 4]>,
-    /// Triangles, counter-clockwise.
-    pub triangles: Vec<[u32; 3]>,
-    /// Hexahedra: four nodes counter-clockwise seen from the other four, which follow above them.
-    pub hexahedra: Vec<[u32; 8]>,
-    /// Wedges: three nodes counter-clockwise seen from the other three, which follow above them.
-    pub wedges: Vec<[u32; 6]>,
-    /// Tetrahedra: three nodes counter-clockwise seen from the fourth.
-    pub tetrahedra: Vec<[u32; 4]>,
-    /// Bars; a body of bars has nothing else.
-    pub bars: Vec<[u32; 2]>,
+    /// Nodes of the elements of each kind, one after the other.
+    pub(super) elements: BTreeMap<CellKind, Vec<u32>>,
     /// Named sides as segments with the body on their right, or facets counter-clockwise seen from outside.
     pub sides: Vec<(String, Vec<Facet<D>>)>,
     /// Named sets of nodes that are no sides.
@@ -59,12 +51,29 @@ impl<const D: usize> Body<D>
 where
     Dim<D>: Meshed<D>,
 {
-    /// Nodes of each element.
-    pub fn cells(&self) -> impl Iterator<Item = &[u32]> + Clone {
-        let areas = self.quads.iter().map(<[u32; 4]>::as_slice).chain(self.triangles.iter().map(<[u32; 3]>::as_slice));
-        let volumes = self.hexahedra.iter().map(<[u32; 8]>::as_slice).chain(self.wedges.iter().map(<[u32; 6]>::as_slice));
-        let volumes = volumes.chain(self.tetrahedra.iter().map(<[u32; 4]>::as_slice));
-        areas.chain(volumes).chain(self.bars.iter().map(<[u32; 2]>::as_slice))
+    /// Each element.
+    pub fn cells(&self) -> impl Iterator<Item = Cell<'_>> + Clone {
+        self.elements.iter().rev().flat_map(|(kind, nodes)| kind.cells(nodes))
+    }
+
+    /// Nodes of each element of a kind that has `N`.
+    #[must_use]
+    pub fn all<const N: usize>(&self, kind: CellKind) -> &[[u32; N]] {
+        debug_assert_eq!(kind.nodes(), N);
+        self.elements.get(&kind).map_or(&[], |nodes| nodes.as_chunks().0)
+    }
+
+    /// Adds elements of a kind.
+    fn add<'c>(&mut self, cells: impl IntoIterator<Item = Cell<'c>>) {
+        for cell in cells {
+            self.elements.entry(cell.kind).or_default().extend(cell.nodes);
+        }
+    }
+
+    /// Adds elements of a kind, given their nodes.
+    fn extend<const N: usize>(&mut self, kind: CellKind, cells: impl IntoIterator<Item = [u32; N]>) {
+        debug_assert_eq!(kind.nodes(), N);
+        self.elements.entry(kind).or_default().extend(cells.into_iter().flatten());
     }
 }
 
@@ -165,9 +174,9 @@ where
     fn size_key(&self) -> &'static str {
         ELEMENTS
     }
-    /// Nodes per element of what it makes.
-    fn nodes_per_element(&self) -> usize {
-        1 << D
+    /// What it is made of.
+    fn cell_kind(&self) -> CellKind {
+        if D == 2 { CellKind::Quadrilateral } else { CellKind::Hexahedron }
     }
     /// The mesh.
     fn body(&self) -> Result<Body<D>, Wrong>;
@@ -298,6 +307,11 @@ impl Shape {
         sides.into_iter().chain(points).collect()
     }
 
+    /// What a built-in shape is made of; `None` for a group of a mesh file.
+    pub(crate) fn cell_kind(&self) -> Option<CellKind> {
+        self.built_in().map(|(shape, _)| shape.cell_kind()).or_else(|| self.solid().map(|(shape, _)| shape.cell_kind()))
+    }
+
     /// The group that it is of a mesh file's.
     pub(crate) fn group_of(&self, file: usize) -> Option<&str> {
         match self {
@@ -347,13 +361,11 @@ impl Part {
         self.shape.sides().into_iter().chain(swept).collect()
     }
 
-    /// Nodes per element of what its built-in shape makes, away from an axis that it is turned about; `None` for a group of a mesh file.
-    pub(crate) fn nodes_per_element(&self) -> Option<usize> {
-        match (self.shape.built_in(), self.shape.solid()) {
-            (Some((shape, _)), _) => Some(self.sweep.as_ref().map_or(1, |_| 2) * shape.nodes_per_element()),
-            (None, Some((shape, _))) => Some(shape.nodes_per_element()),
-            (None, None) => None,
-        }
+    /// What its built-in shape is made of, away from an axis that it is turned about; `None` for a group of a
+    /// mesh file, and for bars that are swept.
+    pub(crate) fn cell_kind(&self) -> Option<CellKind> {
+        let kind = self.shape.cell_kind()?;
+        if self.sweep.is_some() && self.shape.solid().is_none() { kind.facts().extruded } else { Some(kind) }
     }
 }
 
@@ -404,7 +416,7 @@ fn lattice(elements: [usize; 2], closed: bool, sides: [&str; 4], at: impl Fn(usi
         body.positions.extend((0..=nx).map(|i| at(i, j)));
     }
     for j in 0..ny {
-        body.quads.extend((0..nx).map(|i| [number(i, j), number(i + 1, j), number(i + 1, j + 1), number(i, j + 1)]));
+        body.extend(CellKind::Quadrilateral, (0..nx).map(|i| [number(i, j), number(i + 1, j), number(i + 1, j + 1), number(i, j + 1)]));
     }
     let mut side = |name: &str, segments| body.sides.push((name.to_string(), segments));
     side(sides[0], (0..ny).map(|j| [number(0, j), number(0, j + 1)]).collect());
@@ -422,7 +434,7 @@ fn fold(body: &Body) -> Option<(usize, [f64; 2])> {
         let x = |k: usize| body.positions[quad[k % 4] as usize];
         numbers::cross(numbers::minus(x(k + 1), x(k)), numbers::minus(x(k + 3), x(k))) > 0.0
     };
-    let (element, quad) = body.quads.iter().enumerate().find(|(_, quad)| !(0..4).all(|k| turns(quad, k)))?;
+    let (element, quad) = body.all::<4>(CellKind::Quadrilateral).iter().enumerate().find(|(_, quad)| !(0..4).all(|k| turns(quad, k)))?;
     Some((element, body.positions[quad[0] as usize]))
 }
 
@@ -470,7 +482,7 @@ mod tests {
 
     fn jacobians(body: &Body) -> impl Iterator<Item = f64> + '_ {
         body.cells().flat_map(|cell| {
-            let x: Vec<[f64; 2]> = cell.iter().map(|&n| body.positions[n as usize]).collect();
+            let x: Vec<[f64; 2]> = cell.nodes.iter().map(|&n| body.positions[n as usize]).collect();
             let n = x.len();
             (0..n).map(move |k| cross(minus(x[(k + 1) % n], x[k]), minus(x[(k + n - 1) % n], x[k])))
         })
@@ -480,8 +492,8 @@ mod tests {
     pub(super) fn moments(body: &Body) -> [f64; 4] {
         let mut sum = [0.0; 4];
         for cell in body.cells() {
-            for t in 1..cell.len() - 1 {
-                let [p, q, r] = [0, t, t + 1].map(|k| body.positions[cell[k] as usize]);
+            for t in 1..cell.nodes.len() - 1 {
+                let [p, q, r] = [0, t, t + 1].map(|k| body.positions[cell.nodes[k] as usize]);
                 let area = 0.5 * cross(minus(q, p), minus(r, p));
                 let product = |i: usize, j: usize| {
                     let (s, t) = (p[i] + q[i] + r[i], p[j] + q[j] + r[j]);
@@ -520,7 +532,7 @@ mod tests {
             let body = body(&shape);
             assert!(body.cells().count() > 0);
             assert!(jacobians(&body).all(|j| j > 0.0), "{shape:?}");
-            assert!(body.cells().all(|cell| cell.len() == shape.built_in().unwrap().0.nodes_per_element()));
+            assert!(body.cells().all(|cell| Some(cell.kind) == shape.cell_kind()));
         }
     }
 
@@ -546,7 +558,7 @@ mod tests {
                 let about = |count: usize, made: usize| made <= 2 * count && count <= 10 * made;
                 assert!(about(count.nodes, made[0]) && about(count.elements, made[1]), "{count:?} {made:?} {shape:?}");
             }
-            let mut used: Vec<u32> = body.cells().flatten().copied().collect();
+            let mut used: Vec<u32> = body.cells().flat_map(|cell| cell.nodes).copied().collect();
             used.sort_unstable();
             used.dedup();
             assert_eq!(used.len(), body.positions.len(), "every node is used");

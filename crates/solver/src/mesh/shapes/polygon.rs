@@ -1,5 +1,6 @@
 //! A polygon, perhaps with holes, of triangles.
 
+use crate::mesh::cell::CellKind;
 use super::delaunay::{is_inside, triangles};
 use super::numbers::{cross, distance, minus};
 use super::{Body, BuiltIn, CheckOf, Count, Values, Wrong, shape_key};
@@ -140,8 +141,8 @@ impl BuiltIn for Polygon {
         "size"
     }
 
-    fn nodes_per_element(&self) -> usize {
-        3
+    fn cell_kind(&self) -> CellKind {
+        CellKind::Triangle
     }
 
     fn body(&self) -> Result<Body, Wrong> {
@@ -179,7 +180,9 @@ impl BuiltIn for Polygon {
             }
             first += n;
         }
-        Ok(Body { positions: made.positions, quads: Vec::new(), triangles: made.triangles, sides, ..Body::default() })
+        let mut body = Body { positions: made.positions, sides, ..Body::default() };
+        body.extend(CellKind::Triangle, made.triangles);
+        Ok(body)
     }
 
     #[cfg(test)]
@@ -296,7 +299,7 @@ mod tests {
             };
             ((0..3).map(angle).fold(180.0, f64::min), x[0])
         };
-        body.triangles.iter().map(of).collect()
+        body.all::<3>(CellKind::Triangle).iter().map(of).collect()
     }
 
     #[test]
@@ -307,7 +310,7 @@ mod tests {
                 let is_sharp = polygon.outline.len() == 3;
                 let worst = angles(&body).into_iter().reduce(|a, b| if b.0 < a.0 { b } else { a }).unwrap();
                 let least = if is_sharp { 17.0 } else { 25.0 };
-                assert!(worst.0 > least, "{n}: {worst:?} of {} triangles of {polygon:?}", body.triangles.len());
+                assert!(worst.0 > least, "{n}: {worst:?} of {} triangles of {polygon:?}", body.cells().count());
             }
         }
     }
@@ -315,7 +318,7 @@ mod tests {
     #[test]
     fn edges_are_about_as_long_as_asked_for() {
         for (polygon, area) in Polygon::examples(20).into_iter().take(3) {
-            let mean = (area / polygon.body().unwrap().triangles.len() as f64 / EQUILATERAL).sqrt();
+            let mean = (area / polygon.body().unwrap().cells().count() as f64 / EQUILATERAL).sqrt();
             assert!((0.7..1.1).contains(&(mean / polygon.size)), "{}", mean / polygon.size);
         }
     }

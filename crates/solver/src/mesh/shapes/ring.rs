@@ -183,7 +183,7 @@ mod tests {
     fn a_ring_closes_on_itself() {
         for (from, to) in [(0.0, 2.0 * PI), (-PI, PI), (0.7, 0.7 + 2.0 * PI), (0.0, 2.0 * PI - 2e-10)] {
             let body = ring([0.0, 0.0], 1.0, 2.0, from, to, [2, 8]);
-            assert_eq!((body.positions.len(), body.quads.len(), body.sides.len()), (24, 16, 2));
+            assert_eq!((body.positions.len(), body.cells().count(), body.sides.len()), (24, 16, 2));
         }
     }
 

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::mesh::Mesh;
+use crate::mesh::cell::{Cell, CellKind};
 use crate::mesh::dimension::corner_volumes;
 use crate::mesh::surface::tributary::vector_shares;
 use crate::mesh::surface::{Corners, exterior};
@@ -22,9 +23,9 @@ fn volume(body: &Body<3>) -> f64 {
 
 /// Smallest Jacobian at a corner of an element over the mean of the element's corners.
 fn quality(body: &Body<3>) -> f64 {
-    let of_cell = |cell: &[u32]| {
-        let corners: Vec<[f64; 3]> = cell.iter().map(|&node| body.positions[node as usize]).collect();
-        let volumes: Vec<f64> = corner_volumes(&corners).collect();
+    let of_cell = |cell: Cell<'_>| {
+        let corners: Vec<[f64; 3]> = cell.nodes.iter().map(|&node| body.positions[node as usize]).collect();
+        let volumes: Vec<f64> = corner_volumes(cell.kind, &corners).collect();
         volumes.iter().copied().fold(f64::INFINITY, f64::min) / (volumes.iter().sum::<f64>() / volumes.len() as f64)
     };
     body.cells().map(of_cell).fold(f64::INFINITY, f64::min)
@@ -64,7 +65,7 @@ fn is_sound(part: &Part) -> Body<3> {
         let about = |count: usize, made: usize| made <= 2 * count && count <= 10 * made;
         assert!(about(count.nodes, made[0]) && about(count.elements, made[1]), "{count:?} {made:?} {what}");
     }
-    let used: BTreeSet<u32> = body.cells().flatten().copied().collect();
+    let used: BTreeSet<u32> = body.cells().flat_map(|cell| cell.nodes).copied().collect();
     assert_eq!(used.len(), body.positions.len(), "every node is used: {what}");
     let size = body.positions.iter().flatten().fold(0.0_f64, |size, x| size.max(x.abs()));
     let places: BTreeSet<[i64; 3]> = body.positions.iter().map(|x| x.map(|x| (x / size * 1e8).round() as i64)).collect();
@@ -77,7 +78,7 @@ fn every_solid_is_sound_and_none_has_flat_corners() {
     for n in [1, 2, 3, 4, 7] {
         for (shape, _) in Shape::solid_examples(n) {
             let body = is_sound(&part(&shape, None));
-            assert!(body.cells().all(|cell| cell.len() == 8));
+            assert!(body.cells().all(|cell| cell.kind == CellKind::Hexahedron));
             if matches!(shape, Shape::Sphere(_) | Shape::Cylinder(_)) {
                 assert!(quality(&body) > 0.2, "{} {shape:?}", quality(&body));
             }
@@ -99,8 +100,8 @@ fn the_volume_of_every_solid_is_exact_or_converges_with_the_square_of_the_elemen
 fn section(body: &Body) -> [f64; 2] {
     let mut sum = [0.0; 2];
     for cell in body.cells() {
-        for t in 1..cell.len() - 1 {
-            let [p, q, r] = [0, t, t + 1].map(|k| body.positions[cell[k] as usize]);
+        for t in 1..cell.nodes.len() - 1 {
+            let [p, q, r] = [0, t, t + 1].map(|k| body.positions[cell.nodes[k] as usize]);
             let area = 0.5 * numbers::cross(numbers::minus(q, p), numbers::minus(r, p));
             sum = [sum[0] + area, sum[1] + area * (p[0] + q[0] + r[0]) / 3.0];
         }
@@ -113,7 +114,7 @@ fn every_shape_of_the_plane_becomes_a_solid() {
     for (shape, _) in [3, 7].iter().flat_map(|&n| Shape::examples(n)) {
         let plane = shape.built_in().unwrap().0.body().unwrap();
         let extrude = Sweep::Extrude(Extrude { from: -0.5, length: 2.0, elements: 3, grading: 2.0 });
-        if !plane.bars.is_empty() {
+        if !plane.all::<2>(CellKind::Line).is_empty() {
             continue; // the check refuses bars
         }
         let [area, moment] = section(&plane);
@@ -143,7 +144,7 @@ fn elements_with_a_side_on_the_axis_become_wedges_and_tetrahedra() {
     for (point, axis) in [([1.0, 0.0], [0.0, 1.0]), ([3.0, 0.0], [0.0, -1.0])] {
         let revolve = |angle, elements| Some(Sweep::Revolve(Revolve { axis, point, angle, elements }));
         let body = is_sound(&part(&rectangle, revolve(TAU, 8)));
-        assert_eq!((body.hexahedra.len(), body.wedges.len()), (4 * 8, 2 * 8));
+        assert_eq!((body.all::<8>(CellKind::Hexahedron).len(), body.all::<6>(CellKind::Wedge).len()), (4 * 8, 2 * 8));
         let volume_of = |elements: f64, angle: f64| 2.0 * elements * (angle / elements).sin();
         assert!((volume(&body) - volume_of(8.0, TAU)).abs() < 1e-13);
         let body = is_sound(&part(&rectangle, revolve(FRAC_PI_2, 2)));
@@ -153,11 +154,11 @@ fn elements_with_a_side_on_the_axis_become_wedges_and_tetrahedra() {
     }
     // Two triangles with one side on the axis: a double cone.
     let mut section = Body { positions: vec![[0.0, -1.0], [0.0, 1.0], [1.0, 0.0]], ..Body::default() };
-    section.triangles.push([0, 2, 1]);
+    section.extend(CellKind::Triangle, [[0, 2, 1]]);
     section.sides.push(("outer".into(), vec![[1, 2], [2, 0]]));
     let sweep = Sweep::Revolve(Revolve { elements: 6, ..Revolve::default() });
     let body = sweep.swept(&section).unwrap();
-    assert_eq!((body.tetrahedra.len(), body.positions.len()), (6, 8));
+    assert_eq!((body.all::<4>(CellKind::Tetrahedron).len(), body.positions.len()), (6, 8));
     assert!(quality(&body) > 0.0);
     assert!((volume(&body) - 6.0 * (TAU / 6.0).sin() / 3.0).abs() < 1e-15);
     let outside: BTreeSet<[u32; 4]> = exterior::<3>(body.cells()).unwrap().into_iter().collect();
@@ -225,7 +226,7 @@ fn a_solid_has_the_same_nodes_in_the_same_order_from_a_shape_and_from_a_file() {
     let first = Mesh::<3>::new(&model).unwrap();
     // The file has everything the other way round, and each element begins elsewhere.
     let n = made.positions.len() as u32;
-    let turned = |cell: &[u32]| [6, 7, 3, 2, 5, 4, 0, 1].map(|k: usize| n - 1 - cell[k]).to_vec();
+    let turned = |cell: Cell<'_>| [6, 7, 3, 2, 5, 4, 0, 1].map(|k: usize| n - 1 - cell.nodes[k]).to_vec();
     let outer = made.sides[0].1.iter().rev().map(|facet| facet.map(|node| n - 1 - node).to_vec()).collect();
     let group = |name: &str, dimension, cells| MeshGroup { name: name.into(), dimension, cells };
     let file = ImportedMesh {
@@ -255,12 +256,12 @@ fn erosion_uncovers_what_was_behind() {
     let top = mesh.surface("body.top", |_| false).unwrap();
     assert_eq!(top.facets.len(), 9);
     let at_top: Vec<usize> = (0..27)
-        .filter(|&element| top.facets.iter().any(|facet| facet.iter().all(|node| mesh.groups[0].cell(element).contains(node))))
+        .filter(|&element| top.facets.iter().any(|facet| facet.iter().all(|node| mesh.groups[0].nodes_of(element).contains(node))))
         .collect();
     // The one whose other neighbours are all there: in the middle of the top.
     let middle = at_top.iter().copied().find(|&element| {
         let centre = mesh.groups[0]
-            .cell(element)
+            .nodes_of(element)
             .iter()
             .map(|&node| mesh.positions[node as usize])
             .fold([0.0; 3], |s, x| [s[0] + x[0], s[1] + x[1], s[2] + x[2]]);
@@ -284,7 +285,7 @@ fn an_element_that_is_inside_out_is_told_with_its_number_and_place() {
         let model = Model { parts, meshes: vec![Arc::new(file)], ..Model::default() };
         assert_eq!(model.dimension(), 3);
         match Mesh::<3>::new(&model) {
-            Ok(mesh) => assert!(name == "good" && mesh.groups[0].nodes_per_element == 4),
+            Ok(mesh) => assert!(name == "good" && mesh.groups[0].kind == CellKind::Tetrahedron),
             Err(faults) => {
                 let told = &faults[0].message;
                 assert!(

@@ -1,5 +1,6 @@
 //! Bars along lines in space: trusses, cables, nets between solids or alone.
 
+use crate::mesh::cell::CellKind;
 use super::truss::Net;
 use super::{Body, BuiltIn, CheckOf, Count, ELEMENTS, Values, Wrong, shape_key};
 use crate::model::describe::Kind::{Integer, SpatialOutlines};
@@ -68,8 +69,8 @@ impl BuiltIn<3> for SpaceTruss {
         Net::of(&self.lines).count(self.elements)
     }
 
-    fn nodes_per_element(&self) -> usize {
-        2
+    fn cell_kind(&self) -> CellKind {
+        CellKind::Line
     }
 
     fn body(&self) -> Result<Body<3>, Wrong> {
@@ -93,7 +94,7 @@ mod tests {
         let foot = |k: usize| [[1.0, 0.0, 0.0], [-0.5, 0.8, 0.0], [-0.5, -0.8, 0.1]][k];
         let truss = SpaceTruss { lines: (0..3).map(|k| vec![foot(k), top]).collect(), elements: 2 };
         let body = truss.body().unwrap();
-        assert_eq!((body.positions.len(), body.bars.len()), (7, 6));
+        assert_eq!((body.positions.len(), body.cells().count()), (7, 6));
         assert_eq!((truss.count().nodes, truss.count().elements), (7, 6));
         assert_eq!(truss.points(), ["point0", "point1", "point2", "point3"]);
         assert_eq!((body.positions[1], body.positions[0]), (top, foot(0)));

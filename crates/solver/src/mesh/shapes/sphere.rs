@@ -1,5 +1,6 @@
 //! A full sphere, or a part of one, without degenerate elements.
 
+use crate::mesh::cell::CellKind;
 use super::numbers::{between, cos_sin};
 use super::{Body, BuiltIn, CheckOf, Count, ELEMENTS, Values, Wrong, cut, node, shape_key};
 use crate::model::describe::Kind::{Choice, Integer, Quantity, Spatial};
@@ -203,7 +204,8 @@ fn whole(radius: f64, n: usize) -> Body<3> {
     let square = |[i, j]: [usize; 2]| [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]];
     for at in places.filter(|at| at.iter().all(|&i| i < n)) {
         let corners = square([at[0], at[1]]);
-        body.hexahedra.push(std::array::from_fn(|c| node(core([corners[c % 4][0], corners[c % 4][1], at[2] + c / 4]))));
+        let hexahedron = std::array::from_fn::<_, 8, _>(|c| node(core([corners[c % 4][0], corners[c % 4][1], at[2] + c / 4])));
+        body.extend(CellKind::Hexahedron, [hexahedron]);
     }
     let mut outer = Vec::new();
     for (axis, end) in (0..3).flat_map(|axis| [(axis, 0), (axis, n)]) {
@@ -216,7 +218,8 @@ fn whole(radius: f64, n: usize) -> Body<3> {
             });
             let corners = if end == 0 { [corners[0], corners[3], corners[2], corners[1]] } else { corners };
             for layer in 0..layers {
-                body.hexahedra.push(std::array::from_fn(|c| at_layer(layer + c / 4, corners[c % 4])));
+                let hexahedron = std::array::from_fn::<_, 8, _>(|c| at_layer(layer + c / 4, corners[c % 4]));
+                body.extend(CellKind::Hexahedron, [hexahedron]);
             }
             outer.push(corners.map(|at| at_layer(layers, at)));
         }

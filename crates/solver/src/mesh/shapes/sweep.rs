@@ -4,6 +4,7 @@
 
 use super::numbers::{Steps, cos_sin, dot, minus, quarters};
 use super::{Body, Count, ELEMENTS, Values, Wrong};
+use crate::mesh::cell::{Cell, CellKind};
 use crate::model::describe::Kind::{Angle, Integer, Quantity, Vector};
 use crate::model::describe::Need::{Default as Written, Required};
 use crate::model::describe::{Section, key};
@@ -13,7 +14,7 @@ use crate::quantity::Range::{Finite, Positive, UpTo};
 use std::f64::consts::TAU;
 
 /// What becomes of a cell of the section in a layer.
-type Made<'a> = dyn Fn(&[u32], usize) -> Option<Vec<u32>> + 'a;
+type Made<'a> = dyn Fn(Cell<'_>, usize) -> Option<Vec<u32>> + 'a;
 
 /// How a section in the plane z = 0 becomes a body.
 #[derive(Clone, Debug, PartialEq)]
@@ -122,20 +123,29 @@ impl Layers<'_> {
     }
 
     /// The element between a section and the next that a cell of the section becomes; what it is that the axis does not allow.
-    fn cell(&self, cell: &[u32], layer: usize) -> Result<Vec<u32>, &'static str> {
-        let n = cell.len();
-        let here = |k: usize| self.number(cell[k % n], layer);
-        let next = |k: usize| self.number(cell[k % n], layer + 1);
-        let fixed = |k: usize| self.is_fixed(cell[k % n]);
-        match (0..n).filter(|&k| fixed(k)).count() {
-            0 => Ok((0..n).map(here).chain((0..n).map(next)).collect()),
-            1 => Err("has one corner on the axis: it would become a body for which there is no element"),
-            2 if let Some(k) = (0..n).find(|&k| fixed(k) && fixed(k + 1)) => Ok(match n {
-                3 => vec![here(k), here(k + 1), here(k + 2), next(k + 2)],
-                _ => vec![here(k), here(k + 3), next(k + 3), here(k + 1), here(k + 2), next(k + 2)],
-            }),
+    fn cell(&self, Cell { kind, nodes }: Cell<'_>, layer: usize) -> Result<(CellKind, Vec<u32>), &'static str> {
+        let n = kind.nodes();
+        let here = |k: usize| self.number(nodes[k % n], layer);
+        let next = |k: usize| self.number(nodes[k % n], layer + 1);
+        let fixed = |k: usize| self.is_fixed(nodes[k % n]);
+        let on_axis = (0..n).filter(|&k| fixed(k)).count();
+        match (on_axis, kind, kind.facts().extruded) {
+            (0, _, Some(extruded)) => Ok((extruded, (0..n).map(here).chain((0..n).map(next)).collect())),
+            (1, ..) => Err("has one corner on the axis: it would become a body for which there is no element"),
+            (2, CellKind::Triangle, _) if let Some(k) = self.side_on_axis(nodes) => {
+                Ok((CellKind::Tetrahedron, vec![here(k), here(k + 1), here(k + 2), next(k + 2)]))
+            }
+            (2, CellKind::Quadrilateral, _) if let Some(k) = self.side_on_axis(nodes) => {
+                Ok((CellKind::Wedge, vec![here(k), here(k + 3), next(k + 3), here(k + 1), here(k + 2), next(k + 2)]))
+            }
             _ => Err("has corners on the axis that are no side: it would become a body for which there is no element"),
         }
+    }
+
+    /// The corner at which a side on the axis begins.
+    fn side_on_axis(&self, corners: &[u32]) -> Option<usize> {
+        let n = corners.len();
+        (0..n).find(|&k| self.is_fixed(corners[k]) && self.is_fixed(corners[(k + 1) % n]))
     }
 
     /// The facet between a section and the next that a segment with the body on its right becomes; none on the axis.
@@ -151,10 +161,10 @@ impl Layers<'_> {
     }
 
     /// Cells of the first and of the last section as facets counter-clockwise seen from outside.
-    fn ends<'c>(&self, cells: impl Iterator<Item = &'c [u32]> + Clone) -> [Vec<[u32; 4]>; 2] {
+    fn ends<'c>(&self, cells: impl Iterator<Item = Cell<'c>> + Clone) -> [Vec<[u32; 4]>; 2] {
         let facet = |nodes: Vec<u32>| std::array::from_fn(|k| nodes[k.min(nodes.len() - 1)]);
-        let back = cells.clone().map(|cell| facet(cell.iter().rev().map(|&node| self.number(node, 0)).collect()));
-        let front = cells.map(|cell| facet(cell.iter().map(|&node| self.number(node, self.elements)).collect()));
+        let back = cells.clone().map(|cell| facet(cell.corners().iter().rev().map(|&node| self.number(node, 0)).collect()));
+        let front = cells.map(|cell| facet(cell.corners().iter().map(|&node| self.number(node, self.elements)).collect()));
         [back.collect(), front.collect()]
     }
 }
@@ -282,13 +292,7 @@ impl Sweep {
         for layer in 0..layers.elements {
             for cell in section.cells() {
                 let swept = layers.cell(cell, layer).map_err(|message| axis_touched(&section.positions, cell, message))?;
-                if let Ok(nodes) = swept.as_slice().try_into() {
-                    body.hexahedra.push(nodes);
-                } else if let Ok(nodes) = swept.as_slice().try_into() {
-                    body.wedges.push(nodes);
-                } else if let Ok(nodes) = swept.as_slice().try_into() {
-                    body.tetrahedra.push(nodes);
-                }
+                body.add([swept.0.cell(&swept.1)]);
             }
         }
         let between = 0..layers.elements;
@@ -314,25 +318,25 @@ impl Sweep {
         let mut swept =
             SweptMesh { mesh: ImportedMesh { source: section.source.clone(), positions, groups: Vec::new() }, ends: Vec::new() };
         for group in &section.groups {
-            let cells = || group.cells.iter().map(Vec::as_slice);
+            let cells = || group.elements().flatten();
             let each = |make: &Made| -> Vec<Vec<u32>> {
                 (0..layers.elements).flat_map(|layer| cells().filter_map(|cell| make(cell, layer)).collect::<Vec<_>>()).collect()
             };
             let (dimension, cells) = match group.dimension {
                 2 if wanted.contains(&group.name.as_str()) => {
                     swept.ends.push((group.name.clone(), layers.ends(cells())));
-                    let touched = |cell: &[u32]| layers.cell(cell, 0).map_err(|message| axis_touched(&plane, cell, message)).map(|_| ());
+                    let touched = |cell: Cell<'_>| layers.cell(cell, 0).map_err(|message| axis_touched(&plane, cell, message)).map(|_| ());
                     cells().try_for_each(touched)?;
-                    (3, each(&|cell, layer| layers.cell(cell, layer).ok()))
+                    (3, each(&|cell, layer| layers.cell(cell, layer).ok().map(|(_, nodes)| nodes)))
                 }
                 1 => {
-                    let facet = |cell: &[u32], layer| {
-                        let facet = layers.facet([cell[0], cell[1]], layer)?;
+                    let facet = |cell: Cell<'_>, layer| {
+                        let facet = layers.facet([cell.nodes[0], cell.nodes[1]], layer)?;
                         Some(if facet[2] == facet[3] { facet[..3].to_vec() } else { facet.to_vec() })
                     };
                     (2, each(&facet))
                 }
-                _ => (0, layers.columns(&cells().flatten().copied().collect::<Vec<_>>()).into_iter().map(|node| vec![node]).collect()),
+                _ => (0, layers.columns(&group.cells.concat()).into_iter().map(|node| vec![node]).collect()),
             };
             swept.mesh.groups.push(MeshGroup { name: group.name.clone(), dimension, cells });
         }
@@ -369,8 +373,8 @@ impl Body<3> {
     }
 }
 
-fn axis_touched(positions: &[[f64; 2]], cell: &[u32], message: &str) -> Wrong {
-    let [x, y] = positions[cell[0] as usize];
+fn axis_touched(positions: &[[f64; 2]], cell: Cell<'_>, message: &str) -> Wrong {
+    let [x, y] = positions[cell.nodes[0] as usize];
     let help = "move the shape away from the axis, or let its elements have whole sides there";
     Wrong::new("axis", format!("an element at ({x:.6e}, {y:.6e}) m {message}"), help)
 }

@@ -1,5 +1,6 @@
 //! Bars along lines: trusses, cables, nets.
 
+use crate::mesh::cell::CellKind;
 use super::{Body, BuiltIn, CheckOf, Count, ELEMENTS, Values, Wrong, node, shape_key};
 use crate::mesh::Meshed;
 use crate::model::describe::Kind::{Integer, Outlines};
@@ -120,10 +121,10 @@ where
             for k in 1..elements {
                 let (to, place) = (node(body.positions.len()), k as f64 / elements as f64);
                 body.positions.push(std::array::from_fn(|d| self.points[a][d] + (self.points[b][d] - self.points[a][d]) * place));
-                body.bars.push([from, to]);
+                body.extend(CellKind::Line, [[from, to]]);
                 from = to;
             }
-            body.bars.push([from, node(b)]);
+            body.extend(CellKind::Line, [[from, node(b)]]);
         }
         body.points = self.names().into_iter().zip(0..).map(|(name, k)| (name, vec![node(k)])).collect();
         body
@@ -158,8 +159,8 @@ impl BuiltIn for Truss {
         Net::of(&self.lines).count(self.elements)
     }
 
-    fn nodes_per_element(&self) -> usize {
-        2
+    fn cell_kind(&self) -> CellKind {
+        CellKind::Line
     }
 
     fn body(&self) -> Result<Body, Wrong> {
@@ -183,11 +184,11 @@ mod tests {
         let diagonal = vec![[0.0, 1e-12], [1.0, 1.0]];
         let truss = Truss { lines: vec![square, diagonal], elements: 3 };
         let body = truss.body().unwrap();
-        assert_eq!((body.positions.len(), body.bars.len()), (4 + 5 * 2, 15));
+        assert_eq!((body.positions.len(), body.cells().count()), (4 + 5 * 2, 15));
         let count = truss.count();
         assert_eq!((count.nodes, count.elements, count.exact), (14, 15, true));
         assert_eq!(truss.points(), ["point0", "point1", "point2", "point3"]);
-        let length: f64 = body.bars.iter().map(|bar| distance(body.positions[bar[0] as usize], body.positions[bar[1] as usize])).sum();
+        let length: f64 = body.all::<2>(CellKind::Line).iter().map(|bar| distance(body.positions[bar[0] as usize], body.positions[bar[1] as usize])).sum();
         assert!((length - 4.0 - 2.0f64.sqrt()).abs() < 1e-11);
         assert_eq!(body.points[2], ("point2".to_string(), vec![2]));
         assert_eq!(body.positions[2], [1.0, 1.0]);

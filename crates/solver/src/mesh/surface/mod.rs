@@ -4,13 +4,14 @@
 //! [`Sided`]; what differs in kind (chains in the plane, edges and fans in space) is in `plane.rs` and `space.rs`.
 
 mod plane;
-pub(super) mod space;
+mod space;
 pub mod tributary;
 
 pub use plane::PlaneSurface;
 pub use space::{SpaceSurface, SurfaceEdge};
 
 use super::Meshed;
+use super::cell::Cell;
 use crate::error::Fault;
 use crate::mesh::messages::NOT_A_SURFACE;
 use std::collections::BTreeMap;
@@ -159,7 +160,7 @@ impl Sided for SpaceSurface {
 /// # Errors
 /// A fault that names nodes when a cell is not one of these or has a node twice, when an edge (in space a facet) belongs to more than two cells, or to two cells
 /// that have it in the same direction (one of them is inside out, or they overlap).
-pub fn exterior<'a, const D: usize>(cells: impl IntoIterator<Item = &'a [u32], IntoIter: Clone>) -> Result<Vec<Facet<D>>, Fault>
+pub fn exterior<'a, const D: usize>(cells: impl IntoIterator<Item = Cell<'a>, IntoIter: Clone>) -> Result<Vec<Facet<D>>, Fault>
 where
     super::Dim<D>: Meshed<D>,
 {

@@ -5,6 +5,7 @@
 
 use super::NONE;
 use crate::error::Fault;
+use crate::mesh::cell::Cell;
 use crate::mesh::messages::{BAD_ELEMENT, NOT_A_SURFACE, OVERLAP};
 use crate::rows::Rows;
 
@@ -23,7 +24,7 @@ pub struct PlaneSurface {
 
 impl PlaneSurface {
     /// The outside segments of `cells`, not linked; see [`exterior`](super::exterior).
-    pub(in crate::mesh) fn exterior<'a>(cells: impl IntoIterator<Item = &'a [u32], IntoIter: Clone>) -> Result<Vec<[u32; 2]>, Fault> {
+    pub(in crate::mesh) fn exterior<'a>(cells: impl IntoIterator<Item = Cell<'a>, IntoIter: Clone>) -> Result<Vec<[u32; 2]>, Fault> {
         Ok(Edges::new(cells)?.exterior())
     }
 
@@ -31,7 +32,7 @@ impl PlaneSurface {
     ///
     /// # Errors
     /// As [`exterior`](super::exterior).
-    pub fn outside<'a>(cells: impl IntoIterator<Item = &'a [u32], IntoIter: Clone>) -> Result<Self, Fault> {
+    pub fn outside<'a>(cells: impl IntoIterator<Item = Cell<'a>, IntoIter: Clone>) -> Result<Self, Fault> {
         Self::outside_without(cells, |_| false)
     }
 
@@ -40,7 +41,7 @@ impl PlaneSurface {
     /// # Errors
     /// As [`exterior`](super::exterior).
     pub fn outside_without<'a>(
-        cells: impl IntoIterator<Item = &'a [u32], IntoIter: Clone>,
+        cells: impl IntoIterator<Item = Cell<'a>, IntoIter: Clone>,
         leave_out: impl Fn([u32; 2]) -> bool,
     ) -> Result<Self, Fault> {
         let edges = Edges::new(cells)?;
@@ -55,7 +56,7 @@ impl PlaneSurface {
     /// # Errors
     /// A fault when the cells are wrong (see [`exterior`](super::exterior)), when a segment is no outside edge with the body on its right
     /// (see [`oriented`](super::oriented)), or when one is given twice.
-    pub fn new<'a>(segments: Vec<[u32; 2]>, cells: impl IntoIterator<Item = &'a [u32], IntoIter: Clone>) -> Result<Self, Fault> {
+    pub fn new<'a>(segments: Vec<[u32; 2]>, cells: impl IntoIterator<Item = Cell<'a>, IntoIter: Clone>) -> Result<Self, Fault> {
         Self::linked(segments, &Edges::new(cells)?)
     }
 
@@ -100,20 +101,19 @@ struct Edges(Rows<(u32, u32)>);
 
 impl Edges {
     /// Edges are counted, then put into their places: no sorting but of the few at one node.
-    fn new<'a>(cells: impl IntoIterator<Item = &'a [u32], IntoIter: Clone>) -> Result<Self, Fault> {
+    fn new<'a>(cells: impl IntoIterator<Item = Cell<'a>, IntoIter: Clone>) -> Result<Self, Fault> {
         let cells = cells.into_iter();
         let mut count = 0;
         for cell in cells.clone() {
-            let n = cell.len();
-            if !(3..=4).contains(&n) || (0..n).any(|i| cell[..i].contains(&cell[i])) {
+            if cell.kind.dimension() != 2 || cell.is_collapsed() {
                 let help = "elements have three or four different corners; remove collapsed ones from the mesh";
-                return Err(Fault::new(&BAD_ELEMENT, "", format!("an element has the nodes {cell:?}"), help));
+                return Err(Fault::new(&BAD_ELEMENT, "", format!("an element has the nodes {:?}", cell.nodes), help));
             }
-            count = cell.iter().fold(count, |count, &node| count.max(node as usize + 1));
+            count = cell.nodes.iter().fold(count, |count, &node| count.max(node as usize + 1));
         }
-        let of_cell = |cell: &'a [u32]| {
-            let n = cell.len();
-            (0..n).map(move |i| (cell[i], (cell[(i + 1) % n], cell[(i + n - 1) % n])))
+        let of_cell = |cell: Cell<'a>| {
+            let (corners, n) = (cell.corners(), cell.kind.corners());
+            (0..n).map(move |i| (corners[i], (corners[(i + 1) % n], corners[(i + n - 1) % n])))
         };
         let mut rows = Rows::new(count, cells.flat_map(of_cell));
         (0..count).for_each(|node| rows.of_mut(node).sort_unstable());
@@ -198,14 +198,15 @@ impl Edges {
 mod tests {
     use super::super::oriented;
     use super::*;
+    use crate::mesh::cell::CellKind;
     use crate::mesh::shapes::{disk, rectangle, ring};
     use proptest::prelude::*;
 
-    fn slices(cells: &[[u32; 4]]) -> impl Iterator<Item = &[u32]> + Clone {
-        cells.iter().map(<[u32; 4]>::as_slice)
+    fn quads(cells: &[[u32; 4]]) -> impl Iterator<Item = Cell<'_>> + Clone {
+        CellKind::Quadrilateral.cells(cells.as_flattened())
     }
 
-    fn exterior<'a>(cells: impl IntoIterator<Item = &'a [u32], IntoIter: Clone>) -> Result<Vec<[u32; 2]>, Fault> {
+    fn exterior<'a>(cells: impl IntoIterator<Item = Cell<'a>, IntoIter: Clone>) -> Result<Vec<[u32; 2]>, Fault> {
         PlaneSurface::exterior(cells)
     }
 
@@ -233,19 +234,19 @@ mod tests {
     #[test]
     fn one_triangle_is_bounded_clockwise_from_its_lowest_node() {
         let cell = [7_u32, 2, 5];
-        assert_eq!(exterior([cell.as_slice()]).unwrap(), [[2, 7], [7, 5], [5, 2]]);
+        assert_eq!(exterior([CellKind::Triangle.cell(&cell)]).unwrap(), [[2, 7], [7, 5], [5, 2]]);
     }
 
     #[test]
     fn a_quad_and_a_triangle_share_no_outside_edge() {
-        let cells: [&[u32]; 2] = [&[0, 1, 2, 3], &[1, 4, 2]];
+        let cells = [CellKind::Quadrilateral.cell(&[0, 1, 2, 3]), CellKind::Triangle.cell(&[1, 4, 2])];
         assert_eq!(exterior(cells).unwrap(), [[0, 3], [3, 2], [2, 4], [4, 1], [1, 0]]);
     }
 
     #[test]
     fn a_ring_has_two_closed_chains() {
         let body = ring([0.0, 0.0], 1.0, 2.0, 0.0, std::f64::consts::TAU, [2, 12]);
-        let surface = PlaneSurface::outside(slices(&body.quads)).unwrap();
+        let surface = PlaneSurface::outside(quads(body.all::<4>(CellKind::Quadrilateral))).unwrap();
         links_are_consistent(&surface);
         let mut lengths = vec![];
         let mut at = 0;
@@ -266,7 +267,7 @@ mod tests {
     fn touching_corners_stay_with_their_own_elements() {
         // Two unit squares that share only node 2, diagonally.
         let cells = [[0, 1, 2, 3], [2, 4, 5, 6]];
-        let surface = PlaneSurface::outside(slices(&cells)).unwrap();
+        let surface = PlaneSurface::outside(quads(&cells)).unwrap();
         links_are_consistent(&surface);
         assert_eq!(surface.segments, [[0, 3], [3, 2], [2, 1], [1, 0], [2, 6], [6, 5], [5, 4], [4, 2]]);
         assert_eq!(surface.next, [1, 2, 3, 0, 5, 6, 7, 4]);
@@ -277,8 +278,8 @@ mod tests {
     fn a_body_pinched_to_one_node_is_walked_around_each_fan() {
         // A 3 x 3 block without its centre and without the cell to its right below: the hole touches the notch in a node.
         let body = rectangle([0.0, 0.0], [3.0, 3.0], [3, 3]);
-        let quads: Vec<_> = body.quads.iter().copied().enumerate().filter(|(i, _)| ![4, 2].contains(i)).map(|(_, q)| q).collect();
-        let surface = PlaneSurface::outside(slices(&quads)).unwrap();
+        let left: Vec<_> = body.cells().enumerate().filter(|(i, _)| ![4, 2].contains(i)).map(|(_, cell)| cell).collect();
+        let surface = PlaneSurface::outside(left.iter().copied()).unwrap();
         links_are_consistent(&surface);
         assert!(surface.next.iter().chain(&surface.previous).all(|&n| n != NONE));
         assert!((shoelace(&surface.segments, &body.positions) + 7.0).abs() < 1e-12);
@@ -286,10 +287,10 @@ mod tests {
         for s in &surface.segments {
             let at = surface.segments.iter().position(|t| t == s).unwrap();
             let next = surface.segments[surface.next[at] as usize];
-            assert!(quads.iter().any(|q| q.contains(&s[0]) && q.contains(&s[1])));
+            assert!(left.iter().any(|q| q.nodes.contains(&s[0]) && q.nodes.contains(&s[1])));
             if s[1] == 6 {
-                let fan = |n: u32| quads.iter().position(|q| q.contains(&n) && q.contains(&6));
-                let together = fan(s[0]).is_some() && quads.iter().any(|q| [s[0], next[1], 6].iter().all(|n| q.contains(n)));
+                let fan = |n: u32| left.iter().position(|q| q.nodes.contains(&n) && q.nodes.contains(&6));
+                let together = fan(s[0]).is_some() && left.iter().any(|q| [s[0], next[1], 6].iter().all(|n| q.nodes.contains(n)));
                 assert!(together, "{s:?} -> {next:?}");
             }
         }
@@ -300,7 +301,7 @@ mod tests {
         let body = rectangle([0.0, 0.0], [4.0, 2.0], [4, 2]);
         let (name, top) = body.sides[3].clone();
         assert_eq!(name, "top");
-        let surface = PlaneSurface::new(top, slices(&body.quads)).unwrap();
+        let surface = PlaneSurface::new(top, quads(body.all::<4>(CellKind::Quadrilateral))).unwrap();
         links_are_consistent(&surface);
         assert_eq!((surface.previous[0], surface.next[0]), (NONE, 1));
         assert_eq!((surface.previous[3], surface.next[3]), (2, NONE));
@@ -310,34 +311,36 @@ mod tests {
     #[test]
     fn lines_from_a_file_are_turned_to_have_the_body_on_their_right() {
         let body = rectangle([0.0, 0.0], [2.0, 1.0], [2, 1]);
-        let outside = exterior(slices(&body.quads)).unwrap();
+        let outside = exterior(quads(body.all::<4>(CellKind::Quadrilateral))).unwrap();
         assert_eq!(oriented(&[[3, 4], [5, 4], [3, 4]], &outside).unwrap(), [[3, 4], [4, 5]]);
         let fault = oriented(&[[1, 4]], &outside).unwrap_err();
         assert!(fault.message.contains("1-4"), "{fault}");
-        let fault = PlaneSurface::new(vec![[4, 3]], slices(&body.quads)).unwrap_err();
+        let fault = PlaneSurface::new(vec![[4, 3]], quads(body.all::<4>(CellKind::Quadrilateral))).unwrap_err();
         assert!(fault.message.contains("4-3"), "{fault}");
-        let fault = PlaneSurface::new(vec![[3, 4], [3, 4]], slices(&body.quads)).unwrap_err();
+        let fault = PlaneSurface::new(vec![[3, 4], [3, 4]], quads(body.all::<4>(CellKind::Quadrilateral))).unwrap_err();
         assert!(fault.message.contains("twice"), "{fault}");
     }
 
     #[test]
     fn wrong_cells_are_faults_that_name_nodes() {
         let thrice = [[0, 1, 2, 3], [1, 0, 4, 5], [0, 1, 6, 7]];
-        assert!(exterior(slices(&thrice)).unwrap_err().message.contains("nodes 0 and 1 belongs to 3 elements"));
+        assert!(exterior(quads(&thrice)).unwrap_err().message.contains("nodes 0 and 1 belongs to 3 elements"));
         let clockwise = [[0, 1, 2, 3], [1, 2, 5, 4]];
-        assert!(exterior(slices(&clockwise)).unwrap_err().message.contains("from node 1 to node 2"));
+        assert!(exterior(quads(&clockwise)).unwrap_err().message.contains("from node 1 to node 2"));
         let collapsed = [[0, 1, 2, 2]];
-        assert!(exterior(slices(&collapsed)).unwrap_err().message.contains("[0, 1, 2, 2]"));
-        assert!(exterior([[0_u32, 1].as_slice()]).is_err());
+        assert!(exterior(quads(&collapsed)).unwrap_err().message.contains("[0, 1, 2, 2]"));
+        assert!(exterior([CellKind::Line.cell(&[0, 1])]).is_err());
         assert_eq!(exterior(std::iter::empty()).unwrap(), Vec::<[u32; 2]>::new());
     }
 
     #[test]
     fn the_outside_of_a_disk_is_its_side() {
         let body = disk([0.0, 0.0], 1.0, 5);
-        let surface = PlaneSurface::outside(slices(&body.quads)).unwrap();
+        let surface = PlaneSurface::outside(quads(body.all::<4>(CellKind::Quadrilateral))).unwrap();
         assert_eq!(surface.segments.len(), 20);
-        assert!((shoelace(&surface.segments, &body.positions) + area(&body.quads, &body.positions)).abs() < 1e-14);
+        assert!(
+            (shoelace(&surface.segments, &body.positions) + area(body.all::<4>(CellKind::Quadrilateral), &body.positions)).abs() < 1e-14
+        );
     }
 
     proptest! {
@@ -348,21 +351,21 @@ mod tests {
         ) {
             let body = rectangle([0.0, 0.0], [nx as f64, ny as f64], [nx, ny]);
             let positions: Vec<_> = body.positions.iter().enumerate().map(|(i, p)| [p[0] + shift[2 * i], p[1] + shift[2 * i + 1]]).collect();
-            let quads: Vec<_> = body.quads.iter().zip(&keep).filter(|(_, k)| **k).map(|(q, _)| *q).collect();
-            let surface = PlaneSurface::outside(slices(&quads)).unwrap();
+            let left: Vec<_> = body.all::<4>(CellKind::Quadrilateral).iter().zip(&keep).filter(|(_, k)| **k).map(|(q, _)| *q).collect();
+            let surface = PlaneSurface::outside(quads(&left)).unwrap();
             links_are_consistent(&surface);
             prop_assert!(surface.next.iter().chain(&surface.previous).all(|&n| n != NONE));
-            prop_assert!((shoelace(&surface.segments, &positions) + area(&quads, &positions)).abs() < 1e-12);
+            prop_assert!((shoelace(&surface.segments, &positions) + area(&left, &positions)).abs() < 1e-12);
             let sum = |d: usize| surface.segments.iter().map(|s| positions[s[1] as usize][d] - positions[s[0] as usize][d]).sum::<f64>();
             prop_assert!(sum(0).abs() < 1e-12 && sum(1).abs() < 1e-12);
             // The order of the cells changes nothing.
-            let mut turned = quads.clone();
+            let mut turned = left.clone();
             if !turned.is_empty() {
                 let by = order as usize % turned.len();
                 turned.rotate_left(by);
                 turned.iter_mut().for_each(|q| q.rotate_left(by % 4));
             }
-            prop_assert_eq!(exterior(slices(&turned)).unwrap(), surface.segments);
+            prop_assert_eq!(exterior(quads(&turned)).unwrap(), surface.segments);
         }
     }
 }

@@ -5,6 +5,7 @@
 
 use super::{Corners, NONE, named};
 use crate::error::Fault;
+use crate::mesh::cell::Cell;
 use crate::mesh::messages::{BAD_ELEMENT, NOT_A_SURFACE, OVERLAP};
 use crate::model::TriangleSurface;
 use crate::rows::Rows;
@@ -72,7 +73,7 @@ impl SpaceSurface {
     }
 
     /// The outside facets of `cells`, not linked; see [`exterior`](super::exterior).
-    pub(in crate::mesh) fn exterior<'a>(cells: impl IntoIterator<Item = &'a [u32], IntoIter: Clone>) -> Result<Vec<[u32; 4]>, Fault> {
+    pub(in crate::mesh) fn exterior<'a>(cells: impl IntoIterator<Item = Cell<'a>, IntoIter: Clone>) -> Result<Vec<[u32; 4]>, Fault> {
         Ok(Table::new(cells)?.exterior())
     }
 
@@ -80,7 +81,7 @@ impl SpaceSurface {
     ///
     /// # Errors
     /// As [`exterior`](super::exterior).
-    pub fn outside<'a>(cells: impl IntoIterator<Item = &'a [u32], IntoIter: Clone>) -> Result<Self, Fault> {
+    pub fn outside<'a>(cells: impl IntoIterator<Item = Cell<'a>, IntoIter: Clone>) -> Result<Self, Fault> {
         Self::outside_without(cells, |_| false)
     }
 
@@ -89,7 +90,7 @@ impl SpaceSurface {
     /// # Errors
     /// As [`exterior`](super::exterior).
     pub fn outside_without<'a>(
-        cells: impl IntoIterator<Item = &'a [u32], IntoIter: Clone>,
+        cells: impl IntoIterator<Item = Cell<'a>, IntoIter: Clone>,
         leave_out: impl Fn([u32; 4]) -> bool,
     ) -> Result<Self, Fault> {
         let table = Table::new(cells)?;
@@ -104,7 +105,7 @@ impl SpaceSurface {
     /// # Errors
     /// A fault when the cells are wrong (see [`exterior`](super::exterior)), when a facet is no outside of them or has the body before it (see
     /// [`oriented`](super::oriented)), or when one is given twice.
-    pub fn new<'a>(facets: Vec<[u32; 4]>, cells: impl IntoIterator<Item = &'a [u32], IntoIter: Clone>) -> Result<Self, Fault> {
+    pub fn new<'a>(facets: Vec<[u32; 4]>, cells: impl IntoIterator<Item = Cell<'a>, IntoIter: Clone>) -> Result<Self, Fault> {
         Self::linked(facets.into_iter().map(Corners::canonical).collect(), &Table::new(cells)?)
     }
 
@@ -244,27 +245,6 @@ impl SpaceSurface {
     }
 }
 
-/// The facets of a tetrahedron, of a wedge and of a hexahedron, counter-clockwise seen from outside; a triangle repeats its last corner.
-///
-/// ```text
-///        3              3-----5            7-----6
-///       /|\             |\   /|           /|    /|
-///      / | \            | \ / |          4-----5 |
-///     0--|--2           |  4  |          | 3---|-2
-///      \ | /            0--|--2          |/    |/
-///       \|/              \ | /           0-----1
-///        1                \|/
-///                          1
-/// ```
-pub(in crate::mesh) fn facets_of(nodes: usize) -> &'static [[u8; 4]] {
-    match nodes {
-        4 => &[[0, 2, 1, 1], [0, 1, 3, 3], [1, 2, 3, 3], [2, 0, 3, 3]],
-        6 => &[[0, 2, 1, 1], [3, 4, 5, 5], [0, 1, 4, 3], [1, 2, 5, 4], [2, 0, 3, 5]],
-        8 => &[[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]],
-        _ => &[],
-    }
-}
-
 /// A facet of a cell as its lowest node sees it: the next node, the opposite one ([`NONE`] in a triangle), the one before.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 struct Seen {
@@ -293,27 +273,23 @@ fn facet_of(lowest: u32, seen: &Seen) -> [u32; 4] {
 
 /// Every facet of every cell at its lowest node, ascending.
 struct Table<'a> {
-    cells: Vec<&'a [u32]>,
+    cells: Vec<Cell<'a>>,
     at: Rows<Seen>,
 }
 
 impl<'a> Table<'a> {
     /// Facets are counted, then put into their places: no sorting but of the few at one node.
-    fn new(cells: impl IntoIterator<Item = &'a [u32], IntoIter: Clone>) -> Result<Self, Fault> {
-        let cells: Vec<&[u32]> = cells.into_iter().collect();
+    fn new(cells: impl IntoIterator<Item = Cell<'a>, IntoIter: Clone>) -> Result<Self, Fault> {
+        let cells: Vec<Cell<'a>> = cells.into_iter().collect();
         let mut count = 0;
         for cell in &cells {
-            let n = cell.len();
-            if facets_of(n).is_empty() || (0..n).any(|i| cell[..i].contains(&cell[i])) {
+            if cell.kind.dimension() != 3 || cell.is_collapsed() {
                 let help = "elements of solids have four, six or eight different corners; remove collapsed ones from the mesh";
-                return Err(Fault::new(&BAD_ELEMENT, "", format!("an element has the nodes {cell:?}"), help));
+                return Err(Fault::new(&BAD_ELEMENT, "", format!("an element has the nodes {:?}", cell.nodes), help));
             }
-            count = cell.iter().fold(count, |count, &node| count.max(node as usize + 1));
+            count = cell.nodes.iter().fold(count, |count, &node| count.max(node as usize + 1));
         }
-        let of_cell = |(cell, number): (&&'a [u32], u32)| {
-            let cell = *cell;
-            facets_of(cell.len()).iter().zip(0..).map(move |(local, l)| seen(local.map(|k| cell[usize::from(k)]), (number, l)))
-        };
+        let of_cell = |(cell, number): (&Cell<'a>, u32)| cell.faces().zip(0..).map(move |(facet, l)| seen(facet, (number, l)));
         let mut at = Rows::new(count, cells.iter().zip(0..).flat_map(of_cell));
         (0..count).for_each(|node| at.of_mut(node).sort_unstable());
         let table = Self { cells, at };
@@ -380,14 +356,12 @@ impl<'a> Table<'a> {
     fn across(&self, mut cell: u32, mut local: u8, [a, b]: [u32; 2]) -> Option<[u32; 4]> {
         // A fan has no more elements than there are; it ends at an outside facet.
         for _ in 0..self.cells.len() {
-            let nodes = self.cells[cell as usize];
-            let facet = |local: &[u8; 4]| local.map(|k| nodes[usize::from(k)]);
-            let has_it = |(other, l): &(&[u8; 4], u8)| {
-                let (corners, n) = (facet(other), facet(other).corners().len());
+            let has_it = |(facet, l): &([u32; 4], u8)| {
+                let corners = facet.corners();
+                let n = corners.len();
                 *l != local && (0..n).any(|k| [corners[k], corners[(k + 1) % n]] == [b, a])
             };
-            let (other, other_local) = facets_of(nodes.len()).iter().zip(0..).find(has_it)?;
-            let there = facet(other);
+            let (there, other_local) = self.cells[cell as usize].faces().zip(0..).find(has_it)?;
             let group = self.group(there);
             // The cell beyond has the same facet the other way round, and so the edge a → b in it.
             match group.iter().find(|it| (it.cell, it.local) != (cell, other_local)) {
@@ -404,6 +378,7 @@ mod tests {
     use super::super::{exterior, oriented};
     use super::*;
     use crate::mesh::Meshed;
+    use crate::mesh::cell::CellKind;
     use crate::tensor::Dim;
     use proptest::prelude::*;
 
@@ -419,8 +394,8 @@ mod tests {
         (0..n * n * n).filter(|&cell| keep(cell)).map(cube).collect()
     }
 
-    fn slices(cells: &[[u32; 8]]) -> impl Iterator<Item = &[u32]> + Clone {
-        cells.iter().map(<[u32; 8]>::as_slice)
+    fn hexes(cells: &[[u32; 8]]) -> impl Iterator<Item = Cell<'_>> + Clone {
+        CellKind::Hexahedron.cells(cells.as_flattened())
     }
 
     fn links_are_consistent(surface: &SpaceSurface) {
@@ -452,7 +427,7 @@ mod tests {
 
     #[test]
     fn a_cube_has_six_facets_and_twelve_edges() {
-        let surface = SpaceSurface::outside(slices(&block(1, |_| true))).unwrap();
+        let surface = SpaceSurface::outside(hexes(&block(1, |_| true))).unwrap();
         links_are_consistent(&surface);
         assert_eq!((surface.facets.len(), surface.edges.len(), surface.nodes.len()), (6, 12, 8));
         assert_eq!(surface.facets[0], [0, 1, 5, 4]);
@@ -463,7 +438,11 @@ mod tests {
 
     #[test]
     fn wedges_and_tetrahedra_meet_hexahedra_without_an_outside_between_them() {
-        let cells: [&[u32]; 3] = [&[0, 1, 2, 3, 4, 5, 6, 7], &[4, 8, 5, 7, 9, 6], &[4, 5, 8, 10]];
+        let cells = [
+            CellKind::Hexahedron.cell(&[0, 1, 2, 3, 4, 5, 6, 7]),
+            CellKind::Wedge.cell(&[4, 8, 5, 7, 9, 6]),
+            CellKind::Tetrahedron.cell(&[4, 5, 8, 10]),
+        ];
         let surface = SpaceSurface::outside(cells).unwrap();
         links_are_consistent(&surface);
         assert_eq!(surface.facets.iter().filter(|facet| facet.corners().len() == 3).count(), 4);
@@ -475,7 +454,7 @@ mod tests {
     fn bodies_that_touch_in_an_edge_stay_with_their_own_elements() {
         // Two cubes with one edge in common, from node 4 to node 13.
         let cells = block(2, |cell| cell == 0 || cell == 3);
-        let surface = SpaceSurface::outside(slices(&cells)).unwrap();
+        let surface = SpaceSurface::outside(hexes(&cells)).unwrap();
         links_are_consistent(&surface);
         assert_eq!((surface.facets.len(), surface.edges.len()), (12, 24));
         let of = |facet: u32| cells.iter().position(|cell| surface.facets[facet as usize].iter().all(|node| cell.contains(node)));
@@ -486,9 +465,8 @@ mod tests {
     #[test]
     fn a_side_alone_ends_at_open_edges() {
         let cells = block(2, |_| true);
-        let top: Vec<[u32; 4]> =
-            exterior::<3>(slices(&cells)).unwrap().into_iter().filter(|facet| facet.iter().all(|&n| n >= 18)).collect();
-        let surface = SpaceSurface::new(top.iter().rev().map(|&[a, b, c, d]| [c, d, a, b]).collect(), slices(&cells)).unwrap();
+        let top: Vec<[u32; 4]> = exterior::<3>(hexes(&cells)).unwrap().into_iter().filter(|facet| facet.iter().all(|&n| n >= 18)).collect();
+        let surface = SpaceSurface::new(top.iter().rev().map(|&[a, b, c, d]| [c, d, a, b]).collect(), hexes(&cells)).unwrap();
         links_are_consistent(&surface);
         let given: Vec<[u32; 4]> = top.iter().rev().copied().collect();
         assert_eq!((&surface.facets, surface.nodes.len(), surface.edges.len()), (&given, 9, 12));
@@ -500,19 +478,19 @@ mod tests {
         let cube = [0, 1, 2, 3, 4, 5, 6, 7];
         let above = [4, 5, 6, 7, 8, 9, 10, 11];
         let third = [4, 5, 6, 7, 12, 13, 14, 15];
-        let message = |cells: &[[u32; 8]]| exterior::<3>(slices(cells)).unwrap_err().message;
+        let message = |cells: &[[u32; 8]]| exterior::<3>(hexes(cells)).unwrap_err().message;
         assert!(message(&[cube, above, third]).contains("facet 4-5-6-7 belongs to 3 elements"));
         assert!(message(&[cube, third, cube]).contains("on the same side"));
         let below = [8, 9, 10, 11, 4, 5, 6, 7];
         assert!(message(&[cube, below]).contains("on the same side of the facet 4-"), "{}", message(&[cube, below]));
         let collapsed = [0, 1, 2, 2, 4, 5, 6, 6];
         assert!(message(&[collapsed]).contains("[0, 1, 2, 2, 4, 5, 6, 6]"));
-        assert!(exterior::<3>([[0_u32, 1, 2, 3, 4].as_slice()]).is_err());
+        assert!(exterior::<3>([CellKind::Quadrilateral.cell(&[0, 1, 2, 3])]).is_err(), "a surface bounds no volume");
         assert!(exterior::<3>(std::iter::empty()).unwrap().is_empty());
-        let outside = exterior::<3>(slices(&[cube, above])).unwrap();
+        let outside = exterior::<3>(hexes(&[cube, above])).unwrap();
         assert_eq!(oriented(&[[5, 4, 0, 1], [1, 5, 4, 0]], &outside).unwrap(), [[0, 1, 5, 4]]);
         assert!(oriented(&[[4, 5, 6, 7]], &outside).unwrap_err().message.contains("facet 4-5-6-7 is not on the outside"));
-        let fault = |facets: Vec<[u32; 4]>| SpaceSurface::new(facets, slices(&[cube, above])).unwrap_err().message;
+        let fault = |facets: Vec<[u32; 4]>| SpaceSurface::new(facets, hexes(&[cube, above])).unwrap_err().message;
         assert!(fault(vec![[4, 5, 1, 0]]).contains("body before it"));
         assert!(fault(vec![[4, 5, 6, 7]]).contains("not on the outside"));
         assert!(fault(vec![[0, 1, 5, 4], [5, 4, 0, 1]]).contains("twice"));
@@ -525,7 +503,7 @@ mod tests {
         ) {
             let cells = block(3, |cell| keep[cell as usize]);
             let positions: Vec<[f64; 3]> = (0..64_usize).map(|i| std::array::from_fn(|d| (i >> (2 * d) & 3) as f64 + shift[3 * i + d])).collect();
-            let surface = SpaceSurface::outside(slices(&cells)).unwrap();
+            let surface = SpaceSurface::outside(hexes(&cells)).unwrap();
             links_are_consistent(&surface);
             prop_assert!(surface.edges.iter().all(|edge| !edge.facets.contains(&NONE)));
             // Each facet's two triangles with its diagonal 0-2, and each hexahedron by its own facets: inside they cancel only if facets are seen alike.
@@ -536,20 +514,20 @@ mod tests {
                 };
                 (det(x[0], x[1], x[2]) + det(x[0], x[2], x[3])) / 6.0
             };
-            let of_cell = |cell: &[u32; 8]| facets_of(8).iter().map(|f| cone(&f.map(|k| cell[usize::from(k)]).canonical())).sum::<f64>();
-            let (outside, inside): (f64, f64) = (surface.facets.iter().map(cone).sum(), cells.iter().map(of_cell).sum());
+            let of_cell = |cell: Cell<'_>| cell.faces().map(|facet| cone(&facet.canonical())).sum::<f64>();
+            let (outside, inside): (f64, f64) = (surface.facets.iter().map(cone).sum(), hexes(&cells).map(of_cell).sum());
             prop_assert!((outside - inside).abs() < 1e-11, "{} {}", outside, inside);
             // The order of the cells, and how they are numbered, change nothing.
             let mut turned = cells.clone();
             if !turned.is_empty() {
                 let by = order % turned.len();
                 turned.rotate_left(by);
-                turned.iter_mut().for_each(|cell| Dim::<3>::begin_with_lowest(cell));
+                turned.iter_mut().for_each(|cell| CellKind::Hexahedron.begin_with_lowest(cell));
             }
-            prop_assert_eq!(exterior::<3>(slices(&turned)).unwrap(), surface.facets.clone());
+            prop_assert_eq!(exterior::<3>(hexes(&turned)).unwrap(), surface.facets.clone());
             // Nodes inside are told from those outside.
             let mut sums = vec![0; 64];
-            cells.iter().for_each(|cell| Dim::<3>::add_around(cell, &mut sums));
+            hexes(&cells).for_each(|cell| Dim::<3>::add_around(cell, &mut sums));
             prop_assert!((0..64).all(|node| (sums[node as usize] != 0) == surface.nodes.contains(&node)));
         }
     }

@@ -184,6 +184,7 @@ pub fn area_shares(corners: [[f64; 3]; 4], is_triangle: bool) -> [f64; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::cell::CellKind;
     use crate::mesh::surface::Surface;
     use proptest::prelude::*;
 
@@ -219,7 +220,11 @@ mod tests {
         #[test]
         fn a_closed_surface_under_pressure_feels_no_resultant_and_no_moment(shift in prop::collection::vec(-0.4..0.4_f64, 39)) {
             // A hexahedron with a wedge on it and a tetrahedron on that: facets of both kinds, none of them flat.
-            let cells: [&[u32]; 3] = [&[0, 1, 2, 3, 4, 5, 6, 7], &[4, 8, 5, 7, 9, 6], &[4, 5, 8, 10]];
+            let cells = [
+                CellKind::Hexahedron.cell(&[0, 1, 2, 3, 4, 5, 6, 7]),
+                CellKind::Wedge.cell(&[4, 8, 5, 7, 9, 6]),
+                CellKind::Tetrahedron.cell(&[4, 5, 8, 10]),
+            ];
             let places = [
                 [0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0], [0, 0, 2], [2, 0, 2], [2, 2, 2], [0, 2, 2], [1, 0, 4], [1, 2, 4], [1, -2, 3],
             ];

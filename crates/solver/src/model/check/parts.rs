@@ -7,6 +7,7 @@ use crate::element;
 use crate::error::{Fault, MEMORY};
 use crate::material;
 use crate::material::messages::{INITIAL_STATE, SOFTENS_TOO_STEEPLY};
+use crate::mesh::cell::CellKind;
 use crate::mesh::messages::{BARS, DIMENSION, GROUP, NO_ELEMENT, SAME_PLACE, SHAPE, TOO_MANY};
 use crate::mesh::shapes::Count;
 use crate::model::describe::{ELEMENTS_MAX, suggestion};
@@ -134,7 +135,7 @@ impl Check<'_> {
             }
             return;
         }
-        if part.shape.built_in().is_some_and(|(shape, _)| shape.nodes_per_element() == 3) {
+        if part.shape.cell_kind() == Some(CellKind::Triangle) {
             self.fault(
                 &NO_ELEMENT,
                 format!("{path}.element"),
@@ -169,8 +170,7 @@ impl Check<'_> {
         if let Some((shape, key)) = part.shape.solid() {
             let key = format!("{path}.{key}");
             shape.check(&mut CheckOf { check: self, path: &key });
-            let what = if shape.nodes_per_element() == 2 { "it is made of bars" } else { "it is made of hexahedra" };
-            self.takes(path, part, shape.nodes_per_element(), &key, what);
+            self.takes(path, part, shape.cell_kind(), &key, &made_of(shape.cell_kind()));
             self.placement(path, &part.placement);
             return;
         }
@@ -186,14 +186,9 @@ impl Check<'_> {
         };
         let key = format!("{path}.{key}");
         shape.check(&mut CheckOf { check: self, path: &key });
-        let what = match (shape.nodes_per_element(), &part.sweep) {
-            (2, _) => "it is made of bars",
-            (3, None) => "it is made of triangles",
-            (_, None) => "it is made of quadrilaterals",
-            (3, Some(_)) => "it is made of wedges",
-            (_, Some(_)) => "it is made of hexahedra",
-        };
-        self.takes(path, part, part.nodes_per_element().unwrap_or(0), &key, what);
+        if let Some(kind) = part.cell_kind() {
+            self.takes(path, part, kind, &key, &made_of(kind));
+        }
         self.placement(path, &part.placement);
     }
 
@@ -203,10 +198,7 @@ impl Check<'_> {
         let known = |part: &&Part| !self.model.lacks_mesh(part);
         if known(&part) && self.model.dimension_of(part) != dimension {
             let first = excerpt(self.model.parts.iter().find(known).map_or("", |first| &first.name));
-            let lines = |part: &Part| {
-                let built_in = part.shape.built_in().map(|(shape, _)| shape.nodes_per_element());
-                built_in.or(part.shape.solid().map(|(shape, _)| shape.nodes_per_element())) == Some(2) || part.is_of_bars()
-            };
+            let lines = |part: &Part| part.shape.cell_kind() == Some(CellKind::Line) || part.is_of_bars();
             let word = |dimension: usize, part: &Part| match (dimension, lines(part)) {
                 (2, _) => "in the plane",
                 (_, true) => "of bars in space",
@@ -227,7 +219,7 @@ impl Check<'_> {
         let path = format!("{path}.{}", sweep.key());
         if part.shape.solid().is_some() {
             self.fault(&CLASH, path.as_str(), "the shape is a solid as it is", "leave it out, or take a shape of the plane");
-        } else if part.is_of_bars() || part.shape.built_in().is_some_and(|(shape, _)| shape.nodes_per_element() == 2) {
+        } else if part.is_of_bars() || part.shape.cell_kind() == Some(CellKind::Line) {
             self.fault(&CLASH, path.as_str(), "bars have no area that could become a solid", "leave it out");
         }
         match sweep {
@@ -351,31 +343,37 @@ impl Check<'_> {
         let lengths: BTreeSet<usize> = found.cells.iter().map(Vec::len).collect();
         for nodes in lengths {
             let count = found.cells.iter().filter(|cell| cell.len() == nodes).count();
-            let nodes = if part.sweep.is_some() { 2 * nodes } else { nodes };
-            let what = match nodes {
-                2 => "lines".to_string(),
-                3 => "triangles".to_string(),
-                _ => format!("cells of {nodes} nodes"),
+            let Some(kind) = CellKind::of(dimension.into(), nodes) else {
+                let message = format!("group `{}` has {count} cells of {nodes} nodes, which no element has", excerpt(group));
+                self.fault(&NO_ELEMENT, path.as_str(), message, "the mesh has to be made again");
+                continue;
             };
-            self.takes(part_path, part, nodes, &path, &format!("group `{}` has {count} {what}", excerpt(group)));
+            // Bars that are swept have their own fault.
+            let Some(kind) = part.sweep.as_ref().map_or(Some(kind), |_| kind.facts().extruded) else { continue };
+            let what = match kind {
+                CellKind::Line | CellKind::Triangle => kind.facts().plural.to_string(),
+                _ => format!("cells of {} nodes", kind.nodes()),
+            };
+            self.takes(part_path, part, kind, &path, &format!("group `{}` has {count} {what}", excerpt(group)));
         }
     }
 
-    /// Whether a part has an element for cells of so many nodes; `has` says at `path` that it has such cells.
-    fn takes(&mut self, part_path: &str, part: &Part, nodes: usize, path: &str, has: &str) {
+    /// Whether a part has an element for cells of a kind; `has` says at `path` that it has such cells.
+    fn takes(&mut self, part_path: &str, part: &Part, cell: CellKind, path: &str, has: &str) {
         let dimension = self.model.dimension_of(part);
-        if part.element_in(dimension, nodes).is_some() || (nodes != 3 && !element::registry().iter().any(|kind| kind.name == part.element))
+        let is_triangle = cell == CellKind::Triangle;
+        if part.element_in(dimension, cell).is_some() || (!is_triangle && !element::registry().iter().any(|kind| kind.name == part.element))
         {
             return;
         }
         let known = element::registry();
-        let known: Vec<&str> =
-            known.iter().filter(|kind| kind.nodes == nodes && (kind.dimension == dimension || nodes == 2)).map(|kind| kind.name).collect();
+        let fits = |kind: &&element::ElementKind| kind.cell == cell && (kind.dimension == dimension || cell == CellKind::Line);
+        let known: Vec<&str> = known.iter().filter(fits).map(|kind| kind.name).collect();
         if known.is_empty() {
             let help =
                 if path.ends_with(".group") { "let the mesh generator make quadrilaterals only (Gmsh: Recombine Surface)" } else { "" };
-            self.fault(&NO_ELEMENT, path, format!("{has}, but no element has {nodes} nodes"), help);
-        } else if nodes == 3 {
+            self.fault(&NO_ELEMENT, path, format!("{has}, but no element has {} nodes", cell.nodes()), help);
+        } else if is_triangle {
             let message = format!("{has}, but `{}` is no element of three nodes", excerpt(&part.element_triangles));
             self.fault(&NO_ELEMENT, format!("{part_path}.element_triangles"), message, suggestion(&part.element_triangles, &known));
         } else {
@@ -392,6 +390,11 @@ impl Check<'_> {
             }
         }
     }
+}
+
+/// What a built-in shape is made of, in words.
+fn made_of(kind: CellKind) -> String {
+    format!("it is made of {}", if kind == CellKind::Line { "bars" } else { kind.facts().plural })
 }
 
 /// Memory that an element takes with its share of nodes, results and pictures, bytes: about, as measured (`docs/performance.md`, peak of a run of `quad4` and `j2`).

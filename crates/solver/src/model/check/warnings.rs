@@ -93,14 +93,14 @@ impl Model {
 
     /// Whether some elements of a part are of this kind.
     fn has_elements(&self, part: &Part, name: &str) -> bool {
-        let is = |nodes: usize| part.element_of(nodes).is_some_and(|kind| kind.name == name);
+        let is = |cell| part.element_in(2, cell).is_some_and(|kind| kind.name == name);
         match &part.shape {
             Shape::Group { mesh, group } => {
                 let groups = self.meshes.get(*mesh).map_or(&[][..], |imported| &imported.groups);
                 let own = groups.iter().find(|it| it.name == *group && it.dimension == self.cells_dimension(part));
-                own.is_some_and(|it| it.cells.iter().any(|cell| is(cell.len())))
+                own.is_some_and(|it| it.elements().flatten().any(|cell| is(cell.kind)))
             }
-            _ => part.nodes_per_element().is_some_and(is),
+            _ => part.cell_kind().is_some_and(is),
         }
     }
 }

@@ -462,15 +462,11 @@ fn equations_of_state() -> Vec<&'static str> {
 }
 
 fn elements() -> Vec<&'static str> {
-    element::registry().iter().filter(|kind| !is_triangle(kind)).map(|kind| kind.name).collect()
+    element::registry().iter().filter(|kind| !kind.is_triangle()).map(|kind| kind.name).collect()
 }
 
 fn triangles() -> Vec<&'static str> {
-    element::registry().iter().filter(|kind| is_triangle(kind)).map(|kind| kind.name).collect()
-}
-
-fn is_triangle(kind: &element::ElementKind) -> bool {
-    kind.nodes == 3
+    element::registry().iter().filter(|kind| kind.is_triangle()).map(|kind| kind.name).collect()
 }
 
 fn stress_states() -> Vec<&'static str> {

@@ -6,6 +6,7 @@
 //! The ball touches the facet from inside, and sticks out of no other facet of the surface at the same nodes: at rims it is smaller.
 
 use super::{Ball, Corners, Layer, Placed, Vector, cross, dot, length, minus};
+use crate::mesh::cell::Cell;
 
 /// Halvings that find how deep a ball at a rim is.
 const HALVINGS: usize = 20;
@@ -31,8 +32,9 @@ pub(super) fn balls_under(layer: &Layer<'_>, positions: &[Vector]) -> Vec<Ball> 
     // Those of the same element, by its lowest node: only they may be one.
     let mut at_node: std::collections::BTreeMap<u32, Vec<usize>> = std::collections::BTreeMap::new();
     for facet in 0..layer.surface.facets.len() as u32 {
-        let (cell, stiffness) = (layer.cells[facet as usize], layer.stiffness[facet as usize]);
-        let Some(&lowest) = cell.iter().min() else { continue };
+        let stiffness = layer.stiffness[facet as usize];
+        let Some(cell) = layer.cells[facet as usize] else { continue };
+        let Some(&lowest) = cell.nodes.iter().min() else { continue };
         let known = at_node.entry(lowest).or_default();
         for ball in balls_of_facet(&placed, facet, cell, stiffness) {
             match known.iter().copied().find(|&at| balls[at].is_as(&ball, positions)) {
@@ -50,19 +52,13 @@ pub(super) fn balls_under(layer: &Layer<'_>, positions: &[Vector]) -> Vec<Ball> 
 }
 
 /// The node of an element at the other end of the edge that leaves a facet at its node `at`.
-fn beyond(cell: &[u32], facet: &[u32], at: u32) -> Option<u32> {
-    let edges: &[[usize; 2]] = match cell.len() {
-        4 => &[[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]],
-        6 => &[[0, 1], [1, 2], [2, 0], [3, 4], [4, 5], [5, 3], [0, 3], [1, 4], [2, 5]],
-        8 => &[[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 7], [7, 4], [0, 4], [1, 5], [2, 6], [3, 7]],
-        _ => &[],
-    };
-    let ends = edges.iter().map(|edge| edge.map(|k| cell[k])).flat_map(|[a, b]| [[a, b], [b, a]]);
-    ends.into_iter().find(|&[here, there]| here == at && !facet.contains(&there)).map(|[_, there]| there)
+fn beyond(cell: Cell<'_>, facet: &[u32], at: u32) -> Option<u32> {
+    let mut ends = cell.edges().flat_map(|[a, b]| [[a, b], [b, a]]);
+    ends.find(|&[here, there]| here == at && !facet.contains(&there)).map(|[_, there]| there)
 }
 
 /// The balls of one facet over the element `cell`.
-fn balls_of_facet(placed: &Placed<'_>, facet: u32, cell: &[u32], stiffness: f64) -> Vec<Ball> {
+fn balls_of_facet(placed: &Placed<'_>, facet: u32, cell: Cell<'_>, stiffness: f64) -> Vec<Ball> {
     let nodes = placed.surface.facets[facet as usize];
     let corners = nodes.corners();
     let below: Vec<u32> = corners.iter().filter_map(|&node| beyond(cell, corners, node)).collect();

@@ -26,8 +26,9 @@ fn block(size: Vector, elements: [usize; 3], nodes: usize) -> (Vec<Vec<u32>>, Ve
 }
 
 fn balls_of((cells, positions): &(Vec<Vec<u32>>, Vec<Vector>)) -> (SpaceSurface, Vec<Ball>) {
-    let surface = Surface::<3>::outside(cells.iter().map(Vec::as_slice)).unwrap();
-    let holds = |facet: &[u32; 4]| cells.iter().find(|cell| facet.corners().iter().all(|node| cell.contains(node))).unwrap().as_slice();
+    let cells = || cells.iter().filter_map(|nodes| Cell::of(3, nodes));
+    let surface = Surface::<3>::outside(cells()).unwrap();
+    let holds = |facet: &[u32; 4]| cells().find(|cell| facet.corners().iter().all(|node| cell.nodes.contains(node)));
     let layer = Layer { surface: &surface, cells: surface.facets.iter().map(holds).collect(), stiffness: vec![1.0; surface.facets.len()] };
     let balls = balls_under(&layer, positions);
     (surface, balls)

@@ -1,4 +1,5 @@
 use super::*;
+use crate::mesh::cell::CellKind;
 use crate::mesh::surface::Surface;
 use proptest::prelude::*;
 
@@ -18,7 +19,7 @@ fn blocks(count: [usize; 3], is_there: impl Fn([usize; 3]) -> bool, shift: impl 
             cells.push([square(k), square(k + 1)].concat());
         }
     }
-    (Surface::<3>::outside(cells.iter().map(|cell| &cell[..])).unwrap(), positions)
+    (Surface::<3>::outside(cells.iter().map(|cell| CellKind::Hexahedron.cell(cell))).unwrap(), positions)
 }
 
 fn all(surface: &SpaceSurface) -> std::ops::Range<u32> {
@@ -180,7 +181,7 @@ fn an_open_surface_meets_what_is_over_it_and_nothing_beside_it() {
     let cells: Vec<[u32; 8]> = [[0, 1, 4, 3], [1, 2, 5, 4], [3, 4, 7, 6], [4, 5, 8, 7]]
         .map(|[a, b, c, d]: [u32; 4]| [a, b, c, d, a + 9, b + 9, c + 9, d + 9])
         .to_vec();
-    let surface = Surface::<3>::new(top, cells.iter().map(|cell| &cell[..])).unwrap();
+    let surface = Surface::<3>::new(top, cells.iter().map(|cell| CellKind::Hexahedron.cell(cell))).unwrap();
     let placed = Placed { surface: &surface, positions: &positions };
     assert_eq!(surface.facets.len(), 4);
     assert_eq!(placed.project([0.7, 0.4, 1.3], all(&surface)).map(|found| found.gap), Some(1.3 - 1.0));
@@ -217,8 +218,10 @@ fn whole_and_quarter(
         }
     }
     let on = |nodes: &[u32], d: usize| nodes.iter().all(|&node| positions[node as usize][d] == 0.0);
-    let whole = Surface::<3>::outside(all.iter().map(|cell| &cell[..])).unwrap();
-    let half = Surface::<3>::outside_without(quarter.iter().map(|cell| &cell[..]), |facet| on(&facet, 0) || on(&facet, 2)).unwrap();
+    let whole = Surface::<3>::outside(all.iter().map(|cell| CellKind::Hexahedron.cell(cell))).unwrap();
+    let half =
+        Surface::<3>::outside_without(quarter.iter().map(|cell| CellKind::Hexahedron.cell(cell)), |facet| on(&facet, 0) || on(&facet, 2))
+            .unwrap();
     // Normals away from the body are turned.
     let normals =
         |edge: [u32; 2]| [0, 2].into_iter().filter(move |&d| on(&edge, d)).map(|d| [0, 1, 2].map(|e| if d == e { -1.0 } else { 0.0 }));

@@ -7,6 +7,7 @@
 //! damping and multipliers take is their work with its sign turned, by the same rule: the drift can't judge it, its sign can.
 
 use crate::archive::keep_all;
+use crate::reductions;
 
 keep_all!(Works { internal, contact, gravity, load, damping, constraint, drive });
 keep_all!(Lost { friction, damping, old, freed, let_go });
@@ -69,6 +70,20 @@ pub struct Lost {
     pub let_go: f64,
 }
 
+impl Lost {
+    /// All together: sums are exact until they are rounded once.
+    pub fn total(parts: impl Iterator<Item = Self> + Clone) -> Self {
+        let of = |value: fn(&Self) -> f64| reductions::sum(parts.clone().map(|lost| value(&lost)));
+        Self {
+            friction: of(|lost| lost.friction),
+            damping: of(|lost| lost.damping),
+            old: [of(|lost| lost.old[0]), of(|lost| lost.old[1])],
+            freed: of(|lost| lost.freed),
+            let_go: of(|lost| lost.let_go),
+        }
+    }
+}
+
 impl std::ops::AddAssign for Lost {
     fn add_assign(&mut self, other: Self) {
         self.friction += other.friction;
@@ -105,6 +120,26 @@ pub struct Sums {
     pub damping_old: f64,
     /// Largest |v^{n+1/2}|² of the free nodes among them, m²/s²: no sum.
     pub speed_squared: f64,
+}
+
+impl Sums {
+    /// All together: sums are exact until they are rounded once.
+    pub fn total<'a>(parts: impl Iterator<Item = &'a Self> + Clone) -> Self {
+        let of = |value: fn(&Self) -> f64| reductions::sum(parts.clone().map(value));
+        Self {
+            kinetic_half: of(|sums| sums.kinetic_half),
+            kinetic: of(|sums| sums.kinetic),
+            internal: of(|sums| sums.internal),
+            gravity: of(|sums| sums.gravity),
+            load: of(|sums| sums.load),
+            damping: of(|sums| sums.damping),
+            constraint: of(|sums| sums.constraint),
+            drive: of(|sums| sums.drive),
+            external_old: of(|sums| sums.external_old),
+            damping_old: of(|sums| sums.damping_old),
+            speed_squared: reductions::max(parts.clone().map(|sums| sums.speed_squared)),
+        }
+    }
 }
 
 impl std::ops::AddAssign<&Self> for Sums {

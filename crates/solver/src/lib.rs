@@ -12,6 +12,7 @@ mod angle;
 mod vector;
 pub mod world;
 pub mod rows;
+pub mod reductions;
 pub mod model;
 pub mod mesh;
 mod masses;

@@ -30,6 +30,7 @@ use crate::load::join::Joins;
 use crate::load::non_reflecting::NonReflecting;
 use crate::masses::PartMasses;
 use crate::mesh::Mesh;
+use crate::reductions;
 use crate::rigid::{Acting, Bodies};
 use crate::tensor::Dim;
 use crate::vector::{dot, minus, plus, times};
@@ -312,14 +313,13 @@ where
 
     /// What all blocks told, with the step that is stable for elements and springs together.
     pub(crate) fn joined_reports(&self) -> Report {
-        let fold = |reports: &[Report]| reports.iter().fold(Report::NOTHING, |sum, &report| sum.join(report));
+        let all = Report::joined(self.reports.iter().copied());
         match self.reports.split_last() {
             Some((springs, elements)) if self.has_springs => {
-                let elements = fold(elements);
-                let time_step_squared = together(elements.time_step_squared, springs.time_step_squared);
-                Report { time_step_squared, ..elements.join(*springs) }
+                let of_elements = Report::joined(elements.iter().copied()).time_step_squared;
+                Report { time_step_squared: together(of_elements, springs.time_step_squared), ..all }
             }
-            _ => fold(&self.reports),
+            _ => all,
         }
     }
 
@@ -442,26 +442,20 @@ where
 
     /// Enters the step in the ledger and checks that the run is still worth going on.
     fn close_books(&mut self, elements: &Report) -> Result<(), Error> {
-        let mut sum = Sums::default();
-        for part in self.sums.iter().chain([&self.of_bodies]) {
-            sum += part;
-        }
+        let sum = Sums::total(self.sums.iter().chain([&self.of_bodies]));
         let totals = || self.contacts.iter().map(|contact| contact.totals);
         let works = Works {
             internal: sum.internal,
-            contact: totals().map(|totals| totals.work).sum(),
+            contact: reductions::sum(totals().map(|totals| totals.work)),
             gravity: sum.gravity,
             load: sum.load,
             damping: sum.damping,
             constraint: sum.constraint,
             drive: sum.drive,
         };
-        let slip_energy: f64 = totals().map(|totals| totals.slip_energy).sum();
-        let springs = totals().map(|totals| totals.energy).sum::<f64>() + slip_energy;
-        let mut lost = Lost::default();
-        for totals in totals() {
-            lost += totals.lost;
-        }
+        let slip_energy = reductions::sum(totals().map(|totals| totals.slip_energy));
+        let springs = reductions::sum(totals().map(|totals| totals.energy)) + slip_energy;
+        let lost = Lost::total(totals().map(|totals| totals.lost));
         let stores = Stores {
             kinetic: sum.kinetic,
             elastic: elements.stored,
@@ -517,10 +511,10 @@ where
 
     /// Largest |v^{n+1/2}|, m/s.
     fn largest_speed(&self) -> f64 {
-        let free = self.sums.iter().fold(0.0f64, |largest, sums| largest.max(sums.speed_squared));
+        let free = self.sums.iter().map(|sums| sums.speed_squared);
         let square = |node: usize| dot(self.velocities[node], self.velocities[node]);
-        let all = self.groups.held_nodes(self.velocities.len()).map(square).fold(free, f64::max);
-        all.sqrt()
+        let held = self.groups.held_nodes(self.velocities.len()).map(square);
+        reductions::max(free.chain(held)).sqrt()
     }
 
     /// Finds the nodes that nothing holds.

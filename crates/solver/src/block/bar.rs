@@ -179,7 +179,7 @@ impl<const D: usize> Bars<D> {
             let there = Report { time_step_squared: bar.time_step_squared, determinant: bar.length, stored: bar.stored, ..gone };
             if bar.is_gone { gone } else { there }
         };
-        self.bars.iter().map(of).fold(Report::NOTHING, Report::join)
+        Report::joined(self.bars.iter().map(of))
     }
 }
 

@@ -152,7 +152,7 @@ where
                 damping: sound(resisted[1]),
                 ..Report::NOTHING
             };
-            self.eroded.left = self.eroded.left.join(left);
+            self.eroded.left = Report::joined([self.eroded.left, left].into_iter());
         }
         for of_chunk in elements.chunk_by(|a, b| chunk_of(*a) == chunk_of(*b)) {
             self.fill_up(of_chunk);
@@ -262,11 +262,10 @@ where
     }
 
     pub(super) fn of_the_living(&self, positions: &[[f64; D]]) -> Report {
-        let mut sum = self.eroded.left;
-        for element in (0..self.count).filter(|&element| self.is_alive(element)) {
+        let of_element = |element: usize| {
             let resisted = self.resisted(element);
             let (values, lane) = (&self.elements[element / BATCH], element % BATCH);
-            sum = sum.join(Report {
+            Report {
                 time_step_squared: values.time_step_squared.0[lane],
                 determinant: self.least_determinant(element, positions),
                 stored: values.stored.0[lane],
@@ -274,8 +273,9 @@ where
                 hourglass: values.hourglass.0[lane],
                 viscous: resisted[0],
                 damping: resisted[1],
-            });
-        }
-        sum
+            }
+        };
+        let living: Vec<Report> = (0..self.count).filter(|&element| self.is_alive(element)).map(of_element).collect();
+        Report::joined(living.iter().copied().chain([self.eroded.left]))
     }
 }

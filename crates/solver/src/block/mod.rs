@@ -33,6 +33,7 @@ use crate::archive::{Archive, Kept, keep_all};
 use crate::failure::Criterion;
 use crate::material::Variable;
 use crate::material::points::PointLaw;
+use crate::reductions;
 use embate_lanes::{Level, Team};
 
 /// A slot of forces without a node.
@@ -71,7 +72,7 @@ pub struct Report {
 keep_all!(Report { time_step_squared, determinant, stored, dissipated, hourglass, viscous, damping });
 
 impl Report {
-    /// The neutral element of [`Report::join`].
+    /// Of no element.
     pub const NOTHING: Self = Self {
         time_step_squared: f64::INFINITY,
         determinant: f64::INFINITY,
@@ -82,17 +83,17 @@ impl Report {
         damping: 0.0,
     };
 
-    /// Both together; energies are summed in call order.
-    #[must_use]
-    pub fn join(self, other: Self) -> Self {
+    /// All together: energies are exact until they are rounded once.
+    pub fn joined(parts: impl Iterator<Item = Self> + Clone) -> Self {
+        let of = |value: fn(&Self) -> f64| parts.clone().map(move |report| value(&report));
         Self {
-            time_step_squared: self.time_step_squared.min(other.time_step_squared),
-            determinant: self.determinant.min(other.determinant),
-            stored: self.stored + other.stored,
-            dissipated: self.dissipated + other.dissipated,
-            hourglass: self.hourglass + other.hourglass,
-            viscous: self.viscous + other.viscous,
-            damping: self.damping + other.damping,
+            time_step_squared: reductions::min(of(|report| report.time_step_squared)),
+            determinant: reductions::min(of(|report| report.determinant)),
+            stored: reductions::sum(of(|report| report.stored)),
+            dissipated: reductions::sum(of(|report| report.dissipated)),
+            hourglass: reductions::sum(of(|report| report.hourglass)),
+            viscous: reductions::sum(of(|report| report.viscous)),
+            damping: reductions::sum(of(|report| report.damping)),
         }
     }
 }

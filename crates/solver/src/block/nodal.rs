@@ -345,7 +345,7 @@ where
             strip.pulls.copy_to(pulls);
             report.fill(sums.report());
         });
-        self.reports.iter().fold(self.eroded.left, |sum, &report| sum.join(report))
+        Report::joined(self.reports.iter().copied().chain([self.eroded.left]))
     }
 }
 

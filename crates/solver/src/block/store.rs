@@ -390,7 +390,7 @@ where
             let chunk = Chunk { index, stress, damped, history, initial, volume_initial, elements, resistance, hourglass, pulls, kept };
             report.fill(Self::advance_chunk(&common, chunk, &mut strip));
         });
-        self.reports.iter().fold(self.eroded.left, |sum, &report| sum.join(report))
+        Report::joined(self.reports.iter().copied().chain([self.eroded.left]))
     }
 
     fn mass(&self, element: usize) -> f64 {

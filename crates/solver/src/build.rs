@@ -2,6 +2,7 @@
 
 mod again;
 mod bodies;
+mod dimension;
 mod discrete;
 mod failure;
 mod fans;
@@ -23,8 +24,8 @@ use crate::contact::messages::{NO_STEP, TIED_TWICE};
 use crate::material::messages::INITIAL_STATE;
 use crate::model::messages::UNKNOWN_NAME;
 use crate::tensor::Dim;
-use crate::world::{self, World};
 use again::Origin;
+pub use dimension::Builds;
 use fans::Fans;
 use mass::part_masses;
 
@@ -72,7 +73,7 @@ const SERIAL: usize = 4096;
 /// All faults of the model.
 pub fn system<const D: usize>(model: &Model, level: Level, threads: usize) -> Result<(System<D>, Vec<Warning>), Vec<Fault>>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Builds<D>,
 {
     let faults = model.check();
     if !faults.is_empty() {
@@ -228,7 +229,7 @@ where
 /// A system while it is built.
 pub struct Builder<'a, const D: usize>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Builds<D>,
 {
     model: &'a Model,
     mesh: Mesh<D>,
@@ -262,7 +263,7 @@ where
 
 impl<const D: usize> Builder<'_, D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Builds<D>,
 {
     /// The outside of all bodies. Made only to be told of elements that overlap where nothing `touches`. A symmetry line is no surface: pressures count the length on the model's side.
     fn outside(&self, touches: bool) -> Result<Surface<D>, Fault> {
@@ -365,7 +366,7 @@ where
     fn tied_once<'m>(&mut self, path: &str, contact: &'m str, nodes: &[u32], tied: &mut BTreeMap<u32, &'m str>) {
         let twice = nodes.iter().find_map(|&node| Some((node, *tied.get(&node)?)));
         if let Some((node, other)) = twice {
-            let at = world::place(self.mesh.positions[node as usize]);
+            let at = crate::vector::place(self.mesh.positions[node as usize]);
             self.faults.push(Fault::new(
                 &TIED_TWICE,
                 path,

@@ -2,15 +2,17 @@
 
 use crate::contact::Contact;
 use crate::contact::findings::{Findings, Overlap};
+use crate::dimension::Dimension;
 use crate::error::Error;
+use crate::mesh::geometry::CellGeometry;
 use crate::step::{Governor, System};
 use crate::tensor::Dim;
+use crate::vector::place;
 use crate::vector::{dot, plus};
-use crate::world::{World, place};
 
 impl<const D: usize> System<D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Dimension<D>,
 {
     /// Who sets the time step, in words.
     pub(crate) fn governor_name(&self, governor: Governor) -> String {
@@ -60,7 +62,7 @@ where
         let mut worst = (f64::INFINITY, 0, 0);
         for (g, (group, block)) in self.mesh.groups.iter().zip(&self.blocks).enumerate() {
             for (element, cell) in group.cells().enumerate().filter(|(element, _)| group.is_alive(*element)) {
-                let corners = <Dim<D>>::least_corner(cell, &self.positions).unwrap_or_else(|| {
+                let corners = <Dim<D>>::min_corner_jacobian(cell, &self.positions).unwrap_or_else(|| {
                     let determinant = block.determinant(element, &self.positions);
                     if cell.kind.dimension() == 1 && determinant <= 0.0 { f64::NEG_INFINITY } else { determinant }
                 });

@@ -4,11 +4,12 @@
 //! the nodes, energies of the elements, sums of the contacts, motion of the bodies. What is a sum over nodes or names depends on no order of storage.
 
 use crate::contact::{Contact, ContactKind};
+use crate::dimension::Dimension;
 use crate::hash::{Fnv, mixed};
 use crate::model::in_space;
+use crate::rigid::RigidMotion;
 use crate::step::System;
 use crate::tensor::Dim;
-use crate::world::World;
 
 /// Hashes of a state at the end of a step.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -42,7 +43,7 @@ pub(crate) const CONTACT: [&str; 8] = [
 ];
 pub(crate) fn of_contact<const D: usize>(contact: &Contact<D>) -> [f64; CONTACT.len()]
 where
-    Dim<D>: World<D>,
+    Dim<D>: Dimension<D>,
 {
     let totals = &contact.totals;
     let [x, y, z] = in_space(totals.resultant);
@@ -52,7 +53,7 @@ where
 /// Rigid bodies that move, by the names of their obstacles or parts.
 pub(crate) fn bodies<const D: usize>(system: &System<D>) -> impl Iterator<Item = (&str, Vec<f64>)>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Dimension<D>,
 {
     let of_obstacles = system.contacts.iter().filter_map(|contact| match contact.kind {
         ContactKind::Obstacle(body) if !system.bodies.state(body).is_fixed() => Some((contact.name.as_str(), body)),
@@ -68,7 +69,7 @@ where
 /// Energies of the elements of a part, J/m: stored and dissipated, of each of its groups.
 pub(crate) fn energies<const D: usize>(system: &System<D>, part: usize) -> impl Iterator<Item = [f64; 2]>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Dimension<D>,
 {
     let groups = system.mesh.groups.iter().zip(&system.reports);
     groups.filter(move |(group, _)| group.part == part).map(|(_, report)| [report.stored, report.dissipated])
@@ -77,7 +78,7 @@ where
 /// The nodes of a part as they are stored, each with its place in the part, in ascending order: memory is read from one end to the other.
 pub(crate) fn nodes<const D: usize>(system: &System<D>, part: usize) -> Vec<[u32; 2]>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Dimension<D>,
 {
     let mut nodes: Vec<[u32; 2]> = system.mesh.parts[part].nodes.iter().zip(0..).map(|(&node, place)| [node, place]).collect();
     nodes.sort_unstable();
@@ -109,7 +110,7 @@ pub(crate) struct Hashing {
 impl Hashing {
     pub(crate) fn new<const D: usize>(system: &System<D>, every: Option<u64>) -> Self
     where
-        Dim<D>: World<D>,
+        Dim<D>: Dimension<D>,
     {
         let parts = if every.is_some() { 0..system.mesh.parts.len() } else { 0..0 };
         Self { every, nodes: parts.map(|part| nodes(system, part)).collect(), ..Self::default() }
@@ -118,7 +119,7 @@ impl Hashing {
     /// Takes those of a step that is due.
     pub(crate) fn note<const D: usize>(&mut self, system: &System<D>)
     where
-        Dim<D>: World<D>,
+        Dim<D>: Dimension<D>,
     {
         if self.every.is_some_and(|every| system.step.is_multiple_of(every)) {
             self.take(system);
@@ -133,7 +134,7 @@ impl Hashing {
     /// Takes those of the first and of the last state, whatever their steps.
     pub(crate) fn take<const D: usize>(&mut self, system: &System<D>)
     where
-        Dim<D>: World<D>,
+        Dim<D>: Dimension<D>,
     {
         if self.every.is_some() && self.last != Some(system.step) {
             self.last = Some(system.step);
@@ -145,7 +146,7 @@ impl Hashing {
 /// Hashes of the state now; `nodes` has the [`nodes`] of each part.
 pub(crate) fn hashes<const D: usize>(system: &System<D>, nodes: &[Vec<[u32; 2]>]) -> Hashes
 where
-    Dim<D>: World<D>,
+    Dim<D>: Dimension<D>,
 {
     let of_node = |&[node, place]: &[u32; 2]| {
         let motion = system.positions[node as usize].into_iter().chain(system.velocities[node as usize]);

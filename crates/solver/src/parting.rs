@@ -3,14 +3,15 @@
 //! Made for `embate diff`, which steps two simulations side by side. Compared are the values of which [`crate::hashes`] makes hashes. Parts correspond by their names and nodes by their places in
 //! them, whatever else the models have, and only where their meshes are the same.
 
+use crate::body_columns::BodyColumns;
 use crate::hash::mixed;
 use crate::hashes::{self, CONTACT};
 use crate::mesh::cell::Cell;
+use crate::simulation::Runs;
 use crate::simulation::{Either, Simulation};
 use crate::step::System;
 use crate::tensor::Dim;
 use crate::vector::{dot, minus};
-use crate::world::World;
 
 /// Parts of two models that have the same mesh.
 #[derive(Clone, Debug)]
@@ -132,7 +133,7 @@ impl Pairing {
 
     fn of<const D: usize>([a, b]: [&System<D>; 2]) -> Self
     where
-        Dim<D>: World<D>,
+        Dim<D>: Runs<D>,
     {
         let mut pairing = Self { parts: Vec::new(), left_out: Vec::new() };
         let [own, others] = [a, b].map(|system| &system.mesh.parts);
@@ -176,7 +177,7 @@ impl Pairing {
 
     fn between<const D: usize>(&self, systems: [&System<D>; 2]) -> Option<Parting>
     where
-        Dim<D>: World<D>,
+        Dim<D>: Runs<D>,
     {
         let [a, b] = systems;
         let parts: Vec<PartParting> = self.parts.iter().filter_map(|pair| pair.parting(systems)).collect();
@@ -191,7 +192,7 @@ impl Pairing {
 impl Pair {
     fn parting<const D: usize>(&self, systems: [&System<D>; 2]) -> Option<PartParting>
     where
-        Dim<D>: World<D>,
+        Dim<D>: Runs<D>,
     {
         let moved = |&[a, b]: &[u32; 2]| {
             let of = |node: u32, system: &System<D>| {
@@ -224,7 +225,7 @@ impl Pair {
 
     fn node<const D: usize>(&self, number: usize, systems: [&System<D>; 2]) -> NodeParting
     where
-        Dim<D>: World<D>,
+        Dim<D>: Runs<D>,
     {
         let values = [0, 1].map(|k| {
             let (node, system) = (self.nodes[number][k] as usize, systems[k]);
@@ -247,7 +248,7 @@ impl Pair {
 /// What differs of contacts and rigid bodies that are in both; what is in one alone and acts differs by what it does to parts, or by its hash.
 fn others<const D: usize>(systems: [&System<D>; 2]) -> Vec<(String, Value)>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Runs<D>,
 {
     let mut found = Vec::new();
     let mut hold = |what: &str, name: &str, names: &[&str], a: &[f64], b: &[f64]| {
@@ -274,7 +275,7 @@ where
 /// What the elements of a part join, whatever the order in which they and their nodes are stored.
 fn cells<const D: usize>(system: &System<D>, part: usize) -> u64
 where
-    Dim<D>: World<D>,
+    Dim<D>: Runs<D>,
 {
     let mut place = vec![0_u32; system.mesh.positions.len()];
     for (&node, number) in system.mesh.parts[part].nodes.iter().zip(0..) {

@@ -1,8 +1,10 @@
 //! What is recorded of a system: which fields (`showing` has their values), history rows, momentum, the state hash. Values only; formats are elsewhere.
 
 use crate::archive::{Archive, Keep, Kept};
+use crate::body_columns::BodyColumns;
 use crate::contact::ContactKind;
 use crate::contact::springs::Tangential;
+use crate::dimension::Dimension;
 use crate::error::Fault;
 use crate::hash::Fnv;
 use crate::mesh::ElementGroup;
@@ -10,11 +12,13 @@ use crate::model::messages::UNKNOWN_NAME;
 use crate::model::{Model, ProbeAt};
 use crate::output::{Cells, FieldKind, Needs, fields_of};
 use crate::rigid::Body;
+use crate::rigid::RigidMotion;
+use crate::rotation::Rotate;
+use crate::rotation::unit_matrix;
 use crate::showing::Showing;
 use crate::step::System;
 use crate::tensor::Dim;
 use crate::vector::{dot, first, minus, plus, times};
-use crate::world::{self, World, unit_matrix};
 
 /// Columns of energies, after `energy.`.
 const ENERGIES: [&str; 12] = [
@@ -51,7 +55,7 @@ struct Probe {
 impl Recorded {
     pub(crate) fn new<const D: usize>(model: &Model, system: &System<D>) -> Result<Self, Vec<Fault>>
     where
-        Dim<D>: World<D>,
+        Dim<D>: Dimension<D> + BodyColumns<D>,
     {
         let has_failure = system.erosion.is_some();
         let has_contact = !system.contacts.is_empty();
@@ -90,7 +94,7 @@ impl Recorded {
 
     pub(crate) fn columns<const D: usize>(&self, system: &System<D>) -> Vec<String>
     where
-        Dim<D>: World<D>,
+        Dim<D>: Dimension<D> + BodyColumns<D>,
     {
         let mut columns: Vec<String> = ["time", "time_step"].map(String::from).to_vec();
         columns.extend(ENERGIES.iter().map(|name| format!("energy.{name}")));
@@ -120,7 +124,7 @@ impl Recorded {
 
     pub(crate) fn row<const D: usize>(&self, system: &System<D>) -> Vec<f64>
     where
-        Dim<D>: World<D>,
+        Dim<D>: Dimension<D> + BodyColumns<D>,
     {
         let (stores, external) = (system.ledger.stores, system.ledger.external);
         let mut row = vec![system.time, system.time_step, stores.kinetic, stores.elastic + stores.plastic, stores.plastic];
@@ -173,7 +177,7 @@ impl Recorded {
     /// A system as it is shown now.
     pub(crate) fn showing<'a, const D: usize>(&'a self, system: &'a System<D>) -> Showing<'a, D>
     where
-        Dim<D>: World<D>,
+        Dim<D>: Dimension<D> + BodyColumns<D>,
     {
         Showing::new(system, &self.fields)
     }
@@ -181,11 +185,11 @@ impl Recorded {
 
 fn resolve<const D: usize>(at: &ProbeAt, system: &System<D>) -> Result<(Vec<(u32, f64)>, String), String>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Dimension<D> + BodyColumns<D>,
 {
     let part_of =
         |name: &str| system.mesh.parts.iter().find(|part| part.name == name).ok_or_else(|| format!("there is no part \"{name}\""));
-    let place = |node: u32| format!("{} m", world::place(system.positions[node as usize]));
+    let place = |node: u32| format!("{} m", crate::vector::place(system.positions[node as usize]));
     match at {
         ProbeAt::Point { part, point } => {
             let distance = |node: &u32| {
@@ -215,7 +219,7 @@ where
 /// The cells of all parts, in the user's order and numbering.
 pub(crate) fn cells<const D: usize>(system: &System<D>) -> Cells
 where
-    Dim<D>: World<D>,
+    Dim<D>: Dimension<D> + BodyColumns<D>,
 {
     let elements: usize = system.mesh.groups.iter().map(ElementGroup::elements).sum();
     // A large model has no room to grow into.
@@ -249,7 +253,7 @@ where
 /// FNV-1a hash (64 bit) of the bits of all positions and velocities v^{n+1/2}, node by node, then of the obstacles that move; hexadecimal.
 pub(crate) fn state_hash<const D: usize>(system: &System<D>) -> String
 where
-    Dim<D>: World<D>,
+    Dim<D>: Dimension<D> + BodyColumns<D>,
 {
     let mut hash = Fnv::default();
     let moving = system.bodies.iter().filter(|body| !body.of_elements && !body.is_fixed());
@@ -293,7 +297,7 @@ impl<const D: usize> Keep for Momentum<D> {
 
 impl<const D: usize> Momentum<D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Dimension<D> + BodyColumns<D>,
 {
     /// `None` where something is held or driven, or loads act.
     pub(crate) fn new(system: &System<D>) -> Option<Self> {
@@ -344,7 +348,7 @@ where
 
 impl<const D: usize> Moments<D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Dimension<D> + BodyColumns<D>,
 {
     /// Σ m v^{n+1/2} and Σ m (x^n − c) × v^{n+1/2} + Σ I ω^{n+1/2} about a point c: the latter is the one that central differences keep exactly.
     fn of(system: &System<D>, centre: [f64; D]) -> Self {
@@ -365,7 +369,7 @@ where
 
     fn add(&mut self, m: f64, arm: [f64; D], v: [f64; D]) {
         self.linear = plus(self.linear, times(m, v));
-        self.angular = plus(self.angular, times(m, <Dim<D> as World<D>>::moment(arm, v)));
+        self.angular = plus(self.angular, times(m, <Dim<D> as Rotate<D>>::moment_vector(arm, v)));
         let speed = m * dot(v, v).sqrt();
         self.scale[0] += speed;
         self.scale[1] += speed * dot(arm, arm).sqrt();
@@ -375,7 +379,7 @@ where
 /// Centre of the masses that `Moments` counts, m; seen from the first node, so that far from the origin no digits are lost.
 fn centre_of_mass<const D: usize>(system: &System<D>) -> [f64; D]
 where
-    Dim<D>: World<D>,
+    Dim<D>: Dimension<D> + BodyColumns<D>,
 {
     let Some(&from) = system.positions.first() else { return [0.0; D] };
     let (mut mass, mut sum) = (0.0, [0.0; D]);

@@ -15,9 +15,10 @@ use crate::energy::Sums;
 use crate::load::body_force::BodyForces;
 use crate::load::curve::{Curves, Speed};
 use crate::load::damping::Damping;
+use crate::mesh::geometry::CellGeometry;
+use crate::rotation::Rotate;
 use crate::tensor::Dim;
 use crate::vector::{dot, plus};
-use crate::world::World;
 
 pub mod motion;
 pub mod space;
@@ -359,17 +360,6 @@ pub(crate) fn turn(v: [f64; 2], angle: f64) -> [f64; 2] {
     [cos * v[0] - sin * v[1], sin * v[0] + cos * v[1]]
 }
 
-/// Velocity (m/s) that leads the point `arm` (m) from a centre that rests along the chord of an arc, with `spin` (rad/s) over `time_step` (s); without a step that
-/// along the tangent.
-pub(crate) fn chord(arm: [f64; 2], spin: f64, time_step: f64) -> [f64; 2] {
-    if time_step == 0.0 {
-        return [-spin * arm[1], spin * arm[0]];
-    }
-    let [[_, sin], [_, half]] = [time_step * spin, 0.5 * time_step * spin].map(cos_sin);
-    let (along, across) = (-2.0 * half * half / time_step, sin / time_step);
-    [along * arm[0] - across * arm[1], along * arm[1] + across * arm[0]]
-}
-
 /// What acts on bodies beside contact.
 pub struct Acting<'a, F: Fn(usize) -> [f64; D], const D: usize = 2> {
     /// ½ (dt^{n−1} + dt^n), s.
@@ -567,7 +557,7 @@ where
 
 impl<const D: usize> Bodies<D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: RigidMotion<D> + CellGeometry<D> + Rotate<D>,
 {
     /// Takes what acts on their mass now; `mass` of the nodes, kg/m.
     pub fn weigh(&mut self, forces: &BodyForces<D>, mass: &[f64]) {

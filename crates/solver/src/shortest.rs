@@ -1,9 +1,9 @@
 //! The shortest step of a run, for the summary: the system tells it after every step.
 
 use crate::archive::keep_all;
+use crate::dimension::Dimension;
 use crate::step::{Governor, System};
 use crate::tensor::Dim;
-use crate::world::World;
 
 /// The shortest step so far and who governed it.
 pub(crate) struct Shortest {
@@ -23,7 +23,7 @@ impl Shortest {
     /// Takes the step of `system`. Who governs is found by a search: only when the step falls noticeably, and by more than the schedule.
     pub(crate) fn note<const D: usize>(&mut self, system: &System<D>)
     where
-        Dim<D>: World<D>,
+        Dim<D>: Dimension<D>,
     {
         let governed = system.governor != Governor::Schedule || self.time_step.is_infinite();
         if governed && system.time_step < 0.999 * self.time_step {

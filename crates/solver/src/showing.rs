@@ -3,14 +3,15 @@
 //! What is shown is asked for by the writers of files ([`Shown`]), or put into a [`Frame`] as a whole; `record` knows which fields there are.
 
 use crate::block::ElementState;
+use crate::contact::traces::Tractions;
 use crate::contact::traces::{State, Traces};
+use crate::dimension::Dimension;
 use crate::material::Variable;
 use crate::mesh::ElementGroup;
 use crate::output::{Field, FieldKind, Frame, Location, Shown};
 use crate::step::System;
 use crate::tensor::{Dim, von_mises};
 use crate::vector::minus;
-use crate::world::World;
 use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::OnceLock;
@@ -21,7 +22,7 @@ const STATES: usize = 64;
 /// A system at an output time. What several pieces are taken from is found when the first of them asks.
 pub(crate) struct Showing<'a, const D: usize>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Dimension<D>,
 {
     system: &'a System<D>,
     fields: &'a [&'static FieldKind],
@@ -37,7 +38,7 @@ where
 
 impl<'a, const D: usize> Showing<'a, D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Dimension<D>,
 {
     pub(crate) fn new(system: &'a System<D>, fields: &'a [&'static FieldKind]) -> Self {
         Self { system, fields, nodes: OnceLock::new(), elements: OnceLock::new(), tractions: OnceLock::new(), states: OnceLock::new() }
@@ -132,7 +133,7 @@ where
 
 impl<const D: usize> Shown for Showing<'_, D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Dimension<D>,
 {
     fn time(&self) -> f64 {
         self.system.time

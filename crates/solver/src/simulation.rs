@@ -12,6 +12,8 @@ mod tiny;
 pub use state::State;
 
 use crate::archive::Section;
+use crate::body_columns::BodyColumns;
+use crate::build::Builds;
 use crate::contact::tracker::SearchReport;
 use crate::error::{Error, Fault, Notice, Warning};
 use crate::hashes::Hashes;
@@ -20,6 +22,11 @@ use crate::output::{Cells, Field, Frame, Shown, Summary};
 use crate::post_mortem::{Acting, Culprit, Neighbourhood, Suspect, Trace};
 use embate_lanes::Level;
 use run::Run;
+
+/// What a run asks of a dimension: all that its system does, and what builds and records it.
+pub trait Runs<const D: usize>: Builds<D> + BodyColumns<D> {}
+
+impl<T: Builds<D> + BodyColumns<D>, const D: usize> Runs<D> for T {}
 
 /// How a simulation is run; changes no result.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -18,6 +18,7 @@ use crate::contact::springs::{Springs, Update};
 use crate::contact::traces::Traces;
 use crate::contact::{Contact, Scene, Sweep};
 use crate::contact_forces::ContactForces;
+use crate::dimension::Dimension;
 use crate::energy::Lost;
 use crate::energy::{Entry, Ledger, Stores, Sums, Works};
 use crate::error::Error;
@@ -34,7 +35,6 @@ use crate::reductions;
 use crate::rigid::{Acting, Bodies};
 use crate::tensor::Dim;
 use crate::vector::{dot, minus, plus, times};
-use crate::world::World;
 use embate_lanes::{Chunks, Level, Team};
 use erosion::Erosion;
 use free::Groups;
@@ -108,7 +108,7 @@ pub enum Governor {
 /// Bodies, what acts on them, and their state.
 pub struct System<const D: usize>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Dimension<D>,
 {
     pub(crate) mesh: Mesh<D>,
     pub(crate) blocks: Vec<Box<dyn Block<D>>>,
@@ -214,7 +214,7 @@ macro_rules! nodes {
 
 impl<const D: usize> System<D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Dimension<D>,
 {
     /// One step: x, forces, stable step, v, ledger.
     ///
@@ -491,7 +491,7 @@ where
 
 impl<const D: usize> System<D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Dimension<D>,
 {
     /// Whether nodes are as fast, and contacts as deep, as is sound.
     fn see_limits(&self) -> Result<(), Error> {

@@ -90,3 +90,17 @@ pub(crate) fn any_tangent(normal: [f64; 3]) -> [f64; 3] {
     let length = dot(across, across).sqrt();
     if length > 0.0 { across.map(|c| c / length) } else { [0.0; 3] }
 }
+
+/// Unit vector; `None` for a vector without direction.
+#[must_use]
+pub(crate) fn unit<const D: usize>(v: [f64; D]) -> Option<[f64; D]> {
+    let length = dot(v, v).sqrt();
+    (length > 0.0 && length.is_finite()).then(|| v.map(|component| component / length))
+}
+
+/// A point in words, by the components that the dimension has.
+#[must_use]
+pub(crate) fn place<const D: usize>(x: [f64; D]) -> String {
+    let components: Vec<String> = x.iter().map(|component| format!("{component:.6e}")).collect();
+    format!("({})", components.join(", "))
+}

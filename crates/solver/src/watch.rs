@@ -5,14 +5,16 @@
 //! every 256 steps or more. Nothing here changes the run.
 
 use crate::archive::{Archive, Keep, Kept, keep_all, keep_each};
+use crate::dimension::Dimension;
 use crate::error::Notice;
 use crate::material::{self, Parameters, Variable};
+use crate::mesh::geometry::CellGeometry;
 use crate::message::{Example, Message};
 use crate::model::Model;
 use crate::shortest::Shortest;
 use crate::step::System;
 use crate::tensor::Dim;
-use crate::world::{World, place};
+use crate::vector::place;
 use std::collections::BTreeMap;
 
 pub(crate) static MESSAGES: &[&Message] = &[&HOURGLASS, &SPRINGS, &NEEDLES, &BEYOND_TABLE, &SHORT_STEP];
@@ -101,7 +103,7 @@ keep_all!(Seen { told, most });
 /// Hourglass and internal energy of each part, J (in the plane J/m).
 fn hourglass<const D: usize>(system: &System<D>) -> Vec<[f64; 2]>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Dimension<D>,
 {
     let mut of_parts = vec![[0.0; 2]; system.mesh.parts.len()];
     for (group, report) in system.mesh.groups.iter().zip(&system.reports) {
@@ -145,7 +147,7 @@ fn matter(kind: &Message, part: usize) -> Matter {
 impl Watch {
     pub(crate) fn new<const D: usize>(model: &Model, system: &System<D>) -> Self
     where
-        Dim<D>: World<D>,
+        Dim<D>: Dimension<D>,
     {
         let end = |part: usize| {
             let material = model.materials.get(&model.parts[part].material)?;
@@ -167,7 +169,7 @@ impl Watch {
     /// Looks at a system, also at its elements if it is the last time; what is new.
     pub(crate) fn look<const D: usize>(&mut self, system: &System<D>, shortest: &Shortest, is_last: bool) -> Vec<Notice>
     where
-        Dim<D>: World<D>,
+        Dim<D>: Dimension<D>,
     {
         let mut new = Vec::new();
         self.energies(system, &mut new);
@@ -188,7 +190,7 @@ impl Watch {
     /// What was seen, with the most that became of it; of hourglass energy also what it is now.
     pub(crate) fn notices<const D: usize>(&self, system: &System<D>) -> impl Iterator<Item = Notice>
     where
-        Dim<D>: World<D>,
+        Dim<D>: Dimension<D>,
     {
         let now = hourglass(system);
         self.seen.iter().map(move |(&(number, part), Seen { told, most })| {
@@ -219,7 +221,7 @@ impl Watch {
 
     fn energies<const D: usize>(&mut self, system: &System<D>, new: &mut Vec<Notice>)
     where
-        Dim<D>: World<D>,
+        Dim<D>: Dimension<D>,
     {
         let largest = system.ledger.largest;
         for (part, [hourglass, internal]) in hourglass(system).into_iter().enumerate() {
@@ -245,7 +247,7 @@ impl Watch {
     /// Whether something has been so at every look for long enough.
     fn lasts<const D: usize>(&mut self, kind: &Message, part: usize, is_so: bool, system: &System<D>) -> bool
     where
-        Dim<D>: World<D>,
+        Dim<D>: Dimension<D>,
     {
         if !is_so {
             self.since.remove(&matter(kind, part));
@@ -258,7 +260,7 @@ impl Watch {
     /// Shapes and plastic strains of all elements that deform.
     fn elements<const D: usize>(&mut self, system: &System<D>, new: &mut Vec<Notice>)
     where
-        Dim<D>: World<D>,
+        Dim<D>: Dimension<D>,
     {
         let mut found: BTreeMap<(&'static str, usize), (&'static Message, usize, String)> = BTreeMap::new();
         for (index, (group, block)) in system.mesh.groups.iter().zip(&system.blocks).enumerate() {
@@ -274,8 +276,8 @@ impl Watch {
             };
             let end = self.ends[index];
             for (element, cell) in group.cells().enumerate().filter(|(element, _)| group.is_alive(*element)) {
-                let now = <Dim<D>>::shape(cell, &system.positions);
-                if !self.fails[index] && now < SHAPE_LEAST && now < SHAPE_LOST * <Dim<D>>::shape(cell, &system.mesh.positions) {
+                let now = <Dim<D>>::shape_quality(cell, &system.positions);
+                if !self.fails[index] && now < SHAPE_LEAST && now < SHAPE_LOST * <Dim<D>>::shape_quality(cell, &system.mesh.positions) {
                     note(&NEEDLES, element, format!("a shape of {now:.3}"));
                 }
                 if let Some(end) = end {

@@ -3,12 +3,12 @@
 //! The mesh knows which elements those are, so outsides, sides and bodies follow; stiffnesses and lengths are those of the initial configuration, as ever. What was known of the past is
 //! handed over by [`Contact::renew`].
 
+use super::Builds;
 use super::{Builder, Fans};
 use crate::contact::rebuild::{ContactParts, ContactSource};
 use crate::contact::{Contact, ContactKind};
 use crate::model::Model;
 use crate::tensor::Dim;
-use crate::world::World;
 use std::mem::take;
 
 /// What contacts are made from beyond the mesh, kept for when surfaces change.
@@ -23,7 +23,7 @@ pub(super) struct Origin<const D: usize> {
 
 impl<const D: usize> ContactSource<D> for Origin<D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Builds<D>,
 {
     fn rebuild(&mut self, parts: ContactParts<'_, D>, contacts: &mut [Contact<D>]) {
         let made = contacts.iter().filter_map(|contact| match contact.kind {

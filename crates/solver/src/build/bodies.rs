@@ -1,14 +1,17 @@
 //! Initial velocities, and the rigid bodies that are made of elements.
 
 use super::Builder;
+use super::Builds;
 use crate::error::Fault;
 use crate::load::curve::Speed;
 use crate::load::messages::RIGID;
 use crate::model::{Motion, Part};
 use crate::rigid::{Body, Member};
+use crate::rotation::Rotate;
+use crate::rotation::unit_matrix;
 use crate::tensor::Dim;
+use crate::vector::place;
 use crate::vector::{dot, first as of_model, minus, plus};
-use crate::world::{World, place, unit_matrix};
 
 /// What a part has on its nodes.
 pub(super) struct Bulk<const D: usize> {
@@ -22,7 +25,7 @@ pub(super) struct Bulk<const D: usize> {
 
 impl<const D: usize> Bulk<D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Builds<D>,
 {
     /// Of nodes with masses (kg/m).
     pub(super) fn of(masses: &[(u32, f64)], positions: &[[f64; D]]) -> Self {
@@ -49,13 +52,13 @@ where
 
     /// Velocity of a point of a part that flies and spins about this centre, m/s.
     pub(super) fn velocity(&self, part: &Part, x: [f64; D]) -> [f64; D] {
-        plus(of_model(part.velocity), <Dim<D>>::swept([0.0, 0.0, part.spin], self.arm(x)))
+        plus(of_model(part.velocity), <Dim<D>>::spin_velocity([0.0, 0.0, part.spin], self.arm(x)))
     }
 }
 
 impl<const D: usize> Builder<'_, D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Builds<D>,
 {
     /// Velocity of every node at the start, m/s: of a node of several parts the mean by mass.
     pub(super) fn velocities(&self, part_mass: &[Vec<(u32, f64)>]) -> Vec<[f64; D]> {

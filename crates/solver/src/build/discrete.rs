@@ -1,18 +1,19 @@
 //! Springs and point masses on the nodes of a mesh.
 
 use super::Builder;
+use super::Builds;
 use crate::block::spring::SpringBlock;
 use crate::error::Fault;
 use crate::load::messages::TO_ITSELF;
 use crate::model::Spring;
 use crate::model::messages::UNKNOWN_NAME;
 use crate::tensor::Dim;
+use crate::vector::place;
 use crate::vector::{dot, minus};
-use crate::world::{World, place};
 
 impl<const D: usize> Builder<'_, D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Builds<D>,
 {
     /// Adds point masses to the parts of their nodes: of a node of several parts to the first.
     pub(super) fn point_masses(&mut self, part_mass: &mut [Vec<(u32, f64)>]) {

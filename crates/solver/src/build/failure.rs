@@ -1,16 +1,16 @@
 //! Criteria of failure of each group of elements.
 
 use super::Builder;
+use super::Builds;
 use crate::block::Block;
 use crate::error::Fault;
 use crate::failure::{self, Criterion};
 use crate::material::messages::CRITERION;
 use crate::tensor::Dim;
-use crate::world::World;
 
 impl<const D: usize> Builder<'_, D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Builds<D>,
 {
     /// The criteria of each group of elements; none where the part is rigid. Notes faults where a law does not remember what a criterion needs.
     pub(super) fn criteria(&mut self, blocks: &[Box<dyn Block<D>>]) -> Vec<Vec<Criterion>> {

@@ -2,11 +2,12 @@
 //! Elements come from the mesh; stiffnesses of contacts and what is behind boundaries are made from the answers.
 
 use super::Builder;
+use super::Builds;
 use crate::mesh::Mesh;
+use crate::mesh::geometry::CellGeometry;
 use crate::mesh::surface::{Corners, Facet};
 use crate::rows::Rows;
 use crate::tensor::Dim;
-use crate::world::World;
 
 /// The element behind an edge.
 pub(super) struct Under {
@@ -25,7 +26,7 @@ impl Fans {
     /// Of the continuum elements.
     pub(super) fn of<const D: usize>(mesh: &Mesh<D>) -> Self
     where
-        Dim<D>: World<D>,
+        Dim<D>: Builds<D>,
     {
         let firsts = mesh.groups.iter().scan(0, |next, group| {
             let first = *next;
@@ -40,7 +41,7 @@ impl Fans {
     /// Group and element behind a piece of the outside.
     fn behind<const D: usize>(&self, facet: Facet<D>, mesh: &Mesh<D>) -> Option<(usize, usize)>
     where
-        Dim<D>: World<D>,
+        Dim<D>: Builds<D>,
     {
         let (facet, node) = (facet.canonical(), facet.corners()[0] as usize);
         if node >= self.0.count() {
@@ -52,7 +53,7 @@ impl Fans {
                 element -= mesh.groups[group].elements();
                 group += 1;
             }
-            let is_own = <Dim<D>>::facets(mesh.groups[group].cell(element)).contains(&facet);
+            let is_own = <Dim<D>>::cell_facets(mesh.groups[group].cell(element)).contains(&facet);
             is_own.then_some((group, element))
         })
     }
@@ -60,12 +61,12 @@ impl Fans {
 
 impl<const D: usize> Builder<'_, D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Builds<D>,
 {
     /// What is behind a piece of the outside.
     pub(super) fn under(&self, facet: Facet<D>) -> Option<Under> {
         let (group, element) = self.fans.get_or_init(|| Fans::of(&self.mesh)).behind(facet, &self.mesh)?;
         let (cell, positions) = (self.mesh.groups[group].cell(element), &self.mesh.positions);
-        Some(Under { flatness: <Dim<D>>::flatness(facet, cell, positions), group, element })
+        Some(Under { flatness: <Dim<D>>::inverse_height(facet, cell, positions), group, element })
     }
 }

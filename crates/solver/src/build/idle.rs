@@ -3,17 +3,17 @@
 //! From the model and its mesh: what is joined by elements is one body, and a body is idle if none of its nodes is named by anything that could bring a force or a motion
 //! to it, and nothing in it moves or is strained at the start.
 
+use super::Builds;
 use crate::contact::messages::IDLE;
 use crate::error::Warning;
 use crate::mesh::Mesh;
 use crate::model::{Constraint, Drive, Load, Model, Part, Partners};
 use crate::tensor::Dim;
-use crate::world::World;
 
 /// A warning for each such part.
 pub(super) fn warnings<const D: usize>(model: &Model, mesh: &Mesh<D>, body_of_node: &[u32]) -> Vec<Warning>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Builds<D>,
 {
     let mut acted = vec![false; body_of_node.iter().max().map_or(0, |last| *last as usize + 1)];
     let mut act_on = |nodes: &[u32]| nodes.iter().for_each(|&node| acted[body_of_node[node as usize] as usize] = true);

@@ -1,5 +1,6 @@
 //! What stops a run: limits of the model, and what stands in for those that it leaves out.
 
+use super::Builds;
 use crate::block::Block;
 use crate::mesh::surface::{Corners, Facet, Sided, Surface};
 use crate::mesh::{ElementGroup, Mesh};
@@ -7,12 +8,11 @@ use crate::model::Model;
 use crate::step::Limits;
 use crate::tensor::Dim;
 use crate::vector::{dot, minus};
-use crate::world::World;
 
 /// The limits of a model. Where none is given, the step and the speed depend on the start and are set there.
 pub(super) fn of<const D: usize>(model: &Model, mesh: &Mesh<D>, blocks: &[Box<dyn Block<D>>], outside: &Surface<D>) -> Limits
 where
-    Dim<D>: World<D>,
+    Dim<D>: Builds<D>,
 {
     let run = &model.run;
     // The longest side: a segment, or an edge of a facet.
@@ -39,7 +39,7 @@ where
 /// The fastest wave of all materials, √(M/ρ), m/s.
 fn fastest_wave<const D: usize>(model: &Model, mesh: &Mesh<D>, blocks: &[Box<dyn Block<D>>]) -> f64
 where
-    Dim<D>: World<D>,
+    Dim<D>: Builds<D>,
 {
     let of = |group: &ElementGroup, block: &dyn Block<D>| {
         let density = model.materials.get(&model.parts[group.part].material)?.parameters.get("density")?;

@@ -1,18 +1,18 @@
 //! Masses: elements made heavier for a longer stable step before masses go to the nodes, and what is kept of the masses of parts.
 
 use super::Builder;
+use super::Builds;
 use crate::block::{Block, Motion};
 use crate::error::Fault;
 use crate::error::MASS_SCALING;
 use crate::masses::PartMasses;
 use crate::mesh::Mesh;
 use crate::tensor::Dim;
-use crate::world::World;
 use embate_lanes::{Level, Team};
 
 impl<const D: usize> Builder<'_, D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Builds<D>,
 {
     /// Scales the mass of parts (`mass_scale`) and of elements below the wanted step. Returns the mass added to deformable parts and their true mass, kg/m; more than the limit is a fault.
     pub(super) fn scale_mass(&mut self, blocks: &mut [Box<dyn Block<D>>], level: Level) -> [f64; 2] {
@@ -69,7 +69,7 @@ where
 /// Mass of each part on each of its nodes, kg/m, nodes ascending.
 pub(super) fn part_masses<const D: usize>(mesh: &Mesh<D>, blocks: &[Box<dyn Block<D>>]) -> Vec<Vec<(u32, f64)>>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Builds<D>,
 {
     let (mut sums, mut is_own) = (vec![0.0; mesh.positions.len()], vec![false; mesh.positions.len()]);
     let of = |part: usize| {
@@ -98,7 +98,7 @@ where
 
 impl<const D: usize> Builder<'_, D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Builds<D>,
 {
     /// What is kept of the masses of parts; `part_mass` has those of all nodes, with point masses.
     pub(super) fn shares(&self, blocks: &[Box<dyn Block<D>>], part_mass: &[Vec<(u32, f64)>]) -> PartMasses {

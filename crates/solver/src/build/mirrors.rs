@@ -1,21 +1,21 @@
 //! Symmetry lines, in space planes, as what bodies meet that are in contact with themselves: which nodes, and how stiff.
 
+use super::Builds;
 use super::{Builder, law_of, stiffness_of};
 use crate::contact::law::{self, Law};
 use crate::contact::mirror::{Mirror, Mirrored, MirroredNode};
 use crate::contact::springs::{Tangential, Terms};
 use crate::contact::tracker::SKIN;
 use crate::contact::{Formulation, Tributary};
-use crate::load::constraint::unit;
 use crate::model::{ContactLaw, Interface, Partners};
 use crate::tensor::Dim;
+use crate::vector::unit;
 use crate::vector::{dot, first, minus};
-use crate::world::World;
 use crate::{contact, model};
 
 impl<const D: usize> Builder<'_, D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Builds<D>,
 {
     /// Symmetry lines or planes behind which there is nothing of the parts that they hold: number, a point, and the unit normal that points to the parts.
     pub(crate) fn mirrors(&self) -> impl Iterator<Item = (usize, [f64; D], [f64; D])> {

@@ -15,13 +15,13 @@ use crate::contact::projection::node_segment::Target;
 use crate::contact::tracker::{SKIN, Tracker};
 use crate::contact::{self, Contact, ContactKind, Formulation, Tributary, Vector, initial, law, length};
 use crate::error::Fault;
-use crate::load::constraint::unit;
 use crate::mesh::surface::tributary::Depth;
 use crate::mesh::surface::{NONE, Surface};
 use crate::model::messages::NO_DIRECTION;
 use crate::model::{Obstacle, ObstacleShape};
 use crate::rigid::{Body, Member};
 use crate::vector::first;
+use crate::vector::unit;
 use std::f64::consts::TAU;
 
 /// The outside of the bodies that an obstacle stops.

@@ -7,7 +7,7 @@ use crate::rigid::space::Turning;
 use crate::rigid::{Body, Drive, Member};
 
 impl Builder<'_, 3> {
-    /// See [`crate::world::World::rigid_part`].
+    /// See [`crate::build::Builds::rigid_part`].
     pub(crate) fn rigid_part_in_space(&self, index: usize, motion: &Motion, own: &[(u32, f64)]) -> Body<3> {
         let (part, positions) = (&self.model.parts[index], &self.mesh.positions);
         // The whole mass of the nodes: that of other parts at common nodes belongs to the body.

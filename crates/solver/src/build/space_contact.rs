@@ -18,11 +18,11 @@ use crate::contact::proof::Proof;
 use crate::contact::search::{Search, registry};
 use crate::contact::{Contact, ContactKind, Formulation, Tributary};
 use crate::error::Fault;
-use crate::load::constraint::unit;
 use crate::mesh::surface::SpaceSurface;
 use crate::mesh::surface::tributary::{self, Depth};
 use crate::model::messages::{NO_DIRECTION, NOT_IN_SPACE, UNKNOWN_NAME};
 use crate::model::{self, InitialPenetration, Interface, Obstacle, ObstacleShape, Partners, Penalty, PenaltySource};
+use crate::vector::unit;
 use crate::vector::{dot, minus, plus, times};
 use std::collections::BTreeMap;
 
@@ -41,7 +41,7 @@ pub(super) fn meets_edges(contact: &model::Contact, passes: Passes) -> bool {
 }
 
 impl Builder<'_, 3> {
-    /// See [`crate::world::World::contacts`].
+    /// See [`crate::build::Builds::contacts`].
     pub(crate) fn contacts_in_space(&mut self) -> Vec<Contact<3>> {
         let mut contacts = Vec::new();
         let mut tied = BTreeMap::new();
@@ -60,7 +60,7 @@ impl Builder<'_, 3> {
         contacts
     }
 
-    /// See [`crate::world::World::renew`].
+    /// See [`crate::build::Builds::renew`].
     pub(crate) fn renew_in_space(&mut self, contacts: &mut [Contact<3>]) {
         // Contacts come first, then obstacles, both in model order.
         let (between, obstacles) = contacts.split_at_mut(self.model.contacts.len());
@@ -78,7 +78,7 @@ impl Builder<'_, 3> {
         }
     }
 
-    /// See [`crate::world::World::obstacles`].
+    /// See [`crate::build::Builds::obstacles`].
     pub(crate) fn obstacles_in_space(&mut self) -> Vec<Contact<3>> {
         let mut contacts = Vec::new();
         for (i, obstacle) in self.model.obstacles.iter().enumerate() {
@@ -183,7 +183,7 @@ impl Builder<'_, 3> {
         }
     }
 
-    /// See [`crate::world::World::part_at_start`].
+    /// See [`crate::build::Builds::part_at_start`].
     pub(crate) fn part_at_start_in_space(&mut self) -> Vec<String> {
         let tolerance = crate::mesh::tolerance(&self.mesh.positions);
         let (mut lines, mut pushed) = (Vec::new(), Vec::new());

@@ -11,10 +11,10 @@ use crate::contact::search::Search;
 use crate::contact::tracker::Tracker;
 use crate::contact::{Vector, length};
 use crate::error::Fault;
-use crate::load::constraint::unit;
 use crate::mesh::surface::Surface;
 use crate::model::{InitialPenetration, Interface, Obstacle, ObstacleShape};
 use crate::vector::first;
+use crate::vector::unit;
 
 /// Rounds over all contacts and obstacles: what is pushed out of one may come into another.
 pub(super) const ROUNDS: usize = 20;

@@ -11,7 +11,7 @@ use crate::contact::messages::PENETRATION;
 use crate::error::Fault;
 use crate::load::constraint::Constraints;
 use crate::model::{InitialPenetration, Interface};
-use crate::world::place;
+use crate::vector::place;
 
 /// At most so many are told one by one.
 const TOLD: usize = 20;

@@ -209,3 +209,23 @@ where
         states
     }
 }
+
+/// Contact pressure and shear stress by dimension.
+pub trait Tractions<const D: usize>: TangentSpace<D> {
+    /// Pressure and shear stress of every node, Pa.
+    fn tractions(traces: &Traces<D>, forces: &ContactForces<D>, positions: &[[f64; D]]) -> Vec<[f64; 2]>
+    where
+        Dim<D>: TangentSpace<D>;
+}
+
+impl Tractions<2> for Dim<2> {
+    fn tractions(traces: &Traces<2>, forces: &ContactForces<2>, positions: &[[f64; 2]]) -> Vec<[f64; 2]> {
+        traces.tractions(forces, positions)
+    }
+}
+
+impl Tractions<3> for Dim<3> {
+    fn tractions(traces: &Traces<3>, forces: &ContactForces<3>, positions: &[[f64; 3]]) -> Vec<[f64; 2]> {
+        traces.tractions(forces, positions)
+    }
+}

@@ -8,10 +8,12 @@
 
 use super::curve::Curves;
 use crate::mesh::Mesh;
+use crate::mesh::geometry::CellGeometry;
 use crate::model::{Load, Model};
+use crate::rotation::Rotate;
+use crate::rotation::axis;
 use crate::tensor::Dim;
 use crate::vector::{first, minus, plus, times};
-use crate::world::{World, axis};
 
 /// The forces on mass of a model.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -52,20 +54,20 @@ enum Field<const D: usize> {
 
 impl<const D: usize> Field<D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: CellGeometry<D> + Rotate<D>,
 {
     fn at(self, factor: f64, x: [f64; D]) -> [f64; D] {
         match self {
             Self::Uniform(acceleration) => times(factor, acceleration),
             Self::Axial { speed } => std::array::from_fn(|d| if d == 0 { (factor * speed).powi(2) * x[0] } else { 0.0 }),
-            Self::Centrifugal { centre, axis, speed } => times((factor * speed).powi(2), <Dim<D>>::across(minus(x, centre), axis)),
+            Self::Centrifugal { centre, axis, speed } => times((factor * speed).powi(2), <Dim<D>>::perpendicular(minus(x, centre), axis)),
         }
     }
 }
 
 impl<const D: usize> BodyForces<D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: CellGeometry<D> + Rotate<D>,
 {
     /// `part_mass` lists the nodes of each part with the part's mass on them (kg/m), `mass` the whole mass of each node, all in their initial positions.
     #[must_use]

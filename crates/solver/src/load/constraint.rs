@@ -6,12 +6,14 @@ use super::join::{Joins, back};
 use crate::error::Fault;
 use crate::load::messages::{HELD_TWICE, OFF_SYMMETRY};
 use crate::mesh::Mesh;
+use crate::mesh::geometry::CellGeometry;
 use crate::mesh::surface::Corners;
 use crate::model::messages::UNKNOWN_NAME;
 use crate::model::{Constraint, Model, Symmetry};
+use crate::rotation::Rotate;
+use crate::rotation::{Square, applied, axis, unit_matrix};
 use crate::tensor::Dim;
-use crate::vector::{dot, first, minus};
-use crate::world::{self, Square, World, applied, unit_matrix};
+use crate::vector::{dot, first, minus, unit};
 
 /// Prescribed directions of one node, orthonormal.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -158,7 +160,7 @@ const TOLD: usize = 20;
 
 impl<const D: usize> Constraints<D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: CellGeometry<D> + Rotate<D>,
 {
     /// From the symmetries and constraints of a model.
     ///
@@ -225,7 +227,7 @@ where
         };
         if let Some(speed) = constraint.rotation.as_ref().and_then(|rotation| curves.speed(&rotation.speed)) {
             let about = constraint.rotation.as_ref().map(|rotation| rotation.about).unwrap_or_default();
-            self.turns.push(Turn { centre: first(about.centre), axis: world::axis(about.direction), speed });
+            self.turns.push(Turn { centre: first(about.centre), axis: axis(about.direction), speed });
             for &node in &nodes {
                 self.turn(node, place, &mut found);
             }
@@ -302,7 +304,7 @@ where
     fn turn(&mut self, node: u32, place: Place<'_, D>, found: &mut Telling) {
         let (giver, turn) = (self.conditions.len() as u32 - 1, self.turns.len() as u32 - 1);
         let x = place.mesh.positions[node as usize];
-        let at_centre = self.turns.last().is_some_and(|turn| <Dim<D>>::across(minus(x, turn.centre), turn.axis) == [0.0; D]);
+        let at_centre = self.turns.last().is_some_and(|turn| <Dim<D>>::perpendicular(minus(x, turn.centre), turn.axis) == [0.0; D]);
         if at_centre {
             // What is on the axis rests.
             return unit_matrix::<D>().into_iter().for_each(|direction| self.hold(node, direction, &Speed::constant(0.0), place, found));
@@ -349,7 +351,7 @@ where
             let held = &mut self.held[index as usize];
             if let Some(Turn { centre, axis, speed }) = held.turn.and_then(|turn| self.turns.get(turn as usize)) {
                 let x = positions[node as usize];
-                let velocity = <Dim<D>>::led(minus(x, *centre), *axis, curves.mean(speed, from, to), to - from);
+                let velocity = <Dim<D>>::chord_velocity(minus(x, *centre), *axis, curves.mean(speed, from, to), to - from);
                 held.directions.iter_mut().zip(velocity).for_each(|(direction, along)| direction.1 = along);
                 continue;
             }
@@ -373,7 +375,7 @@ where
 #[derive(Clone, Copy)]
 struct Place<'a, const D: usize>
 where
-    Dim<D>: World<D>,
+    Dim<D>: CellGeometry<D> + Rotate<D>,
 {
     mesh: &'a Mesh<D>,
     joins: &'a Joins<D>,
@@ -394,7 +396,7 @@ impl Telling {
     fn note<const D: usize>(&mut self, x: [f64; D], shall: &str, others: &str, does: &str) {
         self.count += 1;
         if self.count <= TOLD {
-            let message = format!("the node at {} m {shall}, but {others} {does}", world::place(x));
+            let message = format!("the node at {} m {shall}, but {others} {does}", crate::vector::place(x));
             self.faults.push(Fault::new(&HELD_TWICE, &self.path, message, "take the node out of one of the two"));
         }
     }
@@ -465,7 +467,7 @@ impl<const D: usize> Constraints<D> {
 
 fn on_line<const D: usize>(symmetry: &Symmetry, normal: [f64; D], mesh: &Mesh<D>) -> Vec<u32>
 where
-    Dim<D>: World<D>,
+    Dim<D>: CellGeometry<D> + Rotate<D>,
 {
     let point = first(symmetry.point);
     let tolerance = crate::mesh::tolerance(&mesh.positions);
@@ -485,11 +487,4 @@ fn without<const D: usize>(mobility: Square<D>, direction: [f64; D]) -> Square<D
     let response = applied(&mobility, direction);
     let along = dot(response, direction);
     std::array::from_fn(|i| std::array::from_fn(|j| mobility[i][j] - response[i] * response[j] / along))
-}
-
-/// Unit vector; `None` for a vector without direction.
-#[must_use]
-pub fn unit<const D: usize>(v: [f64; D]) -> Option<[f64; D]> {
-    let length = dot(v, v).sqrt();
-    (length > 0.0 && length.is_finite()).then(|| v.map(|component| component / length))
 }

@@ -7,9 +7,10 @@
 //! so it only takes energy, whatever the rate and the step. A node then gives way to a force like one of mass m (1 + a), which contact must know.
 
 use crate::mesh::Mesh;
+use crate::mesh::geometry::CellGeometry;
 use crate::model::{Load, Model};
+use crate::rotation::Rotate;
 use crate::tensor::Dim;
-use crate::world::World;
 use embate_lanes::Batch;
 
 /// The damping loads of a model.
@@ -42,7 +43,7 @@ impl Damping {
     #[must_use]
     pub fn new<const D: usize>(model: &Model, mesh: &Mesh<D>, mass: &[f64], part_mass: &[Vec<(u32, f64)>]) -> Self
     where
-        Dim<D>: World<D>,
+        Dim<D>: CellGeometry<D> + Rotate<D>,
     {
         let load = |load: &Load| {
             let Load::Damping { parts, rate, active } = load else { return None };

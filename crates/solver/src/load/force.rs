@@ -8,14 +8,15 @@
 use super::curve::Curves;
 use crate::archive::{Archive, Keep, Kept};
 use crate::error::Fault;
+use crate::mesh::geometry::CellGeometry;
 use crate::mesh::surface::tributary::{self, Depth, Tributary};
 use crate::mesh::surface::{Corners, Facet, Sided};
 use crate::mesh::{Mesh, Meshed};
 use crate::model::messages::UNKNOWN_NAME;
 use crate::model::{Load, Model};
+use crate::rotation::Rotate;
 use crate::tensor::Dim;
 use crate::vector::{first, plus, times};
-use crate::world::World;
 
 /// The forces on nodes of a model.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -53,7 +54,7 @@ where
 
 impl<const D: usize> Forces<D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: CellGeometry<D> + Rotate<D>,
 {
     /// `is_mirror` tells which segments lie on a symmetry line: they are no surface.
     ///
@@ -169,7 +170,7 @@ fn given<const D: usize>(
     is_mirror: &impl Fn(Facet<D>) -> bool,
 ) -> Result<What<D>, Fault>
 where
-    Dim<D>: World<D>,
+    Dim<D>: CellGeometry<D> + Rotate<D>,
 {
     let nodes = mesh.nodes(on).filter(|nodes| !nodes.is_empty());
     let Some(nodes) = nodes else {

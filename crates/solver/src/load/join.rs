@@ -9,11 +9,14 @@
 use crate::error::Fault;
 use crate::load::messages::NO_PARTNER;
 use crate::mesh::Mesh;
+use crate::mesh::geometry::CellGeometry;
 use crate::model::messages::UNKNOWN_NAME;
 use crate::model::{Image, Join, Model};
+use crate::rotation::Rotate;
+use crate::rotation::{Square, applied, axis, transposed, unit_matrix};
 use crate::tensor::{Dim, product};
+use crate::vector::place;
 use crate::vector::{dot, first as first_of, minus, plus, times};
-use crate::world::{Square, World, applied, axis, place, transposed, unit_matrix};
 
 /// A rotation.
 pub type Turn<const D: usize> = Square<D>;
@@ -62,7 +65,7 @@ struct Link<const D: usize> {
 
 impl<const D: usize> Joins<D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: CellGeometry<D> + Rotate<D>,
 {
     /// Of a model.
     ///
@@ -193,7 +196,7 @@ pub fn back<const D: usize>(turn: Turn<D>, v: [f64; D]) -> [f64; D] {
 /// Finds the partner of each node of the first set in the second one; of images also the other way round.
 fn link<const D: usize>(path: &str, join: &Join, mesh: &Mesh<D>, links: &mut Vec<Link<D>>, faults: &mut Vec<Fault>)
 where
-    Dim<D>: World<D>,
+    Dim<D>: CellGeometry<D> + Rotate<D>,
 {
     let mut sets = Vec::new();
     for (side, name) in join.between.iter().enumerate() {
@@ -274,7 +277,7 @@ fn partners<const D: usize>(
 
 fn tell<const D: usize>(path: &str, join: &Join, lonely: &[Lonely], mesh: &Mesh<D>, faults: &mut Vec<Fault>)
 where
-    Dim<D>: World<D>,
+    Dim<D>: CellGeometry<D> + Rotate<D>,
 {
     for Lonely { pair, side } in lonely.iter().take(TOLD) {
         let at = place(mesh.positions[pair.node as usize]);

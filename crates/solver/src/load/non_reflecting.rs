@@ -9,11 +9,13 @@
 
 use crate::error::Fault;
 use crate::mesh::Mesh;
+use crate::mesh::geometry::CellGeometry;
 use crate::mesh::surface::tributary::{self, Depth, Tributary};
 use crate::mesh::surface::{Facet, Sided};
 use crate::model::Model;
+use crate::rotation::Rotate;
+use crate::rotation::Square;
 use crate::tensor::Dim;
-use crate::world::{Square, World};
 
 /// What is behind a piece of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,7 +35,7 @@ pub struct NonReflecting<const D: usize> {
 
 impl<const D: usize> NonReflecting<D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: CellGeometry<D> + Rotate<D>,
 {
     /// `behind` tells what is behind a piece of a surface, `is_mirror` which pieces lie on a symmetry line or plane: they are no boundary.
     ///

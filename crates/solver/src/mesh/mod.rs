@@ -4,6 +4,7 @@
 //! resolved to nodes and surfaces here and nowhere else.
 
 pub mod cell;
+pub mod geometry;
 pub mod placement;
 pub mod shapes;
 pub(crate) mod messages;

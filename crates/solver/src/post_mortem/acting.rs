@@ -2,9 +2,9 @@
 
 use super::Suspect;
 use crate::model::{Load, Model};
+use crate::simulation::Runs;
 use crate::simulation::run::Run;
 use crate::tensor::Dim;
-use crate::world::World;
 
 /// A table of the model that acts on the culprit or the elements next to it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -17,7 +17,7 @@ pub struct Acting {
 
 impl<const D: usize> Run<D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Runs<D>,
 {
     /// Constraints and loads of the model that act on the culprit or the elements next to it.
     pub(crate) fn acting(&self, model: &Model, suspect: &Suspect) -> Vec<Acting> {

@@ -2,11 +2,12 @@
 
 use super::{Neighbourhood, Suspect};
 use crate::error::Error;
+use crate::mesh::geometry::CellGeometry;
 use crate::model::{MassScaling, Model, in_space};
+use crate::simulation::Runs;
 use crate::simulation::{Either, Options, Simulation, either};
 use crate::step::System;
 use crate::tensor::Dim;
-use crate::world::World;
 use std::collections::BTreeMap;
 
 /// An element that is too light.
@@ -115,7 +116,7 @@ struct Looked {
 /// What the elements of a model need for a step.
 fn look<const D: usize>(system: &System<D>, model: &Model, scaling: MassScaling) -> Looked
 where
-    Dim<D>: World<D>,
+    Dim<D>: Runs<D>,
 {
     let safety = model.run.safety;
     let mut needed = Vec::new();

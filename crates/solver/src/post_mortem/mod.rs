@@ -16,13 +16,14 @@ pub use trace::{Jump, Moment, Trace, Vitals};
 pub(crate) use neighbourhood::Near;
 pub(crate) use trace::Tracer;
 
+use crate::dimension::Dimension;
 use crate::error::Error;
 use crate::model::in_space;
+use crate::simulation::Runs;
 use crate::simulation::run::Run;
 use crate::step::System;
 use crate::tensor::Dim;
 use crate::vector::dot;
-use crate::world::World;
 use std::fmt;
 
 /// Who is to blame for a failure, by the user's names and numbers.
@@ -116,7 +117,7 @@ impl Suspect {
 
 impl<const D: usize> System<D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Dimension<D>,
 {
     /// Who is to blame for a failure, as the state shows it now.
     fn suspect(&self, error: &Error) -> Suspect {
@@ -239,7 +240,7 @@ where
 
 impl<const D: usize> Run<D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Runs<D>,
 {
     /// Who is to blame for the failure that ended the run.
     pub(crate) fn suspect(&self, error: &Error) -> Suspect {

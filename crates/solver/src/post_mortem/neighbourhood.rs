@@ -3,13 +3,14 @@
 //! Found once, in the state of the failure; the trace then takes its positions step by step.
 
 use super::Suspect;
+use crate::dimension::Dimension;
 use crate::material::Variable;
 use crate::mesh::cell::CellKind;
+use crate::simulation::Runs;
 use crate::simulation::run::Run;
 use crate::step::System;
 use crate::tensor::Dim;
 use crate::vector::{dot, minus};
-use crate::world::World;
 
 /// Rings of elements around the culprit.
 pub const RINGS: u8 = 3;
@@ -66,7 +67,7 @@ pub(crate) struct Near {
 
 impl<const D: usize> System<D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Dimension<D>,
 {
     /// What is around a suspect now.
     pub(crate) fn near(&self, suspect: &Suspect) -> Near {
@@ -175,7 +176,7 @@ where
 
 impl<const D: usize> Run<D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Runs<D>,
 {
     /// What is around a suspect now.
     pub(crate) fn neighbourhood(&self, suspect: &Suspect) -> Neighbourhood {

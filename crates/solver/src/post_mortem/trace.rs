@@ -5,14 +5,15 @@
 use super::{Near, Neighbourhood, Suspect};
 use crate::error::Error;
 use crate::material::Variable;
+use crate::mesh::geometry::CellGeometry;
 use crate::model::in_space;
 use crate::output::Outline;
 use crate::record::Recorded;
+use crate::simulation::Runs;
 use crate::simulation::run::Run;
 use crate::step::System;
 use crate::tensor::{Dim, von_mises};
 use crate::vector::dot;
-use crate::world::World;
 use std::marker::PhantomData;
 
 /// Figures of the culprit at one step; what it does not have is not a number.
@@ -115,7 +116,7 @@ pub(crate) struct Tracer<const D: usize> {
 
 impl<const D: usize> Tracer<D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Runs<D>,
 {
     fn new(suspect: Suspect, near: Near, from: u64, columns: Vec<String>, system: &System<D>) -> Self {
         let contacts = system.contacts.iter().map(|contact| (contact.kind.name(), contact.name.clone())).collect();
@@ -145,14 +146,14 @@ where
 /// What must stay constant, J/m.
 fn balance<const D: usize>(system: &System<D>) -> f64
 where
-    Dim<D>: World<D>,
+    Dim<D>: Runs<D>,
 {
     system.ledger.stores.total() - system.ledger.external
 }
 
 impl<const D: usize> System<D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Runs<D>,
 {
     fn moment(&self, suspect: &Suspect, near: &Near, recorded: &Recorded, is_closed: bool) -> Moment {
         let field = |&(g, element): &(usize, usize)| {
@@ -207,9 +208,9 @@ where
             let state = block.state(element);
             let variable = |of: Variable| if block.has(of) { state.variables[of as usize] } else { f64::NAN };
             vitals.time_step = block.time_step_squared(element).sqrt();
-            vitals.shape = <Dim<D>>::shape(cell, &self.positions);
+            vitals.shape = <Dim<D>>::shape_quality(cell, &self.positions);
             vitals.area_ratio = <Dim<D>>::size(cell, &self.positions) / <Dim<D>>::size(cell, &self.mesh.positions);
-            vitals.strains = <Dim<D>>::strains(cell, &self.mesh.positions, &self.positions);
+            vitals.strains = <Dim<D>>::principal_strains(cell, &self.mesh.positions, &self.positions);
             vitals.plastic_strain = variable(Variable::PlasticStrain);
             vitals.temperature = variable(Variable::Temperature);
             vitals.damage = variable(Variable::Damage);
@@ -223,7 +224,7 @@ where
 
 impl<const D: usize> Run<D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Runs<D>,
 {
     /// From now on looks at a suspect, with what `at_failure`, the simulation that failed, has around it, after every step from number `from` on.
     pub(crate) fn follow(&mut self, suspect: &Suspect, at_failure: &Self, from: u64) {

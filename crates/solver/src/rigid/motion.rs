@@ -99,6 +99,14 @@ pub trait RigidMotion<const D: usize>: Sized {
     fn places(angle: &Self::Angle) -> Self::Places;
     /// An arm of the frame of a body, turned.
     fn place(places: &Self::Places, arm: [f64; D]) -> [f64; D];
+    /// Numbers that say where a rigid body is and how it moves, for hashes.
+    fn numbers(body: &Body<D>) -> Vec<f64>
+    where
+        Dim<D>: RigidMotion<D>;
+    /// What of a rigid body's mass is free to move along an axis, kg/m (kg), its velocity, and its spin times its inertia.
+    fn momenta(body: &Body<D>) -> (f64, [f64; D], [f64; 3])
+    where
+        Dim<D>: RigidMotion<D>;
 }
 
 impl RigidMotion<2> for Dim<2> {
@@ -191,6 +199,14 @@ impl RigidMotion<2> for Dim<2> {
     }
     fn place(&[cos, sin]: &[f64; 2], [a, b]: [f64; 2]) -> [f64; 2] {
         [cos * a - sin * b, sin * a + cos * b]
+    }
+    fn numbers(body: &Body<2>) -> Vec<f64> {
+        [body.centre[0], body.centre[1], body.angle].into_iter().chain(body.velocity).collect()
+    }
+    /// Of a body of revolution the mass along the axis.
+    fn momenta(body: &Body<2>) -> (f64, [f64; 2], [f64; 3]) {
+        let ([x, y, inertia], [u, v, spin]) = (body.mass, body.velocity);
+        (x.max(y), [u, v], [0.0, 0.0, inertia * spin])
     }
 }
 
@@ -299,5 +315,12 @@ impl RigidMotion<3> for Dim<3> {
     }
     fn place(matrix: &[[f64; 3]; 3], arm: [f64; 3]) -> [f64; 3] {
         matrix.map(|row| dot(row, arm))
+    }
+    fn numbers(body: &Body<3>) -> Vec<f64> {
+        body.centre.into_iter().chain(body.angle.0).chain(body.velocity).collect()
+    }
+    fn momenta(body: &Body<3>) -> (f64, [f64; 3], [f64; 3]) {
+        let [u, v, w, ..] = body.velocity;
+        (body.mass[..3].iter().copied().fold(0.0, f64::max), [u, v, w], body.turning.momentum)
     }
 }

@@ -1,5 +1,6 @@
 //! A model of one dimension, step by step: the loop, events, the end. [`super::Simulation`] is one of these.
 
+use super::Runs;
 use super::clock::Clock;
 use super::course::Course;
 use super::memory::Memory;
@@ -21,14 +22,13 @@ use crate::showing::Showing;
 use crate::step::System;
 use crate::tensor::Dim;
 use crate::watch::Watch;
-use crate::world::World;
 use embate_lanes::Level;
 use std::collections::BTreeMap;
 
 /// A model of one dimension made ready to step: what a [`Simulation`] of it does.
 pub(crate) struct Run<const D: usize>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Runs<D>,
 {
     pub(crate) system: System<D>,
     pub(crate) recorded: Recorded,
@@ -60,7 +60,7 @@ pub(super) const PROGRESS: u64 = 256;
 
 impl<const D: usize> Run<D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Runs<D>,
 {
     /// Makes a model ready: everything at time zero is known, velocities are those of the first half step.
     ///
@@ -457,7 +457,7 @@ fn within_pool<const D: usize>(
     work: impl FnOnce(&mut System<D>) -> Result<(), Error> + Send,
 ) -> Result<(), Error>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Runs<D>,
 {
     match pool {
         Some(pool) => pool.install(|| work(system)),

@@ -1,11 +1,11 @@
 //! The state of a run: handed out as bytes, and taken over by a simulation that is made anew of the same model.
 
+use super::Runs;
 use super::course::Course;
 use super::run::Run;
 use crate::archive::{Archive, Keep, Kept, Section, keep_each};
 use crate::error::Error;
 use crate::tensor::Dim;
-use crate::world::World;
 
 /// All that a simulation of the same model needs to go on as if nothing had happened.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -20,7 +20,7 @@ pub struct State {
 
 impl<const D: usize> Keep for Run<D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Runs<D>,
 {
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
         #[rustfmt::skip]
@@ -53,7 +53,7 @@ where
 
 impl<const D: usize> Run<D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Runs<D>,
 {
     /// The state now, between two steps.
     ///

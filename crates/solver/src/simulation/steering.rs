@@ -4,15 +4,15 @@
 //! then had led to it. The books get the change of kinetic energy as work from outside, so that they close as without it (what friction and damping take in the half step that follows is booked by the
 //! velocities before). Nodes are named by the user's numbers, those of frames.
 
+use super::Runs;
 use super::run::Run;
 use crate::error::{Fault, STEERING};
 use crate::tensor::Dim;
 use crate::vector::{dot, minus, plus, times};
-use crate::world::World;
 
 impl<const D: usize> Run<D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Runs<D>,
 {
     /// Nodes of a part, a side or a group by the user's numbers, ascending; `None`: there is no such thing.
     pub(crate) fn nodes_of(&self, name: &str) -> Option<Vec<u32>> {

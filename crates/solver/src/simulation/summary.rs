@@ -1,6 +1,7 @@
 //! What a run has to say of itself: its figures, what was checked in its contacts, and what the user should know.
 
 use super::ContactSearch;
+use super::Runs;
 use super::run::Run;
 use crate::contact::Contact;
 use crate::contact::messages::{MISSED, NO_FORCE, TIES_BROKE, UNSOLVED};
@@ -11,12 +12,11 @@ use crate::output::{Eroded, Erosion, Summary};
 use crate::record::Momentum;
 use crate::tensor::Dim;
 use crate::vector::first;
-use crate::world::World;
-use crate::world::place;
+use crate::vector::place;
 
 impl<const D: usize> Run<D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Runs<D>,
 {
     fn warnings(&self) -> Vec<Notice> {
         let mut warnings: Vec<Notice> = self.model_warnings.iter().map(Notice::from).chain(self.warnings.iter().cloned()).collect();

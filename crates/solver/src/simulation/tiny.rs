@@ -2,11 +2,11 @@
 //!
 //! From the steps of the elements at time zero; warnings go to those of the model, before the run.
 
+use super::Runs;
 use crate::error::Warning;
 use crate::mesh::messages::TINY_STEP;
 use crate::step::System;
 use crate::tensor::Dim;
-use crate::world::World;
 
 /// An element whose step is so many times shorter than that of half of its part's elements is no matter of grading any more.
 const FAR_BELOW: f64 = 1000.0;
@@ -14,14 +14,14 @@ const FAR_BELOW: f64 = 1000.0;
 /// A warning for each part with such elements, as far as they set the step.
 pub(super) fn warnings<const D: usize>(system: &System<D>) -> Vec<Warning>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Runs<D>,
 {
     (0..system.mesh.parts.len()).filter_map(|part| of_part(system, part)).collect()
 }
 
 fn of_part<const D: usize>(system: &System<D>, part: usize) -> Option<Warning>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Runs<D>,
 {
     let groups = (0..system.mesh.groups.len()).filter(|&g| system.mesh.groups[g].part == part && !system.rigid[g]);
     let steps =

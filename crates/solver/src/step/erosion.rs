@@ -8,17 +8,18 @@ use super::System;
 use crate::archive::{Archive, Keep, Kept, Misfit, keep_each};
 use crate::block::Report;
 use crate::contact::rebuild::{ContactParts, ContactSource};
+use crate::dimension::Dimension;
 use crate::failure::{Criterion, by_name};
+use crate::mesh::geometry::CellGeometry;
 use crate::mesh::surface::{Corners, Facet};
 use crate::model::in_space;
 use crate::output::Eroded;
 use crate::tensor::Dim;
-use crate::world::World;
 
 /// What fails and what has failed.
 pub(crate) struct Erosion<const D: usize>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Dimension<D>,
 {
     /// Criteria of each block.
     criteria: Vec<Vec<Criterion>>,
@@ -40,7 +41,7 @@ type Failed = (usize, u32, &'static str);
 
 impl<const D: usize> Erosion<D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Dimension<D>,
 {
     pub(crate) fn new(criteria: Vec<Vec<Criterion>>, source: Box<dyn ContactSource<D>>) -> Self {
         let gone = vec![false; criteria.len()];
@@ -61,7 +62,7 @@ where
 
 impl<const D: usize> Keep for Erosion<D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Dimension<D>,
 {
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
         let Self { criteria: _, source: _, energy, gone, springs, by_part, first } = self;
@@ -85,7 +86,7 @@ where
 
 impl<const D: usize> System<D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Dimension<D>,
 {
     /// Takes the elements that blocks have lost out of mesh, contacts and loads, as if they failed now: what is left of a state that was filled from outside.
     pub(super) fn take_out_again(&mut self) {
@@ -190,7 +191,7 @@ where
         if !self.forces.is_empty() {
             let has_elements = self.has_elements();
             let cells = self.mesh.groups.iter().filter(|group| group.is_continuum(D)).flat_map(|group| group.live_cells());
-            let mut backed: Vec<Facet<D>> = cells.flat_map(<Dim<D>>::facets).collect();
+            let mut backed: Vec<Facet<D>> = cells.flat_map(<Dim<D>>::cell_facets).collect();
             backed.sort_unstable();
             self.forces.renew(|node| !has_elements[node as usize], |facet| backed.binary_search(&facet.canonical()).is_ok());
         }

@@ -4,10 +4,10 @@
 //! depend on the instruction set.
 
 use super::nodes::Nodes;
+use crate::dimension::Dimension;
 use crate::energy::Sums;
 use crate::tensor::Dim;
 use crate::vector::{dot, plus, times};
-use crate::world::World;
 use embate_lanes::{BATCH, Batch, Kernel, Lane};
 
 /// The groups of eight nodes.
@@ -36,7 +36,7 @@ impl Groups {
 /// is at hand.
 pub(super) struct Free<'a, 'b, const D: usize>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Dimension<D>,
 {
     pub(super) nodes: &'b Nodes<'a, D>,
     pub(super) first: usize,
@@ -89,7 +89,7 @@ fn add<L: Lane>(sum: &mut Batch, value: L, at: usize) {
 
 impl<const D: usize> Kernel for Free<'_, '_, D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Dimension<D>,
 {
     type Output = Sums;
 
@@ -118,7 +118,7 @@ where
 
 impl<const D: usize> Nodes<'_, D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Dimension<D>,
 {
     /// v^{n+½} of the nodes `first + at..` and their part in the books.
     #[inline(always)]

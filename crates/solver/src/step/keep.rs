@@ -2,9 +2,9 @@
 
 use super::{Governor, Limits, System};
 use crate::archive::{Archive, Keep, Kept, Misfit, keep_each};
+use crate::dimension::Dimension;
 use crate::tensor::Dim;
 use crate::vector::{plus, times};
-use crate::world::World;
 
 impl Keep for Governor {
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
@@ -28,7 +28,7 @@ impl Keep for Governor {
 
 impl<const D: usize> Keep for System<D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Dimension<D>,
 {
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
         (archive.nodes, archive.places) = (self.positions.len(), self.positions.len() + self.bodies.len());
@@ -51,7 +51,7 @@ where
 
 impl<const D: usize> System<D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Dimension<D>,
 {
     fn keep_system(&mut self, archive: &mut Archive<'_>) -> Kept {
         // Nothing of these is state, or it is kept elsewhere below; loads of the model, dampings and constraints are worked out from the time.

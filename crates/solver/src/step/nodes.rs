@@ -7,22 +7,23 @@ use crate::assembly::Assembly;
 use crate::contact::springs::TangentSpace;
 use crate::contact::springs::{Mover, Movers};
 use crate::contact_forces::ContactForces;
+use crate::dimension::Dimension;
 use crate::energy::Sums;
 use crate::load::constraint::{Constraints, Held};
 use crate::load::damping::Damping;
 use crate::load::join::{Group, Joins};
 use crate::load::non_reflecting::NonReflecting;
 use crate::rigid::Bodies;
+use crate::rotation::{Square, applied, inverse, transposed, unit_matrix};
 use crate::step::free::Free;
 use crate::tensor::{Dim, product};
 use crate::vector::{dot, plus, times};
-use crate::world::{Square, World, applied, inverse, transposed, unit_matrix};
 use embate_lanes::{BATCH, Level};
 
 /// What the velocity update reads.
 pub(crate) struct Nodes<'a, const D: usize>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Dimension<D>,
 {
     /// Δt = ½ (dt^{n−1} + dt^n), s.
     pub(crate) dt: f64,
@@ -66,7 +67,7 @@ struct Pull<'a, const D: usize> {
 
 impl<const D: usize> Pull<'_, D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Dimension<D>,
 {
     /// m̃.
     fn inertia(&self) -> Square<D> {
@@ -101,7 +102,7 @@ where
 
 impl<'a, const D: usize> Nodes<'a, D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Dimension<D>,
 {
     /// Of a node that is in no group.
     fn pull(&self, node: usize) -> Pull<'a, D> {
@@ -227,7 +228,7 @@ where
 
 impl<const D: usize> Movers<D> for Nodes<'_, D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Dimension<D>,
 {
     fn count(&self) -> usize {
         self.mass.len()
@@ -235,7 +236,7 @@ where
 
     fn leader(&self, node: u32) -> (u32, Option<<Dim<D> as TangentSpace<D>>::ImageRotation>) {
         let (leader, turn) = self.joins.leader(node);
-        (leader, (turn != unit_matrix()).then(|| <Dim<D>>::image(&turn)))
+        (leader, (turn != unit_matrix()).then(|| <Dim<D>>::image_rotation(&turn)))
     }
 
     fn mover(&self, leader: usize) -> Mover<D> {
@@ -260,7 +261,7 @@ where
 
 impl<const D: usize> Nodes<'_, D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Dimension<D>,
 {
     /// Change of velocity per force.
     fn mobility(&self, pull: &Pull<'_, D>) -> Square<D> {

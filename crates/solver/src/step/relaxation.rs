@@ -6,10 +6,10 @@
 
 use super::System;
 use crate::archive::{Archive, Keep, Kept, keep_each};
+use crate::dimension::Dimension;
 use crate::model;
 use crate::tensor::Dim;
 use crate::vector::{dot, minus};
-use crate::world::World;
 
 /// What brings everything to rest.
 pub(crate) struct Relaxation<const D: usize> {
@@ -44,7 +44,7 @@ impl<const D: usize> Keep for Relaxation<D> {
 
 impl<const D: usize> System<D>
 where
-    Dim<D>: World<D>,
+    Dim<D>: Dimension<D>,
 {
     /// Sets the rate of damping for the coming update.
     pub(super) fn relax(&mut self) {

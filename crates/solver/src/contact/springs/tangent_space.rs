@@ -7,6 +7,7 @@ use super::friction::{self, Slid, Stick, cone};
 use crate::archive::Plain;
 use crate::mesh::surface::tributary::Tributary;
 use crate::rigid::{self, Body, RigidMotion};
+use crate::rotation::Square;
 use crate::tensor::{Dim, cross as cross_space};
 use crate::vector::{SYMMETRIC, any_tangent, times_symmetric};
 use std::ops::{Index, IndexMut};
@@ -71,6 +72,8 @@ pub trait TangentSpace<const D: usize>: Tributary<D> + RigidMotion<D> {
     fn is_free(mobility: &Self::Mobility, axis: usize) -> bool;
     /// Hands the entries of `factor` times the inverse of a rigid body's mobility over (row, column, value), of what gives way.
     fn inverse(mobility: &Self::Mobility, factor: f64, each: impl FnMut(usize, usize, f64));
+    /// The image of a motion that a join turns, as springs in contact take it.
+    fn image_rotation(turn: &Square<D>) -> Self::ImageRotation;
 }
 
 impl TangentSpace<2> for Dim<2> {
@@ -146,6 +149,9 @@ impl TangentSpace<2> for Dim<2> {
         for (axis, mobility) in [x, y, spin].into_iter().enumerate().filter(|(_, mobility)| *mobility > 0.0) {
             each(axis, axis, factor / mobility);
         }
+    }
+    fn image_rotation(turn: &Square<2>) -> [f64; 2] {
+        [turn[0][0], turn[1][0]]
     }
 }
 
@@ -231,5 +237,9 @@ impl TangentSpace<3> for Dim<3> {
                 }
             }
         }
+    }
+    /// No join turns what contacts see.
+    fn image_rotation(turn: &Square<3>) -> [[f64; 3]; 3] {
+        *turn
     }
 }

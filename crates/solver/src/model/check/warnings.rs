@@ -9,7 +9,7 @@ use crate::error::Warning;
 use crate::material::messages::{FLUID, LOCKING, SOFTENING};
 use crate::material::{self, Law, Null, Parameters};
 use crate::model::{Material, Model, ObstacleShape, Part, Shape, TriangleSurface};
-use crate::world::place;
+use crate::vector::place;
 
 /// From this Poisson's ratio on elements without averaged dilatation are too stiff for any use: K is fifty times µ.
 const LOCKS: f64 = 0.49;

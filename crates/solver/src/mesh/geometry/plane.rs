@@ -1,91 +1,19 @@
-//! What the plane means for the system: axes stand on it, cells are polygons and lines.
+//! Geometry of cells in 2D: polygons and lines.
 
-use super::{Square, World};
-use crate::angle::cos_sin;
-use crate::build::{self, Builder};
-use crate::contact::Contact;
-use crate::contact::traces::Traces;
-use crate::contact_forces::ContactForces;
-use crate::error::Fault;
-use crate::mesh::Mesh;
+use super::CellGeometry;
 use crate::mesh::cell::Cell;
 use crate::mesh::surface::Corners;
-use crate::model::{Model, Motion};
-use crate::rigid::{self, Body};
 use crate::tensor::Dim;
 use crate::vector::{cross as cross_plane, dot, minus, plus, times};
 
-impl World<2> for Dim<2> {
-    const MOMENT: &[&str] = &["moment"];
-    const MOTION: &[&str] = &["x", "y", "angle", "vx", "vy", "spin"];
-
-    fn facets(cell: Cell<'_>) -> Vec<[u32; 2]> {
-        cell.edges().map(Corners::reversed).collect()
-    }
-    fn flatness(segment: [u32; 2], cell: Cell<'_>, positions: &[[f64; 2]]) -> f64 {
-        let [b, a] = segment.map(|node| positions[node as usize]);
-        let side = minus(b, a);
-        dot(side, side).sqrt() / size(cell, positions)
-    }
-    fn tractions(traces: &Traces<2>, forces: &ContactForces<2>, positions: &[[f64; 2]]) -> Vec<[f64; 2]> {
-        traces.tractions(forces, positions)
-    }
-    fn moments(moment: &f64) -> Vec<f64> {
-        vec![*moment]
-    }
-    fn motion(body: &Body<2>, before: f64) -> Vec<f64> {
-        let velocity = (0..3).map(|k| body.velocity_old[k] + before * (body.velocity[k] - body.velocity_old[k]));
-        [body.centre[0], body.centre[1], body.angle].into_iter().chain(velocity).collect()
-    }
-    fn numbers(body: &Body<2>) -> Vec<f64> {
-        [body.centre[0], body.centre[1], body.angle].into_iter().chain(body.velocity).collect()
-    }
-    /// Of a body of revolution the mass along the axis.
-    fn momenta(body: &Body<2>) -> (f64, [f64; 2], [f64; 3]) {
-        let ([x, y, inertia], [u, v, spin]) = (body.mass, body.velocity);
-        (x.max(y), [u, v], [0.0, 0.0, inertia * spin])
-    }
-    fn image(turn: &Square<2>) -> [f64; 2] {
-        [turn[0][0], turn[1][0]]
-    }
-    fn with_axis(model: &Model, mesh: &Mesh<2>) -> Result<Option<Model>, Vec<Fault>> {
-        build::plane::with_axis(model, mesh)
-    }
-    fn part_at_start(builder: &mut Builder<'_, 2>) -> Vec<String> {
-        builder.part_at_start()
-    }
-    fn rigid_part(builder: &Builder<'_, 2>, index: usize, motion: &Motion, own: &[(u32, f64)]) -> Body<2> {
-        builder.rigid_part(index, motion, own)
-    }
-    fn contacts(builder: &mut Builder<'_, 2>) -> Vec<Contact> {
-        builder.contacts()
-    }
-    fn obstacles(builder: &mut Builder<'_, 2>) -> Vec<Contact> {
-        builder.obstacles()
-    }
-    fn renew(builder: &mut Builder<'_, 2>, contacts: &mut [Contact]) {
-        builder.renew(contacts);
-    }
-    fn led(arm: [f64; 2], _axis: [f64; 3], spin: f64, time_step: f64) -> [f64; 2] {
-        rigid::chord(arm, spin, time_step)
-    }
-    fn rotation(_axis: [f64; 3], angle: f64) -> Square<2> {
-        let [cos, sin] = cos_sin(angle);
-        [[cos, -sin], [sin, cos]]
-    }
-    fn across(arm: [f64; 2], _axis: [f64; 3]) -> [f64; 2] {
-        arm
-    }
-    fn swept([_, _, spin]: [f64; 3], [a, b]: [f64; 2]) -> [f64; 2] {
-        [-spin * b, spin * a]
-    }
-    fn least_corner(cell: Cell<'_>, positions: &[[f64; 2]]) -> Option<f64> {
+impl CellGeometry<2> for Dim<2> {
+    fn min_corner_jacobian(cell: Cell<'_>, positions: &[[f64; 2]]) -> Option<f64> {
         let n = cell.kind.corners();
         let x = |corner: usize| positions[cell.nodes[corner % n] as usize];
         let turn = |c: usize| cross_plane(minus(x(c + 1), x(c)), minus(x(c + n - 1), x(c)));
         (cell.kind.dimension() == 2).then(|| (0..n).map(turn).fold(f64::INFINITY, f64::min))
     }
-    fn shape(cell: Cell<'_>, positions: &[[f64; 2]]) -> f64 {
+    fn shape_quality(cell: Cell<'_>, positions: &[[f64; 2]]) -> f64 {
         let n = cell.kind.corners();
         if cell.kind.dimension() == 1 {
             return 1.0;
@@ -102,14 +30,19 @@ impl World<2> for Dim<2> {
         }
         least / longest
     }
-    fn moment(arm: [f64; 2], force: [f64; 2]) -> [f64; 3] {
-        [0.0, 0.0, arm[0] * force[1] - arm[1] * force[0]]
+    fn inverse_height(segment: [u32; 2], cell: Cell<'_>, positions: &[[f64; 2]]) -> f64 {
+        let [b, a] = segment.map(|node| positions[node as usize]);
+        let side = minus(b, a);
+        dot(side, side).sqrt() / size(cell, positions)
     }
     fn size(cell: Cell<'_>, positions: &[[f64; 2]]) -> f64 {
         size(cell, positions)
     }
-    fn strains(cell: Cell<'_>, from: &[[f64; 2]], to: &[[f64; 2]]) -> [f64; 2] {
+    fn principal_strains(cell: Cell<'_>, from: &[[f64; 2]], to: &[[f64; 2]]) -> [f64; 2] {
         strains(cell, from, to)
+    }
+    fn cell_facets(cell: Cell<'_>) -> Vec<[u32; 2]> {
+        cell.edges().map(Corners::reversed).collect()
     }
 }
 

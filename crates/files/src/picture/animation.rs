@@ -1,14 +1,14 @@
-//! The moving picture: one palette for the film, made from the colour map, and per frame only the rectangle that changed.
-//! Canvases come from `film`, some at once; `lzw` packs what changed; bytes go to `animation.gif`.
+//! The moving picture: one palette for the film, made from the colour map, and per frame only the rectangle
+//! that changed. Canvases come from `film`, some at once; what changed is packed frame by frame, each on its
+//! own; bytes go to `animation.gif`.
 
 pub(super) use super::palette::{Indices, Palette};
 
+use super::PictureError;
 use super::palette::UNKNOWN;
 use super::raster::Canvas;
-use super::{PictureError, lzw};
 use crate::threads::{Rooms, Threads};
 use gif::{DisposalMethod, Encoder, EncodingError, Frame, Repeat};
-use std::borrow::Cow;
 use std::io::Write;
 use std::path::Path;
 
@@ -19,7 +19,6 @@ pub(super) struct Animation<'a> {
     height: usize,
     /// The frame before; empty before the first.
     before: Indices,
-    tables: Rooms<lzw::Table>,
     path: &'a Path,
 }
 
@@ -29,7 +28,7 @@ impl<'a> Animation<'a> {
         let (width, height) = (canvas.width, canvas.height);
         let mut encoder = Encoder::new(out, width as u16, height as u16, &palette.bytes()).map_err(|e| refused(path, e))?;
         encoder.set_repeat(Repeat::Infinite).map_err(|e| refused(path, e))?;
-        Ok(Self { encoder, width, height, before: Vec::new(), tables: Rooms::default(), path })
+        Ok(Self { encoder, width, height, before: Vec::new(), path })
     }
 
     /// Adds frames that follow each other, each with the hundredths of a second for which it stays.
@@ -37,8 +36,7 @@ impl<'a> Animation<'a> {
         let all: Vec<Indices> = std::iter::once(std::mem::take(&mut self.before)).chain(pictures).collect();
         let pieces: Vec<_> = all.windows(2).zip(delays).collect();
         let size = [self.width, self.height];
-        let packed =
-            threads.map(&pieces, &self.tables, Default::default, |table, (pair, delay)| packed(size, &pair[0], &pair[1], **delay, table));
+        let packed = threads.map(&pieces, &Rooms::default(), || (), |(), (pair, delay)| packed(size, &pair[0], &pair[1], **delay));
         for frame in packed {
             self.encoder.write_lzw_pre_encoded_frame(&frame).map_err(|e| refused(self.path, e))?;
         }
@@ -48,7 +46,7 @@ impl<'a> Animation<'a> {
 }
 
 /// What changed from the frame before, ready to be written.
-fn packed([width, height]: [usize; 2], before: &[u8], now: &[u8], delay: u16, table: &mut lzw::Table) -> Frame<'static> {
+fn packed([width, height]: [usize; 2], before: &[u8], now: &[u8], delay: u16) -> Frame<'static> {
     let [left, top, right, bottom] = changed([width, height], before, now);
     let mut buffer = Vec::with_capacity((right - left) * (bottom - top));
     for row in top..bottom {
@@ -58,7 +56,7 @@ fn packed([width, height]: [usize; 2], before: &[u8], now: &[u8], delay: u16, ta
             Some(before) => buffer.extend(now[line].iter().zip(before).map(|(n, b)| if n == b { UNKNOWN } else { *n })),
         }
     }
-    Frame {
+    let mut frame = Frame {
         delay,
         dispose: DisposalMethod::Keep,
         transparent: Some(UNKNOWN),
@@ -66,9 +64,11 @@ fn packed([width, height]: [usize; 2], before: &[u8], now: &[u8], delay: u16, ta
         top: top as u16,
         width: (right - left) as u16,
         height: (bottom - top) as u16,
-        buffer: Cow::Owned(table.packed(&buffer, UNKNOWN)),
+        buffer: buffer.into(),
         ..Frame::default()
-    }
+    };
+    frame.make_lzw_pre_encoded();
+    frame
 }
 
 /// The rectangle outside which nothing changed; never empty, because a frame needs a pixel.

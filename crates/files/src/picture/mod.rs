@@ -1,16 +1,16 @@
 //! Pictures of a run, as an engineer would show them: the moving field, the last state, the mesh, the history.
 //!
-//! Data comes from [`embate_solver::output`] (cells once, frames, history rows) and leaves as `animation.gif`, `final.png`, a mesh
-//! picture and two SVG plots. The way of a picture: `film` or `mesh` choose what to show, `view` how much of it, `scale` its units and ticks, `sheet` writes title
-//! and colour bar, `scene` lays out axes, `obstacle` and `body` hand lines, cells and edges to `raster`, `text` writes, `animation` and `lzw` encode; models of space
-//! are drawn by `space`. `plots` chooses curves, `svg` draws them.
+//! Data comes from [`embate_solver::output`] (cells once, frames, history rows) and leaves as
+//! `animation.gif`, `final.png`, a mesh picture and two SVG plots. The way of a picture: `film` or `mesh`
+//! choose what to show, `view` how much of it, `scale` its units and ticks, `sheet` writes title and colour
+//! bar, `scene` lays out axes, `obstacle` and `body` hand lines, cells and edges to `raster`, `text` writes,
+//! `animation` encodes; models of space are drawn by `space`. `plots` chooses curves, `svg` draws them.
 
 mod animation;
 mod body;
 pub(crate) mod colour;
 pub(crate) mod field;
 mod film;
-mod lzw;
 mod mesh;
 pub(crate) mod neighbourhood;
 mod obstacle;

@@ -1,7 +1,10 @@
-//! Threads that share the work on results in pieces: blocks of a field, pictures of a film.
+//! A pool of `rayon` with the threads of the run, for work on results in pieces: blocks of a field, pictures
+//! of a film.
 //!
-//! Each piece is made by one thread from its input alone and results keep the order of the pieces, so that files have the same bytes for any number
-//! of threads. Pieces come from `vtu` and `picture`; how many threads there are says the run.
+//! Each piece is made by one thread from its input alone and results keep the order of the pieces, so that
+//! files have the same bytes for any number of threads. Pieces come from `vtu`, `checkpoint` and `picture`;
+//! how many threads there are is a setting of the run. Buffers are kept in [`Rooms`]: `map_init` of `rayon`
+//! makes them anew for every piece.
 
 use rayon::prelude::*;
 use std::sync::{Mutex, OnceLock, PoisonError};

@@ -1,8 +1,10 @@
-//! The rasteriser: exact pixel coverage of polygons, and the two surfaces that it fills.
-//! Coverage of cells that share an edge adds up to one there, so a mesh shows neither seams nor steps. Polygons come from `body` and `text`;
-//! the finished [`Canvas`] goes to the encoders.
+//! The two surfaces of a 2D picture: the canvas, and the layer on which cells and lines are drawn by their
+//! exact coverage of pixels. Coverage of cells that share an edge adds up to one there, so a mesh shows
+//! neither seams nor steps. Polygons come from `body` and `obstacle`; the finished [`Canvas`] goes to the
+//! encoders.
 
 use super::colour::{INK, Rgb, WHITE, mix};
+use ab_glyph_rasterizer::{Rasterizer, point};
 
 /// A picture of RGB pixels, row by row from the top left.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,56 +50,50 @@ impl Canvas {
     }
 }
 
-/// Exact coverage of one closed outline inside a small window.
-///
-/// Each edge leaves, in every pixel that it crosses, the area to its right in that pixel and its height in the next; the running sum along a
-/// row is then the covered part of each pixel, signed by the direction of turning.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Coverage {
-    wide: usize,
-    high: usize,
-    sums: Vec<f32>,
+/// Exact coverage of one closed outline inside a small window. A copy is an empty one: there is nothing in it
+/// between two outlines.
+#[derive(Debug)]
+struct Coverage(Rasterizer);
+
+impl Default for Coverage {
+    fn default() -> Self {
+        Self(Rasterizer::new(0, 0))
+    }
+}
+
+impl Clone for Coverage {
+    fn clone(&self) -> Self {
+        Self::default()
+    }
 }
 
 impl Coverage {
-    /// Starts an outline in a window of `wide` × `high` pixels.
-    pub(super) fn begin(&mut self, wide: usize, high: usize) {
-        (self.wide, self.high) = (wide, high);
-        self.sums.clear();
-        self.sums.resize((wide + 2) * high, 0.0);
-    }
-    /// Adds an edge; points in pixels from the window's corner, moved onto its border if rounding put them outside.
-    pub(super) fn edge(&mut self, from: [f32; 2], to: [f32; 2]) {
-        let (limit_x, limit_y) = (self.wide as f32, self.high as f32);
-        let inside = |p: [f32; 2]| [p[0].clamp(0.0, limit_x), p[1].clamp(0.0, limit_y)];
-        let (from, to) = (inside(from), inside(to));
-        let (sign, upper, lower) = if from[1] < to[1] { (1.0, from, to) } else { (-1.0, to, from) };
-        if lower[1] <= upper[1] || lower[1].is_nan() || upper[1].is_nan() {
-            return;
-        }
-        let slope = (lower[0] - upper[0]) / (lower[1] - upper[1]);
-        let mut x = upper[0];
-        let mut y = upper[1];
-        for row in upper[1] as usize..up(lower[1]).min(self.high) {
-            let y_next = (row as f32 + 1.0).min(lower[1]);
-            let x_next = (x + slope * (y_next - y)).clamp(0.0, limit_x);
-            let start = row * (self.wide + 2);
-            span(&mut self.sums[start..start + self.wide + 2], x.min(x_next), x.max(x_next), sign * (y_next - y));
-            (x, y) = (x_next, y_next);
+    /// Takes the outline of a polygon, whose points are from `corner` of a window of `wide` × `high` pixels.
+    /// There is a column on its left: the rasteriser loses an edge that rounding puts beyond it.
+    fn begin(&mut self, polygon: &[[f32; 2]], corner: [f32; 2], wide: usize, high: usize) {
+        self.0.reset(wide + 1, high);
+        let place = |p: [f32; 2]| point(p[0] - corner[0] + 1.0, p[1] - corner[1]);
+        let mut last = place(polygon[polygon.len() - 1]);
+        for p in polygon {
+            let next = place(*p);
+            self.0.draw_line(last, next);
+            last = next;
         }
     }
+
     /// Calls `paint(column, row, coverage)` for each pixel that is covered.
-    pub(super) fn pixels(&self, mut paint: impl FnMut(usize, usize, f32)) {
-        for (row, sums) in self.sums.chunks_exact(self.wide + 2).enumerate() {
-            let mut sum = 0.0f32;
-            for (column, change) in sums[..self.wide].iter().enumerate() {
-                sum += change;
-                let coverage = sum.abs();
-                if coverage > 1e-4 {
-                    paint(column, row, coverage.min(1.0));
-                }
+    fn pixels(&self, mut paint: impl FnMut(usize, usize, f32)) {
+        let wide = self.0.dimensions().0;
+        let (mut column, mut row) = (0, 0);
+        self.0.for_each_pixel(|_, coverage| {
+            if coverage > 1e-4 && column > 0 {
+                paint(column - 1, row, coverage.min(1.0));
             }
-        }
+            column += 1;
+            if column == wide {
+                (column, row) = (0, row + 1);
+            }
+        });
     }
 }
 
@@ -106,27 +102,6 @@ impl Coverage {
 fn up(value: f32) -> usize {
     let whole = value as usize;
     whole + usize::from((whole as f32) < value)
-}
-
-/// A piece of an edge within one row, from `left` to `right`, `height` tall (signed).
-fn span(sums: &mut [f32], left: f32, right: f32, height: f32) {
-    let first = left as usize;
-    if right <= first as f32 + 1.0 {
-        let middle = 0.5 * (left + right) - first as f32;
-        sums[first] += height * (1.0 - middle);
-        sums[first + 1] += height * middle;
-        return;
-    }
-    let per_column = height / (right - left);
-    let mut x = left;
-    for column in first..up(right) {
-        let x_next = right.min(column as f32 + 1.0);
-        let part = per_column * (x_next - x);
-        let middle = 0.5 * (x + x_next) - column as f32;
-        sums[column] += part * (1.0 - middle);
-        sums[column + 1] += part * middle;
-        x = x_next;
-    }
 }
 
 /// How a polygon is coloured; components 0 to 255.
@@ -266,15 +241,7 @@ impl Layer {
         if right <= left || bottom <= top {
             return None;
         }
-        self.coverage.begin(right - left, bottom - top);
-        let corner = [left as f32, top as f32];
-        let place = |p: [f32; 2]| [p[0] - corner[0], p[1] - corner[1]];
-        let mut last = place(polygon[polygon.len() - 1]);
-        for p in polygon {
-            let next = place(*p);
-            self.coverage.edge(last, next);
-            last = next;
-        }
+        self.coverage.begin(polygon, [left as f32, top as f32], right - left, bottom - top);
         for row in top..bottom {
             self.touch(row, left, right);
         }

@@ -1,10 +1,10 @@
-//! Text in pixel pictures: outlines of the embedded DejaVu Sans, filled by the same rasteriser as the bodies.
+//! Text in pixel pictures, in the embedded DejaVu Sans.
 //! Strings come from `scene`; widths also serve `svg`, whose readers use fonts that are no wider.
 
 use super::colour::Rgb;
-use super::raster::{Canvas, Coverage};
+use super::raster::Canvas;
+use ab_glyph::{Font, FontRef, GlyphId, point};
 use std::sync::LazyLock;
-use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
 /// Which cut of the font.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,30 +30,39 @@ pub(super) struct Pen {
     pub(super) colour: Rgb,
 }
 
-static REGULAR: LazyLock<Face<'static>> =
-    LazyLock::new(|| Face::parse(dejavu::sans::regular(), 0).expect("the font is a whole file inside the program"));
-static BOLD: LazyLock<Face<'static>> =
-    LazyLock::new(|| Face::parse(dejavu::sans::bold(), 0).expect("the font is a whole file inside the program"));
+static REGULAR: LazyLock<FontRef<'static>> = LazyLock::new(|| font(dejavu::sans::regular()));
+static BOLD: LazyLock<FontRef<'static>> = LazyLock::new(|| font(dejavu::sans::bold()));
 
-fn face(weight: Weight) -> &'static Face<'static> {
-    match weight {
-        Weight::Regular => &REGULAR,
-        Weight::Bold => &BOLD,
+fn font(file: &'static [u8]) -> FontRef<'static> {
+    FontRef::try_from_slice(file).expect("the font is a whole file inside the program")
+}
+
+impl Weight {
+    fn font(self) -> &'static FontRef<'static> {
+        match self {
+            Self::Regular => &REGULAR,
+            Self::Bold => &BOLD,
+        }
     }
 }
 
+/// Font units of the em square.
+fn units(font: &FontRef<'_>) -> f32 {
+    font.units_per_em().unwrap_or(1.0)
+}
+
 /// Glyphs of a line with their advances in font units; control characters become spaces.
-fn glyphs(face: &'static Face<'static>, line: &str) -> impl Iterator<Item = (GlyphId, f32)> {
+fn glyphs(font: &'static FontRef<'static>, line: &str) -> impl Iterator<Item = (GlyphId, f32)> {
     line.chars().map(move |c| {
-        let glyph = face.glyph_index(if c.is_control() { ' ' } else { c }).unwrap_or(GlyphId(0));
-        (glyph, f32::from(face.glyph_hor_advance(glyph).unwrap_or(0)))
+        let glyph = font.glyph_id(if c.is_control() { ' ' } else { c });
+        (glyph, font.h_advance_unscaled(glyph))
     })
 }
 
 /// Width of a line, pixels.
 pub(super) fn width(line: &str, size: f32, weight: Weight) -> f32 {
-    let face = face(weight);
-    glyphs(face, line).map(|(_, advance)| advance).sum::<f32>() * size / f32::from(face.units_per_em())
+    let font = weight.font();
+    glyphs(font, line).map(|(_, advance)| advance).sum::<f32>() * size / units(font)
 }
 
 /// `line`, shortened with an ellipsis if it is wider than `room` pixels.
@@ -74,8 +83,8 @@ pub(super) fn fitted(line: &str, size: f32, weight: Weight, room: f32) -> String
 
 /// Draws `line` with its baseline at `baseline`, aligned at `x`; parts outside the canvas are cut off.
 pub(super) fn draw(canvas: &mut Canvas, line: &str, x: f32, baseline: f32, align: Align, pen: Pen) {
-    let face = face(pen.weight);
-    let scale = pen.size / f32::from(face.units_per_em());
+    let font = pen.weight.font();
+    let scale = pen.size / units(font);
     let shift = match align {
         Align::Left => 0.0,
         Align::Centre => 0.5,
@@ -83,70 +92,16 @@ pub(super) fn draw(canvas: &mut Canvas, line: &str, x: f32, baseline: f32, align
     };
     let mut x = x - shift * width(line, pen.size, pen.weight);
     let baseline = baseline.round();
-    let mut coverage = Coverage::default();
-    for (glyph, advance) in glyphs(face, line) {
-        if let Some(bounds) = face.glyph_bounding_box(glyph) {
-            let left = (x + scale * f32::from(bounds.x_min)).floor() - 1.0;
-            let top = (baseline - scale * f32::from(bounds.y_max)).floor() - 1.0;
-            let wide = (scale * f32::from(bounds.x_max - bounds.x_min)).ceil() as usize + 3;
-            let high = (scale * f32::from(bounds.y_max - bounds.y_min)).ceil() as usize + 3;
-            coverage.begin(wide, high);
-            let mut outline = Outline { coverage: &mut coverage, scale, origin: [x - left, baseline - top], at: [0.0; 2], start: [0.0; 2] };
-            let _ = face.outline_glyph(glyph, &mut outline);
-            coverage.pixels(|column, row, alpha| canvas.blend(left as i64 + column as i64, top as i64 + row as i64, pen.colour, alpha));
+    // The crate measures sizes from the lowest to the highest line of the font.
+    let height = scale * font.height_unscaled();
+    for (glyph, advance) in glyphs(font, line) {
+        if let Some(outline) = font.outline_glyph(glyph.with_scale_and_position(height, point(x, baseline))) {
+            let corner = outline.px_bounds().min;
+            outline.draw(|column, row, coverage| {
+                canvas.blend(corner.x as i64 + i64::from(column), corner.y as i64 + i64::from(row), pen.colour, coverage);
+            });
         }
         x += advance * scale;
-    }
-}
-
-/// Turns an outline into straight edges.
-struct Outline<'a> {
-    coverage: &'a mut Coverage,
-    scale: f32,
-    origin: [f32; 2],
-    at: [f32; 2],
-    start: [f32; 2],
-}
-
-impl Outline<'_> {
-    fn pixel(&self, x: f32, y: f32) -> [f32; 2] {
-        [self.origin[0] + self.scale * x, self.origin[1] - self.scale * y]
-    }
-    fn line(&mut self, to: [f32; 2]) {
-        self.coverage.edge(self.at, to);
-        self.at = to;
-    }
-}
-
-/// Pieces per curve: below a twentieth of a pixel off at the sizes in use.
-const PIECES: u8 = 6;
-
-impl OutlineBuilder for Outline<'_> {
-    fn move_to(&mut self, x: f32, y: f32) {
-        self.at = self.pixel(x, y);
-        self.start = self.at;
-    }
-    fn line_to(&mut self, x: f32, y: f32) {
-        self.line(self.pixel(x, y));
-    }
-    fn quad_to(&mut self, x1: f32, y1: f32, x: f32, y: f32) {
-        let (a, b, c) = (self.at, self.pixel(x1, y1), self.pixel(x, y));
-        for piece in 1..=PIECES {
-            let t = f32::from(piece) / f32::from(PIECES);
-            let s = 1.0 - t;
-            self.line(std::array::from_fn(|k| s * s * a[k] + 2.0 * s * t * b[k] + t * t * c[k]));
-        }
-    }
-    fn curve_to(&mut self, x1: f32, y1: f32, x2: f32, y2: f32, x: f32, y: f32) {
-        let (a, b, c, d) = (self.at, self.pixel(x1, y1), self.pixel(x2, y2), self.pixel(x, y));
-        for piece in 1..=PIECES {
-            let t = f32::from(piece) / f32::from(PIECES);
-            let s = 1.0 - t;
-            self.line(std::array::from_fn(|k| s * s * s * a[k] + 3.0 * s * t * (s * b[k] + t * c[k]) + t * t * t * d[k]));
-        }
-    }
-    fn close(&mut self) {
-        self.line(self.start);
     }
 }
 

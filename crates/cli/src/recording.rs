@@ -131,6 +131,7 @@ pub(crate) fn record<'a>(
     // What went wrong first is what matters.
     let unwritten = outcome.unwritten.map_or(Ok(()), |error| Err(Complaint::new(error.kind(), error)));
     if let Some(watched) = watched {
+        watched.show_last(simulation, &interrupt);
         watched.end(&outcome.report);
     }
     let result = ran.map_err(|error| Complaint::from(&error)).and(unwritten);

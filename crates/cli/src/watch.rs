@@ -14,6 +14,7 @@ use embate_viewer::{Address, Ended, Live, Server};
 use std::net::{IpAddr, Ipv4Addr};
 use std::path::Path;
 use std::sync::Arc;
+use std::time::Duration;
 
 /// Where the page is.
 #[derive(Args)]
@@ -93,7 +94,21 @@ impl Watching {
     }
 }
 
+/// How long a page that nobody has opened yet waits at the end of its run: longer than a browser takes to start.
+const OPENING: Duration = Duration::from_secs(30);
+
 impl Watched {
+    /// Shows the end of a run that was over before the page was opened.
+    pub(crate) fn show_last(&self, simulation: &Simulation, interrupt: &Interrupt) {
+        if self.keep || interrupt.is_pressed() || self.live.is_stopped() {
+            return;
+        }
+        if !self.live.was_watched() {
+            terminal::complain("the run is over before its page was opened: the page waits for half a minute (Ctrl-C: no longer)");
+        }
+        self.live.show_last(&simulation.frame(), OPENING, || interrupt.is_pressed());
+    }
+
     /// Tells the viewers how it ended.
     pub(crate) fn end(&self, report: &Report) {
         let status = match report.status {

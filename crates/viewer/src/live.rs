@@ -72,6 +72,8 @@ pub(crate) struct Shared {
     pub(crate) ended: Option<Ended>,
     /// Frames until now.
     pub(crate) published: u64,
+    /// Whether any viewer has seen one.
+    pub(crate) is_seen: bool,
     pub(crate) frames: BTreeMap<Wish, Newest>,
     /// What each viewer wants.
     viewers: BTreeMap<u64, Wish>,
@@ -266,6 +268,24 @@ impl Live {
     #[must_use]
     pub fn was_watched(&self) -> bool {
         self.shared().next_viewer > 0
+    }
+
+    /// Shows the state at the end of a run that was over before any viewer had seen a frame of it: waits for the first
+    /// viewer, and until it has seen one; at most for `patience`, and not once `gives_up` says so.
+    pub fn show_last(&self, shown: &dyn Shown, patience: Duration, gives_up: impl Fn() -> bool) {
+        let last = Instant::now() + patience;
+        while !gives_up() && Instant::now() < last {
+            let shared = self.shared();
+            let (has_left, is_seen) = (shared.next_viewer > 0 && shared.viewers.is_empty(), shared.is_seen);
+            drop(shared);
+            if is_seen || has_left {
+                return;
+            }
+            if self.lacks() {
+                self.publish(shown);
+            }
+            self.wait();
+        }
     }
 
     /// Whether anybody looks.

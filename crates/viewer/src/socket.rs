@@ -147,7 +147,10 @@ impl Viewer {
             Err(error) => return refused(&format!("this is no JSON: {error}")),
         };
         match serde_json::from_value(said) {
-            Ok(Said::Seen { seen }) => self.is_ready |= seen,
+            Ok(Said::Seen { seen }) => {
+                self.is_ready |= seen;
+                self.live.change(|shared| shared.is_seen |= seen);
+            }
             Ok(Said::Wish { scalar, arrows }) => {
                 self.wish = Wish { scalar, arrows };
                 self.live.wish(self.number, Some(self.wish.clone()));

@@ -26,8 +26,7 @@ pub(crate) fn examples() -> Vec<PathBuf> {
 
 /// Steps that tests do of an example: of solids, which are larger, fewer.
 pub(crate) fn steps_of(model: &Model) -> u64 {
-    let steps = if cfg!(debug_assertions) { 60 } else { 1500 };
-    if model.dimension() == 3 { steps / 5 } else { steps }
+    if model.dimension() == 3 { 300 } else { 1500 }
 }
 
 #[test]

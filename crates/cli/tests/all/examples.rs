@@ -140,7 +140,6 @@ fn the_tube_turns_back_after_seven_and_a_half_milliseconds_and_the_plate_closes_
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "takes half a minute without optimization; release tests run it")]
 fn a_slice_of_the_tube_and_the_plate_does_what_the_plane_does() {
     let solid = run("tube-plate-3d", "example-tube-plate-3d");
     solid.is_sound(1e-3);
@@ -324,7 +323,6 @@ fn a_copper_rod_is_a_third_shorter_after_its_impact() {
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "takes half a minute without optimization; release tests run it")]
 fn a_quarter_of_the_copper_rod_in_space_ends_as_the_axisymmetric_one() {
     let results = run("taylor-bar-3d", "example-taylor-bar-3d");
     results.is_sound(1e-3);
@@ -334,7 +332,6 @@ fn a_quarter_of_the_copper_rod_in_space_ends_as_the_axisymmetric_one() {
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "takes half a minute without optimization; release tests run it")]
 fn tubes_that_cross_dent_each_other_alike() {
     let results = run("crossing-tubes", "example-crossing-tubes");
     results.is_sound(1e-3);
@@ -349,7 +346,6 @@ fn tubes_that_cross_dent_each_other_alike() {
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "takes minutes without optimization; release tests run it")]
 fn a_box_section_folds_under_the_mean_force_of_the_plastic_hinges() {
     let results = run("box-section", "example-box-section");
     // In the creases of its corners the wall goes into itself.
@@ -484,7 +480,6 @@ fn rolls_thin_a_strip_with_the_force_of_the_slab_theory() {
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "takes half a minute without optimization; release tests run it")]
 fn a_bullet_tears_a_plate_and_flies_on_behind_a_cap() {
     let results = run("bullet", "example-bullet");
     // A shred of the plate that is squeezed thin.
@@ -533,7 +528,6 @@ fn an_explosive_gives_a_ring_the_velocity_of_gurney() {
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "takes half a minute without optimization; release tests run it")]
 fn a_cup_is_drawn_with_the_force_of_siebel_and_keeps_its_volume() {
     let results = run("cup-drawing", "example-cup-drawing");
     results.is_sound(1e-3);
@@ -564,7 +558,6 @@ fn a_cup_is_drawn_with_the_force_of_siebel_and_keeps_its_volume() {
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "takes a minute without optimization; release tests run it")]
 fn a_ball_tears_a_sheet_and_flies_on_as_recht_and_ipson_say() {
     let results = run("ball-through-plate", "example-ball-through-plate");
     results.is_sound(1e-3);
@@ -589,7 +582,6 @@ fn a_ball_tears_a_sheet_and_flies_on_as_recht_and_ipson_say() {
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "takes minutes without optimization; release tests run it")]
 fn ten_bodies_of_tetrahedra_come_to_rest_in_a_heap_that_weighs_what_they_weigh() {
     let results = run("heap", "example-heap");
     results.is_sound(1e-3);

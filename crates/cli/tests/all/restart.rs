@@ -1,6 +1,6 @@
 //! Runs that are stopped, killed, or run out of room, and go on: what they leave is what one that was never stopped leaves, byte by byte.
 //!
-//! The long form of the test that kills: `cargo test --release -p embate --test all -- --ignored two_hundred`.
+//! The long form of the test that kills: `cargo test -p embate --test all -- --ignored two_hundred`.
 
 use crate::determinism::{examples, instruction_sets, steps_of};
 use crate::{Answer, embate, fresh};

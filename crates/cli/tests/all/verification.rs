@@ -27,7 +27,6 @@ fn check(text: &str) -> String {
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "takes minutes without optimisation")]
 fn every_case_of_tier_every_holds() {
     hold("verify-every", &[]);
 }

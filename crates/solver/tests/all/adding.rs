@@ -33,7 +33,7 @@ fn page(root: &Path) -> [String; 2] {
 }
 
 #[test]
-#[cfg_attr(not(debug_assertions), ignore = "compiles the solver; debug tests run it")]
+#[ignore = "compiles the solver again: `.ci/run --long` runs it"]
 fn one_file_and_one_line_add_a_law() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let copy = Path::new(env!("CARGO_TARGET_TMPDIR")).join("adding");

@@ -80,6 +80,16 @@ test("a server that ends with its run leaves the page as it is, in words and wit
   await done(/ERR_CONNECTION|WebSocket/);
 });
 
+test("a run that is over before its page is opened waits for it and shows its end", async () => {
+  const server = await watch("tube-plate", "short", ["--set", "run.end=1e-5"]);
+  await until(() => /over before its page was opened/.test(server.said()), "the end of the run", 60);
+  const { page, done } = await pageAt(server.address);
+  await until(async () => /Done/.test(await text(page, ".live-state")), "the end", 60);
+  assert.equal(await server.ended, 0);
+  assert.ok((await coloured(page)) > 800);
+  await done(/ERR_CONNECTION|WebSocket/);
+});
+
 test("the page says when the server was killed, and goes on when it was started again", async () => {
   const run = results("tube-plate", "finished");
   const port = await freePort();
